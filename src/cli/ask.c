@@ -42,6 +42,11 @@ static enum exit_status choose(const struct arguments *a, struct scene_file *fil
     const struct node *list = ceduo_node_get(file->root, "options");
     if (a->options.n == 0 || !list)
         return EXIT_DONE;
+    size_t *kept = ceduo_arena_take(&file->arena, list->n * sizeof *kept);
+    for (size_t k = 0; kept && k < list->n; k++)
+        if (wanted[k])
+            kept[file->kept_count++] = k;
+    file->kept = kept;
     for (size_t k = list->n; list && k-- > 0;)
         if (!wanted[k])
             list = ceduo_node_removed(&file->arena, list, k);

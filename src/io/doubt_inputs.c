@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -176,7 +177,7 @@ static void walk(struct finder *f, const struct object *object, const struct nod
 /* ---- grounds of the library ---- */
 
 size_t ceduo_input_ground(struct arena *arena, const struct node *root, const struct ceduo_scene *scene, const char *material,
-                          const char *key, const char **places)
+                          const char *key, bool assumed, const char **places)
 {
     const struct ceduo_slope *s = &scene->slope;
     const struct node *rows = ceduo_node_get(ceduo_node_get(root, "slope"), "materials");
@@ -188,6 +189,8 @@ size_t ceduo_input_ground(struct arena *arena, const struct node *root, const st
         while (listed && row + 1 < rows->n && middle >= ceduo_node_number(rows->items[row + 1], "from_m"))
             row++;
         const char *name = listed ? ceduo_node_text(rows->items[row], "material") : ceduo_material_talus()->name;
+        if (listed && assumed && ceduo_node_get(rows->items[row], key))
+            continue;
         int known = name ? ceduo_choice_find(&ceduo_material_words, name) : -1;
         if (known >= 0 && strcmp(ceduo_material_words.names[known], material) == 0)
             places[n++] = ceduo_arena_format(arena, "slope.segments[%zu].%s", j, key);
@@ -202,12 +205,56 @@ static void add_ground(struct finder *f, const struct ceduo_material *m)
     const char **places = ceduo_arena_take(f->arena, file->scene.slope.vertices * sizeof *places);
     for (size_t k = 0; places && k < sizeof keys / sizeof keys[0]; k++) {
         size_t n = law_knows(f, keys[k]) ? ceduo_input_ground(f->arena, file->ground_assumed ? NULL : file->root, &file->scene,
-                                                              m->name, keys[k], places)
+                                                              m->name, keys[k], true, places)
                                          : 0;
         for (size_t i = 0; i < n; i++)
             add(f, places[i], ceduo_arena_format(f->arena, "slope.materials[%s].%s", m->name, keys[k]),
                 ceduo_range_of_material(m, keys[k]));
     }
+}
+
+/* ---- paths ---- */
+
+const char *ceduo_input_path(struct scene_file *file, const char *place)
+{
+    size_t option;
+    const char *rest = strchr(place, ']');
+    if (!file->kept || sscanf(place, "options[%zu]", &option) != 1 || option >= file->scene.options_count)
+        return place;
+    return ceduo_arena_format(&file->arena, "options[%zu%s", file->kept[option], rest);
+}
+
+/* What stands in bracket n of a path; NULL: it has fewer. */
+static const char *bracket_of(const char *path, size_t n)
+{
+    for (path = strchr(path, '['); path && n > 0; n--)
+        path = strchr(path + 1, '[');
+    return path ? path + 1 : NULL;
+}
+
+/* The path of all places of an input, with [*] for items that differ; that of the first place if such a path means others, too. */
+static const char *common_path(struct scene_file *file, const struct ceduo_input *input)
+{
+    LOCAL_TEXT(path);
+    const char *from = input->places[0];
+    for (size_t n = 0; bracket_of(input->places[0], n); n++) {
+        const char *item = bracket_of(input->places[0], n);
+        bool same = true;
+        for (size_t k = 1; k < input->places_count; k++) {
+            const char *other = bracket_of(input->places[k], n);
+            same &= other && strtoul(other, NULL, 10) == strtoul(item, NULL, 10);
+        }
+        ceduo_text_add(&path, from, (size_t)(item - from));
+        if (same)
+            ceduo_text_format(&path, "%lu", strtoul(item, NULL, 10));
+        else
+            ceduo_text_char(&path, '*');
+        from = strchr(item, ']');
+    }
+    ceduo_text_put(&path, from);
+    bool all = input->places_count > 1 && path.bytes && ceduo_input_count(file, path.bytes) == input->places_count;
+    return all ? ceduo_input_path(file, ceduo_arena_string(&file->arena, path.bytes))
+               : ceduo_input_path(file, input->places[0]);
 }
 
 bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
@@ -230,7 +277,8 @@ bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
         struct ceduo_input *input = &f.found[i % f.n].input;
         if (input->places_count == 0 || ceduo_input_is_of_years(input) != (i >= f.n))
             continue;
-        input->path = strncmp(f.found[i % f.n].origin, "slope.materials", 15) == 0 ? f.found[i % f.n].origin : input->places[0];
+        const char *origin = f.found[i % f.n].origin;
+        input->path = strncmp(origin, "slope.materials", 15) == 0 ? origin : common_path(file, input);
         inputs->items[inputs->n++] = *input;
     }
     return !f.arena->failed;

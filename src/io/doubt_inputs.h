@@ -23,6 +23,9 @@ void ceduo_inputs_keep_today(struct scene_inputs *inputs);
  * NULL where it is not a number of any scene; the scene may have no such place. */
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input);
 
+/* Number of places of a path, which may have [*]; 0: not every item has such a value, so that it cannot be set. */
+size_t ceduo_input_count(struct scene_file *file, const char *path);
+
 /* Whether one of n inputs has a place, written either way. */
 bool ceduo_inputs_have(const struct ceduo_input *inputs, size_t n, const char *place);
 
@@ -32,8 +35,12 @@ bool ceduo_input_shares(const struct ceduo_input *a, const struct ceduo_input *b
 /* The belt that a place is in, forest[0].stand… or options[2].forest[0].stand…; NULL: it is in none. */
 const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *scene, const char *place);
 
-/* Paths of the segments of a ground of the library, one for each stretch; returns how many. `root` NULL: talus was taken for all. */
+/* Paths of the segments of a ground of the library, one for each stretch; returns how many. `root` NULL: talus was taken for all.
+ * `assumed`: only stretches for which the scene does not say the value itself. */
 size_t ceduo_input_ground(struct arena *arena, const struct node *root, const struct ceduo_scene *scene, const char *material,
-                          const char *key, const char **places);
+                          const char *key, bool assumed, const char **places);
+
+/* The path of a place of the scene as --set has it, which knows all options of the file. NULL without memory. */
+const char *ceduo_input_path(struct scene_file *file, const char *place);
 
 #endif

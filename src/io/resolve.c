@@ -11,8 +11,11 @@
 
 #include "base/language.h"
 #include "base/path.h"
+#include "ceduo/material.h"
 #include "file.h"
+#include "scene/choices.h"
 
+#define FIRST      "-1e9" /* m: before any profile begins */
 #define BASES_MOST 8
 #define FILES_MOST 1000
 
@@ -229,11 +232,27 @@ const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *r
 
 /* ---- paths ---- */
 
-/* The name of an item; a belt has its stand's. NULL: none. */
+/* The name of an item; a belt has its stand's, a stretch of ground that of the library. NULL: none. */
 static const char *name_of(const struct node *item)
 {
-    const char *name = ceduo_node_text(item, "name");
-    return name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name");
+    const char *name = ceduo_node_text(item, "name"), *ground = ceduo_node_text(item, "material");
+    return name ? name : ground ? ground : ceduo_node_text(ceduo_node_get(item, "stand"), "name");
+}
+
+/* Number of a ground of the library by one of its names; -1: a step that is none. */
+static int ground_of(const struct path_step *step)
+{
+    LOCAL_TEXT(name);
+    ceduo_text_add(&name, step->p, step->n);
+    return step->bracket ? ceduo_choice_find(&ceduo_material_words, ceduo_text_string(&name)) : -1;
+}
+
+/* True if a step means an item: each, or each of a ground. */
+static bool means(const struct path_step *step, const struct object *object, const struct node *item)
+{
+    const char *ground = object && ceduo_schema_field(object, "material") ? ceduo_node_text(item, "material") : NULL;
+    int known = ground ? ceduo_choice_find(&ceduo_material_words, ground) : -1;
+    return ceduo_path_is(step, "*") || (known >= 0 && known == ground_of(step));
 }
 
 bool ceduo_resolve_item(const struct node *list, const struct path_step *step, size_t *index)
@@ -326,6 +345,25 @@ static bool needs_no_source(const struct resolver *s, const struct field *f, con
            !now.source->is_option || (old && ceduo_node_equal(&before, &now));
 }
 
+/* The ground that is assumed where a slope says none, as a list, if the next step of the path means it. NULL: it does not, or without
+ * memory. */
+static const struct node *ground_assumed(struct resolver *s, size_t at)
+{
+    const struct ceduo_material *talus = ceduo_material_talus();
+    struct path_step step;
+    if (!ceduo_path_next(s->set->bytes, s->length, &at, &step) || ground_of(&step) < 0 ||
+        strcmp(ceduo_material_words.names[ground_of(&step)], talus->name) != 0)
+        return NULL;
+    const char *const entries[][2] = {{"from_m", FIRST}, {"to_m", "end"}, {"material", talus->name}};
+    const struct node *row = ceduo_node_empty(s->arena, NODE_MAP, s->set),
+                      *list = ceduo_node_empty(s->arena, NODE_LIST, s->set);
+    for (size_t i = 0; row && i < sizeof entries / sizeof entries[0]; i++) {
+        const struct node *value = ceduo_node_scalar(s->arena, s->set, entries[i][1], false);
+        row = value ? ceduo_node_with(s->arena, row, entries[i][0], value) : NULL;
+    }
+    return row && list ? ceduo_node_inserted(s->arena, list, 0, row) : NULL;
+}
+
 static const struct node *set_entry(struct resolver *s, const struct object *object, const struct node *map,
                                     const struct path_step *step, size_t at)
 {
@@ -351,7 +389,10 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
     if (!last && f && f->type == FIELD_SPREAD && (!child || child->kind == NODE_SCALAR)) {
         const struct node *parts = ceduo_node_empty(s->arena, NODE_MAP, s->set); /* {mean: number} where one of them is set */
         child = parts && child ? ceduo_node_with(s->arena, parts, "mean", child) : parts;
-    } else if (!last && !child && (!f || f->type == FIELD_GROUP))
+    } else if (!last && !child && f && f->object && ceduo_schema_field(f->object, "material") &&
+               !ceduo_node_get(map, "segments"))
+        child = ground_assumed(s, at);
+    else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = ceduo_node_empty(s->arena, NODE_MAP, s->set);
     else if (!last && !child) {
         bool root = step->p == s->set->bytes;
@@ -386,9 +427,13 @@ static const struct node *set_item(struct resolver *s, const struct field *f, co
     /* a belt may be named by its stand: follow it first */
     if (object && !(list = resolve_items(s, object, list)))
         return NULL;
-    if (ceduo_path_is(step, "*") && list->n > 0) { /* what is around is told unless every item has told its own source */
+    while (n < list->n && !means(step, object, list->items[n]))
+        n++;
+    if (n < list->n) { /* what is around is told unless every item has told its own source */
         bool before = s->sourced, told = true;
-        for (size_t i = 0; list && i < list->n; i++) {
+        for (size_t i = n; list && i < list->n; i++) {
+            if (!means(step, object, list->items[i]))
+                continue;
             s->sourced = before;
             list = ceduo_node_replaced(s->arena, list, i, set_in(s, NULL, object, list->items[i], at));
             told &= s->sourced;
@@ -396,6 +441,7 @@ static const struct node *set_item(struct resolver *s, const struct field *f, co
         s->sourced = told;
         return list;
     }
+    n = 0;
     if (!ceduo_resolve_item(list, step, &first)) {
         for (size_t i = 0; i < list->n && i < ITEMS_SHOWN; i++) {
             const char *name = name_of(list->items[i]);

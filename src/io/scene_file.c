@@ -27,8 +27,13 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
                           .unusual = &unusual,
                           .previous = &previous};
     size_t before = problems->count;
-    *file =
-        (struct scene_file){.arena = file->arena, .path = file->path, .name = file->name, .raw = file->raw, .root = file->root};
+    *file = (struct scene_file){.arena = file->arena,
+                                .path = file->path,
+                                .name = file->name,
+                                .raw = file->raw,
+                                .root = file->root,
+                                .kept_count = file->kept_count,
+                                .kept = file->kept};
     if (!ceduo_validate(&v))
         return false;
     file->scene = v.draft.scene;

@@ -20,6 +20,8 @@ struct scene_file {
     struct ceduo_input *inputs;
     size_t observations_count; /* what was seen there */
     struct ceduo_observation *observations;
+    size_t kept_count; /* options of the file that --option kept, by their numbers there; `kept` NULL: all */
+    const size_t *kept;
     bool ground_assumed; /* the slope's file says no ground: talus was taken */
 };
 

@@ -3,6 +3,7 @@
  * calibration left open is one more, from a table with a column for each fitted value, whose head is its path, or several with
  * blanks between them. Each row is one draw; all values of a row belong together. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,18 +71,21 @@ static void add_place(struct places *p, const char *path)
     p->items[p->n++] = ceduo_format(p->v, "%s", with_numbers(p->v, path));
 }
 
-/* The path, with every [*] replaced by each item in turn; where there is no such list nothing is added. */
-static void add_all(struct places *p, const char *path)
+/* The path, with every [*] replaced by each item in turn; where there is no such list nothing is added. False if a list is missing or
+ * empty. */
+static bool add_all(struct places *p, const char *path)
 {
     const char *star = strstr(path, "[*]");
     if (!star) {
         add_place(p, path);
-        return;
+        return true;
     }
     const char *before = ceduo_format(p->v, "%.*s", (int)(star - path), path);
     const struct node *list = list_at(p->v->root, before);
+    bool all = list && list->n > 0;
     for (size_t i = 0; list && i < list->n; i++)
-        add_all(p, ceduo_format(p->v, "%s[%zu]%s", before, i, star + 3));
+        all &= add_all(p, ceduo_format(p->v, "%s[%zu]%s", before, i, star + 3));
+    return all;
 }
 
 #define GROUND   "slope.materials["
@@ -100,6 +104,18 @@ static const char *ground_of(struct validator *v, const char *path, const char *
     return known < 0 ? name : ceduo_material_words.names[known];
 }
 
+/* The path of the file in the scene, which has only the options that --option kept; NULL: of an option that it left out. */
+static const char *kept_path(struct validator *v, const char *path)
+{
+    const struct scene_file *file = v->file;
+    size_t option, k = 0;
+    if (!file->kept || sscanf(path, "options[%zu]", &option) != 1)
+        return path;
+    while (k < file->kept_count && file->kept[k] != option)
+        k++;
+    return k < file->kept_count ? ceduo_format(v, "options[%zu%s", k, strchr(path, ']')) : NULL;
+}
+
 /* Adds all places of a path that the scene has. Ground that stands in no list of segments has one of them for each stretch. */
 static void find_places(struct places *p, const char *path)
 {
@@ -109,7 +125,7 @@ static void find_places(struct places *p, const char *path)
     struct value value;
     size_t n = p->n, stretches = scene->slope.vertices - 1;
     if (name && (p->items = ceduo_room(v, stretches, sizeof *p->items))) /* such a path has no other places */
-        p->n = ceduo_input_ground(v->arena, v->file->ground_assumed ? NULL : v->root, scene, name, key, p->items);
+        p->n = ceduo_input_ground(v->arena, v->file->ground_assumed ? NULL : v->root, scene, name, key, false, p->items);
     else if (!name && scene->slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
         for (size_t j = 0; j < stretches; j++)
             add_place(p, ceduo_format(v, "slope.segments[%zu].%s", j, path + sizeof SEGMENTS - 1));
@@ -185,8 +201,10 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
 static bool make_input(struct validator *v, const struct row *row, struct places *places, struct ceduo_input *input)
 {
     const struct doubt *d = &row->doubt;
-    const char *path = ceduo_format(v, "%s%s", row->within, d->path);
     bool of_stand = row->within[0] != '\0';
+    const char *path = of_stand ? ceduo_format(v, "%s%s", row->within, d->path) : kept_path(v, d->path);
+    if (!path)
+        return false;
     const struct field *field = field_of(v, path);
     const char *instead = ceduo_schema_gone_at(path);
     *places = (struct places){.v = v};
@@ -208,7 +226,7 @@ static bool make_input(struct validator *v, const struct row *row, struct places
         return ceduo_complain(v, row->at, "",
                               choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
                               field->key);
-    *input = (struct ceduo_input){.path = of_stand ? places->items[0] : d->path,
+    *input = (struct ceduo_input){.path = of_stand ? ceduo_input_path(v->file, places->items[0]) : d->path,
                                   .places = places->items,
                                   .places_count = places->n,
                                   .source = of_stand ? N_("doubt, in the stand") : N_("doubt, in the scene")};
@@ -588,10 +606,28 @@ void ceduo_validate_ends(struct validator *v)
     ceduo_inputs_release(&e.copy);
 }
 
+static struct validator validator_of(struct scene_file *file, struct problems *problems)
+{
+    struct validator v = {.file = file, .arena = &file->arena, .root = file->root, .problems = problems};
+    v.draft.scene = file->scene;
+    return v;
+}
+
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input)
 {
     struct problems problems = {0};
-    struct validator v = {.file = file, .arena = &file->arena, .root = file->root, .problems = &problems};
-    v.draft.scene = file->scene;
+    struct validator v = validator_of(file, &problems);
     return find_fitted(&v, path, input);
+}
+
+size_t ceduo_input_count(struct scene_file *file, const char *path)
+{
+    struct problems problems = {0};
+    struct validator v = validator_of(file, &problems);
+    struct places p = {.v = &v};
+    struct value value;
+    bool all = add_all(&p, path);
+    for (size_t i = 0; i < p.n && all; i++)
+        all = p.items[i] && ceduo_value_find(&file->scene, p.items[i], &value);
+    return all ? p.n : 0;
 }

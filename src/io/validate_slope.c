@@ -147,7 +147,8 @@ static void make_segments(struct validator *v)
         s->segments[i] = all;
 }
 
-static struct ceduo_segment segment_of(const struct ceduo_material *row)
+/* Ground of the library; `belt` may be NULL: with what it says instead. */
+static struct ceduo_segment segment_of(const struct ceduo_material *row, const struct material_belt *belt)
 {
     struct ceduo_segment segment = ceduo_segment_default();
     segment.rn = ceduo_number(row->rn);
@@ -156,6 +157,13 @@ static struct ceduo_segment segment_of(const struct ceduo_material *row)
     segment.roughness_rad = NAN;
     segment.friction = row->friction;
     segment.mu = row->mu;
+    if (!belt)
+        return segment;
+    segment.rn = isnan(belt->rn) ? segment.rn : ceduo_number(belt->rn);
+    segment.rt = isnan(belt->rt) ? segment.rt : ceduo_number(belt->rt);
+    segment.roughness_m = isnan(belt->roughness) ? segment.roughness_m : belt->roughness;
+    segment.friction = isnan(belt->friction) ? segment.friction : belt->friction;
+    segment.mu = isnan(belt->mu) ? segment.mu : belt->mu;
     return segment;
 }
 
@@ -182,8 +190,9 @@ static void make_materials(struct validator *v)
     if (s->reversed && (rows = ceduo_room(v, n, sizeof *rows))) /* as they lie on a profile that was mirrored */
         for (size_t i = 0; i < n; i++) {
             const struct material_belt *row = &v->draft.materials[n - 1 - i];
-            rows[i] =
-                (struct material_belt){ceduo_slope_mirrored(s, row->to), ceduo_slope_mirrored(s, row->from), row->material};
+            rows[i] = *row;
+            rows[i].from = ceduo_slope_mirrored(s, row->to);
+            rows[i].to = ceduo_slope_mirrored(s, row->from);
         }
     if (n > 1) { /* the points of the file stay beside the borders of the grounds */
         s->points_x = ceduo_room(v, s->points, sizeof(double));
@@ -203,7 +212,7 @@ static void make_materials(struct validator *v)
     for (size_t j = 0, row = 0; j + 1 < s->vertices; j++) {
         while (row + 1 < n && s->x[j] >= rows[row + 1].from - v->origin)
             row++;
-        s->segments[j] = segment_of(&library[rows[row].material]);
+        s->segments[j] = segment_of(&library[rows[row].material], &rows[row]);
     }
 }
 
@@ -285,7 +294,7 @@ void ceduo_validate_slope(struct validator *v)
         assume_mu(v, "slope");
         s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);
         for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
-            s->segments[j] = segment_of(ceduo_material_talus());
+            s->segments[j] = segment_of(ceduo_material_talus(), NULL);
     }
     if (s->segments && ceduo_slope_check(s) != CEDUO_OK)
         ceduo_complain(v, "slope", "", _("two vertices lie too close together for their distance from the first"));

@@ -15,6 +15,8 @@
 #include "study/sure.h"
 
 #define SURE_MAX       128  /* values looked at under doubt */
+#define ERROR_STEP     0.05 /* of the range: the first distance over which the slope at the value found is taken */
+#define ERROR_STEPS    3
 #define SURE_TOLERANCE 1e-3 /* of the range: what so few points tell is no finer */
 
 /* A search under way. */
@@ -157,6 +159,35 @@ static enum ceduo_status above_at(void *context, double value, double *above)
     return status;
 }
 
+/* How far the value found may be from that of other points and other rocks: what they leave open of the goal of so much of what may
+ * be true, over its slope, which is taken across about that distance. Not known (NaN) where the slope has the wrong sign. */
+static enum ceduo_status read_error(struct search *s, const struct ceduo_find_def *def, struct ceduo_sure *sure)
+{
+    const struct ceduo_found *f = &sure->found;
+    struct sure_answer at, lo, hi;
+    double sign = f->side == CEDUO_SMALLEST ? -1 : 1, width = def->hi - def->lo, half = ERROR_STEP * width;
+    enum ceduo_status status = ask_once(s, f->value, &at);
+    for (int i = 0; i < ERROR_STEPS && status == CEDUO_OK; i++) {
+        double from = fmax(def->lo, f->value - half), to = fmin(def->hi, f->value + half);
+        from = s->whole ? floor(from) : from, to = s->whole ? ceil(to) : to;
+        status = ask_once(s, from, &lo);
+        if (status == CEDUO_OK)
+            status = ask_once(s, to, &hi);
+        double slope = sign * (hi.above - lo.above) / (to - from), before = half;
+        if (status != CEDUO_OK || !(slope > 0))
+            return status;
+        double above = (at.above_hi - at.above) / slope, below = (at.above - at.above_lo) / slope;
+        sure->lo = fmax(def->lo, f->value - (sign < 0 ? below : above));
+        sure->hi = fmin(def->hi, f->value + (sign < 0 ? above : below));
+        half = fmin(width / 2, fmax((above + below) / 2, SURE_TOLERANCE * width));
+        if (half < 2 * before && before < 2 * half)
+            break;
+    }
+    if (s->whole)
+        sure->lo = floor(sure->lo), sure->hi = ceil(sure->hi);
+    return status;
+}
+
 /* The same search for the value that is sure; as the goal of so much of what may be true is smooth, by few values. Where nothing is
  * in doubt there is no such search. */
 static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_def *plain, const struct ceduo_found *found)
@@ -166,7 +197,9 @@ static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_d
     struct ceduo_found *to = &s->answer->sure.found;
     s->answer->sure = (struct ceduo_sure){.sure = s->def.sure,
                                           .points = CEDUO_DOUBT_POINTS,
-                                          .rocks = s->def.sure_rocks > 0 ? s->def.sure_rocks : CEDUO_DOUBT_ROCKS};
+                                          .rocks = s->def.sure_rocks > 0 ? s->def.sure_rocks : CEDUO_DOUBT_ROCKS,
+                                          .lo = NAN,
+                                          .hi = NAN};
     double value = found->found ? found->value : isnan(found->nearest) ? plain->hi : found->nearest;
     enum ceduo_status status = ask_once(s, value, &answer);
     if (status != CEDUO_OK || s->answer->sure.inputs == 0)
@@ -186,6 +219,8 @@ static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_d
     if (status == CEDUO_OK && !isnan(value))
         status = ask_once(s, value, &answer);
     s->answer->sure.share = answer.share;
+    if (status == CEDUO_OK && to->found && !to->whole_range)
+        status = read_error(s, &def, &s->answer->sure);
     to->evaluations = (unsigned)s->known_count;
     return status;
 }
@@ -221,7 +256,7 @@ static bool is_askable(const struct search *s)
     const struct field *field = ceduo_schema_at(s->def.path);
     if (field && (field->type <= FIELD_FILE || field->type == FIELD_CHOICE || field->type == FIELD_FLAG))
         return ceduo_problem(s->problems, &path_source, 0, 0, _("%s is not a number"), s->def.path);
-    bool needs_accepted = s->def.goal == CEDUO_GOAL_EXCEED;
+    bool needs_accepted = ceduo_goal_needs_accepted(s->def.goal);
     for (size_t c = 0; needs_accepted && c < scene->controls_count; c++)
         if (isnan(scene->controls[c].accepted))
             return ceduo_problem(s->problems, &goal_source, 0, 0, _("exceed: controls[%zu] has no accepted_kJ; add it"), c);
@@ -265,7 +300,7 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
     const struct field *field = ceduo_search_field(&file->arena, asked->path);
     if (isnan(s->def.target))
         s->def.target = ceduo_goal_limit(s->def.goal, &file->scene.simulation);
-    s->def.rotation |= field && field->flags & FIELD_YEARS; /* it decides about the years to come alone */
+    s->def.rotation |= (field && field->flags & FIELD_YEARS) || ceduo_goal_is_worst(s->def.goal);
     *answer = (struct search_answer){.target = s->def.target, .rotation = s->def.rotation};
     if (!is_askable(s))
         return CEDUO_BAD_SLOPE;

@@ -82,6 +82,14 @@ static const struct field material_fields[] = {
     NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), AT(material_belt, to), "m", -FAR, FAR, REQUIRED, NULL, N_("where it ends")),
     WORD("material", NAMED(N_("ground")), AT(material_belt, material), REQUIRED, NULL, N_("a ground of the library"),
          &ceduo_material_words),
+    NUMBER("rn", BRIEF(N_("bounce Rn"), N_("Rn")), AT(material_belt, rn), "", 0, 1, 0, NULL, N_("normal restitution Rn")),
+    NUMBER("rt", BRIEF(N_("slide Rt"), N_("Rt")), AT(material_belt, rt), "", 0, 1, 0, NULL, N_("tangential restitution Rt")),
+    NUMBER("roughness_m", BRIEF(N_("roughness, m"), N_("rough. m")), AT(material_belt, roughness), "m", 0, 1000, 0, NULL,
+           N_("the same as a height S over the rock's radius, atan(S/R), as in CRSP")),
+    NUMBER("friction", NAMED(N_("friction")), AT(material_belt, friction), "", 0, 100, 0, NULL,
+           N_("tangent of the angle of rolling friction; the default is an assumption")),
+    NUMBER("mu", BRIEF(N_("grip mu"), N_("mu")), AT(material_belt, mu), "", 0, 3, 0, NULL,
+           N_("arm: Coulomb's friction where the rock strikes; the default is an assumption")),
 };
 static const struct object material_object = OBJECT(material_belt, material_fields, NULL);
 

@@ -86,6 +86,7 @@ struct object {
 struct material_belt {
     double from, to;
     int material;
+    double rn, rt, roughness, friction, mu; /* instead of the library's; NaN: that */
 };
 
 /* What a scene says of a value that is not known: lo and hi, mean and sd, or one_of. */

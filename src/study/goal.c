@@ -21,11 +21,25 @@ const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
     [CEDUO_GOAL_ARRIVE] = {"arrive", N_("share that arrives"), "%", false, true,
                            "the share of the released that arrive through the forest (with contact_model: index without "
                            "forest)",
-                           NULL}};
+                           NULL},
+    [CEDUO_GOAL_WORST_EXCEED] = {"worst-exceed", N_("share with too much energy in the worst year"), "%", false, true,
+                                 "the same as exceed in the worst year of the rotation, with or without --years", "0.05"},
+    [CEDUO_GOAL_WORST_ARRIVE] = {"worst-arrive", N_("share that arrives in the worst year"), "%", false, true,
+                                 "the same as arrive in the worst year of the rotation, with or without --years", NULL}};
 
 bool ceduo_goal_is_share(enum ceduo_goal goal)
 {
     return ceduo_goals[goal].unit[0] == '%';
+}
+
+bool ceduo_goal_is_worst(enum ceduo_goal goal)
+{
+    return goal == CEDUO_GOAL_WORST_EXCEED || goal == CEDUO_GOAL_WORST_ARRIVE;
+}
+
+bool ceduo_goal_needs_accepted(enum ceduo_goal goal)
+{
+    return goal == CEDUO_GOAL_EXCEED || goal == CEDUO_GOAL_WORST_EXCEED;
 }
 
 void ceduo_goal_words(struct text *text)
@@ -36,7 +50,8 @@ void ceduo_goal_words(struct text *text)
 
 double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *simulation)
 {
-    const double limits[CEDUO_GOALS] = {simulation->threshold, CEDUO_FREE_RUN_MOST, NAN, CEDUO_EXCEED_MOST, NAN};
+    const double limits[CEDUO_GOALS] = {
+        simulation->threshold, CEDUO_FREE_RUN_MOST, NAN, CEDUO_EXCEED_MOST, NAN, CEDUO_EXCEED_MOST, NAN};
     return limits[goal];
 }
 
@@ -45,12 +60,12 @@ static double value_at(enum ceduo_goal goal, const struct ceduo_index *index, co
                        const struct ceduo_arrivals *bare)
 {
     const struct ceduo_arrivals *arrivals = wooded ? wooded : bare;
-    return goal == CEDUO_GOAL_ADC        ? index->worst_adc
-           : goal == CEDUO_GOAL_FREE_RUN ? index->worst_free_run
-           : goal == CEDUO_GOAL_EXCEED   ? arrivals->exceed_probability
-           : goal == CEDUO_GOAL_ARRIVE   ? arrivals->reach_probability
-           : arrivals->reached == 0      ? 0 /* where no rock arrives all is well */
-                                         : (wooded ? arrivals->energy.mean : index->residual) * 1e-3;
+    return goal == CEDUO_GOAL_ADC            ? index->worst_adc
+           : goal == CEDUO_GOAL_FREE_RUN     ? index->worst_free_run
+           : ceduo_goal_needs_accepted(goal) ? arrivals->exceed_probability
+           : ceduo_goal_is_share(goal)       ? arrivals->reach_probability
+           : arrivals->reached == 0          ? 0 /* where no rock arrives all is well */
+                                             : (wooded ? arrivals->energy.mean : index->residual) * 1e-3;
 }
 
 static double worse_of(double a, double b)

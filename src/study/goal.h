@@ -9,7 +9,16 @@
 
 /* What a search for one number of a scene can ask for at the worst control. A goal is a name here, a row in goal.c and its
  * value in ceduo_goal_reached(). */
-enum ceduo_goal { CEDUO_GOAL_ADC, CEDUO_GOAL_FREE_RUN, CEDUO_GOAL_ENERGY, CEDUO_GOAL_EXCEED, CEDUO_GOAL_ARRIVE, CEDUO_GOALS };
+enum ceduo_goal {
+    CEDUO_GOAL_ADC,
+    CEDUO_GOAL_FREE_RUN,
+    CEDUO_GOAL_ENERGY,
+    CEDUO_GOAL_EXCEED,
+    CEDUO_GOAL_ARRIVE,
+    CEDUO_GOAL_WORST_EXCEED,
+    CEDUO_GOAL_WORST_ARRIVE,
+    CEDUO_GOALS
+};
 
 struct ceduo_goal_row {
     const char *word;    /* on the command line */
@@ -25,6 +34,12 @@ extern const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS];
 
 /* Whether the value is a share. */
 bool ceduo_goal_is_share(enum ceduo_goal goal);
+
+/* True if the goal is a share of the rocks in the worst year: it is asked of the years, never of today. */
+bool ceduo_goal_is_worst(enum ceduo_goal goal);
+
+/* True if the goal counts rocks with more than the accepted energy. */
+bool ceduo_goal_needs_accepted(enum ceduo_goal goal);
 
 /* Adds the words of all goals, with commas between them. */
 void ceduo_goal_words(struct text *text);
@@ -51,8 +66,9 @@ struct ceduo_search {
     double target; /* in the goal's unit; NaN: the light's limit, and set to it */
     double lo, hi; /* in the file's units */
     uint64_t rocks;
-    bool rotation;       /* over one whole rotation, not today: set where the parameter decides about the years alone */
-    double sure;         /* in how much of what may be true the goal is to be reached as well, up to 1; 0: it is not asked */
+    bool rotation; /* over one whole rotation, not today: set where the parameter decides about the years alone, or the goal
+                          * is of the worst year */
+    double sure;   /* in how much of what may be true the goal is to be reached as well, up to 1; 0: it is not asked */
     uint64_t sure_rocks; /* of each point of that; 0: CEDUO_DOUBT_ROCKS */
 };
 
@@ -61,6 +77,7 @@ struct ceduo_sure {
     double sure;              /* what was asked for; 0: nothing */
     size_t inputs;            /* what is in doubt of the option, but for the value itself; 0: nothing, nothing was computed */
     struct ceduo_found found; /* its goals are those of no one */
+    double lo, hi;            /* 95 % interval of the value found, by the points and by the rocks; NaN: not known */
     struct ceduo_share share; /* the share in which it is, at the value found or else comes nearest */
     size_t points;
     uint64_t rocks; /* of each */

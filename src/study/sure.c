@@ -60,10 +60,10 @@ static struct ceduo_groups value_of(enum ceduo_goal goal, const struct point *po
     if (!briefs)
         index = ceduo_assess_index(point->scene, point->forest, at, NAN);
     for (size_t g = 0; g < GROUPS; g++)
-        y.of[g] = goal == CEDUO_GOAL_ADC        ? scaled(goal, index.worst_adc)
-                  : goal == CEDUO_GOAL_FREE_RUN ? index.worst_free_run
-                  : goal == CEDUO_GOAL_EXCEED   ? briefs[g].exceed_probability
-                                                : briefs[g].reach_probability;
+        y.of[g] = goal == CEDUO_GOAL_ADC            ? scaled(goal, index.worst_adc)
+                  : goal == CEDUO_GOAL_FREE_RUN     ? index.worst_free_run
+                  : ceduo_goal_needs_accepted(goal) ? briefs[g].exceed_probability
+                                                    : briefs[g].reach_probability;
     return y;
 }
 
@@ -83,7 +83,7 @@ static double mean_of(const struct ceduo_groups *y)
     return mean;
 }
 
-/* The mean of the years, or the worst of them. */
+/* The mean of the years, or the worst of them, for a goal without noise of the rocks. */
 static struct ceduo_groups over_years(const struct sure *s, const struct ceduo_groups *years)
 {
     struct ceduo_groups y = years[0];
@@ -97,11 +97,60 @@ static struct ceduo_groups over_years(const struct sure *s, const struct ceduo_g
     return y;
 }
 
+/* Shares of few rocks in the worst year. The largest of many noisy shares is too large, so that each year is read from its
+ * surface, as far as there is one. `y`: the control at all points. */
+static enum ceduo_status read_worst(const struct sure *s, struct ceduo_surface *surface, size_t points, size_t control,
+                                    struct ceduo_groups *y)
+{
+    size_t n = s->slots * points;
+    struct ceduo_groups *years = malloc(2 * n * sizeof *years), *changes = years + n;
+    double *values = malloc(n * sizeof *values);
+    enum ceduo_status status = years && values ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; status == CEDUO_OK && i < n; i++)
+        years[i] = values_of(s, i % points, control)[i / points];
+    const struct ceduo_surface_figure figure = {.y = years, .hi = 1, .limit = NAN};
+    if (status == CEDUO_OK)
+        status = ceduo_surface_values(surface, &figure, s->slots, values, changes);
+    for (size_t p = 0; status == CEDUO_OK && p < points; p++) {
+        size_t worst = p;
+        for (size_t i = p; i < n; i += points)
+            worst = values[i] > values[worst] ? i : worst;
+        ceduo_groups_set(&y[p], values[worst], changes[worst].of);
+    }
+    free(years);
+    free(values);
+    return status;
+}
+
+/* Sets the goal at the worst control of each point. `surface` NULL: there is one point. */
+static enum ceduo_status fill_column(const struct sure *s, struct ceduo_surface *surface, size_t points,
+                                     struct ceduo_groups *column)
+{
+    bool worst = surface && s->slots > 1 && ceduo_goal_is_worst(s->def->goal);
+    struct ceduo_groups *y = malloc(points * sizeof *y);
+    enum ceduo_status status = y ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t c = 0; c < s->def->of.scene->controls_count && status == CEDUO_OK; c++) {
+        for (size_t p = 0; p < points && !worst; p++)
+            y[p] = over_years(s, values_of(s, p, c));
+        if (worst)
+            status = read_worst(s, surface, points, c, y);
+        for (size_t p = 0; p < points && status == CEDUO_OK; p++)
+            if (c == 0 || mean_of(&y[p]) > mean_of(&column[p]))
+                column[p] = y[p];
+    }
+    free(y);
+    return status;
+}
+
+static double quantile_above(const struct ceduo_surface_fit *fit, size_t points, double share, double limit)
+{
+    return ceduo_quantile(fit->values, points, fmin(1, fmax(0, share))) - limit;
+}
+
 /* What the values of a surface say. */
-static enum ceduo_status read_surface(const struct sure_def *def, const double *u, size_t points,
+static enum ceduo_status read_surface(const struct sure_def *def, struct ceduo_surface *surface, size_t points,
                                       const struct ceduo_groups *column, struct sure_answer *answer)
 {
-    struct ceduo_surface *surface;
     struct ceduo_surface_fit fit = {0};
     bool inverse = def->goal == CEDUO_GOAL_ADC; /* below 0, as nothing else is */
     const struct ceduo_surface_figure figure = {.y = column,
@@ -110,15 +159,15 @@ static enum ceduo_status read_surface(const struct sure_def *def, const double *
                                                       : ceduo_goal_is_share(def->goal) ? 1
                                                                                        : INFINITY,
                                                 .limit = scaled(def->goal, def->target)};
-    enum ceduo_status status = ceduo_surface_open(def->of.inputs, def->of.inputs_count, u, points, &surface);
-    if (status == CEDUO_OK)
-        status = ceduo_surface_fit(surface, &figure, &fit);
+    enum ceduo_status status = ceduo_surface_fit(surface, &figure, &fit);
     if (status == CEDUO_OK) {
+        double half = CEDUO_Z95 * fit.below.se;
         gsl_sort(fit.values, 1, points);
-        *answer = (struct sure_answer){fit.below, ceduo_quantile(fit.values, points, def->sure) - figure.limit};
+        *answer = (struct sure_answer){fit.below, quantile_above(&fit, points, def->sure, figure.limit),
+                                       quantile_above(&fit, points, def->sure - half, figure.limit),
+                                       quantile_above(&fit, points, def->sure + half, figure.limit)};
     }
     ceduo_surface_release(&fit);
-    ceduo_surface_free(surface);
     return status;
 }
 
@@ -135,6 +184,7 @@ enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer 
     of.rocks = !ceduo_goals[def->goal].flies ? 0 : of.rocks > GROUPS ? of.rocks : GROUPS;
     double *u = malloc((points * n + 1) * sizeof *u);
     struct ceduo_groups *column = malloc(points * sizeof *column);
+    struct ceduo_surface *surface = NULL;
     s.values = malloc(points * scene->controls_count * s.slots * sizeof *s.values + 1);
     enum ceduo_status status = u && column && s.values ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK && n > 0)
@@ -142,18 +192,17 @@ enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer 
     if (status == CEDUO_OK)
         status = ceduo_points_run(
             &(const struct points){.def = &of, .u = u, .today = !of.rotation, .read = read_point, .context = &s}, 0, points, 0);
-    if (status == CEDUO_OK) {
-        for (size_t p = 0; p < points; p++)
-            for (size_t c = 0; c < scene->controls_count; c++) { /* the worst one */
-                struct ceduo_groups y = over_years(&s, values_of(&s, p, c));
-                if (c == 0 || mean_of(&y) > mean_of(&column[p]))
-                    column[p] = y;
-            }
-        answer->above = mean_of(column) - scaled(def->goal, def->target);
-        answer->share = (struct ceduo_share){answer->above <= 0, 0};
-        if (n > 0)
-            status = read_surface(def, u, points, column, answer);
+    if (status == CEDUO_OK && n > 0)
+        status = ceduo_surface_open(of.inputs, n, u, points, &surface);
+    if (status == CEDUO_OK)
+        status = fill_column(&s, surface, points, column);
+    if (status == CEDUO_OK && n > 0) {
+        status = read_surface(def, surface, points, column, answer);
+    } else if (status == CEDUO_OK) {
+        double above = mean_of(column) - scaled(def->goal, def->target);
+        *answer = (struct sure_answer){{above <= 0, 0}, above, above, above};
     }
+    ceduo_surface_free(surface);
     free(u);
     free(column);
     free(s.values);

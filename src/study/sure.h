@@ -19,7 +19,7 @@ struct sure_answer {
     struct ceduo_share share; /* of what may be true in which the goal is reached */
     /* how far the goal of that much of what may be true is above the target, in the goal's unit (of an ADC in that of its inverse): at
      * most 0 where the share is at least `sure`; it is no share, so that it changes smoothly with the scene */
-    double above;
+    double above, above_lo, above_hi; /* with its 95 % interval by the points and the rocks */
 };
 
 /* From a surface through the goal at the points, so that the noise of the rocks is taken off. Without inputs the share is 0 or 1.

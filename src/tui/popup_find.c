@@ -24,6 +24,8 @@ static const struct {
              {CEDUO_GOAL_FREE_RUN, N_("chance of a free run at most … %"), "%", 100},
              {CEDUO_GOAL_EXCEED, N_("at most … of 1000 arrive with too much"), N_("of 1000"), 1000},
              {CEDUO_GOAL_ARRIVE, N_("at most … of 1000 arrive"), N_("of 1000"), 1000},
+             {CEDUO_GOAL_WORST_EXCEED, N_("in the worst year at most … of 1000 arrive with too much"), N_("of 1000"), 1000},
+             {CEDUO_GOAL_WORST_ARRIVE, N_("in the worst year at most … of 1000 arrive"), N_("of 1000"), 1000},
              {CEDUO_GOAL_ENERGY, N_("mean energy of arrivals at most … kJ"), "kJ", 1}};
 #define GOALS_OFFERED (sizeof goals / sizeof goals[0])
 

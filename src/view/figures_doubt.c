@@ -2,6 +2,8 @@
 /* The figures of a sensitivity and of a calibration. */
 #include "figures_parts.h"
 
+#include <string.h>
+
 #include "ceduo/version.h"
 
 #define VERSION                                                                                                                \
@@ -104,6 +106,15 @@ VALUE(doubt_x, place, NUMBER, NUMBER(scene_of(o)->controls[ceduo_scene_last_cont
 VALUE(doubt_figure, place, TEXT, WORD(figure_key(o)))
 VALUE(figure_number, place, NUMBER, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
 #define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_doubt_figure, member)
+/* Paths that set the input: its own, or those of all its places, if no path means just these. */
+static void say_paths(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+{
+    const struct ceduo_input *input = &p->doubt->inputs->items[p->input];
+    bool own = input->places_count == 1 || strchr(input->path, '*') || strncmp(input->path, "slope.materials[", 16) == 0;
+    for (size_t i = 0; i < (own ? 1 : input->places_count); i++)
+        say(context, own ? input->path : ceduo_input_path(p->doubt->file, input->places[i]));
+}
+
 VALUE(input_measured, place, TEXT, WORD(ceduo_doubt_measured(o->doubt, o->input)))
 VALUE(input_lo, place, ANY, end_of(o, 0))
 VALUE(input_hi, place, ANY, end_of(o, 1))
@@ -168,6 +179,8 @@ static const struct ceduo_figure input_range_rows[] = {
 
 static const struct ceduo_figure input_rows[] = {
     {"path", "", "path of the input", .from = input_of, AT(input, path)},
+    {"paths", "", "paths for --set, with the same --option: all of them at one value are the input at that value",
+     .say = say_paths},
     {"places", "", "how many values of the scene move with it", .from = input_of, AT(input, places_count)},
     {"source", "", "where its range comes from", .from = input_of, AT(input, source)},
     {"measured_by", "", "what would measure it", .value = input_measured, .null = "nothing that is known"},

@@ -658,10 +658,13 @@ static const struct ceduo_figure goal_rows[] = {
     {"goal_at_nearest", "", "goal at that value", .from = nearest_of, AT(found, goal_at_nearest), .null = ONE},
     END};
 #define NOT_SURE "--sure is not given, or nothing is in doubt"
+#define NO_ERROR NONE ", every value does, or the points do not tell it"
 static const struct ceduo_figure sure_rows[] = {
     {"wanted", "", "share of what may be true in which the goal is to be reached", AT(sure, sure)},
     {"found", "", "whether a value reaches it in so much", AT(sure, found.found)},
     {"value", "", "the value", AT(sure, found.value), .null = NONE},
+    {"value_lo", "", "lower end of its 95 % interval, by the points and by the rocks", AT(sure, lo), .null = NO_ERROR},
+    {"value_hi", "", "its upper end", AT(sure, hi), .null = NO_ERROR},
     {"side", "", "smallest or largest: which of the values that do this is", .value = sure_side, .null = NONE},
     {"probability", "", "share of what may be true in which this value reaches the goal", .from = sure_found_of,
      AT(sure, share.value), .null = NONE},

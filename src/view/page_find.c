@@ -30,7 +30,7 @@ static double shown(const struct ceduo_search *s, const struct ceduo_found *f)
 void ceduo_find_sure(struct text *text, const struct ceduo_search *s, const struct ceduo_sure *sure, const struct field *field)
 {
     const struct ceduo_found *f = &sure->found;
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_ROOM], from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
     double wanted = sure->sure * 100, reached = sure->share.value * 100, error = 196 * sure->share.se;
     if (sure->inputs == 0)
         ceduo_text_put(text, _("nothing else is in doubt: that holds as far as the scene does"));
@@ -40,8 +40,14 @@ void ceduo_find_sure(struct text *text, const struct ceduo_search *s, const stru
     else if (f->whole_range)
         ceduo_text_format(text, _("every value of the range is sure in %g %% of what may be true"), wanted);
     else
-        ceduo_text_format(text, _("to be sure in %g %% of what may be true: %s (reaches it in %.0f %%, \xc2\xb1%.0f)"), wanted,
-                          ceduo_shown_number(field, shown(s, f), room), reached, error);
+        ceduo_text_format(
+            text,
+            isnan(sure->lo)
+                ? _("to be sure in %g %% of what may be true: %s (reaches it in %.0f %%, \xc2\xb1%.0f)")
+                : _("to be sure in %g %% of what may be true: %s (reaches it in %.0f %%, \xc2\xb1%.0f; by that error "
+                    "the value is %s to %s)"),
+            wanted, ceduo_shown_number(field, shown(s, f), room), reached, error, ceduo_shown_number(field, sure->lo, from),
+            ceduo_shown_number(field, sure->hi, to));
 }
 
 void ceduo_find_words(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f, const struct field *field,
