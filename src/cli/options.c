@@ -167,7 +167,7 @@ static enum exit_status set_size(struct arguments *a, const struct option_row *r
     return EXIT_DONE;
 }
 
-/* "A:B" or "A:B:STEP", whole years; without a value one whole rotation of each option. */
+/* "A:B" or "A:B:STEP", whole years; without a value the years ahead. */
 static enum exit_status set_years(struct arguments *a, const struct option_row *row, char *value)
 {
     a->years = true;
@@ -295,8 +295,9 @@ static const struct option_row rows[] = {
     {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, FIT | SURVEY | SCREEN,
      .help = N_("compute only this option of the scene; may be repeated")},
     {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, CHECK | FIT | SURVEY,
-     .help = N_("compute every option year by year: one whole rotation after its first cut, or the years A to B; the stands as "
-                "filed are year 0")},
+     .help =
+         N_("compute every option year by year: the years ahead, which all options have, or the years A to B; the stands as "
+            "filed are year 0")},
     {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, CHECK | PAGE | SURVEY,
      .help = N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY,

@@ -232,18 +232,18 @@ void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, siz
     ceduo_measure_span(&rocks, &m, m.lo, m.hi);
     ceduo_measure_span(&doubt, &m, m.may_lo, m.may_hi);
     ceduo_text_format(text,
-                      r->over                                 ? _("Over the rotation %s of 1000 (rocks %s; doubt %s)")
+                      r->over                                 ? _("Over the years %s of 1000 (rocks %s; doubt %s)")
                       : r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
                                                               : _("%s kJ per released rock (rocks %s; doubt %s)"),
                       value.bytes, rocks.bytes, doubt.bytes);
 }
 
-/* Today, or in the mean of a rotation with the years that fail. */
+/* Today, or in the mean of the years with the years that fail. */
 static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report *report, bool over)
 {
     static const struct ceduo_page_column today[] = {
         {N_("option"), 32, 2, 0}, {N_("now"), -7, 0, 0}, {N_("rocks"), -13, 2, 0}, {N_("doubt (90 %)"), -15, 2, 0}};
-    static const struct ceduo_page_column rotation[] = {{N_("over the rotation, of 1000"), 32, 2, 0},
+    static const struct ceduo_page_column rotation[] = {{N_("over the years, of 1000"), 32, 2, 0},
                                                         {N_("mean"), -5, 0, 0},
                                                         {N_("rocks"), -9, 2, 0},
                                                         {N_("doubt (90 %)"), -13, 2, 0},
@@ -428,7 +428,7 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
     ceduo_text_safe(&better, s->options[o->better].name);
     ceduo_text_safe(&than, s->options[o->than].name);
     ceduo_text_format(text,
-                      ranking->rotation ? _("Over the rotation %s is better than %s in %.0f %% of what may be true")
+                      ranking->rotation ? _("Over the years %s is better than %s in %.0f %% of what may be true")
                                         : _("Today %s is better than %s in %.0f %% of what may be true"),
                       ceduo_text_string(&better), ceduo_text_string(&than), o->probability * 100);
     if (o->probability < 0.995)

@@ -44,7 +44,7 @@ static int add_options(struct ceduo_page *page, const struct ceduo_doubt_report 
     } else {
         ceduo_text_put(&heads[0].text, _("kJ a rock"));
     }
-    ceduo_text_put(&heads[2].text, r->over ? _("rotation (may be)") : _("now (may be)"));
+    ceduo_text_put(&heads[2].text, r->over ? _("years (may be)") : _("now (may be)"));
     double end = 0; /* of the axis */
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_measure m = ceduo_doubt_measure(r, i, NULL);
