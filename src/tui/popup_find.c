@@ -133,7 +133,7 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
         ceduo_find_sure(text, s, &answer->sure, field);
     }
     if (s->rotation)
-        ceduo_text_then(text, "; ", _("over one whole rotation"));
+        ceduo_text_then(text, "; ", _("over the years ahead"));
     if (s->rotation && !isnan(answer->yield.cut_per_year))
         ceduo_text_then(text, ", ", _("yielding %.3g m\xc2\xb3 per ha and year"), answer->yield.cut_per_year);
 }

@@ -115,6 +115,6 @@ const struct view ceduo_view_doubt = {.panes = 1,
                                       .bar = {{ACTION_EDIT, N_("edit")},
                                               {ACTION_ADD, N_("a range")},
                                               {ACTION_DELETE, N_("delete")},
-                                              {ACTION_NEXT_PANE, N_("today or rotation")},
+                                              {ACTION_NEXT_PANE, N_("today or years")},
                                               {ACTION_NEXT_OPTION, N_("next option")},
                                               {ACTION_PAGE_DOWN, N_("read on")}}};

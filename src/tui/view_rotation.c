@@ -20,7 +20,7 @@ static void build(struct app *app, struct form *form)
         ceduo_form_heading(form, _("Single trees: standards, reserves"));
         ceduo_form_rest(form, ceduo_app_format(app, "%s.growth.trees", stand));
     }
-    ceduo_form_heading(form, _("Years shown (empty: one whole rotation after the first cut)"));
+    ceduo_form_heading(form, _("Years shown (empty: the years ahead)"));
     ceduo_form_fields(form, "years.", "first last");
     ceduo_form_heading(form, _("What comes down, what must stay"));
     ceduo_form_fields(form, "", "rocks_per_year minimum.reserves_per_ha rules");

@@ -88,8 +88,8 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
     ceduo_text_safe(&option, report->file->scene.options[s->option].name);
     ceduo_text_then(text, ", ", _("option '%s', %s"), ceduo_text_string(&option),
                     !s->rotation                  ? _("worst control")
-                    : ceduo_goal_is_mean(s->goal) ? _("worst control, in the mean of one whole rotation")
-                                                  : _("worst control, in the worst year of one whole rotation"));
+                    : ceduo_goal_is_mean(s->goal) ? _("worst control, in the mean of the years ahead")
+                                                  : _("worst control, in the worst of the years ahead"));
     ceduo_text_char(text, '\n');
     if (report->yield && !isnan(report->yield->cut_per_year)) {
         ceduo_text_then(text, "  ", _("yield: %.3g m\xc2\xb3 felled per hectare and year, %.3g m\xc2\xb3 standing per hectare"),
