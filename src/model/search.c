@@ -299,7 +299,7 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
                   *s = &search;
     const struct field *field = ceduo_search_field(&file->arena, asked->path);
     if (isnan(s->def.target))
-        s->def.target = ceduo_goal_limit(s->def.goal, &file->scene.simulation);
+        s->def.target = ceduo_goal_limit(s->def.goal, &file->scene);
     s->def.rotation |= (field && field->flags & FIELD_YEARS) || ceduo_goal_is_worst(s->def.goal);
     *answer = (struct search_answer){.target = s->def.target, .rotation = s->def.rotation};
     if (!is_askable(s))

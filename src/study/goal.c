@@ -17,15 +17,15 @@ const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
                            NULL},
     [CEDUO_GOAL_EXCEED] = {"exceed", N_("share with too much energy"), "%", false, true,
                            "the share of the released that arrive through the forest with more than the place withstands",
-                           "0.05"},
+                           "0.05, or with blocks one rock in accepted_return_y"},
     [CEDUO_GOAL_ARRIVE] = {"arrive", N_("share that arrives"), "%", false, true,
                            "the share of the released that arrive through the forest (with contact_model: index without "
                            "forest)",
                            NULL},
     [CEDUO_GOAL_WORST_EXCEED] = {"worst-exceed", N_("share with too much energy in the worst year"), "%", false, true,
-                                 "the same as exceed in the worst year of the rotation, with or without --years", "0.05"},
+                                 "the same as exceed in the worst of the years ahead, with or without --years", "0.05, or with blocks one rock in accepted_return_y"},
     [CEDUO_GOAL_WORST_ARRIVE] = {"worst-arrive", N_("share that arrives in the worst year"), "%", false, true,
-                                 "the same as arrive in the worst year of the rotation, with or without --years", NULL}};
+                                 "the same as arrive in the worst of the years ahead, with or without --years", NULL}};
 
 bool ceduo_goal_is_share(enum ceduo_goal goal)
 {
@@ -48,10 +48,12 @@ void ceduo_goal_words(struct text *text)
         ceduo_text_format(text, "%s%s", i > 0 ? ", " : "", ceduo_goals[i].word);
 }
 
-double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *simulation)
+double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_scene *scene)
 {
-    const double limits[CEDUO_GOALS] = {
-        simulation->threshold, CEDUO_FREE_RUN_MOST, NAN, CEDUO_EXCEED_MOST, NAN, CEDUO_EXCEED_MOST, NAN};
+    double exceed = 1; /* of the control with the strictest limit */
+    for (size_t c = 0; c < scene->controls_count; c++)
+        exceed = fmin(exceed, ceduo_exceed_limit(scene, &scene->controls[c]));
+    const double limits[CEDUO_GOALS] = {scene->simulation.threshold, CEDUO_FREE_RUN_MOST, NAN, exceed, NAN, exceed, NAN};
     return limits[goal];
 }
 

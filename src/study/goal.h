@@ -45,7 +45,7 @@ bool ceduo_goal_needs_accepted(enum ceduo_goal goal);
 void ceduo_goal_words(struct text *text);
 
 /* The limit of the light that the goal belongs to; NaN where there is none. */
-double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *simulation);
+double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_scene *scene);
 
 /* What an option reaches at its worst control, in the goal's unit; NaN where that is not known. `years`: over them, of shares of the
  * rocks the mean, of the others the worst year; NULL: today. */
