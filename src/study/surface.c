@@ -82,6 +82,7 @@ struct terms {
 struct chosen {
     size_t *used, n, leading;
     bool enough; /* points for single terms */
+    bool linear; /* without functions of degree 2, as there are too few points for them */
 };
 
 /* Terms with their values at the points, less their means, decomposed as U S V', and fitted to the values of a figure. */
@@ -311,7 +312,7 @@ static void add_products(const struct ceduo_surface *s, const struct chosen *cho
 static size_t list_terms(const struct ceduo_surface *s, const struct chosen *chosen, struct terms *t)
 {
     for (size_t c = 0; c < chosen->n; c++)
-        for (size_t k = 0; k < s->of[chosen->used[c]].count; k++)
+        for (size_t k = 0; k < (chosen->linear ? s->of[chosen->used[c]].linear : s->of[chosen->used[c]].count); k++)
             add_term(t, (struct term){1, {s->of[chosen->used[c]].first + k}});
     add_products(s, chosen, 0, (struct term){0}, 0, t);
     return t->n;
@@ -355,7 +356,7 @@ static struct solution *solution_of(struct ceduo_surface *s, const struct chosen
     struct solution *f = &s->solutions[chosen->leading > 0];
     size_t points = s->points, bytes = chosen->n * sizeof *chosen->used;
     if (f->chosen.used && f->chosen.n == chosen->n && f->chosen.leading == chosen->leading &&
-        memcmp(f->chosen.used, chosen->used, bytes) == 0)
+        f->chosen.linear == chosen->linear && memcmp(f->chosen.used, chosen->used, bytes) == 0)
         return f;
     close_solution(f);
     size_t *used = ceduo_arena_take(&f->memory, bytes + 1);
@@ -385,7 +386,7 @@ static struct solution *solution_of(struct ceduo_surface *s, const struct chosen
         return NULL;
     f->mean = f->coefficient + GROUPS * n;
     f->left = f->remains + GROUPS * points;
-    f->chosen = (struct chosen){memcpy(used, chosen->used, bytes), chosen->n, chosen->leading, true};
+    f->chosen = (struct chosen){memcpy(used, chosen->used, bytes), chosen->n, chosen->leading, true, chosen->linear};
     return f;
 }
 
@@ -813,7 +814,8 @@ static void read_points(struct ceduo_surface *s, struct ceduo_surface_fit *fit)
  * what others do. False without memory. */
 static bool rank(struct ceduo_surface *s, const struct chosen *chosen)
 {
-    const struct solution *f = fit_terms(s, &(const struct chosen){.used = chosen->used, .n = chosen->n});
+    const struct solution *f =
+        fit_terms(s, &(const struct chosen){.used = chosen->used, .n = chosen->n, .linear = chosen->linear});
     double *total = s->found.of + s->inputs_count;
     size_t *used = chosen->used;
     if (!f)
@@ -840,6 +842,10 @@ static bool choose(struct ceduo_surface *s, struct chosen *chosen)
         if ((!uses || uses[i]) && s->of[i].count > 0)
             chosen->used[chosen->n++] = i;
     chosen->enough = s->c.variance > 0 && chosen->n > 0 && is_enough(s, chosen);
+    if (!chosen->enough && s->c.variance > 0 && chosen->n > 0) {
+        chosen->linear = true;
+        chosen->enough = is_enough(s, chosen);
+    }
     if (!chosen->enough)
         return true;
     struct chosen tried = *chosen;
