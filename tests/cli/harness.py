@@ -163,7 +163,7 @@ def children_seconds():
 
 def without_unusual(err):
     """Standard error without warnings about unusual numbers, which many tests have on purpose; test_set.py has these warnings."""
-    return re.sub(r"(?m)^.* is unusual \(usual: .*\n(?:  .*\n)*", "", err)
+    return re.sub(r"(?m)^.* is unusual \(usual: .*\n(?:  .*\n|\d+ more problems?\n)*", "", err)
 
 
 def good(*arguments, **options):

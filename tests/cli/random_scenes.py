@@ -463,7 +463,7 @@ class Maker:
             self.case.used.add("controls_m")
             return
         node = self.table.tree["controls[]"]
-        scene["controls"] = [self.fill(node, {"x_m": x}) for x in self.places()]
+        scene["controls"] = [self.fill(node, {"x_m": x}, ("accepted_return_y",)) for x in self.places()]
         self.case.used.add("controls[].x_m")
 
     # ---- the forest ----
@@ -639,6 +639,9 @@ class Maker:
             scene["doubt"] = self.doubt()
         if self.chance(0.1):
             scene["blocks"] = self.blocks()
+            for control in scene.get("controls", []):  # it is refused without blocks
+                if self.chance(0.5):
+                    self.value(tree["controls[]"]["accepted_return_y"], control)
         if self.chance(0.1):
             scene["rules"] = self.rng.choice(["toscana", "umbria", "marche"])
         if self.chance(0.08):

@@ -26,7 +26,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (CEDUO, DONE, INPUT, RUN, SANITIZED, SLOWER, Failure, Folder, Suite, ceduo, expect,  # noqa: E402
-                     expect_equal, expect_schema, good, no_constant)
+                     expect_equal, expect_schema, good, no_constant, without_unusual)
 import random_scenes  # noqa: E402
 from runs import is_formula  # noqa: E402
 
@@ -828,8 +828,8 @@ SHORT_PAGES = 3  # of a chunk: with their doubt they are hundreds of scenes
 
 
 def without_sum(err):
-    """What is said of the scenes, without what is only said of several: which one it is, and how many failed."""
-    return re.sub(r"^ceduo: \d+ of \d+ failed: .*\n|^.*: this scene cannot be computed:\n", "", err, flags=re.M)
+    """What is wrong with the scenes, without what is only said of several: which one it is, and how many failed."""
+    return re.sub(r"^ceduo: \d+ of \d+ failed: .*\n|^.*: this scene cannot be computed:\n", "", without_unusual(err), flags=re.M)
 
 
 class Chunk:
@@ -933,7 +933,7 @@ class Chunk:
         results, of = {}, None
         while of is None or of:
             calls, some = self.results(of=of)
-            expect_equal("".join(done.err for done, _ in calls), "", "standard error")
+            expect_equal(without_unusual("".join(done.err for done, _ in calls)), "", "standard error")
             self.expect_status(calls, some, {})
             results.update(some)
             for i, case in list(self.cases.items()):
