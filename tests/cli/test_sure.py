@@ -18,7 +18,7 @@ PER_HA = "forest[0].stand.trees[{}].per_ha"
 STEPS = 1000 / 256  # between points
 
 
-ENERGY = {"model": "brauner", "u_J_m3": 1e5}
+ENERGY = {"model": "brauner", "u_J_m3": 1e5, "offset": "whole"}
 SLOPE = {"vertices_m": [[0, 70], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.9, "roughness_rad": 0.2, "friction": 0.5}]}
 
 
