@@ -118,8 +118,10 @@ def test_cpp():
         wanted = ceduo("--check", "-s", "rock.diameter_m=-1", "paper-site")
         expect_equal(wanted.status, 2)
         figure = json.loads(ceduo("--sensitivity=8", "-n", 20, "-f", "json", "paper-site").out)["figures"][0]
+        years = json.loads(ceduo("--sensitivity=8", "--years", "-n", 20, "-f", "json", "paper-site").out)["figures"]
+        inputs = next(f["inputs"] for f in years if f["figure"].startswith("rotation."))  # those of growth, too
         seen = re.findall(r"^  - name: (.*)\n(?:    .*\n)*?    option:", (ROOT / "profiles/scenes/vaujany.yaml").read_text(), re.M)
-        known = "".join(f"{line}\n" for line in [*(i["path"] for i in figure["inputs"]),
+        known = "".join(f"{line}\n" for line in [*(i["path"] for i in inputs),
                                                 f"{figure['doubt_p5']:.17g} {figure['doubt_p95']:.17g}", *seen])
         for how in [""] if BUILT else ["", "--static"]:
             place.shell(f"g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror {how.replace('--', '-')} {BUILT} -o ask ask.cc "

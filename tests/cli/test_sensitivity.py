@@ -240,6 +240,66 @@ def test_words_of_nobody():
     expect_equal(words_in_doubt(json.loads(good("--sensitivity=16", "-f", "json", "-n", 50, "four-systems").out)), four, "shipped stands")
 
 
+CURVE = {"dbh_most_m": (0.16, 0.15), "dbh_rate_1_y": (0.022, 0.2), "height_most_m": (14, 0.15), "height_rate_1_y": (0.035, 0.2)}
+CROWD = {"shoots_young": (16, 0.25), "shoots_old": (3, 0.25), "sdi_most": (1000, 0.2)}
+
+
+def grown(kind="assumed", **changes):
+    """A coppice that grows and is cut; only its growth is not measured."""
+    curve = {key: value for key, (value, _) in CURVE.items()}
+    growth = {"shoots": curve, "trees": {**curve, "dbh_most_m": 0.45}, **{key: value for key, (value, _) in CROWD.items()},
+              "trees_sdi_most": 350, "source": {"kind": kind, "text": "right in size"}}
+    return {"species": "ostrya-carpinifolia", "stools": {"per_ha": 800, "spacing_m": 0.3}, "energy": ENERGY,
+            "shoots": [{"per_ha": 2400, "dbh_m": 0.06, "height_m": 7, "volume_m3": 0.01}],
+            "trees": [{"per_ha": 60, "dbh_m": 0.2, "height_m": 12, "volume_m3": 0.2}], "growth": growth,
+            "cutting": {"rotation_years": 12, "stay_per_ha": [30, 30]}, **changes}
+
+
+def two_options(**changes):
+    options = [{"name": name, "forest": [{"from_m": 0, "to_m": 80, "cut_year": year, "stand": grown(**changes)}]}
+               for name, year in (("cut", 1), ("later", 7))]
+    return measured(forest=None, options=options)
+
+
+def test_growth():
+    """Over the years constants of growth that are assumed have ranges, once for all stands of a species; figures of today have none"""
+    result = answer(two_options(), "--years")
+    mean = figure(result, "rotation.exceed_probability")
+    inputs = {i["path"].split(".growth.")[1]: i for i in mean["inputs"]}
+    wanted = {f"{kind}.{key}": pair for kind in ("shoots", "trees") for key, pair in CURVE.items()} | CROWD
+    wanted["trees.dbh_most_m"] = (0.45, 0.15)
+    for key, (value, half) in wanted.items():
+        found = inputs.pop(key)
+        expect_near(found["lo"], value * (1 - half), 1e-12, key)
+        expect_near(found["hi"], value * (1 + half), 1e-12, key)
+        expect_equal(found["places"], 2, f"{key}: both options")
+        expect(found["measured_by"], found)
+    space = inputs.pop("trees_sdi_most")
+    expect_equal((space["lo"], space["hi"], inputs), (175, 700, {}))
+    expect(mean["doubt_p95"] - mean["doubt_p5"] > 0.01, mean)
+    for name in ("exceed_probability", "reach_probability"):
+        expect_equal(figure(result, name)["inputs"], [], f"{name}: today")
+        expect_equal(figure(result, name)["doubt_p5"], figure(result, name)["doubt_p95"], f"{name}: today")
+    expect_equal(answer(two_options())["figures"], [], "without --years nothing is in doubt")
+    expect_equal(answer(two_options(kind="measured"), "--years")["figures"], [], "measured growth")
+    two = two_options()
+    two["options"][1]["forest"][0]["stand"]["species"] = "fagus-sylvatica"
+    expect_equal({i["places"] for i in figure(answer(two, "--years"), "rotation.exceed_probability")["inputs"]}, {1}, "two species")
+
+
+def test_growth_leaves_today_alone():
+    """Figures of today are the same to the bit whether growth is assumed or measured"""
+    named = {"doubt": [DENSITY, LAW]}
+    found = [answer({**two_options(kind=kind), **named}, "--years", points=64) for kind in ("assumed", "measured")]
+    for name in ("exceed_probability", "reach_probability", "energy_per_released_kJ"):
+        ranges = [[(f["doubt_p5"], f["doubt_p95"], f["q2"], f["inputs"]) for f in result["figures"] if f["figure"] == name] for result in found]
+        expect_equal(len(ranges[0]), 3, name)
+        expect_equal(ranges[0], ranges[1], name)
+    means = [figure(result, "rotation.exceed_probability") for result in found]
+    wide, narrow = (m["doubt_p95"] - m["doubt_p5"] for m in means)
+    expect(wide > 1.2 * narrow, means)
+
+
 def test_ground_of_the_library():
     """A ground of the library has its published range, wherever it is"""
     slope = {"vertices_m": [[0, 60], [50, 25], [100, 0]], "materials": [{"from_m": 0, "to_m": 100, "material": "talus"}]}

@@ -157,13 +157,17 @@ def test_over_a_rotation():
 def test_worst_year():
     """What hangs on the index is that of the worst year: where what is in doubt changes nothing of it, as without"""
     mapping = wood(doubt=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}])
-    wooded = {"from_m": 0, "to_m": 90, "stand": "coppice-with-standards"}
+    measured = {"source": {"kind": "measured", "text": "on this slope"}}
+    wooded = {"from_m": 0, "to_m": 90, "stand": {"base": "coppice-with-standards", "growth": measured}}
     both = [{**wooded, "to_m": 45, "cut_year": 0}, {**wooded, "from_m": 45, "cut_year": 10}]  # years are shown from 10 on
     for forest in ([wooded], both):
         mapping["forest"] = forest
         found = find(mapping, "adc=100", 0.9, "--years", path="forest[0].stand.cutting.stay_per_ha[0]", lo=10, hi=300)
         expect(found["found"] and found["value"] > 10, found)
         expect_equal((found["over"], found["sure"]["value"], found["sure"]["probability"]), ("rotation", found["value"], 1), forest)
+    mapping["forest"] = [{**wooded, "stand": "coppice-with-standards"}]
+    found = find(mapping, "adc=100", 0.9, "--years", path="forest[0].stand.cutting.stay_per_ha[0]", lo=10, hi=300)
+    expect(found["sure"]["value"] > found["value"] and 0.9 <= found["sure"]["probability"] < 1, "growth that is assumed", found)
 
 
 def test_threads():

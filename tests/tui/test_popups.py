@@ -14,7 +14,7 @@ from test_screens import lights  # noqa: E402
 
 # ---- presets, new, open ----
 
-STEMS = {"ads-1": 8326 + 750, "simple-coppice": 2500 * 3 + 60}  # a hectare, of the files themselves
+STEMS = {"ads-1": 8326 + 750, "simple-coppice": round(2500 * 2.695 + 60)}  # a hectare, of the files themselves
 
 
 def test_presets():
