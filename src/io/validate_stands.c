@@ -96,7 +96,16 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
                        ceduo_stand_shoots(s), s->stools_per_ha);
 }
 
-/* Whether a stand with the name of the file that it was read from says what that says, but for name and source. */
+/* The stand that a name is about: that of today, without source, growth and cutting. */
+static const struct node *named_part(struct validator *v, const struct node *stand)
+{
+    static const char *const others[] = {"name", "source", "growth", "cutting"};
+    for (size_t i = 0; stand && i < sizeof others / sizeof others[0]; i++)
+        stand = ceduo_node_without(v->arena, stand, others[i]);
+    return stand;
+}
+
+/* True if a stand with the name of the file that it was read from is the stand of that file. */
 static bool is_as_named(struct validator *v, const struct node *stand)
 {
     const struct node *written = stand->written, *followed = stand->followed; /* there or not together */
@@ -105,11 +114,10 @@ static bool is_as_named(struct validator *v, const struct node *stand)
     const char *name = ceduo_node_text(stand, "name"), *before = ceduo_node_text(followed, "name");
     if (!name || !before || strcmp(name, before) != 0 || ceduo_node_text(written, "name")) /* it has a name of its own */
         return true;
-    for (size_t i = 0; written->kind == NODE_MAP && i < written->n; i++)
-        if (strcmp(written->items[i]->key, "base") != 0 && strcmp(written->items[i]->key, "source") != 0)
-            return false;
-    const struct node *a = ceduo_node_without(v->arena, ceduo_node_without(v->arena, stand, "name"), "source");
-    const struct node *b = ceduo_node_without(v->arena, ceduo_node_without(v->arena, followed, "name"), "source");
+    const struct node *own = written->kind == NODE_MAP ? named_part(v, written) : NULL;
+    if (own && own->n > (ceduo_node_get(own, "base") ? 1 : 0))
+        return false;
+    const struct node *a = named_part(v, stand), *b = named_part(v, followed);
     return !a || !b || ceduo_node_equal(a, b);
 }
 

@@ -21,6 +21,7 @@ void ceduo_changes_remove(struct changes *changes, const char *path);
 
 /* Makes the edit, and frees the changes. */
 bool ceduo_changes_make(struct changes *changes, const char *what, struct problems *problems);
+void ceduo_changes_free(struct changes *changes);
 
 /* As ceduo_document_set(), but what would then be said twice is taken out in the same state: a sphere has one of three
  * sizes, a rock a mass or a density, the ground a roughness in m or rad, shoots a number per ha or per stool. Another

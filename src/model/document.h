@@ -41,19 +41,25 @@ void ceduo_document_close(struct document *document);
 /* Each edit makes a new state, or leaves the document as it was with the reason in `problems`. Paths as in --set. */
 bool ceduo_document_set(struct document *document, const char *path, const char *value, struct problems *problems);
 bool ceduo_document_delete(struct document *document, const char *path, struct problems *problems);
-/* A copy of item `list[index]` after it, and a change (PATH=VALUE; may be NULL) to each of the two; of an option under a name of
- * its own. */
+/* A copy of item `list[index]` after it, and two changes (PATH=VALUE; may be NULL) to what the list is then; of an option under a
+ * name of its own. */
 bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const char *first, const char *second,
                               struct problems *problems);
 /* An item from `text` (YAML) into a list, which is made where there is none. */
 bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
                            struct problems *problems);
 bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to, struct problems *problems);
-/* The belts of the first option with `stand` in each, as YAML; where it has none, one down to the first control. */
+/* The belts of the first option and the years of their cuts, with `stand` in each, as YAML; without belts one down to the first
+ * control. */
 void ceduo_document_belts(const struct document *document, const char *stand, struct text *yaml);
 /* A new option after the last, with those belts. A scene that has only a forest gets options first, "current" the first of
  * them. */
 bool ceduo_document_add_option(struct document *document, const char *stand, const char *name, struct problems *problems);
+
+/* A copy of option `index` after the last option, as one state. Its name is `name`, or that with a number if another option has
+ * it. `sets`: n changes as of ceduo_document_set_all(), with paths that begin at the option: "forest[0].cut_year=1". */
+bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const char *const *sets, size_t n,
+                                struct problems *problems);
 
 /* Another name for an option; what was seen through its forest and the doubts about it go along. */
 bool ceduo_document_rename_option(struct document *document, size_t index, const char *name, struct problems *problems);

@@ -318,11 +318,14 @@ void ceduo_document_belts(const struct document *d, const char *stand, struct te
 {
     const struct ceduo_scene *s = &d->file.scene;
     size_t n = s->options[0].belts_count;
-    const struct ceduo_belt none = {.from_given = s->slope.origin_x, .to_given = s->controls->x_given};
+    const struct ceduo_belt none = {.from_given = s->slope.origin_x, .to_given = s->controls->x_given, .cut_year = NAN};
     const struct ceduo_belt *belts = n > 0 ? s->options[0].belts : &none;
-    for (size_t i = 0; i == 0 || i < n; i++)
-        ceduo_text_format(yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "[", belts[i].from_given,
-                          belts[i].to_given, stand);
+    for (size_t i = 0; i == 0 || i < n; i++) {
+        ceduo_text_format(yaml, "%s{from_m: %.10g, to_m: %.10g, ", i ? ", " : "[", belts[i].from_given, belts[i].to_given);
+        if (!isnan(belts[i].cut_year))
+            ceduo_text_format(yaml, "cut_year: %.10g, ", belts[i].cut_year);
+        ceduo_text_format(yaml, "stand: %s}", stand);
+    }
     ceduo_text_char(yaml, ']');
 }
 
@@ -353,6 +356,19 @@ bool ceduo_document_duplicate(struct document *d, const char *list, size_t index
     if (e.root && second)
         change(&e, second);
     return commit(&e, list);
+}
+
+bool ceduo_document_vary_option(struct document *d, size_t index, const char *name, const char *const *sets, size_t n,
+                                struct problems *problems)
+{
+    struct edit e = begin(d, problems);
+    const struct node *options = need_options(&e), *item = options->items[index];
+    item = ceduo_node_with(e.arena, ceduo_node_without(e.arena, item, "name_it"), "name",
+                           ceduo_node_scalar(e.arena, item->source, name, true));
+    put_item(&e, "options", options->n, with_new_name(&e, options, item));
+    for (size_t i = 0; e.root && i < n; i++)
+        change(&e, ceduo_arena_format(e.arena, "options[%zu].%s", options->n, sets[i]));
+    return commit(&e, name);
 }
 
 /* A node with every `option: old` in it as `name`. */

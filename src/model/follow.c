@@ -31,13 +31,18 @@ void ceduo_changes_remove(struct changes *c, const char *path)
 bool ceduo_changes_make(struct changes *c, const char *what, struct problems *problems)
 {
     bool good = ceduo_document_set_all(c->d, c->sets, c->n, what, problems);
+    ceduo_changes_free(c);
+    return good;
+}
+
+void ceduo_changes_free(struct changes *c)
+{
     ceduo_text_free(&c->taken);
     ceduo_text_free(&c->filled);
     ceduo_text_free(&c->followed);
     ceduo_text_free(&c->refused);
     free(c->sets);
     *c = (struct changes){.d = c->d};
-    return good;
 }
 
 /* A number of so many digits as text, in the arena of the document. */

@@ -44,6 +44,7 @@ struct jobs {
     /* under the lock */
     bool quit;
     enum job_kind working; /* JOB_KINDS: on none */
+    double uncertainty;    /* share of the level under way that is computed */
     uint64_t requests;
     struct job jobs[JOB_KINDS];
     union results fresh;
@@ -234,11 +235,26 @@ const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
     return ceduo_window_in(scene).kind == CEDUO_WINDOW_ALIKE ? N_("not computed: all years are alike") : NULL;
 }
 
+#define PROGRESS_STEP 0.01 /* a smaller part is no news */
+
+static void note_progress(void *context, uint64_t done, uint64_t all)
+{
+    struct jobs *q = context;
+    double share = all > 0 ? (double)done / (double)all : 0;
+    pthread_mutex_lock(&q->lock);
+    bool news = share >= q->uncertainty + PROGRESS_STEP || share < q->uncertainty; /* it falls if more points are taken */
+    if (news)
+        q->uncertainty = share;
+    pthread_mutex_unlock(&q->lock);
+    if (news)
+        tell(q);
+}
+
 static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void **result)
 {
     struct uncertainty *u = *result = ceduo_must(calloc(1, sizeof *u));
     struct ceduo_scene *scene = &u->file.scene;
-    *u = (struct uncertainty){.file = job->file, .level = job->level};
+    *u = (struct uncertainty){.file = job->file, .level = job->level, .option = job->option};
     if (!ceduo_inputs_of(&u->file, &u->inputs))
         return CEDUO_NO_MEMORY;
     if (scene->controls_count == 0)
@@ -256,7 +272,9 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
                                   .brief = true,
                                   .option = job->option,
                                   .threads = q->threads,
-                                  .cancel = &q->cancel};
+                                  .cancel = &q->cancel,
+                                  .progress = note_progress,
+                                  .context = q};
     if (u->inputs.n == 0)
         return CEDUO_OK;
     enum ceduo_status status = ceduo_effort_bound(&def, NULL); /* of all levels the same, so that nothing moves */
@@ -375,6 +393,7 @@ static void *work(void *argument)
             continue;
         }
         struct job job = q->jobs[kind];
+        q->uncertainty = 0;
         atomic_store(&q->cancel, false);
         pthread_mutex_unlock(&q->lock);
         void *result = NULL;
@@ -570,7 +589,8 @@ struct jobs_state ceduo_jobs_take(struct jobs *q, union results *results)
         ;
     pthread_mutex_lock(&q->lock);
     struct jobs_state state = {.busy = q->working != JOB_KINDS || next_kind(q) != JOB_KINDS,
-                               .fitting = is_wanted(&q->jobs[JOB_FIT])};
+                               .fitting = is_wanted(&q->jobs[JOB_FIT]),
+                               .uncertainty = is_wanted(&q->jobs[JOB_UNCERTAINTY]) ? q->uncertainty : NAN};
     for (enum job_kind k = 0; k < JOB_KINDS; k++)
         if (q->fresh.slots[k]) {
             state.fresh |= 1u << k;

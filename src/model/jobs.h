@@ -83,6 +83,7 @@ struct uncertainty {
     struct scene_inputs inputs;
     struct ceduo_doubt_answer answer; /* without inputs: empty */
     size_t level;                     /* that it has come to: of one option alone the first is the second */
+    size_t option;                    /* that level 0 is of */
     bool last;                        /* there is nothing more */
 };
 
@@ -131,6 +132,7 @@ struct jobs_state {
     unsigned fresh; /* kinds with a new result: 1 << JOB_SEARCH … */
     bool busy;      /* some job is not done */
     bool fitting;
+    double uncertainty; /* share (0…1) of its level that is computed; NaN: none is asked for, or all is done */
 };
 
 /* Puts the new results in the place of the older ones; of years the newest of each option stay. */

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "live.h"
 
+#include <math.h>
+
 #include "base/must.h"
 
 bool ceduo_live_create(struct live *l, unsigned threads)
 {
-    *l = (struct live){.jobs = ceduo_jobs_create(threads), .threads = threads};
+    *l = (struct live){.jobs = ceduo_jobs_create(threads), .uncertainty = NAN, .threads = threads};
     return l->jobs != NULL;
 }
 
@@ -35,6 +37,21 @@ const struct uncertainty *ceduo_live_uncertainty(const struct live *l, const str
 {
     const struct uncertainty *u = l->results.uncertainty;
     return u && u->file.root == file->root ? u : NULL;
+}
+
+double ceduo_live_awaits_uncertainty(const struct live *l, const struct scene_file *file, size_t option)
+{
+    const struct uncertainty *u = ceduo_live_uncertainty(l, file);
+    if (ceduo_node_text(file->root, "doubt") || (u && (u->inputs.n == 0 || u->level > 0 || u->option == option)))
+        return NAN; /* doubt: none */
+    return l->uncertainty;
+}
+
+bool ceduo_live_is_stale(const struct live *l, const struct ceduo_scene *scene, size_t option)
+{
+    const struct ceduo_snapshot *o = ceduo_live_snapshot(l, scene);
+    bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
+    return !o || l->results.snapshot->key != l->asked || (wooded && !(option < o->options && o->wooded[option]));
 }
 
 const struct comparison *ceduo_live_comparison(const struct live *l, const struct scene_file *file)
@@ -110,6 +127,13 @@ void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t opt
     refresh(l, &file->scene);
 }
 
+void ceduo_live_ask_uncertainty(struct live *l, const struct scene_file *file, size_t option, size_t levels)
+{
+    bool asked = ceduo_jobs_ask(l->jobs, JOB_UNCERTAINTY, file, option, levels);
+    l->busy |= asked;
+    l->uncertainty = asked ? 0 : levels == 0 ? NAN : l->uncertainty;
+}
+
 void ceduo_live_compare(struct live *l, const struct scene_file *file, size_t levels)
 {
     if (l->fit_of != file->root)
@@ -135,8 +159,11 @@ void ceduo_live_drop_fit(struct live *l)
 bool ceduo_live_news(struct live *l, const struct ceduo_scene *scene)
 {
     struct jobs_state state = ceduo_jobs_take(l->jobs, &l->results);
-    bool changed = state.fresh != 0 || state.busy != l->busy;
+    bool computes = !isnan(state.uncertainty), computed = !isnan(l->uncertainty);
+    bool changed =
+        state.fresh != 0 || state.busy != l->busy || computes != computed || (computes && state.uncertainty != l->uncertainty);
     l->busy = state.busy;
+    l->uncertainty = state.uncertainty;
     l->fitting = state.fitting;
     if (state.fresh & (1u << JOB_SNAPSHOT | 1u << JOB_YEARS | 1u << JOB_OTHERS))
         refresh(l, scene);

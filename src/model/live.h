@@ -14,6 +14,7 @@ struct live {
     struct ceduo_verdict verdict; /* of the result and of the years that fit the scene; n 0: none */
     const struct node *fit_of;    /* the scene that is fitted, or was last */
     uint64_t asked;               /* key of the runs that were asked for last */
+    double uncertainty;           /* as in struct jobs_state */
     unsigned threads;
     bool busy, fitting;
 };
@@ -40,6 +41,15 @@ struct ceduo_years *ceduo_live_years(const struct live *live, const struct ceduo
 
 /* What is known of this very scene; NULL: nothing yet. */
 const struct uncertainty *ceduo_live_uncertainty(const struct live *live, const struct scene_file *file);
+
+/* Asks for the uncertainty of the scene, up to so many levels (0: none), the option shown first. */
+void ceduo_live_ask_uncertainty(struct live *live, const struct scene_file *file, size_t option, size_t levels);
+
+/* Share (0…1) that is computed of the uncertainty of an option of this scene; NaN: it is known, or not asked for. */
+double ceduo_live_awaits_uncertainty(const struct live *live, const struct scene_file *file, size_t option);
+
+/* True if the figures of the option are still those of an earlier scene, or not there yet. */
+bool ceduo_live_is_stale(const struct live *live, const struct ceduo_scene *scene, size_t option);
 const struct comparison *ceduo_live_comparison(const struct live *live, const struct scene_file *file);
 const struct fit *ceduo_live_fitted(const struct live *live); /* a fit that is done */
 

@@ -170,10 +170,10 @@ void ceduo_app_refresh(struct app *app)
         app->belt = belts > 0 ? belts - 1 : 0;
     ceduo_live_follow(&app->live, &app->document.file, app->option, view->years);
     app->doubts |= view->uncertainty;
-    app->live.busy |= ceduo_jobs_ask(app->live.jobs, JOB_UNCERTAINTY, &app->document.file, app->option,
-                                     !app->doubts ? 0
-                                     : view->over ? UNCERTAINTY_ROTATION
-                                                  : UNCERTAINTY_LEVELS);
+    ceduo_live_ask_uncertainty(&app->live, &app->document.file, app->option,
+                               !app->doubts ? 0
+                               : view->over ? UNCERTAINTY_ROTATION
+                                            : UNCERTAINTY_LEVELS);
     ceduo_live_compare(&app->live, &app->document.file,
                        view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
@@ -199,13 +199,19 @@ void ceduo_app_show_option(struct app *app, size_t option)
     ceduo_app_refresh(app);
 }
 
+void ceduo_app_show_belt(struct app *app, size_t belt)
+{
+    if (belt == app->belt)
+        return;
+    app->belt = belt;
+    ceduo_app_refresh(app);
+}
+
 void ceduo_app_follow_belt(struct app *app)
 {
     struct form_row *row = ceduo_form_row(ceduo_app_form(app));
-    if (!row || row->n == 0 || strcmp(row->list, ceduo_app_forest(app)) != 0 || row->index == app->belt)
-        return;
-    app->belt = row->index;
-    ceduo_app_refresh(app);
+    if (row && row->n > 0 && strcmp(row->list, ceduo_app_forest(app)) == 0)
+        ceduo_app_show_belt(app, row->index);
 }
 
 /* ---- the trajectory of a rock ---- */
@@ -270,6 +276,8 @@ void ceduo_app_search(struct app *app)
 /* Shows a document that was opened, and the first value in it that is unusual. */
 static void took_document(struct app *app, const struct problems *problems)
 {
+    ceduo_cells_free(app->kept.cells);
+    app->kept.cells = NULL;
     if (app->no_recovery) {
         ceduo_document_forget(&app->document);
         free(app->document.recovery);
@@ -310,6 +318,7 @@ void ceduo_app_free(struct app *app)
         free(app->views[v].form.rows);
     ceduo_rock_trajectory_free(&app->trajectory);
     ceduo_cells_free(app->cells);
+    ceduo_cells_free(app->kept.cells);
     ceduo_document_close(&app->document);
     ceduo_arena_free(app->scratch);
     free(app->scratch);
@@ -357,12 +366,21 @@ void ceduo_app_resize(struct app *app, int width, int height)
     height = height < 1 ? 1 : height > CEDUO_CANVAS_MAX_HEIGHT ? CEDUO_CANVAS_MAX_HEIGHT : height;
     struct ceduo_cells *cells = ceduo_must(ceduo_cells_create(width, height, app->charset));
     ceduo_cells_free(app->cells);
+    ceduo_cells_free(app->kept.cells);
+    app->kept.cells = NULL;
     app->cells = cells;
     app->width = width;
     app->height = height;
 }
 
 /* ---- drawing ---- */
+
+void ceduo_app_plot(struct app *app, enum ceduo_plot plot, struct ceduo_area area, const struct ceduo_picture *picture)
+{
+    if (app->pictures_count < PICTURES_MAX)
+        app->pictures[app->pictures_count++] = area;
+    ceduo_plot_draw(plot, &app->cells->canvas, &area, picture);
+}
 
 void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
 {

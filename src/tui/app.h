@@ -78,12 +78,24 @@ struct place {
     bool put; /* it was moved: x holds */
 };
 
+#define PICTURES_MAX 3
+
+/* The last screen whose figures were those of its scene, and what it was of. */
+struct kept {
+    struct ceduo_cells *cells; /* NULL: none */
+    enum view_number view;
+    size_t option, year;
+};
+
 struct app {
     struct document document;
     struct arena *scratch;    /* strings until the next key */
     struct problems problems; /* of the edit that is under way */
     struct live live;
     struct ceduo_cells *cells;
+    struct kept kept;
+    struct ceduo_area pictures[PICTURES_MAX]; /* of figures, on the screen */
+    size_t pictures_count;
     int width, height;
     enum ceduo_charset charset;
     int theme; /* 0 dark, 1 light, 2 none */
@@ -173,6 +185,8 @@ const struct ceduo_option *ceduo_app_option(const struct app *app);
  * the bare slope; NULL before the first rocks. */
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app);
 
+void ceduo_app_show_belt(struct app *app, size_t belt);
+
 /* Shows the belt that the cursor of the form is on. */
 void ceduo_app_follow_belt(struct app *app);
 
@@ -217,6 +231,9 @@ void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
 void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
+
+/* Draws a picture of figures, which is dimmed while these are those of an earlier scene. */
+void ceduo_app_plot(struct app *app, enum ceduo_plot plot, struct ceduo_area area, const struct ceduo_picture *picture);
 
 /* Draws the form of the view that is open; nothing in an area without height. */
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area);

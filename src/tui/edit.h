@@ -18,6 +18,8 @@ void ceduo_items_add(struct app *app);
 void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at);
 /* The stretch between points of the profile that holds x, both as the file of the slope has them. */
 size_t ceduo_items_stretch_of(const struct app *app, double x_written);
+/* Asks for a class of blocks, wherever the cursor is. */
+void ceduo_items_add_blocks(struct app *app);
 void ceduo_items_delete(struct app *app);
 void ceduo_items_duplicate(struct app *app);
 void ceduo_items_move(struct app *app, int by);

@@ -8,6 +8,7 @@
 #include "ceduo/material.h"
 #include "edit.h"
 #include "model/changes.h"
+#include "popup.h"
 #include "popups.h"
 
 /* The item under the cursor, copied because each edit builds the form again. */
@@ -119,18 +120,28 @@ static bool insert(struct app *app, const struct item *item, size_t index, const
     return ceduo_document_insert(&app->document, item->list, index, yaml, &app->problems);
 }
 
-/* A belt in two; where the cursor is on its end, a new one behind it, if there is room. */
+#define BELT_MIN 0.5 /* m: a shorter belt is not added */
+
+/* A belt in two; if the cursor is on its end, a new one after it with the same stand, if there is room. A new belt ends at the next
+ * control, the next belt or the end of the slope. */
 static bool add_belt(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(app);
     size_t next = item->there ? item->index + 1 : 0;
-    double from = (item->there ? o->belts[item->index].to : s->release.x.mean) + s->slope.origin_x;
-    double to = (next < o->belts_count ? o->belts[next].from : s->slope.x[s->slope.vertices - 1]) + s->slope.origin_x;
-    bool behind = to - from > 0.5;
-    if (item->there && !(behind && ceduo_app_form(app)->column == 1))
+    double from = item->there ? o->belts[item->index].to : s->release.x.mean;
+    double to = next < o->belts_count ? o->belts[next].from : s->slope.x[s->slope.vertices - 1];
+    if (item->there && !(to - from > BELT_MIN && ceduo_app_form(app)->column == 1))
         return split_stretch(app, item);
-    return insert(app, item, next, ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to));
+    for (size_t i = 0; i < s->controls_count; i++)
+        to = s->controls[i].x - from > BELT_MIN ? fmin(to, s->controls[i].x) : to;
+    from += s->slope.origin_x;
+    to += s->slope.origin_x;
+    if (!item->there)
+        return insert(app, item, 0, ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to));
+    const char *first = ceduo_app_format(app, "%s[%zu].from_m=%.10g", item->list, next, from);
+    const char *second = ceduo_app_format(app, "%s[%zu].to_m=%.10g", item->list, next, to);
+    return ceduo_document_duplicate(&app->document, item->list, item->index, first, second, &app->problems);
 }
 
 /* Ground of the library, where none is said yet: that which was assumed. */
@@ -191,7 +202,14 @@ static bool ask_for_blocks(struct app *app, const struct item *item)
         largest ? ceduo_number_spoken(ceduo_app_format(app, "%.10g %.10g", largest->volumes[1], 10 * largest->volumes[1]))
                 : ""};
     ceduo_popup_item_of(app, item->list, NULL, offered, 2);
+    app->popup->title = _("A class of blocks that come down");
     return false;
+}
+
+void ceduo_items_add_blocks(struct app *app)
+{
+    const struct item item = item_of(app, "blocks", 0);
+    ask_for_blocks(app, &item);
 }
 
 /* ---- deleting ---- */

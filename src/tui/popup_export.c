@@ -210,7 +210,7 @@ void ceduo_popup_copy(struct app *app)
     if (r && scene->controls_count > 0) {
         ceduo_words_answer(&text,
                            &(const struct ceduo_subject){r, &app->live.verdict, ceduo_app_doubt(app, &doubt) ? &doubt : NULL,
-                                                         app->option, r->last_control, false},
+                                                         app->option, r->last_control, false, false},
                            COPY_WIDTH);
         ceduo_text_char(&text, '\n');
     }

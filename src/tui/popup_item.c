@@ -3,8 +3,27 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "io/emit.h"
+#include "model/changes.h"
 #include "popup.h"
 #include "popups.h"
+
+/* Adds an item at the end of a list. Blocks that are one power law become the first class; the first blocks take the place of their
+ * number a year. */
+static bool append_item(struct app *app, const char *list, const struct node *now, const char *yaml)
+{
+    struct changes c = {.d = &app->document};
+    LOCAL_TEXT(first);
+    if (now && now->kind == NODE_LIST)
+        return ceduo_document_insert(&app->document, list, now->n, yaml, &app->problems);
+    if (now)
+        ceduo_emit_flow(&first, now);
+    ceduo_text_put(&first, now ? ", " : "");
+    if (strcmp(list, "blocks") == 0)
+        ceduo_changes_remove(&c, "rocks_per_year");
+    ceduo_changes_add(&c, "%s=[%s%s]", list, ceduo_text_string(&first), yaml);
+    return ceduo_changes_make(&c, list, &app->problems);
+}
 
 /* The path is that of the list; a group is kept. */
 static bool filled_item(struct app *app, struct popup *p)
@@ -21,18 +40,22 @@ static bool filled_item(struct app *app, struct popup *p)
             ceduo_text_format(&item, "%s%s: %s", item.length > 1 ? ", " : "", f->key, value.bytes);
     }
     ceduo_text_put(&item, "}");
+    bool counted = strcmp(list, "blocks") == 0 && ceduo_document_node(&app->document, "rocks_per_year");
     const char *yaml =
         p->kept ? ceduo_app_format(app, "{%s: %s}", p->kept, item.bytes) : ceduo_app_format(app, "%s", item.bytes);
     const struct node *now = ceduo_document_node(&app->document, list);
-    size_t n = now && now->kind == NODE_LIST ? now->n : 0;
-    if (!ceduo_app_edited(app, ceduo_document_insert(&app->document, list, n, yaml, &app->problems))) {
+    size_t n = !now ? 0 : now->kind == NODE_LIST ? now->n : 1;
+    if (!ceduo_app_edited(app, append_item(app, list, now, yaml))) {
         const char *said = ceduo_app_format(app, "%s", app->message), *colon = strstr(said, ": ");
         if (colon && strncmp(said, list, strlen(list)) == 0) /* a path of what is not there */
             ceduo_app_warn(app, "%s", colon + 2);
         return false;
     }
     ceduo_form_go(ceduo_app_form(app), list, n);
-    ceduo_app_say(app, "%s", _("taken over; u takes it back"));
+    ceduo_app_say(
+        app, "%s",
+        counted ? _("taken over; blocks say how many rocks a year come down, so rocks_per_year is removed; u takes it back")
+                : _("taken over; u takes it back"));
     return true;
 }
 

@@ -21,8 +21,7 @@
 
 /* ---- a stand by itself ---- */
 
-/* A scene of nothing but the stand, with the rock of this one; false where it is none. To be released in any case. */
-static bool read_stand(const struct app *app, const char *value, struct scene_file *file)
+bool ceduo_popup_read_stand(const struct app *app, const char *value, struct scene_file *file)
 {
     LOCAL_PROBLEMS(problems);
     LOCAL_TEXT(yaml);
@@ -44,7 +43,7 @@ static const char *describe_stand(struct app *app, const char *value, const char
 {
     struct scene_file file;
     const char *words = whose;
-    if (read_stand(app, value, &file)) {
+    if (ceduo_popup_read_stand(app, value, &file)) {
         const struct ceduo_belt *b = &file.scene.options[0].belts[0];
         struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
         double age = NAN, dbh = sqrt(4 * r.basal_area / (M_PI * r.stems_per_ha));
@@ -172,7 +171,8 @@ static void preview_word(struct app *app, struct popup *p)
 static void preview_stand(struct app *app, struct popup *p)
 {
     struct scene_file file = {0};
-    if (strcmp(p->value, STAND_COUNTED) != 0 && strcmp(p->value, STAND_SURVEY) != 0 && read_stand(app, p->value, &file)) {
+    bool stand = strcmp(p->value, STAND_COUNTED) != 0 && strcmp(p->value, STAND_SURVEY) != 0;
+    if (!ceduo_popup_preview_treatment(app, p) && stand && ceduo_popup_read_stand(app, p->value, &file)) {
         const struct ceduo_belt *b = &file.scene.options[0].belts[0];
         struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
         ceduo_text_format(&p->text, _("%s: %.0f stools, %.0f stems, %.0f trees per ha; basal area %.1f m2/ha\n"), b->name,
@@ -214,12 +214,68 @@ static bool read_survey(const char *path, struct text *value, struct problems *p
     return root != NULL;
 }
 
+/* ---- what goes with the stand that another one replaces ---- */
+
+/* The entry of a stand that the scene itself has: the file that the stand is read from has not the same. NULL if there is none. */
+static const struct node *own_entry(const struct node *stand, const char *key)
+{
+    const struct node *entry = ceduo_node_get(stand, key);
+    bool reference = stand && stand->written && stand->written->kind == NODE_SCALAR;
+    const struct node *filed = reference ? ceduo_node_get(stand->followed, key) : NULL;
+    return entry && filed && ceduo_node_equal(entry, filed) ? NULL : entry;
+}
+
+static const char *name_of_stand(const struct app *app)
+{
+    return app->belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[app->belt].name : "";
+}
+
+/* Replace the stand of the belt shown; say what of its own growth and cutting is dropped, and that the year of its cut stays. */
+static bool replace_stand(struct app *app, const char *path, const char *value)
+{
+    static const char *const keys[2] = {"growth", "cutting"};
+    const struct node *old = ceduo_document_node(&app->document, path);
+    const char *name = ceduo_app_format(app, "%s", name_of_stand(app));
+    bool changed[2] = {false, false}, dropped[2] = {false, false}; /* growth, cutting */
+    path = ceduo_app_format(app, "%s", path);
+    if (!ceduo_app_set(app, path, value))
+        return false;
+    const struct node *now = ceduo_document_node(&app->document, path);
+    for (int i = 0; i < 2; i++) {
+        const struct node *before = own_entry(old, keys[i]), *after = ceduo_node_get(now, keys[i]);
+        dropped[i] = before && !after;
+        changed[i] = before && after && !ceduo_node_equal(before, after);
+    }
+    LOCAL_TEXT(said);
+    if (changed[0] || changed[1])
+        ceduo_text_format(&said,
+                          changed[0] && changed[1] ? _("growth and cutting of '%s' are now those of '%s'")
+                          : changed[0]             ? _("the growth of '%s' is now that of '%s'")
+                                                   : _("the cutting of '%s' is now that of '%s'"),
+                          name, name_of_stand(app));
+    if (dropped[0] || dropped[1])
+        ceduo_text_then(&said, said.length > 0 ? "; " : "",
+                        dropped[0] && dropped[1] ? _("growth and cutting of '%s' are dropped: '%s' has none")
+                        : dropped[0]             ? _("the growth of '%s' is dropped: '%s' has none")
+                                                 : _("the cutting of '%s' is dropped: '%s' has none"),
+                        name, name_of_stand(app));
+    double year = ceduo_app_option(app)->belts[app->belt].cut_year;
+    if (!isnan(year) && ceduo_node_get(now, "cutting"))
+        ceduo_text_then(&said, said.length > 0 ? "; " : "", _("it is cut in year %g as before"), year);
+    if (said.length > 0)
+        ceduo_app_say(app, "%s", said.bytes);
+    return true;
+}
+
 static void chose_survey(struct app *app, struct popup *p)
 {
     LOCAL_TEXT(value);
-    if (!read_survey(p->value, &value, &app->problems))
+    if (!read_survey(p->value, &value, &app->problems)) {
         ceduo_app_edited(app, false);
-    else if (ceduo_app_set(app, p->path, value.bytes))
+        return;
+    }
+    app->message[0] = '\0';
+    if (replace_stand(app, p->path, value.bytes) && !app->message[0])
         ceduo_app_say(app,
                       ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
                           ? _("the stand of the survey '%.100s'; its growth and cutting are assumed: check them")
@@ -249,6 +305,8 @@ static void chose_word(struct app *app, struct popup *p)
 static void chose_new_option(struct app *app, struct popup *p)
 {
     const char *name = p->value;
+    if (ceduo_popup_chose_treatment(app, p->value))
+        return;
     describe_stand(app, p->value, "", &name);
     if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, p->value, name, &app->problems))) {
         ceduo_app_show_option(app, app->document.file.scene.options_count - 1);
@@ -275,7 +333,7 @@ static void chose_stand(struct app *app, struct popup *p)
     else if (strcmp(p->value, STAND_SURVEY) == 0)
         ceduo_popup_survey(app);
     else
-        chose_word(app, p);
+        replace_stand(app, p->path, p->value);
 }
 
 static void offer_measured(struct popup *p)
@@ -288,9 +346,12 @@ static void list_stands(struct app *app, const char *title, popup_call *chosen)
 {
     struct popup *p = ceduo_popup_list(app, title, ceduo_app_stand(app), chosen);
     p->preview = preview_stand;
-    const char *now = listed_name(app, p->path);
+    bool replaces = chosen == chose_stand;
+    const char *now = replaces ? listed_name(app, p->path) : NULL;
+    if (!replaces)
+        ceduo_popup_offer_treatments(app, p);
     add_files(app, p, "stands", false, false, now);
-    if (chosen == chose_stand)
+    if (replaces)
         offer_measured(p);
     add_files(app, p, "stands", true, false, now);
 }
@@ -329,12 +390,15 @@ void ceduo_popup_presets(struct app *app)
     if (ceduo_app_option(app)->belts_count == 0)
         ceduo_app_say(app, "%s", _("there is no belt yet: a adds one in view 1"));
     else
-        list_stands(app, _("Stand of this belt"), chose_stand);
+        list_stands(app,
+                    ceduo_app_format(app, _("Stand of belt %zu, now '%s'"), app->belt + 1,
+                                     ceduo_app_option(app)->belts[app->belt].name),
+                    chose_stand);
 }
 
 void ceduo_popup_new_option(struct app *app)
 {
-    list_stands(app, _("A new option with the stand …"), chose_new_option);
+    list_stands(app, _("A new option: the present one treated, or another stand"), chose_new_option);
 }
 
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell)

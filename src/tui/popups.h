@@ -23,6 +23,11 @@ void ceduo_popup_counts(struct app *app);
  * `offered`: what stands in the first fields. */
 void ceduo_popup_item_of(struct app *app, const char *list, const char *group, const char *const *offered, size_t n);
 
+/* Treatments of the option under the cursor as items of a list. The other two return false if the item is none of them. */
+void ceduo_popup_offer_treatments(struct app *app, struct popup *popup);
+bool ceduo_popup_preview_treatment(struct app *app, struct popup *popup);
+bool ceduo_popup_chose_treatment(struct app *app, const char *value);
+
 /* What the search came to that ceduo_popup_find() started. */
 void ceduo_popup_found(struct app *app, struct search_answer *sought);
 
@@ -52,6 +57,9 @@ void ceduo_popup_offer_files(struct app *app, struct popup *popup);
 #define STAND_COUNTED _("from a sample plot") /* in the place of a stand: what a sample plot counts */
 #define STAND_SURVEY  _("from a survey")      /* what a CSV file of plots holds */
 void ceduo_popup_survey(struct app *app);     /* asks for that file */
+
+/* A scene of nothing but the stand, with the rock of this one; false if it is no stand. The caller releases `file` in any case. */
+bool ceduo_popup_read_stand(const struct app *app, const char *value, struct scene_file *file);
 
 void ceduo_popup_offer_stands(struct app *app, struct popup *popup);
 void ceduo_popup_offer_grounds(struct app *app, struct popup *popup);

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <limits.h>
+#include <math.h>
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "base/utf8.h"
 #include "popup.h"
 
@@ -71,7 +73,8 @@ static bool draw_title(struct app *app)
     return fits;
 }
 
-/* The answer for the option that is shown. */
+/* The answer for the option that is shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty, which may change it, is
+ * computed. */
 static void draw_verdict(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
@@ -79,15 +82,62 @@ static void draw_verdict(struct app *app)
     if (!r || r->scene->controls_count == 0)
         return;
     struct ceduo_pane pane = ceduo_app_pane(app, 1);
-    const struct ceduo_subject subject = {r, pane.verdict, pane.doubt, app->option, r->last_control, false};
+    struct ceduo_subject subject = {r, pane.verdict, pane.doubt, app->option, r->last_control, false, false};
     enum ceduo_judgement judgement = ceduo_words_outcome(&subject).answer;
-    ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE);
+    bool open = judgement != CEDUO_NOTHING && judgement != CEDUO_UNANSWERED;
+    double share = open ? ceduo_live_awaits_uncertainty(&app->live, &app->document.file, app->option) : NAN;
+    const char *progress = isnan(share) ? "" : ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
+    subject.so_far = !isnan(share);
+    ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE - ceduo_utf8_width(progress));
     ceduo_canvas_put(&app->cells->canvas, 1, 1, app->width - 1,
                      judgement == CEDUO_UNANSWERED ? CEDUO_ROLE_TITLE
                      : judgement == CEDUO_YES      ? CEDUO_ROLE_GOOD
                      : judgement == CEDUO_NO       ? CEDUO_ROLE_BAD
                                                    : CEDUO_ROLE_WARN,
                      answer.bytes);
+    ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 1, CEDUO_ROLE_DIM, progress);
+}
+
+/* ---- figures of an earlier scene ---- */
+
+/* Dims what is drawn in an area, or what `from` has there instead. */
+static void dim(struct app *app, struct ceduo_area area, const struct ceduo_cells *from)
+{
+    for (int y = area.top; y < area.top + area.height; y++)
+        for (int x = area.left; x < area.left + area.width; x++) {
+            struct ceduo_cell *cell = ceduo_cells_at(app->cells, x, y);
+            if (cell && from)
+                *cell = *ceduo_cells_at(from, x, y);
+            if (cell && cell->role != CEDUO_ROLE_BLANK)
+                cell->role = CEDUO_ROLE_DIM;
+        }
+}
+
+/* While the figures are those of an earlier scene, they stand there dimmed: as they are drawn, or from the last screen that had
+ * any if nothing is known of the option. The answer always is that of the last screen: it belongs to the earlier scene. */
+static void dim_figures(struct app *app, struct ceduo_area column)
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    const struct ceduo_result *r = app->live.result;
+    struct kept *kept = &app->kept;
+    if (!ceduo_live_is_stale(&app->live, scene, app->option)) {
+        if (!kept->cells)
+            kept->cells = ceduo_must(ceduo_cells_create(app->width, app->height, app->charset));
+        memcpy(kept->cells->cell, app->cells->cell, (size_t)app->width * (size_t)app->height * sizeof *app->cells->cell);
+        kept->view = app->view;
+        kept->option = app->option;
+        kept->year = app->year;
+        return;
+    }
+    bool same = kept->cells && kept->option == app->option && (kept->year == app->year || kept->view != VIEW_ROTATION);
+    bool known = r && (!r->wooded || ceduo_result_wooded(r, app->option, r->last_control));
+    const struct ceduo_cells *before = same && !known ? kept->cells : NULL;
+    dim(app, (struct ceduo_area){0, 1, app->width, 1}, same ? kept->cells : NULL);
+    dim(app, column, before);
+    for (size_t i = 0; i < app->pictures_count; i++)
+        dim(app, app->pictures[i], kept->view == app->view ? before : NULL);
+    if (r || same)
+        ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 1, CEDUO_ROLE_TEXT, _(" computing \xe2\x80\xa6"));
 }
 
 static void draw_explanation(struct app *app)
@@ -185,6 +235,7 @@ static void draw_column(struct app *app, struct ceduo_area area, bool titled)
 void ceduo_screen_draw(struct app *app)
 {
     ceduo_cells_clear(app->cells);
+    app->pictures_count = 0;
     if (app->width < WIDTH_MIN || app->height < HEIGHT_MIN) {
         struct ceduo_area all = {0, 0, app->width, app->height};
         const char *text =
@@ -201,10 +252,12 @@ void ceduo_screen_draw(struct app *app)
     for (int y = now.top; y < now.top + now.height; y++)
         ceduo_cells_label(app->cells, now.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
     draw_column(app, now, !titled);
-    if (ceduo_views[app->view]->result && !app->live.result)
+    if (ceduo_views[app->view]->result && !app->live.result) {
         ceduo_app_text(app, body, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), 0);
-    else
+        app->pictures[app->pictures_count++] = body;
+    } else
         ceduo_views[app->view]->draw(app, body);
+    dim_figures(app, now);
     draw_explanation(app);
     draw_bar(app);
     if (app->popup)

@@ -10,7 +10,7 @@ static void build(struct app *app, struct form *form)
     if (ceduo_node_get(app->document.file.root, "options"))
         ceduo_form_table(form, "options", NULL, "name");
     else
-        ceduo_form_note(form, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."));
+        ceduo_form_note(form, _("One way to treat this forest so far. a adds another, y a copy of this one."));
     form->row = app->option + 1; /* below the names of the columns */
 }
 
@@ -25,7 +25,7 @@ enum { PANE_TABLE, PANE_COMPARE, PANE_TRADEOFF, PANES };
 static void draw_picture(struct app *app, enum ceduo_plot plot, struct ceduo_area area)
 {
     struct ceduo_picture p = ceduo_app_picture(app);
-    ceduo_plot_draw(plot, &app->cells->canvas, &area, &p);
+    ceduo_app_plot(app, plot, area, &p);
 }
 
 /* The table, as much of it as holds the option under the cursor; below it what is to be said, which scrolls, and a picture where

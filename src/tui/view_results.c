@@ -43,7 +43,7 @@ static void draw(struct app *app, struct ceduo_area area)
         plot.top += page.height + 1;
     }
     for (int i = 0; i < n; i++, plot.top += plot.height + 1)
-        ceduo_plot_draw(plots[i], &app->cells->canvas, &plot, &picture);
+        ceduo_app_plot(app, plots[i], plot, &picture);
     draw_page(app, page, &picture, n == 0);
 }
 

@@ -2,9 +2,22 @@
 /* View 3: the rock, how it starts, and how it is computed. */
 #include <math.h>
 
-#include "app.h"
+#include <string.h>
+
 #include "base/language.h"
+#include "edit.h"
 #include "popups.h"
+
+/* A power law, or a list of classes. */
+static void build_blocks(struct form *form, const struct node *blocks)
+{
+    static const char columns[] = "per_year volume_m3 exponent";
+    ceduo_form_heading(form, _("Blocks that come down"));
+    if (blocks && blocks->kind == NODE_MAP)
+        ceduo_form_fields(form, "blocks.", columns);
+    else
+        ceduo_form_table(form, "blocks", NULL, columns);
+}
 
 static void build(struct app *app, struct form *form)
 {
@@ -12,10 +25,12 @@ static void build(struct app *app, struct form *form)
                                         [CEDUO_CYLINDER] = "shape diameter_m height_m",
                                         [CEDUO_ELLIPSOID] = "shape axes_m",
                                         [CEDUO_BLOCK] = "shape axes_m"};
-    static const char columns[] = "per_year volume_m3 exponent";
-    ceduo_form_heading(form, _("Rock"));
+    const struct node *blocks = ceduo_document_node(&app->document, "blocks");
+    ceduo_form_heading(form, blocks ? _("Rock: shape and density; blocks need no size here") : _("Rock"));
     ceduo_form_fields(form, "rock.", sizes[app->document.file.scene.rock.shape]);
     ceduo_form_fields(form, "rock.", "mass_kg density_kg_m3");
+    if (blocks)
+        build_blocks(form, blocks);
     ceduo_form_heading(form, _("Release"));
     ceduo_form_fields(form, "release.", "x_m height_m vx_m_s vz_m_s spin_rad_s");
     ceduo_form_rest(form, "release");
@@ -23,12 +38,10 @@ static void build(struct app *app, struct form *form)
     ceduo_form_fields(form, "simulation.",
                       "law contact_model rule threshold_m scale_rn friction_bound gravity_m_s2 seed rocks");
     ceduo_form_rest(form, "simulation");
-    const struct node *blocks = ceduo_document_node(&app->document, "blocks"); /* a power law, or a list of classes */
-    ceduo_form_heading(form, _("Blocks that come down"));
-    if (blocks && blocks->kind == NODE_MAP)
-        ceduo_form_fields(form, "blocks.", columns);
+    if (!blocks)
+        build_blocks(form, NULL);
     else
-        ceduo_form_table(form, "blocks", NULL, columns);
+        ceduo_form_heading(form, _("Surveys and title"));
     ceduo_form_fields(form, "", "design.survey design.blocks title");
     ceduo_form_heading(form, _("Head of the report"));
     ceduo_form_rest(form, "page");
@@ -61,11 +74,28 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &text);
 }
 
-static const struct act acts[] = {{ACTION_PRESETS, .plain = ceduo_popup_starts}, {0}};
+/* Deletes the class under the cursor, or the power law that is all blocks. */
+static void delete_blocks(struct app *app)
+{
+    const struct node *blocks = ceduo_document_node(&app->document, "blocks");
+    const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
+    if (!blocks || blocks->kind != NODE_MAP || !cell || strncmp(cell->path, "blocks.", 7) != 0)
+        ceduo_items_delete(app);
+    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, "blocks", &app->problems)))
+        ceduo_app_say(app, "%s", _("blocks deleted: every rock is the one above; u brings them back"));
+}
 
-const struct view ceduo_view_rock = {
-    .panes = 1,
-    .build = build,
-    .draw = draw,
-    .acts = {acts},
-    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")}, {ACTION_PRESETS, N_("presets")}}};
+static const struct act acts[] = {{ACTION_PRESETS, .plain = ceduo_popup_starts},
+                                  {ACTION_ADD, .plain = ceduo_items_add_blocks},
+                                  {ACTION_DELETE, .plain = delete_blocks},
+                                  {0}};
+
+const struct view ceduo_view_rock = {.panes = 1,
+                                     .build = build,
+                                     .draw = draw,
+                                     .acts = {acts},
+                                     .bar = {{ACTION_EDIT, N_("edit")},
+                                             {ACTION_ADD, N_("blocks")},
+                                             {ACTION_PRESETS, N_("presets")},
+                                             {ACTION_MORE, N_("more")},
+                                             {ACTION_LESS, N_("less")}}};

@@ -239,6 +239,16 @@ static void choose_at_place(struct app *app)
 
 enum { PANE_FORM, PANE_ROCKS, PANE_PLACE, PANES };
 
+/* Shows the belt under the cursor: that of the form, or along the slope. Elsewhere the belt stays that was shown. */
+static void follow(struct app *app)
+{
+    size_t belt = belt_at(app, place_x(app));
+    if (ceduo_app_state(app)->pane == PANE_PLACE && belt < ceduo_app_option(app)->belts_count)
+        ceduo_app_show_belt(app, belt);
+    else if (ceduo_app_state(app)->pane == PANE_FORM)
+        ceduo_app_follow_belt(app);
+}
+
 /* The picture alone where it has the focus, otherwise with the form below it. */
 static void draw(struct app *app, struct ceduo_area area)
 {
@@ -265,16 +275,16 @@ static void draw(struct app *app, struct ceduo_area area)
     else if (alone)
         ceduo_app_hint(app, _("left, right: another rock; down, up: along its way; Tab: along the slope"));
     struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
-    ceduo_plot_draw(CEDUO_PLOT_PROFILE, &app->cells->canvas, &profile, &picture);
+    ceduo_app_plot(app, CEDUO_PLOT_PROFILE, profile, &picture);
     struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
     if (strips > 1) {
         picture.no_x_axis = true;
-        ceduo_plot_draw(CEDUO_PLOT_HEIGHT, &app->cells->canvas, &next, &picture);
+        ceduo_app_plot(app, CEDUO_PLOT_HEIGHT, next, &picture);
         next.top += strip;
     }
     picture.no_x_axis = strips < 2;
     if (strips > 0)
-        ceduo_plot_draw(CEDUO_PLOT_ENERGY, &app->cells->canvas, &next, &picture);
+        ceduo_app_plot(app, CEDUO_PLOT_ENERGY, next, &picture);
     struct ceduo_area below = {area.left, area.top + area.height - form_height, area.width, form_height};
     ceduo_app_draw_form(app, below);
 }
@@ -320,6 +330,7 @@ const struct view ceduo_view_slope = {.panes = PANES,
                                       .build = build,
                                       .draw = draw,
                                       .acts = {form_acts, rock_acts, place_acts},
+                                      .follow = follow,
                                       .bar = {{ACTION_EDIT, N_("edit")},
                                               {ACTION_ADD, N_("add")},
                                               {ACTION_DELETE, N_("delete")},

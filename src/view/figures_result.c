@@ -172,8 +172,8 @@ static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void 
     const struct ceduo_outcome o = outcome_of(p);
     LOCAL_TEXT(why);
     if ((o.ahead && o.answer != CEDUO_NOTHING) || o.impossible)
-        ceduo_words_reason(
-            &why, &(const struct ceduo_subject){p->report->result, p->report->verdict, NULL, p->option, p->control, false});
+        ceduo_words_reason(&why, &(const struct ceduo_subject){p->report->result, p->report->verdict, NULL, p->option,
+                                                               p->control, false, false});
     else
         ceduo_words_because(&why, p->report->result, p->control, through_the_wood(p));
     say(context, ceduo_text_string(&why));

@@ -61,8 +61,8 @@ static void append_judged(struct text *text, const struct ceduo_report *report, 
     const struct ceduo_result *r = report->result;
     size_t n = 0;
     for (size_t i = 0; i < r->scene->options_count; i++) {
-        const struct ceduo_outcome o =
-            ceduo_words_outcome(&(const struct ceduo_subject){r, report->verdict, report->doubt, i, r->last_control, false});
+        const struct ceduo_outcome o = ceduo_words_outcome(
+            &(const struct ceduo_subject){r, report->verdict, report->doubt, i, r->last_control, false, false});
         if ((today ? o.today : o.answer) == judgement)
             ceduo_text_format(text, n++ > 0 ? ", '%s'" : "'%s'", r->scene->options[i].name);
     }
@@ -137,7 +137,7 @@ static void say_mean(struct ceduo_page *page, const struct ceduo_report *report)
     LOCAL_TEXT(value);
     ceduo_measure_value(&value, &today);
     const struct ceduo_outcome o =
-        ceduo_words_outcome(&(const struct ceduo_subject){r, report->verdict, report->doubt, 0, r->last_control, false});
+        ceduo_words_outcome(&(const struct ceduo_subject){r, report->verdict, report->doubt, 0, r->last_control, false, false});
     ceduo_text_format(text, _("; today %s"), ceduo_text_string(&value));
     if (o.today != CEDUO_UNANSWERED)
         ceduo_text_format(text, " (%s)", ceduo_words_decided(o.today));
@@ -160,7 +160,7 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
         if (k != r->last_control && isnan(r->scene->controls[k].accepted))
             continue;
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-        const struct ceduo_subject subject = {r, report->verdict, report->doubt, 0, k, k == r->last_control};
+        const struct ceduo_subject subject = {r, report->verdict, report->doubt, 0, k, k == r->last_control, false};
         ceduo_words_answer(text, &subject, page->width - CEDUO_ANSWER_INDENT);
         if (k == r->last_control)
             say_mean(page, report);

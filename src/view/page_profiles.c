@@ -53,7 +53,7 @@ void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *rep
                                  .options = ceduo_must(ceduo_arena_take(&p->arena, (n + 1) * sizeof *to->options))};
     for (size_t i = 0; i < n; i++) {
         struct profile_option *option = &to->options[i];
-        const struct ceduo_subject subject = {r, report->verdict, report->doubt, i, r->last_control, false};
+        const struct ceduo_subject subject = {r, report->verdict, report->doubt, i, r->last_control, false, false};
         LOCAL_TEXT(answer);
         if (c)
             ceduo_words_answer(&answer, &subject, CEDUO_PAGE_WIDTH - SCENE_WIDTH - 1);

@@ -85,7 +85,7 @@ static bool has_rates(const struct ceduo_pane *pane)
 static struct ceduo_outcome outcome_of(const struct ceduo_pane *pane, size_t i)
 {
     return ceduo_words_outcome(
-        &(const struct ceduo_subject){pane->result, pane->verdict, pane->doubt, i, pane->result->last_control, false});
+        &(const struct ceduo_subject){pane->result, pane->verdict, pane->doubt, i, pane->result->last_control, false, false});
 }
 
 static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
@@ -190,7 +190,7 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (r->scene->blocks_count > 0 && r->scene->controls_count > 0)
         ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, r->last_control);
     if (v->n < 2) {
-        ceduo_page_note(page, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."));
+        ceduo_page_note(page, _("One way to treat this forest so far. a adds another, y a copy of this one."));
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);

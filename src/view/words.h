@@ -60,7 +60,8 @@ struct ceduo_subject {
     const struct ceduo_verdict *verdict;    /* may be NULL: today alone */
     const struct ceduo_doubt_report *doubt; /* may be NULL */
     size_t option, control;
-    bool apart; /* the caller shows mean, worst year and today elsewhere */
+    bool apart;  /* the caller shows mean, worst year and today elsewhere */
+    bool so_far; /* the uncertainty is still being computed */
 };
 
 /* What is said of it, see ceduo_outcome_of(). */

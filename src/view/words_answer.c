@@ -317,6 +317,8 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
     } else {
         ceduo_words_decision(&verdict, o.answer);
     }
+    if (s->so_far)
+        ceduo_text_put(&verdict, _(" so far"));
     if (o.answer == CEDUO_YES && o.also_bare)
         ceduo_text_put(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;

@@ -31,6 +31,27 @@ def test_nothing():
             expect("may be" not in sure.now + sure.lines[1], sure)
 
 
+def test_so_far():
+    """While the uncertainty is computed every view's answer is one so far, with how much of it is known; not without one asked for."""
+    edited = "".join(f"key 3\nfind title\nset {view}\nkey {view}\ndump\n" for view in range(1, 9))
+    with Place() as place:
+        place.write("unsure.yaml", NO_LAW + DOUBT)
+        place.write("sure.yaml", NO_LAW + "doubt: none\n")
+        place.write("options.yaml", CUTS.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
+                    + DOUBT.replace("forest[0]", "options[*].forest[0]"))
+        for scene, keys, edits in (("unsure.yaml", edited, 8), ("options.yaml", "key 3\nfind title\nset x\nkey ] 5\ndump\n", 1)):
+            unasked, first, known, *open_, last = place.play(
+                f"wait idle\ndump\nkey 7\ndump\nwait idle\ndump\n{keys}wait idle\ndump", scene)
+            for screen in (unasked, known, last):
+                expect("so far" not in screen.lines[1] and "uncertainty" not in screen.lines[1], "the answer", screen)
+            expect_in("may be", known.lines[1])
+            expect_equal(len(open_), edits, "screens after an edit")
+            for screen in (first, *open_):
+                expect(re.search(r" [✔✘?] [A-Z ]+ so far: .* uncertainty \d+ %$", screen.lines[1]), "the answer", screen)
+        for screen in place.play("key 7\ndump\nwait idle\ndump", "sure.yaml"):
+            expect("so far" not in screen.lines[1], "nothing is computed", screen)
+
+
 def test_view():
     """View 7 at 80x24 and 200x50: the answer with both errors as the batch has it, the inputs in their order, the column"""
     with Place() as place:

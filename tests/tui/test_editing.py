@@ -537,6 +537,64 @@ def test_blocks_without_size():
         expect_in(f"of one rock: {2600 * math.pi / 4 * wide ** 2 * high:.1f} kg, mean diameter B 0.65 m", " ".join(typed.body.split()))
 
 
+def test_blocks_from_anywhere():
+    """a in view 3 asks for a class of blocks wherever the cursor is; a power law becomes the first class; their number a year takes
+    the place of rocks_per_year; d on the power law takes all of them out; the rock says that it needs no size."""
+    law = "blocks: {per_year: 2, volume_m3: [0.02, 5], exponent: 1.2}   # kept: a power law\n"
+    with Place() as place:
+        place.write("law.yaml", place.text("fast.yaml") + law)
+        place.write("counted.yaml", place.text("fast.yaml") + "rocks_per_year: 3\n")
+        asked, two, gone = place.play("resize 120 60\nkey 3 a\ndump\nkey Enter Enter Enter\ndump\nkey s u\nfind blocks.exponent\nkey d\ndump", "law.yaml")
+        expect(re.search(r"blocks per year +0\.2_? +volumes, m³ +5 50\b", asked.popup), "what is offered", asked)
+        expect_in("A class of blocks that come down", asked.text)
+        two.has("Rock: shape and density; blocks need no size here")
+        check_good(place.path, "law.yaml")
+        for words in ("{per_year: 2, volume_m3: [0.02, 5], exponent: 1.2}", "{per_year: 0.2, volume_m3: [5, 50]}"):
+            expect_in(words, place.text("law.yaml"))
+        expect_in("blocks deleted", gone.note)
+        gone.has("none; a adds one").lacks("blocks need no size")
+        said, = place.play("key 3 a\ntype 0.5\nkey Enter\ntype 0,02 5\nkey Enter Enter\ndump\nkey s", "counted.yaml")
+        expect_in("rocks_per_year is removed", said.note)
+        check_good(place.path, "counted.yaml")
+        expect("rocks_per_year" not in place.text("counted.yaml"), place.text("counted.yaml"))
+
+
+def grids(folder, script, scene):
+    """What a script writes to standard output, screens and their roles, each of 24 lines."""
+    lines = play.run_script(folder, script, scene, "--charset", "braille").out.split("\n")
+    return [lines[i:i + 24] for i in range(0, len(lines) - 1, 24)]
+
+
+def test_figures_of_before():
+    """After an edit answer, column and pictures of before stay until the new ones are there, dimmed; also where a control is new, and
+    where a copy of an option is changed, of whose forest nothing is known."""
+    edits = (("fast.yaml", "key /\nkey Ctrl-U\ntype forest[0]\nkey Enter a\n"),
+             ("fast.yaml", "key /\nkey Ctrl-U\ntype controls[0]\nkey Enter a\n"),
+             ("cuts.yaml", "key 5 y 1\nwait idle\ndump -\nkey /\nkey Ctrl-U\ntype forest[0]\nkey Enter Enter Ctrl-U\ntype 7\nkey Enter\n"))
+    with Place() as place:
+        place.write("fast.yaml", WOOD)
+        for scene, edit in edits:
+            for _ in range(20):  # the first rocks may have fallen already
+                shown = grids(place.path, f"wait idle\ndump -\n{edit}dump -\nroles -\nwait idle\ndump -\nroles -\n", scene)
+                old, now, roles, after, last = shown[-5:]
+                if now[1].endswith("computing …"):
+                    break
+            else:
+                raise play.Failure("the first rocks always were faster", scene, edit)
+            expect_equal(now[1][:40], old[1][:40], f"{scene}: the answer of before")
+            expect(set(roles[1][:66].replace(" ", "")) == {"d"}, "the answer is not dimmed", roles[1])
+            expect("computing" not in after[1] and "d" not in last[1], "the new answer", after[1], last[1])
+            column = "\n".join(line[53:] for line in now[2:-3])
+            for name in ("arrive", "above 250 kJ", "stems stop"):
+                figures = re.search(rf"^{name} .*$", "\n".join(line[53:] for line in old[2:-3]), re.M)[0]
+                expect_in(figures, column, f"{scene}: column")
+            expect({role for line in roles[2:-3] for role in line[53:]} <= {"d", " "}, "the column is not dimmed", roles)
+            expect("…" not in column.split("of 1000")[1].split("ADC")[0], "figures are missing", column)
+            picture = [line[:50] for line in roles[2:8]]
+            expect({role for line in picture for role in line} <= {"d", " "}, "the picture is not dimmed", picture)
+            expect(any(line.strip() for line in picture), "there is no picture", now)
+
+
 def test_segments():
     """Segments: y splits one in two, d joins them again."""
     head = "bounce Rn slide Rt"

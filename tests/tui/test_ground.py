@@ -97,17 +97,45 @@ def test_points():
 
 
 def test_split_belt():
-    """a and y on a belt split it; with the cursor on its end a fills what lies behind; without belts a plants the slope."""
+    """a and y on a belt split it; with the cursor on its end a fills what lies behind; without belts a plants the slope; both down to the
+    next control at most."""
     for key in "ay":
         split = land(f"find forest[1]\nkey {key}\ndump")[0]
         expect_equal(stretches(split, BELTS)[1:], [(45, 62.5, "large reserves"), (62.5, 80, "large reserves")], key)
     behind, again = land("find forest[1]\nkey Right a\ndump\nkey a\ndump")
-    expect_equal(stretches(behind, BELTS)[2][:2], (80, 100), "behind the last")
+    expect_equal(stretches(behind, BELTS)[2], (80, 90, "large reserves"), "behind the last, to the control, as its neighbour")
     expect_in("c takes it from a sample plot", behind.note)
     expect_equal(len(table(again, BELTS)), 4, "no room behind: split")
     none, all_ = land("find forest\nkey d d\ndump\nkey a\ndump")
     none.has("none; a adds one")
-    expect_equal(stretches(all_, BELTS)[0][:2], (0, 100), "the whole slope")
+    expect_equal(stretches(all_, BELTS)[0][:2], (0, 90), "from the release to the control")
+
+
+def test_new_belt():
+    """A new belt ends at the next control, before the next belt or at the end of the slope, and has its neighbour's stand."""
+    text = LAND.replace("controls: [{x_m: 90, accepted_kJ: 50}]", "controls: [{x_m: 55, name: path}, {x_m: 90, accepted_kJ: 50}]")
+    gap = text.replace("{from_m: 45, to_m: 80", "{from_m: 50, to_m: 52")
+    for scene, to in ((gap, 50), (gap.replace("  - {from_m: 50, to_m: 52, stand: large-reserves}\n", ""), 55)):
+        belts = stretches(land("find forest[0]\nkey Right a\ndump", scene)[0], BELTS)
+        expect_equal(belts[1], (45, to, "simple coppice, 25 years"), "behind the first belt")
+    last = LAND.replace("from_m: 45, to_m: 80", "from_m: 45, to_m: 90")
+    expect_equal(stretches(land("find forest[1]\nkey Right a\ndump", last)[0], BELTS)[2], (90, 100, "large reserves"), "the end")
+    belts = stretches(land("find forest\nkey d d a\ndump", text)[0], BELTS)
+    expect_equal(belts[0][:2], (0, 55), "without belts from the release to the first control")
+
+
+def test_belt_under_the_cursor():
+    """p and c in view 1 are about the belt under the cursor, of the form or along the slope, whatever view 2 showed last."""
+    listed = land("key 2\nfind forest[1]\nkey 1\nfind forest[0]\nkey p\ndump")[0]
+    expect_in("Stand of belt 1, now 'simple coppice, 25 years'", listed.text)
+    for keys, belt in (("find forest[0]\nkey p", 0), ("find forest[1]\nkey p", 1), ("find forest[0]\nkey a p", 1),
+                       ("find forest[1]\nkey Right a p", 2), ("key Tab Tab Left p", 1),
+                       ("key Tab Tab Up Left p", 0)):
+        after = land(f"key 1\n{keys}\ntype bare\nkey Enter\ndump\nkey Tab Tab\nfind forest[0]\ndump")[-1]
+        stands = [s[2] for s in stretches(after, BELTS)]
+        expect_equal([i for i, name in enumerate(stands) if name == "bare"], [belt], f"{keys}: the bare belt among {stands}")
+    counted = land("key 2\nfind forest[1]\nkey 1\nfind forest[0]\nkey c\ndump")[0]
+    expect_in("Species, growth and cuts stay those of simple coppice, 25 years", counted.popup)
 
 
 def test_neighbours_follow():

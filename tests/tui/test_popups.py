@@ -40,7 +40,7 @@ def test_presets():
         clear
         dump""")
     for screen in (first, second):
-        screen.has("Stand of this belt")
+        screen.has("Stand of belt 1, now 'upper'")
         for part in ("stools,", "stems,", "trees per ha; basal area", "with this rock: ADC", "free run", "100 m"):
             expect_in(part, screen.popup, "preview")
     expect(first.popup.split("ads-1")[0] != second.popup.split("ads-1")[0], "the preview stays as it was")

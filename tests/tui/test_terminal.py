@@ -212,7 +212,7 @@ def test_function_keys():
         t.sees("Search in this view")
         t.keys("Escape")
         t.keys("F5")
-        t.sees("Stand of this belt")
+        t.sees("Stand of belt 1")
         t.keys("Escape")
         t.keys("F6")
         t.sees("the batch command")

@@ -166,16 +166,17 @@ static void expect_answer(double share, double may_lo, double may_hi, size_t wid
     arrivals[0].reach_lo = arrivals[0].exceed_lo = fmax(0, share - .01);
     arrivals[0].reach_hi = arrivals[0].exceed_hi = share + .01;
     LOCAL(ceduo_result, result) = assess();
-    ceduo_words_answer(&text, &(const struct ceduo_subject){result, NULL, &doubt, 0, 0, false}, width);
+    ceduo_words_answer(&text, &(const struct ceduo_subject){result, NULL, &doubt, 0, 0, false, false}, width);
     assert_string_equal(ceduo_text_string(&text), wanted);
 }
 
 /* Where there is less room whole clauses go: what is accepted, then the doubt, at last all but the verdict. */
 TEST(an_answer_is_shortened_by_whole_clauses)
 {
-    static const char *const shorter[] = {"✘ NO: 479 of 1000 arrive with more than 50 kJ (at most 50 rocks accepted); may be 234–748",
-                                          "✘ NO: 479 of 1000 arrive with more than 50 kJ; may be 234–748",
-                                          "✘ NO: 479 of 1000 > 50 kJ; may be 234–748", "✘ NO: 479 of 1000 > 50 kJ", "✘ NO"};
+    static const char *const shorter[] = {
+        "✘ NO: 479 of 1000 arrive with more than 50 kJ (at most 50 rocks accepted); may be 234–748",
+        "✘ NO: 479 of 1000 arrive with more than 50 kJ; may be 234–748", "✘ NO: 479 of 1000 > 50 kJ; may be 234–748",
+        "✘ NO: 479 of 1000 > 50 kJ", "✘ NO"};
     size_t form = 0, forms = sizeof shorter / sizeof shorter[0];
     open_scene(50e3);
     for (size_t width = 200; width > 0; width--) {

@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* New options that treat the stands of the option under the cursor: cut now, selection coppice, not cut. */
+#include <math.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "ceduo/rotation.h"
+#include "io/emit.h"
+#include "io/file.h"
+#include "io/resolve.h"
+#include "model/changes.h"
+#include "popup.h"
+#include "popups.h"
+
+#define FIRST_YEAR   1  /* the next year: year 0 is the stand as filed */
+#define KEPT_USUALLY 60 /* standards per ha, offered if the stands do not say how many stay */
+
+enum treatment { CUT_NOW, SELECTION, NO_CUT, TREATMENTS };
+
+static const struct {
+    const char *value, *item, *about;
+} treatments[TREATMENTS] = {
+    [CUT_NOW] = {":cut", N_("this stand, cut now, leaving N standards per ha"),
+                 N_("A copy of the option shown that is cut in year 1 and then once in each rotation. Enter asks how many "
+                    "standards a cut leaves.")},
+    [SELECTION] = {":selection", N_("this stand as a selection coppice"),
+                   N_("A copy of the option shown that is cut as a selection coppice from year 1 on: each cut takes the oldest "
+                      "shoots of each stool. From the first cut on each stool has shoots of all ages (assumed).")},
+    [NO_CUT] = {":none", N_("this stand, not cut"),
+                N_("A copy of the option shown that grows and is not cut. Enter asks for how many years.")}};
+
+static enum treatment find_treatment(const char *value)
+{
+    enum treatment t = 0;
+    while (t < TREATMENTS && strcmp(treatments[t].value, value) != 0)
+        t++;
+    return t;
+}
+
+/* ---- growth and cutting that a stand has not ---- */
+
+/* A shipped stand that lends its growth or its cutting. */
+struct lender {
+    struct scene_file file;
+    int fit; /* 0: none was found */
+};
+
+static const struct ceduo_belt *lent_belt(const struct lender *l)
+{
+    return &l->file.scene.options[0].belts[0];
+}
+
+/* Find the shipped stand with growth and cutting that is nearest to a species and a system: of that species, otherwise hop
+ * hornbeam; of that system, otherwise any. The caller releases l->file. */
+static void find_lender(struct app *app, int species, enum ceduo_system system, struct lender *l)
+{
+    const char *const *folders = ceduo_file_folders(app->scratch);
+    int usual = ceduo_species_find("ostrya-carpinifolia");
+    *l = (struct lender){.fit = 0};
+    for (size_t i = 0; folders && folders[i]; i++) {
+        size_t n;
+        const char *const *names = ceduo_file_list(app->scratch, folders[i], "stands", &n);
+        for (size_t k = 0; k < n; k++) {
+            struct scene_file file = {0};
+            LOCAL_TEXT(value);
+            const char *path = ceduo_app_format(app, "%s/stands/%s.yaml", folders[i], names[k]);
+            ceduo_emit_scalar(&value, path, true);
+            bool good = ceduo_document_is_shipped(path) && ceduo_popup_read_stand(app, value.bytes, &file);
+            const struct ceduo_stand *s = good ? &file.scene.options[0].belts[0].stand : NULL;
+            bool lends = s && ceduo_stand_grows(s) && s->cutting.rotation > 0;
+            int fit = !lends ? 0 : 1 + 4 * (s->species == species) + 2 * (s->species == usual) + (s->system == system);
+            if (fit > l->fit) {
+                ceduo_scene_release(&l->file);
+                *l = (struct lender){file, fit};
+            } else {
+                ceduo_scene_release(&file);
+            }
+        }
+    }
+}
+
+/* ---- what is changed ---- */
+
+struct plan {
+    struct app *app;
+    enum treatment kind;
+    double number;         /* standards per ha, or years without a cut; NaN: none */
+    struct changes edits;  /* paths begin at the option */
+    struct text borrowed;  /* what comes from shipped stands */
+    struct text untreated; /* belts that stay as they are, and why */
+    size_t treated;        /* belts */
+};
+
+/* Put a mapping of the lender's stand in place of the belt's, marked as assumed. */
+static void lend(struct plan *p, size_t belt, const struct lender *l, const char *key)
+{
+    const struct node *map = ceduo_resolve_at(l->file.root, ceduo_app_format(p->app, "forest[0].stand.%s", key));
+    LOCAL_TEXT(value);
+    ceduo_text_char(&value, '{');
+    for (size_t i = 0; i < map->n; i++) {
+        if (strcmp(map->items[i]->key, "source") == 0)
+            continue;
+        ceduo_text_format(&value, "%s: ", map->items[i]->key);
+        ceduo_emit_flow(&value, map->items[i]);
+        ceduo_text_put(&value, ", ");
+    }
+    ceduo_text_put(&value, "source: {kind: assumed, text: ");
+    ceduo_emit_scalar(&value, ceduo_app_format(p->app, _("as in the stand '%s'"), lent_belt(l)->name), true);
+    ceduo_text_put(&value, "}}");
+    ceduo_changes_add(&p->edits, "forest[%zu].stand.%s=%s", belt, key, value.bytes);
+}
+
+static void tell_lent(struct plan *p, const char *stand, const struct lender *l, bool growth, bool cutting)
+{
+    const char *told = ceduo_app_format(p->app,
+                                        growth && cutting ? _("Growth and cutting of '%s' are those of '%s' (assumed).")
+                                        : growth          ? _("The growth of '%s' is that of '%s' (assumed).")
+                                                          : _("The cutting of '%s' is that of '%s' (assumed)."),
+                                        stand, lent_belt(l)->name);
+    if (!strstr(ceduo_text_string(&p->borrowed), told))
+        ceduo_text_then(&p->borrowed, p->borrowed.length > 0 ? " " : "", "%s", told);
+}
+
+/* The ages of the standards that stay are those of `model`, in proportion. Without such ages all are one rotation old. */
+static void keep_standards(struct plan *p, size_t belt, const struct ceduo_stand *model)
+{
+    double all = 0, left = p->number;
+    LOCAL_TEXT(list);
+    for (size_t i = 0; i < model->cutting.stay_count; i++)
+        all += model->cutting.stay_per_ha[i];
+    for (size_t i = 0; all > 0 && i < model->cutting.stay_count; i++) {
+        double share = model->cutting.stay_per_ha[i] / all, own = fmin(left, ceil(share * p->number - 1e-9));
+        ceduo_text_format(&list, "%s%g", i > 0 ? ", " : "", own);
+        left -= own;
+    }
+    ceduo_changes_add(&p->edits, "forest[%zu].stand.cutting.stay_per_ha=[%s]", belt,
+                      all > 0 ? list.bytes : ceduo_app_format(p->app, "%g", left));
+}
+
+static void leave_belt(struct plan *p, size_t belt, const char *why)
+{
+    ceduo_text_then(&p->untreated, p->untreated.length > 0 ? " " : "", _("Belt %zu stays as it is: %s."), belt + 1, why);
+}
+
+static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
+{
+    const struct ceduo_stand *s = &belt->stand;
+    bool stools = s->stools_per_ha > 0, grows = ceduo_stand_grows(s), cut = s->cutting.rotation > 0;
+    bool never = p->kind == NO_CUT && isnan(p->number), selection = p->kind == SELECTION;
+    bool borrows = selection || (!cut && !never); /* cutting */
+    const char *stand = ceduo_app_format(p->app, "forest[%zu].stand", i);
+    struct lender l = {.fit = 0};
+    if (ceduo_stand_is_bare(s) && !stools)
+        return;
+    if (!stools && (selection || !cut)) {
+        leave_belt(p, i, ceduo_app_format(p->app, _("'%s' has no stools"), belt->name));
+        return;
+    }
+    if (!grows || borrows)
+        find_lender(p->app, s->species, selection ? CEDUO_SELECTION_COPPICE : s->system, &l);
+    if (l.fit == 0 && (!grows || borrows)) { /* the program came without its stands */
+        leave_belt(p, i, ceduo_app_format(p->app, _("no shipped stand has growth and cutting for '%s'"), belt->name));
+        return;
+    }
+    p->treated++;
+    if (!grows)
+        lend(p, i, &l, "growth");
+    if (borrows)
+        lend(p, i, &l, "cutting");
+    if (l.fit > 0)
+        tell_lent(p, belt->name, &l, !grows, borrows);
+    if (selection && grows && s->growth.shoots_old < lent_belt(&l)->stand.growth.shoots_old)
+        ceduo_changes_add(&p->edits, "%s.growth.shoots_old=%g", stand, lent_belt(&l)->stand.growth.shoots_old);
+    if (selection && s->system != CEDUO_SELECTION_COPPICE) {
+        LOCAL_TEXT(name);
+        ceduo_emit_scalar(&name, ceduo_app_format(p->app, _("%s, as selection coppice"), belt->name), true);
+        ceduo_changes_add(&p->edits, "%s.system=selection-coppice", stand);
+        ceduo_changes_add(&p->edits, "%s.name=%s", stand, name.bytes);
+    }
+    if (p->kind == CUT_NOW && !isnan(p->number))
+        keep_standards(p, i, cut ? s : &lent_belt(&l)->stand);
+    if (never && cut)
+        ceduo_changes_add(&p->edits, "%s.cutting", stand);
+    if (!never)
+        ceduo_changes_add(&p->edits, "forest[%zu].cut_year=%g", i, FIRST_YEAR + (p->kind == NO_CUT ? p->number : 0));
+    else if (!isnan(belt->cut_year))
+        ceduo_changes_add(&p->edits, "forest[%zu].cut_year", i);
+    ceduo_scene_release(&l.file);
+}
+
+/* Make the plan of a treatment for each belt of the option shown. free_plan() frees it. */
+static struct plan make_plan(struct app *app, enum treatment kind, double number)
+{
+    const struct ceduo_option *o = ceduo_app_option(app);
+    struct plan p = {.app = app, .kind = kind, .number = round(number), .edits = {.d = &app->document}};
+    for (size_t i = 0; i < o->belts_count; i++)
+        treat_belt(&p, i, &o->belts[i]);
+    return p;
+}
+
+static void free_plan(struct plan *p)
+{
+    ceduo_changes_free(&p->edits);
+    ceduo_text_free(&p->borrowed);
+    ceduo_text_free(&p->untreated);
+}
+
+/* ---- the new option ---- */
+
+static const char *name_option(const struct plan *p)
+{
+    const struct app *app = p->app;
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    const char *name = _("selection coppice");
+    bool taken = false;
+    if (p->kind == CUT_NOW)
+        name = ceduo_app_format(app, _("cut now, keep %g"), p->number);
+    else if (p->kind == NO_CUT)
+        name = isnan(p->number)
+                   ? _("not cut")
+                   : ceduo_app_format(app, ngettext("no cut for %g year", "no cut for %g years", p->number == 1 ? 1 : 2),
+                                      p->number);
+    for (size_t i = 0; i < scene->options_count; i++)
+        taken |= strcmp(scene->options[i].name, name) == 0;
+    return taken ? ceduo_app_format(app, "%s (%s)", name, ceduo_app_option(app)->name) : name;
+}
+
+/* The cursor stays on the option that was copied: it can be treated in several ways. */
+static bool add_option(struct app *app, enum treatment kind, double number)
+{
+    struct plan p = make_plan(app, kind, number);
+    bool good = p.treated > 0;
+    if (!good)
+        ceduo_app_warn(app, "%s", p.untreated.length > 0 ? p.untreated.bytes : _("There is no forest here to treat."));
+    else
+        good = ceduo_app_edited(app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), p.edits.sets,
+                                                                p.edits.n, &app->problems));
+    if (good && p.treated > 0) {
+        const struct ceduo_scene *scene = &app->document.file.scene;
+        LOCAL_TEXT(said);
+        ceduo_text_format(&said, _("added '%s'."), scene->options[scene->options_count - 1].name);
+        if (p.borrowed.length > 0)
+            ceduo_text_then(&said, " ", "%s", p.borrowed.bytes);
+        if (p.untreated.length > 0)
+            ceduo_text_then(&said, " ", "%s", p.untreated.bytes);
+        ceduo_app_say(app, "%s", said.bytes);
+    }
+    free_plan(&p);
+    return good;
+}
+
+static bool filled_number(struct app *app, struct popup *p)
+{
+    double number = NAN;
+    return ceduo_popup_number(app, p, 0, &number) && add_option(app, find_treatment(p->path), number);
+}
+
+/* Ask for the number that a treatment needs. */
+static void ask_number(struct app *app, enum treatment kind)
+{
+    const struct ceduo_option *o = ceduo_app_option(app);
+    double stay = 0;
+    for (size_t i = 0; i < o->belts_count; i++)
+        stay = fmax(stay, ceduo_stand_stay(&o->belts[i].stand));
+    bool cut = kind == CUT_NOW;
+    const char *offered = ceduo_app_format(app, "%g", stay > 0 ? round(stay) : KEPT_USUALLY);
+    struct popup *p = ceduo_popup_fields(app, _(treatments[kind].item), treatments[kind].value, filled_number);
+    struct field *own = ceduo_popup_value(p, cut ? _("standards kept per ha") : _("years without a cut"), cut ? offered : "",
+                                          ceduo_schema_at(cut ? "forest[0].stand.trees[0].per_ha" : "forest[0].cut_year"));
+    ceduo_text_put(&p->text, cut ? _("Of all ages together, in the proportion that the stand says. 0: all stems are cut.")
+                                 : _("In the year after them it is cut. Empty: it is never cut."));
+    own->flags = cut ? FIELD_REQUIRED : 0;
+    own->meaning = cut ? N_("0: all stems are cut") : "";
+    own->lo = cut ? 0 : 1;
+    own->hi = cut ? own->hi : own->hi - FIRST_YEAR;
+}
+
+/* ---- as items of a list ---- */
+
+void ceduo_popup_offer_treatments(struct app *app, struct popup *p)
+{
+    if (ceduo_app_option(app)->belts_count > 0)
+        for (int t = 0; t < TREATMENTS; t++)
+            ceduo_popup_item(p, _(treatments[t].item), treatments[t].value);
+}
+
+bool ceduo_popup_preview_treatment(struct app *app, struct popup *p)
+{
+    enum treatment kind = find_treatment(p->value);
+    if (kind == TREATMENTS)
+        return false;
+    struct plan plan = make_plan(app, kind, NAN);
+    ceduo_text_put(&p->text, _(treatments[kind].about));
+    if (plan.borrowed.length > 0)
+        ceduo_text_then(&p->text, " ", "%s", plan.borrowed.bytes);
+    if (plan.untreated.length > 0)
+        ceduo_text_then(&p->text, " ", "%s", plan.untreated.bytes);
+    free_plan(&plan);
+    return true;
+}
+
+bool ceduo_popup_chose_treatment(struct app *app, const char *value)
+{
+    enum treatment kind = find_treatment(value);
+    if (kind == SELECTION)
+        add_option(app, kind, NAN);
+    else if (kind != TREATMENTS)
+        ask_number(app, kind);
+    return kind != TREATMENTS;
+}
