@@ -257,12 +257,13 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
     *u = (struct uncertainty){.file = job->file, .level = job->level, .option = job->option};
     if (!ceduo_inputs_of(&u->file, &u->inputs))
         return CEDUO_NO_MEMORY;
+    if (ceduo_uncertainty_no_rotation(scene))
+        ceduo_inputs_keep_today(&u->inputs);
     if (scene->controls_count == 0)
         u->inputs.n = 0;
     if (u->level == 0 && scene->options_count == 1)
         u->level = UNCERTAINTY_LEVELS - 1;
-    u->last =
-        u->inputs.n == 0 || u->level + 1 == (ceduo_uncertainty_no_rotation(scene) ? UNCERTAINTY_LEVELS : UNCERTAINTY_ROTATION);
+    u->last = u->inputs.n == 0 || u->level + 1 == UNCERTAINTY_LEVELS;
     job->level = u->last ? LEVELS_MAX : u->level;
     struct ceduo_doubt_def def = {.scene = scene,
                                   .inputs_count = u->inputs.n,
@@ -270,6 +271,7 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
                                   .points = CEDUO_DOUBT_POINTS,
                                   .rocks = CEDUO_DOUBT_ROCKS,
                                   .brief = true,
+                                  .rotation = !ceduo_uncertainty_no_rotation(scene),
                                   .option = job->option,
                                   .threads = q->threads,
                                   .cancel = &q->cancel,
@@ -283,8 +285,6 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
     if (def.points == 0) /* a screen waits for nobody */
         def.points = def.points_max = CEDUO_DOUBT_LEAST;
     def.effort_max = 0;
-    def.years_max = 0;
-    def.rotation = u->level + 1 == UNCERTAINTY_ROTATION;
     def.alone = u->level == 0;
     return ceduo_doubt_ask(&def, &u->answer);
 }
@@ -359,15 +359,12 @@ static bool is_wanted(const struct job *job)
     return job->level < job->levels;
 }
 
-/* Rocks of the next step, by which jobs take turns. The uncertainty of one option goes after the first figures and years where a
- * view shows that, too, otherwise after the second figures; that of all before their last: the verdict hangs on it more than on
- * their last digit. Years have many forests. */
+/* Rocks of the next step, by which jobs take turns. The uncertainty of one option goes after the first figures and years, that of all
+ * options after the second. Years have many forests. */
 static uint64_t cost_of(const struct job *job)
 {
     if (job->kind == JOB_SEARCH || job->kind == JOB_PREVIEW)
         return 0;
-    if (job->kind == JOB_UNCERTAINTY && job->level == 0 && job->levels < UNCERTAINTY_ROTATION)
-        return rocks_of(1);
     return rocks_of(job->level) * (job->kind == JOB_YEARS && job->level > 0 ? 2 : 1);
 }
 
@@ -514,12 +511,12 @@ static bool ask(struct jobs *q, const struct job *job)
     return asked;
 }
 
-bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown, bool years)
+bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown)
 {
     bool index = file->scene.simulation.contact_model == CEDUO_INDEX; /* knows no other energy law */
     struct job figures = job_of(JOB_SNAPSHOT, file, shown, RUNS_LEVELS);
     struct job others = job_of(JOB_OTHERS, file, shown, index ? 0 : RUNS_LEVELS - 1);
-    struct job coming = job_of(JOB_YEARS, file, shown, years ? RUNS_LEVELS - 1 : 0);
+    struct job coming = job_of(JOB_YEARS, file, shown, RUNS_LEVELS - 1);
     struct ceduo_scene other;
     figures.key = coming.key = ceduo_jobs_key(&file->scene);
     if (!index) {
@@ -529,7 +526,7 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
         hash_count(&others.key, ceduo_jobs_key(&other));
         ceduo_other_scene_release(&other);
     }
-    for (size_t i = 0; years && i < file->scene.options_count; i++)
+    for (size_t i = 0; i < file->scene.options_count; i++)
         hash_count(&coming.key, ceduo_runs_years_key(&file->scene, i));
     bool asked = ask(q, &figures); /* otherwise the rocks meet the same */
     if (asked)

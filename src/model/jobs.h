@@ -73,10 +73,9 @@ struct comparison {
     struct ceduo_seen_stops *stops;    /* likewise: empty for all that is no list of stops */
 };
 
-/* What doubt does to the scene of the live program, in levels: first of one option alone, as finely as it will be, so that nothing
- * is said that moves; then of all options; then over the rotation of each as well, which takes some seconds. */
-#define UNCERTAINTY_LEVELS   2
-#define UNCERTAINTY_ROTATION 3
+/* Uncertainty of the scene of the live program, in levels: first of one option alone, as fine as it will be, so that no figure moves;
+ * then of all options. Both are of today and of the years ahead. */
+#define UNCERTAINTY_LEVELS 2
 
 struct uncertainty {
     struct scene_file file; /* as it was; its nodes are the document's */
@@ -101,9 +100,9 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
 /* ---- requests: all copy the scene as it is now. What it points to must stay until the jobs are freed (an arena that is
  * never emptied). True where something is to be done. ---- */
 
-/* Asks for the figures of a scene, those of option `shown` and without forest first; with `years` those of all options as
+/* Asks for the figures of a scene, those of option `shown` and without forest first, then those of all options and their years as
  * well. Runs of forests that have not changed since the last request are kept; what asks for the same runs changes nothing. */
-bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t shown, bool years);
+bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t shown);
 
 /* Asks for a search; its path is copied. */
 void ceduo_jobs_search(struct jobs *jobs, const struct scene_file *file, const struct ceduo_search *search);

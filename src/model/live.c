@@ -117,9 +117,9 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
 
 /* ---- requests and news ---- */
 
-void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t option, bool years)
+void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t option)
 {
-    bool asked = ceduo_jobs_show(l->jobs, file, option, years);
+    bool asked = ceduo_jobs_show(l->jobs, file, option);
     l->asked = ceduo_jobs_key(&file->scene);
     l->busy |= asked;
     if (asked && l->results.years)

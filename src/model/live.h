@@ -23,8 +23,8 @@ struct live {
 bool ceduo_live_create(struct live *live, unsigned threads);
 void ceduo_live_free(struct live *live);
 
-/* The scene has changed. `years`: the years to come of the option as well. */
-void ceduo_live_follow(struct live *live, const struct scene_file *file, size_t option, bool years);
+/* The scene has changed; `option` is shown. */
+void ceduo_live_follow(struct live *live, const struct scene_file *file, size_t option);
 
 /* Its comparison with what was observed, up to so many levels. A fit of another scene is forgotten. */
 void ceduo_live_compare(struct live *live, const struct scene_file *file, size_t levels);

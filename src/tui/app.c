@@ -168,12 +168,9 @@ void ceduo_app_refresh(struct app *app)
     size_t belts = ceduo_app_option(app)->belts_count;
     if (app->belt >= belts)
         app->belt = belts > 0 ? belts - 1 : 0;
-    ceduo_live_follow(&app->live, &app->document.file, app->option, view->years);
+    ceduo_live_follow(&app->live, &app->document.file, app->option);
     app->doubts |= view->uncertainty;
-    ceduo_live_ask_uncertainty(&app->live, &app->document.file, app->option,
-                               !app->doubts ? 0
-                               : view->over ? UNCERTAINTY_ROTATION
-                                            : UNCERTAINTY_LEVELS);
+    ceduo_live_ask_uncertainty(&app->live, &app->document.file, app->option, app->doubts ? UNCERTAINTY_LEVELS : 0);
     ceduo_live_compare(&app->live, &app->document.file,
                        view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)

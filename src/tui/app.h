@@ -47,9 +47,7 @@ struct act {
 /* Describes a view: what it shows and how it handles keys. */
 struct view {
     int panes;                                         /* that Tab goes through; the first is the form */
-    bool years;                                        /* compute the years to come while it is open */
     bool uncertainty;                                  /* compute it from here on, whatever view is open */
-    bool over;                                         /* that over the rotation as well while it is open */
     bool observed;                                     /* compare with what was observed while it is open */
     bool result;                                       /* it shows nothing before the first result */
     void (*build)(struct app *app, struct form *form); /* NULL: it has no form */

@@ -138,8 +138,6 @@ static const struct act acts[] = {{ACTION_UP, .function = next_option, .by = -1}
                                   {0}};
 
 const struct view ceduo_view_compare = {.panes = PANES,
-                                        .years = true,
-                                        .over = true,
                                         .result = true,
                                         .build = build,
                                         .draw = draw,

@@ -118,7 +118,6 @@ static const struct act acts[] = {{ACTION_RIGHT, .function = next_year, .by = 1}
 
 const struct view ceduo_view_rotation = {
     .panes = 2,
-    .years = true,
     .build = build,
     .draw = draw,
     .acts = {NULL, acts},

@@ -30,9 +30,9 @@ static int tear_down(void **state)
     return 0;
 }
 
-static bool show(bool years)
+static bool show(void)
 {
-    return ceduo_jobs_show(jobs, &file, 0, years);
+    return ceduo_jobs_show(jobs, &file, 0);
 }
 
 static struct jobs_state take(void)
@@ -49,9 +49,8 @@ static struct ceduo_search search_of(uint64_t rocks)
 
 TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
 {
-    assert_true(show(false));
-    assert_false(show(false)); /* the same runs */
-    assert_true(show(true));   /* and years */
+    assert_true(show());
+    assert_false(show()); /* the same runs */
     assert_true(take().busy);
     ceduo_jobs_wait(jobs);
     assert_false(take().busy);
@@ -67,20 +66,19 @@ TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
     assert_true(results.years->items[0]->key == ceduo_runs_years_key(&file.scene, 0));
     assert_int_equal(results.years->done, 1);
     assert_int_equal(results.years->rocks, 10 * RUNS_FIRST);
-    assert_false(show(false));
-    assert_false(show(true)); /* they are known */
+    assert_false(show()); /* they are known */
     file.scene.rock.diameter.mean *= 1.1;
-    assert_true(show(true));
+    assert_true(show());
     assert_true(take().busy);
 }
 
 /* What was computed and not yet taken is of no use once the scene is another. */
 TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
 {
-    assert_true(show(true));
+    assert_true(show());
     ceduo_jobs_wait(jobs);
     file.scene.rock.diameter.mean *= 1.1;
-    assert_true(show(true));
+    assert_true(show());
     take();
     if (results.snapshot)
         assert_true(results.snapshot->key == ceduo_jobs_key(&file.scene));
@@ -92,13 +90,13 @@ TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
 /* Where nothing stands rocks do the same by every contact model, but by the index none is simulated. */
 TEST_WITH(a_contact_model_makes_another_key, set_up, tear_down)
 {
-    uint64_t keys[3];
+    uint64_t keys[2];
     file.scene.options[0].belts_count = 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 2; i++) {
         file.scene.simulation.contact_model = (enum ceduo_contact_model)i;
         keys[i] = ceduo_jobs_key(&file.scene);
     }
-    assert_true(keys[0] != keys[1] && keys[1] != keys[2] && keys[0] != keys[2]);
+    assert_true(keys[0] != keys[1]);
 }
 
 /* A search goes before the figures, which go on after it; it finds what it finds alone, and leaves the scene as it is. */
@@ -106,7 +104,7 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
 {
     struct ceduo_search search = search_of(500);
     double diameter = file.scene.rock.diameter.mean;
-    show(false);
+    show();
     ceduo_jobs_search(jobs, &file, &search);
     assert_true(ceduo_jobs_wait_search(jobs));
     take();
@@ -137,7 +135,7 @@ TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
 /* The other energy law beside the figures: of as many rocks as said, and asked for again where it alone changes. */
 TEST_WITH(the_other_law_comes_along, set_up, tear_down)
 {
-    show(false);
+    show();
     ceduo_jobs_wait(jobs);
     take();
     assert_non_null(results.others);
@@ -148,14 +146,14 @@ TEST_WITH(the_other_law_comes_along, set_up, tear_down)
     double before = results.others->items[0].arrivals.reach_probability;
     for (size_t i = 0; i < 2; i++)
         file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* the scene's own law does not know it */
-    assert_true(show(false));
+    assert_true(show());
     ceduo_jobs_wait(jobs);
     take();
     assert_non_null(results.others);
     EXPECT(results.others->items[0].arrivals.reach_probability, <, before);
     assert_null(results.snapshot);
     file.scene.simulation.contact_model = CEDUO_INDEX;
-    show(false);
+    show();
     ceduo_jobs_wait(jobs);
     take();
     assert_null(results.others);
@@ -172,20 +170,19 @@ static const struct uncertainty *uncertainty(size_t shown, size_t levels)
     return results.uncertainty;
 }
 
-/* Of one option alone the first level is all there is of today; more levels go on where it is, fewer are enough, none stops it. */
+/* Of one option alone the first level is all there is. */
 TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
 {
     const struct uncertainty *u = uncertainty(0, 1);
     assert_int_equal(u->level, UNCERTAINTY_LEVELS - 1);
-    assert_int_equal(u->inputs.n, 12);
+    assert_int_equal(u->inputs.n, 12 + 12); /* of today, and of growth: two curves of four constants, two numbers of shoots, two densities */
     assert_int_equal(u->answer.points, CEDUO_DOUBT_POINTS);
     EXPECT(u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p5, <, u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p95);
     assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, 0, UNCERTAINTY_LEVELS));
-    assert_true(uncertainty(0, UNCERTAINTY_ROTATION)->answer.rotation);
-    assert_int_equal(results.uncertainty->level, UNCERTAINTY_ROTATION - 1);
+    assert_true(u->answer.rotation);
     ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
     file.scene.controls_count = 0;
-    u = uncertainty(0, UNCERTAINTY_ROTATION); /* without a control there is nothing to be in doubt of */
+    u = uncertainty(0, UNCERTAINTY_LEVELS); /* without a control there is nothing to be in doubt of */
     assert_int_equal(u->inputs.n, 0);
     file.scene.controls_count = 1;
 }
@@ -202,7 +199,7 @@ static int set_up_options(void **state)
     return 0;
 }
 
-/* Of several the shown one is first: what is said of it stays as it is when the others and the rotation come. */
+/* Of several the shown one is first: its figures stay when the others come. */
 TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_down)
 {
     const size_t shown = 1, n = 3;
@@ -215,29 +212,15 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
             EXPECT_NAN(ceduo_doubt_figure_of(a, i, CEDUO_DOUBT_EXCEED, false)->fit.p5);
     EXPECT_NAN(ceduo_doubt_figure_of(a, shown, CEDUO_DOUBT_EXCEED, true)->fit.p95);
     assert_int_equal(ceduo_doubt_verdict(a)->count, 0);
-    for (size_t levels = UNCERTAINTY_LEVELS; levels <= UNCERTAINTY_ROTATION; levels++) {
-        a = &uncertainty(shown, levels)->answer;
-        f = ceduo_doubt_figure_of(a, shown, CEDUO_DOUBT_EXCEED, false);
-        EXPECT(f->fit.p5, ==, p5);
-        EXPECT(f->fit.p95, ==, p95);
-        EXPECT(f->fit.left[f->order[0]], ==, leaves);
-        for (size_t i = 0; i < n; i++)
-            EXPECT(ceduo_doubt_figure_of(a, i, CEDUO_DOUBT_EXCEED, false)->fit.p5, >, 0);
-        assert_int_equal(ceduo_doubt_verdict(a)->count, n - 1);
-        assert_int_equal(ceduo_doubt_verdict(a)->rotation, levels == UNCERTAINTY_ROTATION);
-    }
-}
-
-/* Who leaves the views that show the rotation stops what is computed of it; who comes back goes on. */
-TEST_WITH(the_rotation_is_stopped_where_no_view_shows_it, set_up, tear_down)
-{
-    uncertainty(0, UNCERTAINTY_LEVELS);
-    assert_true(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, 0, UNCERTAINTY_ROTATION));
-    assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, 0, UNCERTAINTY_LEVELS));
-    ceduo_jobs_wait(jobs);
-    take();
-    assert_null(results.uncertainty);
-    assert_true(uncertainty(0, UNCERTAINTY_ROTATION)->answer.rotation);
+    a = &uncertainty(shown, UNCERTAINTY_LEVELS)->answer;
+    f = ceduo_doubt_figure_of(a, shown, CEDUO_DOUBT_EXCEED, false);
+    EXPECT(f->fit.p5, ==, p5);
+    EXPECT(f->fit.p95, ==, p95);
+    EXPECT(f->fit.left[f->order[0]], ==, leaves);
+    for (size_t i = 0; i < n; i++)
+        EXPECT(ceduo_doubt_figure_of(a, i, CEDUO_DOUBT_EXCEED, false)->fit.p5, >, 0);
+    assert_int_equal(ceduo_doubt_verdict(a)->count, n - 1);
+    assert_true(ceduo_doubt_verdict(a)->rotation);
 }
 
 /* What is stopped ends soon, and nothing comes of it. */

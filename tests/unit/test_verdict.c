@@ -71,7 +71,7 @@ TEST(what_is_clear_stays)
     struct watch today = {.best = SIZE_MAX}, rotation = {.best = SIZE_MAX};
     size_t looks = 0, shares = 0;
     open_scene("profiles/scenes/rotation.yaml");
-    ceduo_live_follow(&live, &file, 1, true);
+    ceduo_live_follow(&live, &file, 1);
     while (live.busy) {
         struct pollfd fd = {.fd = ceduo_jobs_fd(live.jobs), .events = POLLIN};
         poll(&fd, 1, 1000);
@@ -88,9 +88,9 @@ TEST(what_is_clear_stays)
     }
     assert_true(today.known && rotation.known);
     EXPECT(today.rocks, ==, RUNS_FIRST); /* told from the first thousand rocks */
-    EXPECT(rotation.rocks, ==, RUNS_FIRST);
-    EXPECT(today.best, ==, 0);    /* the simple coppice before its cut, */
-    EXPECT(rotation.best, ==, 3); /* the large reserves over the rotation: 127 and 277 of 1000 */
+    EXPECT(rotation.rocks, <=, 10 * RUNS_FIRST);
+    EXPECT(today.best, ==, 3);    /* the large reserves, whose standards are as thick as their curve has them, */
+    EXPECT(rotation.best, ==, 3); /* today and over the years */
     EXPECT(looks, >, 6);          /* progress is shown */
     EXPECT(live.results.years->done, ==, 4);
     expect_beaten(&live.verdict);
@@ -102,14 +102,14 @@ TEST(an_edit_asks_for_its_years_alone)
 {
     open_scene("profiles/scenes/rotation.yaml");
     file.scene.options_count = 2;
-    ceduo_live_follow(&live, &file, 0, true);
+    ceduo_live_follow(&live, &file, 0);
     ceduo_jobs_wait(live.jobs);
     ceduo_live_news(&live, &file.scene);
     assert_true(live.verdict.rotation.known);
     struct ceduo_belt *belt = &file.scene.options[1].belts[0];
     double before = live.verdict.choices[1].mean.mean;
     belt->stand.cutting.stay_per_ha[1] *= 4;
-    ceduo_live_follow(&live, &file, 0, true);
+    ceduo_live_follow(&live, &file, 0);
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
     assert_true(isnan(live.verdict.choices[1].mean.mean)); /* not that of the stand before */
     assert_false(live.verdict.rotation.known);
