@@ -359,7 +359,7 @@ def test_survey():
     expect_in("36 measured; 106 by N\u00e4slund", head)
     rows = side_by_side(walk.outputs[3])
     now, alone, selection = (rows[name]["share"] for name in ("as it is", "standards alone", "selection"))
-    expect(selection < 0.9 * now and alone > 1.2 * now, rows)
+    expect(abs(selection / now - 0.9) < 0.05 and abs(alone / now - 1.2) < 0.05, rows)
     expect_equal([rows["standards alone"][light] for light in ("contact", "free_run", "energy")], ["FAIL"] * 3)
     page = " ".join(walk.outputs[3].split())
     expect(re.search(r"standards: Toscana asks for ≥ 60 standards a hectare \(art. 22, D.P.G.R. 48/R, 2003\); 11\d[.\d]* are kept: met",
@@ -433,10 +433,10 @@ def test_reserves():
     expect_in("forest[0].stand.trees[0].dbh_m: no value from 0.1 to 1 reaches the goal", walk.outputs[1])
     expect_in("nearest: 1, ADC 99.2", walk.outputs[1])
     many = int(re.search(r"per_ha = (\d+)", walk.outputs[2])[1])
-    expect(379 < many < 600, walk.outputs[2])
-    told = int(re.search(r"as many: some (\d+)", PAGE.read_text(encoding="utf-8"))[1])
+    expect_in(f"The answer is {many}.", PAGE.read_text(encoding="utf-8"))
+    told = int(re.search(r"Hardly more: some (\d+)", PAGE.read_text(encoding="utf-8"))[1])
     sure = int(re.search(r"may be true: (\d+)", walk.outputs[3])[1])
-    expect(abs(sure - told) <= 60 and sure > 1.5 * many, walk.outputs[3])
+    expect(abs(sure - told) <= 60 and many < sure < 1.1 * many, walk.outputs[3])
 
 
 def test_groups():
@@ -457,7 +457,7 @@ def test_groups():
     mean, se = (float(runs["standards in groups, just cut"][f"difference.exceed_probability.{key}"]) for key in ("mean", "se"))
     more = re.search(r"Just cut, groups let (\d+) rocks of 1000 more through", PAGE.read_text(encoding="utf-8"))
     expect_near(1000 * mean, float(more[1]), 0.50001, "more of 1000")
-    expect_near(1000 * se, 2, 0.5, "standard error")
+    expect_near(1000 * se, 1.5, 0.05, "standard error")
     expect(mean > 3 * se, "clearly more", mean, se)
     expect_in("standards in groups", walk.outputs[1])
 
@@ -483,12 +483,12 @@ def test_hazard():
     """How often: years without and with the old coppice, just cut, the energy of 300 years, the picture"""
     walk = walked("hazard")
     page = " ".join(walk.outputs[0].split())
-    expect(re.search(r"every 22 \(\S+\) years without forest, every 142 \(126–159\) years with 'large reserves'", page), page)
-    expect_in("simple coppice 102 (94–111) ", page)
-    expect_in("simple coppice, just cut 27 (25–29) ", page)
+    often = dict(re.findall(r"every 22 \(\S+\) years without forest, every (\d+ \(\d+–\d+\)) years with '([^']*)'", page))
+    expect_equal({name: years for years, name in often.items()}["simple coppice"], "55 (51–60)")
+    expect_in("simple coppice, just cut 25 (23–27) ", page)
     bare, coppice = (re.search(rf"{name} .*?(\d+) \(\d+–\d+\)$", walk.outputs[0], re.M)[1]
                      for name in ("    without forest", "    simple coppice"))
-    expect(385 < int(bare) < 400 and 200 < int(coppice) < 220, "390 to some 210 kJ", bare, coppice)
+    expect(385 < int(bare) < 400 and 290 < int(coppice) < 300, "390 to some 300 kJ", bare, coppice)
     expect_in("How often, and with how much, at road (135 m)", walk.outputs[0])
     expect_in('"rate_left"', walk.read("hazard.json"))
 
@@ -520,7 +520,7 @@ def test_page():
 
 
 def test_sections():
-    """A felling plan: the same metres felled, a better worst year, hardly a better mean, more years without contact"""
+    """A felling plan: the same metres felled, a better worst year, the same mean, more years without contact"""
     walk = walked("sections")
     page = " ".join(walk.outputs[0].split())
     ends = re.findall(r"mean (\d+) ±(\d+) of 1000, worst (\d+).*?contact (\d+), free run \d+ of 25\..*?Felled: (\d+) m", page)
@@ -529,8 +529,8 @@ def test_sections():
     expect_equal([once[4], top[4], bottom[4]], [135] * 3, "metres felled")
     expect_equal([once[3], top[3], bottom[3]], [10, 25, 25], "years without contact: ten after each cut")
     for plan in (top, bottom):
-        expect(plan[2] < 0.85 * once[2], "the worst year", ends)
-        expect(abs(plan[0] - once[0]) < 60, "the mean", ends)
+        expect(plan[2] < once[2] - 40, "the worst year", ends)
+        expect(abs(plan[0] - once[0]) < 27, "the mean, within its error", ends)
     expect_in("cut", walk.outputs[1])
     expect_in("of 1000 released with > 50 kJ", walk.outputs[1])
 
