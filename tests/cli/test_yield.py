@@ -84,7 +84,7 @@ PRESETS = {
     "simple-coppice": (System(2500, 25, 1, 3, [30, 30]), 116.26 - 11.37),
     "coppice-with-standards": (System(1500, 25, 1, 3, [100, 50, 20, 10]), 135.05 - 42.82),
     "selection-coppice": (System(1200, 13, 3, 6, [0, 0, 0, 40]), 130.18 - 53.74),
-    "large-reserves": (System(1500, 25, 1, 3, [125, 125]), 139.94 - 47.37),
+    "large-reserves": (System(1057, 25, 1, 3, [125, 125]), 139.94 - 47.37),
 }
 
 
