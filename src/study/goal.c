@@ -23,7 +23,8 @@ const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
                            "forest)",
                            NULL},
     [CEDUO_GOAL_WORST_EXCEED] = {"worst-exceed", N_("share with too much energy in the worst year"), "%", false, true,
-                                 "the same as exceed in the worst of the years ahead, with or without --years", "0.05, or with blocks one rock in accepted_return_y"},
+                                 "the same as exceed in the worst of the years ahead, with or without --years",
+                                 "0.05, or with blocks one rock in accepted_return_y"},
     [CEDUO_GOAL_WORST_ARRIVE] = {"worst-arrive", N_("share that arrives in the worst year"), "%", false, true,
                                  "the same as arrive in the worst of the years ahead, with or without --years", NULL}};
 

@@ -142,7 +142,8 @@ TEST(energy_that_is_just_used_up_is_not_exhausted)
 
 static enum ceduo_light light_of(double exceed, uint64_t unfinished)
 {
-    const struct ceduo_arrivals a = {.released = 20, .exceed_probability = exceed, .limit = CEDUO_EXCEED_MOST, .unfinished = unfinished};
+    const struct ceduo_arrivals a = {
+        .released = 20, .exceed_probability = exceed, .limit = CEDUO_EXCEED_MOST, .unfinished = unfinished};
     return ceduo_energy_light(&a);
 }
 
@@ -291,7 +292,8 @@ TEST(a_share_is_judged_by_its_interval)
 
 TEST(what_a_bare_slope_keeps_needs_no_forest)
 {
-    const struct ceduo_arrivals few = {.released = 1000, .reached = 100, .exceed_probability = .01, .exceed_hi = .02, .limit = .05};
+    const struct ceduo_arrivals few = {
+        .released = 1000, .reached = 100, .exceed_probability = .01, .exceed_hi = .02, .limit = .05};
     const struct ceduo_arrivals many = {
         .released = 1000, .reached = 900, .exceed_probability = .8, .exceed_lo = .77, .exceed_hi = .83, .limit = .05};
     const struct ceduo_arrivals none = {.released = 1000, .exceed_hi = .004, .limit = .05};

@@ -175,7 +175,8 @@ TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
 {
     const struct uncertainty *u = uncertainty(0, 1);
     assert_int_equal(u->level, UNCERTAINTY_LEVELS - 1);
-    assert_int_equal(u->inputs.n, 12 + 12); /* of today, and of growth: two curves of four constants, two numbers of shoots, two densities */
+    assert_int_equal(u->inputs.n,
+                     12 + 12); /* of today, and of growth: two curves of four constants, two numbers of shoots, two densities */
     assert_int_equal(u->answer.points, CEDUO_DOUBT_POINTS);
     EXPECT(u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p5, <, u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p95);
     assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, 0, UNCERTAINTY_LEVELS));
