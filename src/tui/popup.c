@@ -306,7 +306,7 @@ static void draw_more(struct app *app, const struct popup *p, bool above, bool b
                             i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, " %s ", words[i]);
 }
 
-#define NOTE_LINES 5
+#define NOTE_LINES 6
 #define LINES_MIN  6 /* below it, where there are so many */
 
 /* Draws a box in the middle of the screen, with its note in the first lines. Returns the area below the note. */

@@ -35,7 +35,7 @@ forest:
       stools: {per_ha: 300, spacing_m: 0.4}
       shoots: [{per_ha: 900, dbh_m: 0.06, height_m: 7}]
       trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]
-      energy: {model: brauner, u_J_m3: 100000}
+      energy: {model: brauner, u_J_m3: 100000, offset: whole}
       growth:
         shoots: {dbh_most_m: 0.16, dbh_rate_1_y: 0.022, height_most_m: 14, height_rate_1_y: 0.035}
         trees: {dbh_most_m: 0.45, dbh_rate_1_y: 0.014, height_most_m: 20, height_rate_1_y: 0.03}

@@ -14,8 +14,8 @@ PER_STOOL = FAST.replace("{per_ha: 9000,", "{per_stool: 2.5,").replace("{per_ha:
 # The first class of trees is assumed, the second counted; shoots grow, trees do not; a cut leaves 60 + 40.
 CUT = FAST.replace("{per_ha: 80, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}", f"{{per_ha: 80, dbh_m: 0.2, height_m: 12, {ASSUMED}}}").replace(
     "{per_ha: 9000, dbh_m: 0.06, height_m: 7, volume_m3: 0.01}", f"{{per_ha: 9000, dbh_m: 0.06, height_m: 7, {ASSUMED}}}").replace(
-    "      energy: {model: brauner, u_J_m3: 100000}\n", """\
-      energy: {model: brauner, u_J_m3: 100000}
+    "      energy: {model: brauner, u_J_m3: 100000, offset: whole}\n", """\
+      energy: {model: brauner, u_J_m3: 100000, offset: whole}
       growth: {shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.02, height_most_m: 15, height_rate_1_y: 0.03}}
       cutting: {rotation_years: 20, stay_per_ha: [60, 40]}
 """, 1)
