@@ -214,7 +214,7 @@ class Shells(Installed):
             expect_equal(found, folder if wanted == "old woods/" else wanted, typed)
         for typed, wanted in (("forest", "forest of oaks"), ("--find rocks_per", "rocks_per_year="),
                               ("--find options[tall].forest[2].stand.stools.s", "options[tall].forest[2].stand.stools.spacing_m="),
-                              ("-s controls[1].acc", "controls[1].accepted_kJ=")):
+                              ("-s controls[1].accepted_k", "controls[1].accepted_kJ=")):
             expect_equal(self.given(shell, start, f"{self.path}/a\\ path/ceduo {typed}"), wanted, f"in a folder with a blank: {typed}")
 
 
@@ -259,7 +259,7 @@ def test_bash():
         expect_equal(completed(place, program, "-s", "forest[2].stand.stools.s"), ["forest[2].stand.stools.spacing_m="])
         expect_equal(completed(place, program, "-s", "options[selection coppice].forest[0].stand.tre")[0],
                      "options[selection coppice].forest[0].stand.trees[0].per_ha=")
-        expect_equal(completed(place, program, "-s", "controls[0].accepted"), ["controls[0].accepted_kJ="])
+        expect_equal(completed(place, program, "-s", "controls[0].accepted"), ["controls[0].accepted_kJ=", "controls[0].accepted_return_y="])
         expect_equal(completed(place, program, "four-systems", "--option", "sel"), ["selection coppice", "selection coppice, just cut"])
         (place.path / "plots.csv").write_text("")
         for option in ("--survey", "--each"):
