@@ -9,6 +9,7 @@
 #include "base/language.h"
 #include "base/utf8.h"
 #include "ceduo/material.h"
+#include "ceduo/rotation.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/survey_file.h"
@@ -276,7 +277,11 @@ static void chose_survey(struct app *app, struct popup *p)
     }
     app->message[0] = '\0';
     if (replace_stand(app, p->path, value.bytes) && !app->message[0])
-        ceduo_app_say(app, _("the stand of the survey '%.100s'; it says nothing of growth and cutting"), p->value);
+        ceduo_app_say(app,
+                      ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
+                          ? _("the stand of the survey '%.100s'; its growth and cutting are assumed: check them")
+                          : _("the stand of the survey '%.100s'; it says nothing of growth and cutting"),
+                      p->value);
 }
 
 void ceduo_popup_survey(struct app *app)

@@ -507,6 +507,45 @@ def test_blocks():
             expect_in(words, place.text("fast.yaml"), saved.note)
 
 
+def test_segments():
+    """Segments: y splits one in two, d joins them again."""
+    head = "bounce Rn slide Rt"
+    start, split, joined = lists(1, "segments[0]", ["y", "d"], head, "200 70")
+    expect_equal([r[1] for r in start], ["0.3", "0.25"], "rn")
+    expect_equal([r[1] for r in split], ["0.3", "0.3", "0.25"], "rn after y")
+    expect_equal(len(joined), 2, "segments after d")
+
+
+def test_vertices():
+    """Vertices: a pair is typed; keys that cannot add or delete one say why."""
+    screens = fast("""resize 200 70
+        find vertices_m[1]
+        set [60, 35]
+        dump
+        key y
+        dump
+        key d
+        dump""")
+    counts = [len(re.findall(r"^\d +\S+ \S+$", s.body.split("Profile: points")[1], re.M)) for s in screens]
+    expect_in("60 35", screens[0].body)
+    expect_equal(counts[0], 3, "vertices")
+    for i in (1, 2):
+        expect(counts[i] != counts[i - 1] or not screens[i].note.startswith("vertices_m"),
+               "nothing is done and nothing is said", screens[i])
+
+
+def test_controls():
+    """Controls: a and y add one, d deletes, < and > reorder, the last one stays."""
+    head = "counted at, m name"
+    start, more, back, fewer, one, same = lists(1, "controls[1]", ["a", "<", "d", "d", "d"], head, "200 70")
+    expect_equal([r[1] for r in start], ["60", "80"], "controls")
+    expect(len(more) == 3 and 80 < float(more[2][1]) <= 100, more)
+    expect_equal([r[1] for r in back], ["60", more[2][1], "80"], "after <")
+    expect_equal([r[1] for r in fewer], ["60", "80"], "after d")
+    expect_equal(len(one), 1, "after d d")
+    expect_equal(same, one, "after d d d")
+
+
 def test_blocks_from_anywhere():
     """a in view 3 asks for a class of blocks wherever the cursor is; a power law becomes the first class; their number a year takes
     the place of rocks_per_year; d on the power law takes all of them out; the rock says that it needs no size."""
@@ -563,45 +602,6 @@ def test_figures_of_before():
             picture = [line[:50] for line in roles[2:8]]
             expect({role for line in picture for role in line} <= {"d", " "}, "the picture is not dimmed", picture)
             expect(any(line.strip() for line in picture), "there is no picture", now)
-
-
-def test_segments():
-    """Segments: y splits one in two, d joins them again."""
-    head = "bounce Rn slide Rt"
-    start, split, joined = lists(1, "segments[0]", ["y", "d"], head, "200 70")
-    expect_equal([r[1] for r in start], ["0.3", "0.25"], "rn")
-    expect_equal([r[1] for r in split], ["0.3", "0.3", "0.25"], "rn after y")
-    expect_equal(len(joined), 2, "segments after d")
-
-
-def test_vertices():
-    """Vertices: a pair is typed; keys that cannot add or delete one say why."""
-    screens = fast("""resize 200 70
-        find vertices_m[1]
-        set [60, 35]
-        dump
-        key y
-        dump
-        key d
-        dump""")
-    counts = [len(re.findall(r"^\d +\S+ \S+$", s.body.split("Profile: points")[1], re.M)) for s in screens]
-    expect_in("60 35", screens[0].body)
-    expect_equal(counts[0], 3, "vertices")
-    for i in (1, 2):
-        expect(counts[i] != counts[i - 1] or not screens[i].note.startswith("vertices_m"),
-               "nothing is done and nothing is said", screens[i])
-
-
-def test_controls():
-    """Controls: a and y add one, d deletes, < and > reorder, the last one stays."""
-    head = "counted at, m name"
-    start, more, back, fewer, one, same = lists(1, "controls[1]", ["a", "<", "d", "d", "d"], head, "200 70")
-    expect_equal([r[1] for r in start], ["60", "80"], "controls")
-    expect(len(more) == 3 and 80 < float(more[2][1]) <= 100, more)
-    expect_equal([r[1] for r in back], ["60", more[2][1], "80"], "after <")
-    expect_equal([r[1] for r in fewer], ["60", "80"], "after d")
-    expect_equal(len(one), 1, "after d d")
-    expect_equal(same, one, "after d d d")
 
 
 if __name__ == "__main__":
