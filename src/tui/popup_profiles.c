@@ -9,6 +9,7 @@
 #include "base/language.h"
 #include "base/utf8.h"
 #include "ceduo/material.h"
+#include "ceduo/rotation.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/survey_file.h"
