@@ -80,10 +80,10 @@ struct ceduo_doubt_def {
     const struct ceduo_scene *scene;
     size_t inputs_count; /* >= 1 */
     const struct ceduo_input *inputs;
-    size_t points;              /* 2…CEDUO_DOUBT_POINTS_MAX */
-    size_t points_max;          /* no more are taken where these explain too little; 0: CEDUO_DOUBT_POINTS_MAX */
-    uint64_t rocks;             /* of each evaluation; CEDUO_SURFACE_GROUPS at least are taken */
-    uint64_t own_rocks;         /* of the scene as it is; 0: as many */
+    size_t points;      /* 2…CEDUO_DOUBT_POINTS_MAX */
+    size_t points_max;  /* no more are taken where these explain too little; 0: CEDUO_DOUBT_POINTS_MAX */
+    uint64_t rocks;     /* of each evaluation; CEDUO_SURFACE_GROUPS at least are taken */
+    uint64_t own_rocks; /* of the scene as it is; 0: as many */
     /* The scene as it is, computed before; with the years of each option if `rotation` is true. Requires `brief`. NULL: computed
      * here, from own_rocks. */
     const struct ceduo_answer *own;
@@ -95,7 +95,7 @@ struct ceduo_doubt_def {
     bool alone;                 /* of one option alone: the surfaces of the others are not there (p5, p95 NaN), nor ranks */
     size_t option;              /* alone: this one */
     struct ceduo_window window; /* these years instead; step 0: those of ceduo_window_in() */
-    uint64_t effort_max;        /* contacts, stems and twice the stems hit, of all points: beyond, CEDUO_CANCELLED; 0: unlimited */
+    uint64_t effort_max; /* contacts, stems and twice the stems hit, of all points: beyond, CEDUO_CANCELLED; 0: unlimited */
     unsigned threads;
     const ceduo_flag *cancel;                                     /* may be NULL */
     void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */

@@ -42,10 +42,9 @@ static void draw(struct app *app, struct ceduo_area area)
     if (!waits)
         ceduo_pane_doubt(&page, &pane);
     if (r && r->answer && !waits)
-        ceduo_page_say(&page, CEDUO_PAGE_NOTE,
-                       r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
-                       (unsigned long long)r->answer->evaluations,
-                       (unsigned long long)(r->over ? CEDUO_DOUBT_YEAR_ROCKS : r->rocks));
+        ceduo_page_say(
+            &page, CEDUO_PAGE_NOTE, r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
+            (unsigned long long)r->answer->evaluations, (unsigned long long)(r->over ? CEDUO_DOUBT_YEAR_ROCKS : r->rocks));
     area.height = pane.height;
     area.width -= 2;
     ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
