@@ -218,10 +218,9 @@ static void add_ground(struct finder *f, const struct ceduo_material *m)
 const char *ceduo_input_path(struct scene_file *file, const char *place)
 {
     size_t option;
-    const char *rest = strchr(place, ']');
-    if (!file->kept || sscanf(place, "options[%zu]", &option) != 1 || option >= file->scene.options_count)
+    if (!place || !file->kept || sscanf(place, "options[%zu]", &option) != 1 || option >= file->scene.options_count)
         return place;
-    return ceduo_arena_format(&file->arena, "options[%zu%s", file->kept[option], rest);
+    return ceduo_arena_format(&file->arena, "options[%zu%s", file->kept[option], strchr(place, ']'));
 }
 
 /* What stands in bracket n of a path; NULL: it has fewer. */
@@ -232,7 +231,7 @@ static const char *bracket_of(const char *path, size_t n)
     return path ? path + 1 : NULL;
 }
 
-/* The path of all places of an input, with [*] for items that differ; that of the first place if such a path means others, too. */
+/* The path of all places (at least one) of an input, with [*] for items that differ; that of the first place if such a path means others, too. */
 static const char *common_path(struct scene_file *file, const struct ceduo_input *input)
 {
     LOCAL_TEXT(path);

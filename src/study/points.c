@@ -53,7 +53,7 @@ static enum ceduo_status grow(struct item *item, struct point *point)
     item->scene = *scene;
     item->scene.simulation.seed ^= (uint64_t)year << SEED_BITS;
     point->scene = &item->scene;
-    point->forest = &item->years->years[year * item->years->count / years].option;
+    point->forest = &item->years->years[(2 * year + 1) * item->years->count / (2 * years)].option; /* the middle of each part */
     return CEDUO_OK;
 }
 

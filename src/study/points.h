@@ -38,8 +38,8 @@ struct points {
 };
 
 /* Rows from…to - 1; the first `together` of them by one thread and today alone, as they have most of their forests in
- * common. In each year other rocks come down, as they say more of a mean over the years, but in every row the same. If the window has more years, or
- * in another row another number of them, they are evenly spread.
+ * common. In each year other rocks come down, as they say more of a mean over the years, but in every row the same. If the window
+ * has more years, or in another row another number of them, each is the middle of a part.
  * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
 enum ceduo_status ceduo_points_run(const struct points *points, size_t from, size_t to, size_t together);
 

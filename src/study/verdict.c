@@ -231,7 +231,8 @@ static enum ceduo_judgement judge_today(const struct ceduo_result *r, const stru
     if (judgement == CEDUO_NOTHING || judgement == CEDUO_UNANSWERED || !wooded || !doubt || control != r->last_control)
         return judgement;
     const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(doubt, option, CEDUO_DOUBT_EXCEED, false)->fit;
-    return fit->p5 <= wooded->limit && fit->p95 > wooded->limit ? CEDUO_DEPENDS : judgement;
+    double share = wooded->exceed_probability; /* the range holds it */
+    return fmin(fit->p5, share) <= wooded->limit && fmax(fit->p95, share) > wooded->limit ? CEDUO_DEPENDS : judgement;
 }
 
 /* Over the years, by how many are above the limit. */

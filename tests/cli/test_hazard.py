@@ -544,7 +544,7 @@ def test_tolerance_and_doubt():
     with Folder() as f:
         for blocks, place in ((POWER, "blocks.exponent"), ([POWER], "blocks[0].exponent")):
             doubt = [{"path": place, "lo": 0.6, "hi": 2}]
-            r = ceduo("--sensitivity=8", "-f", "json", "-n", 100, f.write("s.yaml", slope_site(blocks=blocks, doubt=doubt)))
+            r = ceduo("--sensitivity=20", "-f", "json", "-n", 100, f.write("s.yaml", slope_site(blocks=blocks, doubt=doubt)))
             expect_equal(r.status, DONE, r)
             figures = r.json()[0]["figures"]
             reach = next(x for x in figures if x["figure"] == "reach_probability")

@@ -84,7 +84,7 @@ int main()
     doubt.scene = &file.scene;
     doubt.inputs_count = file.inputs_count;
     doubt.inputs = file.inputs;
-    doubt.points = 8;
+    doubt.points = 20;
     doubt.rocks = doubt.own_rocks = 20;
     doubt.threads = 1;
     ceduo_doubt_answer range;
@@ -117,8 +117,8 @@ def test_cpp():
         place.write("ask.cc", CPP)
         wanted = ceduo("--check", "-s", "rock.diameter_m=-1", "paper-site")
         expect_equal(wanted.status, 2)
-        figure = json.loads(ceduo("--sensitivity=8", "-n", 20, "-f", "json", "paper-site").out)["figures"][0]
-        years = json.loads(ceduo("--sensitivity=8", "--years", "-n", 20, "-f", "json", "paper-site").out)["figures"]
+        figure = json.loads(ceduo("--sensitivity=20", "-n", 20, "-f", "json", "paper-site").out)["figures"][0]
+        years = json.loads(ceduo("--sensitivity=20", "--years", "-n", 20, "-f", "json", "paper-site").out)["figures"]
         inputs = next(f["inputs"] for f in years if f["figure"].startswith("rotation."))  # those of growth, too
         seen = re.findall(r"^  - name: (.*)\n(?:    .*\n)*?    option:", (ROOT / "profiles/scenes/vaujany.yaml").read_text(), re.M)
         known = "".join(f"{line}\n" for line in [*(i["path"] for i in inputs),

@@ -193,7 +193,7 @@ def test_refused():
 def test_page():
     """The page names both values; the second with its share"""
     page = find(wood(), "adc=4", 0.9, form="table")
-    expect(re.search(r"per_ha = 1501 .* to be sure in 90 % of what may be true: (139\d|140\d|141\d) \(reaches it in 9[01] %, ±\d\)", page), page)
+    expect(re.search(r"per_ha = 1501 .* to be sure in 90 % of what may be true: (139\d|140\d|141\d) \(reaches it in 9[01] %, ±\d; by that error the value is 1[34]\d\d to 14\d\d\)", page), page)
 
 
 if __name__ == "__main__":
