@@ -64,7 +64,7 @@ enum ceduo_doubt_kind {
 #define CEDUO_DOUBT_ROCKS      400 /* of each, where they are not said */
 #define CEDUO_DOUBT_LEAST      20  /* points; of fewer there is no 90 % range */
 
-/* Two options are equal if their shares differ by at most this. Mean energies per released rock are equal if they differ by at
+/* Two options are equal if their shares differ by at most this, or with blocks by at most a tenth of ceduo_exceed_limit(). Mean energies per released rock are equal if they differ by at
  * most this share of that energy without forest. */
 #define CEDUO_DOUBT_EQUAL 0.005
 

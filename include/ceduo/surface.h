@@ -54,6 +54,7 @@ struct ceduo_surface_fit {
     double q2;                /* share of all variance that the surface predicts, leaving out one point after the other */
     double explained;         /* the same of the variance without noise */
     bool enough;              /* there are points enough for the terms; without, shares are NaN */
+    bool linear;              /* with terms of degree 1 alone, and products of them */
     struct ceduo_share whole; /* the share that the terms do not explain */
     double p5, p50, p95;      /* of the values */
     double p5_se, p95_se;     /* of other points and other rocks */

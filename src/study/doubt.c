@@ -354,7 +354,8 @@ static bool wants_more(const struct rows *r)
     for (size_t i = 0; i < r->options; i++)
         for (size_t over = is_asked(r, i) ? 0 : 2; over < (r->years ? 2 : 1); over++) {
             const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(a, i, over ? CEDUO_DOUBT_MEAN : a->main, false)->fit;
-            if (fit->enough ? fit->explained < CEDUO_DOUBT_EXPLAINED : fit->variance > 0 && r->points >= CEDUO_DOUBT_POINTS)
+            if (fit->enough && !fit->linear ? fit->explained < CEDUO_DOUBT_EXPLAINED
+                                            : fit->variance > 0 && r->points >= CEDUO_DOUBT_POINTS)
                 return true;
         }
     return false;
@@ -472,11 +473,13 @@ static int compare_pair(void *context, size_t item, size_t worker)
     enum ceduo_status status = open_subject(r, o->better, o->than, &s);
     if (status == CEDUO_OK)
         status = fit_points(r, &s, kind, (struct ceduo_surface_figure){.lo = -INFINITY, .hi = INFINITY, .limit = NAN}, &found);
-    set_range(r, value_of(r, o->better, kind) - value_of(r, o->than, kind), &found);
+    if (status == CEDUO_OK)
+        set_range(r, value_of(r, o->better, kind) - value_of(r, o->than, kind), &found);
     o->p5 = found.p5;
     o->p95 = found.p95;
     for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
-        double within = CEDUO_DOUBT_EQUAL * (kind == CEDUO_DOUBT_ENERGY ? r->released : 1), value = found.values[p];
+        double whole = kind == CEDUO_DOUBT_ENERGY ? r->released : limit_of(r->def->scene) / CEDUO_EXCEED_MOST;
+        double within = CEDUO_DOUBT_EQUAL * whole, value = found.values[p];
         *(value < -within ? &o->probability : value > within ? &o->worse : &o->equal) += 1 / (double)r->points;
     }
     ceduo_surface_release(&found);

@@ -897,6 +897,7 @@ enum ceduo_status ceduo_surface_fit(struct ceduo_surface *s, const struct ceduo_
     fit->mean = s->c.means[GROUPS], fit->variance = s->c.variance, fit->noise = s->c.noise;
     bool good = allocate_fit(fit, s->points, s->inputs_count) && choose(s, &chosen);
     fit->enough = good && chosen.enough;
+    fit->linear = good && chosen.linear;
     if (fit->enough)
         good = (f = fit_terms(s, &chosen)) && read_solution(s, f, fit);
     else if (good)
