@@ -161,7 +161,7 @@ static enum ceduo_status read_surface(const struct sure_def *def, struct ceduo_s
                                                 .limit = scaled(def->goal, def->target)};
     enum ceduo_status status = ceduo_surface_fit(surface, &figure, &fit);
     if (status == CEDUO_OK) {
-        double half = CEDUO_Z95 * fit.below.se;
+        double half = fmax(CEDUO_Z95 * fit.below.se, 2 / (double)points); /* a share and its quantile have steps of a point */
         gsl_sort(fit.values, 1, points);
         *answer = (struct sure_answer){fit.below, quantile_above(&fit, points, def->sure, figure.limit),
                                        quantile_above(&fit, points, def->sure - half, figure.limit),

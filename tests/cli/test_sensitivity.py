@@ -576,6 +576,26 @@ def test_what_would_settle_it():
             expect("full-scale" not in page, page)
 
 
+def test_bound_of_a_page():
+    """Where a page would cost too much its uncertainty is from fewer points, or not computed, and the page says so"""
+    def of(per_ha, rock):
+        trees = [{"per_ha": per_ha, "dbh_m": 0.03, "height_m": 12, "volume_m3": 1e-6}]
+        return measured(forest=[{"from_m": 0, "to_m": 85, "stand": wood(trees=trees)}], doubt=[DENSITY],
+                        rock={"shape": "sphere", "diameter_m": rock, "density_kg_m3": 2600})
+    with Folder() as f:
+        for what, rocks, says in ((of(500, 0.7), 20, ""), (of(60000, 4), 400, r"Uncertainty from \d+ points\."),
+                                  (of(100000, 60), 100, "what is not known was not computed, as it takes long: --sensitivity does")):
+            path, report = f.write("s.yaml", what), f.path / "r.html"
+            good("--report", report, "-n", rocks, path)
+            words = html.unescape(re.sub("<[^>]*>", " ", report.read_text(encoding="utf-8")))
+            one, two = (good("-b", "-n", rocks, "-j", j, path).out for j in (1, 2))
+            expect_equal(one, two, "the same bytes with any number of threads")
+            for page in (one, words):
+                page = " ".join(page.split())
+                expect(re.search(says, page), says, page)
+                expect_equal("Uncertainty from" in page or "takes long" in page, says != "", page)
+
+
 def test_too_few_points_for_a_range():
     """A 90 % range of fewer than 20 points is not there: null in JSON, and the page says how many points there are"""
     with Folder() as f:

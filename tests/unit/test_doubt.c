@@ -2,9 +2,14 @@
 /* Doubt of a known law, what a light depends on, and inputs at the ends of their ranges. */
 #include "expect.h"
 
+#include <stdlib.h>
+
 #include "ceduo/doubt.h"
+#include "ceduo/question.h"
 #include "io/scene_file.h"
+#include "study/effort.h"
 #include "study/inputs.h"
+#include "study/points.h"
 #include "study/sure.h"
 
 /* The doubt of a density with a large error: within 1 % of its mean, where a uniform law cut at 0 was 17 and 37 % above. */
@@ -132,6 +137,74 @@ TEST(too_much_work_is_given_up)
         def.effort_max = enough - (uint64_t)i % 2;
         EXPECT(ceduo_doubt_ask(&def, &a), ==, (i % 2 == 0 ? CEDUO_OK : CEDUO_CANCELLED));
         ceduo_doubt_free(&a);
+    }
+    ceduo_scene_release(&file);
+}
+
+static void read_nothing(void *context, const struct point *point, const struct brought *at)
+{
+    (void)context, (void)point, (void)at;
+}
+
+/* Effort of all points of a definition, of one option today. */
+static double effort_of(const struct ceduo_doubt_def *def)
+{
+    uint64_t met = 0;
+    double *u = malloc(def->points * def->inputs_count * sizeof *u);
+    EXPECT(ceduo_surface_points(1, def->points, def->inputs_count, u), ==, CEDUO_OK);
+    const struct points points = {.def = def, .u = u, .today = true, .read = read_nothing, .effort = &met};
+    EXPECT(ceduo_points_run(&points, 0, def->points, 0), ==, CEDUO_OK);
+    free(u);
+    return ceduo_effort_of(def->scene,
+                           &(struct ceduo_work){.rocks = def->points * def->rocks, .contacts = met, .runs = def->points});
+}
+
+/* The uncertainty of a page keeps within 30 times the effort of its scene, or what is always granted, and within the largest bound,
+ * whatever stands on the slope; with any number of threads it has the same points. A quick scene has all of them. */
+TEST(the_effort_of_a_page_is_bounded)
+{
+    static const char *const place = "slope.segments[0].rn";
+    static const struct {
+        double per_ha, diameter;
+        uint64_t own;
+        size_t least, most; /* points */
+    } cases[] = {{1000, .8, 1000, CEDUO_DOUBT_POINTS, CEDUO_DOUBT_POINTS},
+                 {1000, .8, 16, CEDUO_DOUBT_POINTS, CEDUO_DOUBT_POINTS},
+                 {1e5, 1, 400, CEDUO_DOUBT_LEAST, CEDUO_DOUBT_POINTS - 1},
+                 {4e5, 60, 100, 0, 0}};
+    const struct ceduo_input input = range_of(&place, .25, .35);
+    open_wood();
+    file.scene.simulation.contact_model = CEDUO_STEMS;
+    for (int k = 0; k < 2; k++) /* they stop no rock */
+        file.scene.options[0].belts[0].stand.trees[k].volume = 1e-9;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct ceduo_answer own;
+        size_t points = 0;
+        file.scene.options[0].belts[0].stand.trees[0].per_ha = cases[i].per_ha;
+        file.scene.rock.diameter = ceduo_number(cases[i].diameter);
+        struct ceduo_question q = ceduo_question_default(&file.scene);
+        q.rocks = q.run.rocks_most = cases[i].own;
+        EXPECT(ceduo_ask(&q, NULL, &own), ==, CEDUO_OK);
+        for (unsigned threads = 1; threads <= 2; threads++) {
+            struct ceduo_doubt_def def = {.scene = &file.scene,
+                                          .inputs_count = 1,
+                                          .inputs = &input,
+                                          .points = CEDUO_DOUBT_POINTS,
+                                          .rocks = cases[i].own < CEDUO_DOUBT_ROCKS ? cases[i].own : CEDUO_DOUBT_ROCKS,
+                                          .brief = true,
+                                          .threads = threads};
+            EXPECT(ceduo_effort_bound(&def, &own.work), ==, CEDUO_OK);
+            EXPECT(def.points, >=, cases[i].least);
+            EXPECT(def.points, <=, cases[i].most);
+            if (def.points > 0) {
+                EXPECT(effort_of(&def), <=, CEDUO_EFFORT_MAX);
+                EXPECT(effort_of(&def), <=,
+                       fmax(CEDUO_EFFORT_LEAST, CEDUO_EFFORT_TIMES * ceduo_effort_of(&file.scene, &own.work)));
+            }
+            assert_true(threads == 1 || def.points == points);
+            points = def.points;
+        }
+        ceduo_answer_release(&own);
     }
     ceduo_scene_release(&file);
 }
