@@ -56,12 +56,12 @@ static size_t afford(const struct plan *plan, struct ceduo_doubt_def *def, size_
     return def->points;
 }
 
-/* Reduces points to half of `points`, then rocks and points alike, then years, then points alone: at the same cost the error of a
- * range by the rocks, which all points have in common, is then like that by the points. False if too few points are left. */
+/* Reduces points to a quarter of `points`, then rocks and points alike, then years, then points alone. The error of a range by the
+ * rocks, which all points have in common, is the larger one from some 64 points on. False if too few points are left. */
 static bool reduce(const struct plan *plan, struct ceduo_doubt_def *def, size_t points, uint64_t rocks)
 {
     uint64_t least = rocks < ROCKS_LEAST ? rocks : ROCKS_LEAST;
-    size_t enough = points / 2;
+    size_t enough = points / 4;
     def->years_max = 0;
     for (def->rocks = rocks; afford(plan, def, points) < enough && def->rocks > least; enough /= 2)
         def->rocks = def->rocks / 2 > least ? def->rocks / 2 : least;

@@ -8,7 +8,7 @@
 /* Bounds the uncertainty of a page by its effort. A unit is the time of one contact or stem, some 17 ns of a processor. The bound
  * counts what is simulated, never time, so that the same input gives the same page. */
 #define CEDUO_EFFORT_TIMES 30    /* the effort of the scene as it is */
-#define CEDUO_EFFORT_LEAST 4.5e7 /* three quarters of a second: a quick scene may always have so much */
+#define CEDUO_EFFORT_LEAST 6e7   /* one second: a quick scene may always have so much */
 #define CEDUO_EFFORT_MAX   1.8e8 /* three seconds */
 
 /* Effort of runs of a scene. */

@@ -302,12 +302,6 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
     LOCAL_TEXT(verdict);
     LOCAL_TEXT(reason);
     LOCAL_TEXT(place);
-    if (s->result->scene->controls_count > 1) { /* which of them it is about */
-        ceduo_plot_control_name(&place, &s->result->scene->controls[s->control]);
-        ceduo_text_put(&place, ": ");
-        ceduo_text_put(text, place.bytes);
-        width -= ceduo_utf8_width(place.bytes) < width ? ceduo_utf8_width(place.bytes) : width;
-    }
     if (is_due(s, &o)) { /* "✔ YES today; ✘ NO after the cut" */
         LOCAL_TEXT(today);
         LOCAL_TEXT(answer);
@@ -322,6 +316,14 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
     if (o.answer == CEDUO_YES && o.also_bare)
         ceduo_text_put(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
+    if (s->result->scene->controls_count > 1) { /* which of them it is about */
+        ceduo_plot_control_name(&place, &s->result->scene->controls[s->control]);
+        ceduo_text_put(&place, ": ");
+        if (ceduo_utf8_width(place.bytes) + taken <= width) {
+            ceduo_text_put(text, place.bytes);
+            taken += ceduo_utf8_width(place.bytes);
+        }
+    }
     say_reason(&reason, s, &o, width > taken ? width - taken : 0);
     ceduo_text_put(text, ceduo_text_string(&verdict));
     if (reason.length > 0)
