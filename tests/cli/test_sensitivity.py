@@ -585,6 +585,28 @@ def test_paths_can_be_set():
                         expect_near(wanted[o["name"], name], known, 1e-9 * max(1e-9, known), f"{path} {option}: {sets}, {name}")
 
 
+def test_as_scenes_at_random():
+    """The band of two options and of their difference is that of scenes drawn at random and set by the paths, within three errors"""
+    names, count, rocks = ("selection coppice", "large reserves"), 80, 600
+    option = [word for name in names for word in ("--option", name)]
+    figures = [f for f in good("--sensitivity", "-f", "json", *option, "rotation").json()[0]["figures"] if f["figure"] == "exceed_probability"]
+    inputs, draw, drawn = {i["path"]: i for f in figures for i in f["inputs"]}, random.Random(1), []
+    for _ in range(count):
+        values = {p: draw.choice([i["lo"], i["hi"]]) if isinstance(i["lo"], str) else draw.uniform(i["lo"], i["hi"])
+                  for p, i in sorted(inputs.items())}
+        sets = [word for p, i in sorted(inputs.items()) for one in i["paths"] for word in ("-s", f"{one}={values[p]}")]
+        run = good("-b", "-f", "json", "-n", rocks, *sets, *option, "rotation").json()[0]
+        drawn.append([o["controls"][-1]["wooded"]["exceed_probability"] for o in run["options"]])
+    for f in figures:
+        column = sorted(d[1] - d[0] if f["against"] else d[names.index(f["option"])] for d in drawn)
+        for key, share in (("doubt_p5", 0.05), ("doubt_p95", 0.95)):
+            found = column[round(share * (count - 1))]
+            apart = math.sqrt(count * share * (1 - share))  # ranks that other draws may move it by
+            near = [column[min(count - 1, max(0, round(share * (count - 1) + k * apart)))] for k in (-1, 1)]
+            error = math.hypot((near[1] - near[0]) / 2, f[key + "_se"], math.sqrt(0.25 / rocks))
+            expect_near(found, f[key], 3 * error, f"{f['option']} against {f['against']}: {key}")
+
+
 def test_options_by_number():
     """A doubt of the file that names an option by its number is of that option, whichever --option keeps"""
     belts = [[{"from_m": 0, "to_m": 80, "stand": wood(trees=[{**TREES[0], "per_ha": n}])}] for n in (300, 500)]
