@@ -279,7 +279,7 @@ def test_growth():
     expect(mean["doubt_p95"] - mean["doubt_p5"] > 0.01, mean)
     for name in ("exceed_probability", "reach_probability"):
         expect_equal(figure(result, name)["inputs"], [], f"{name}: today")
-        expect_equal(figure(result, name)["doubt_p5"], figure(result, name)["doubt_p95"], f"{name}: today")
+        expect_near(figure(result, name)["doubt_p5"], figure(result, name)["doubt_p95"], 0.005, f"{name}: today")  # the points', and the value of more rocks
     expect_equal(answer(two_options())["figures"], [], "without --years nothing is in doubt")
     expect_equal(answer(two_options(kind="measured"), "--years")["figures"], [], "measured growth")
     two = two_options()
@@ -504,7 +504,7 @@ def test_a_year_as_today():
 def test_stools_that_were_just_cut():
     """Stools of a stand without shoots live on, whatever of the stand is in doubt: the rotation after is that of the grown stand"""
     for shoots in (True, False):
-        what = measured(forest=[{"from_m": 0, "to_m": 80, "stand": coppice(shoots, 50)}], controls=[{"x_m": 90, "accepted_kJ": 120}],
+        what = measured(forest=[{"from_m": 0, "to_m": 80, "cut_year": 1, "stand": coppice(shoots, 50)}], controls=[{"x_m": 90, "accepted_kJ": 120}],
                         doubt=[{"path": "rock.density_kg_m3", "lo": 2599, "hi": 2601}])
         mean = figure(answer(what, "--years", "-n", 32), "rotation.exceed_probability")
         expect_near(mean["doubt_p50"], mean["value"], 3 * math.hypot(mean["doubt_p5_se"], (mean["sampling_hi"] - mean["value"]) / 2), shoots)
