@@ -160,14 +160,14 @@ WIDE = {"slope": ["release", "end of the forest (135 m)", "bounce Rn slide Rt", 
         "compare": ["CFE", "worst", "/ha y"]}
 # With rocks in the wood, and by the index alone.
 MUST_WOOD = {"slope": ["wood", "bare"], "stand": [], "rock": ["rocks among stems stems"],
-             "results": ["simulated"], "compare": ["Of 1000 rocks: > 50 kJ at 135 m", "today", "rotation", "fail", "/ha y"]}
+             "results": ["simulated"], "compare": ["Of 1000 rocks: > 50 kJ at 135 m", "today mean", "fail", "/ha y"]}
 WIDE_WOOD = {"slope": ["underside p95, m", "mean energy, kJ"], "stand": [],
              "rock": [], "results": [], "compare": []}
 MUST_INDEX = {"slope": [], "stand": [], "rock": ["rocks among stems index"], "results": [],
               "compare": ["At 135 m", "ADC m", "kJ/100 m", "fail"]}
 WIDE_INDEX = {"slope": ["underside above the ground, m", "without forest", "p95", "p50"], "stand": [], "rock": [],
               "results": [], "compare": []}
-HEADS = ("today", "every, y", "rotation", "kJ/100 m", "may be", "ADC m", "worst", "fail", "m³/ha y", "m3/ha y", "CFE")
+HEADS = ("today", "mean", "kJ/100 m", "may be", "ADC m", "worst", "fail", "m³/ha y", "m3/ha y", "CFE")
 
 
 def compared(screen):
