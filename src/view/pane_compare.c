@@ -10,17 +10,17 @@
 #include "plot_parts.h"
 
 /* Columns behind the name; without rocks among stems two of them are of the index. */
-enum column { NAME, TODAY, MAY_BE, MEAN, MARK, WORST, FAILS, YIELD, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };
+enum column { NAME, TODAY, MAY_BE, MEAN, WORST, FAILS, YIELD, MARK, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };
 
 static const struct ceduo_page_column columns[COLUMNS] = {
     [NAME] = {"", 12, 0, CEDUO_FILLS},
     [TODAY] = {"", -5, 1, CEDUO_FITS},
     [MAY_BE] = {"", -1, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(4)},
     [MEAN] = {"", -5, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(1)},
-    [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(8)},
     [WORST] = {N_("worst"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(6)},
     [FAILS] = {"", -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(2)},
     [YIELD] = {N_("m\xc2\xb3/ha y"), -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(3)},
+    [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(8)},
     [CONTACT] = {"C", 1, 2, CEDUO_DROPPED(7)},
     [FREE_RUN] = {"F", 1, 0, CEDUO_DROPPED(7)},
     [ENERGY] = {"E", 1, 0, CEDUO_DROPPED(7)},
@@ -116,12 +116,6 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
         add_mean(page, pane, i);
     else
         ceduo_page_number(page, index->per_100m * J_TO_KJ, 3);
-    /* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all */
-    bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;
-    bool best = known && i == v->rotation.best && v->rotation.rivals == 0;
-    for (size_t k = 0; k < v->n; k++)
-        worst &= k == i || v->choices[k].mean.mean + v->choices[k].mean.half < c->mean.mean - c->mean.half;
-    ceduo_page_mark(page, best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, best ? _("best") : worst ? _("worst") : "");
     if (c->over.years == 0) {
         ceduo_page_write(page, PENDING);
         ceduo_page_write(page, PENDING);
@@ -140,6 +134,12 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
                          v->wooded ? c->energy_known : !c->over.nothing);
     }
     ceduo_page_number(page, c->yield.cut_per_year, 2);
+    /* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all */
+    bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;
+    bool best = known && i == v->rotation.best && v->rotation.rivals == 0;
+    for (size_t k = 0; k < v->n; k++)
+        worst &= k == i || v->choices[k].mean.mean + v->choices[k].mean.half < c->mean.mean - c->mean.half;
+    ceduo_page_mark(page, best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, best ? _("best") : worst ? _("worst") : "");
     ceduo_page_light(page, index->contact);
     ceduo_page_light(page, index->free_run);
     ceduo_page_light(page, index->energy);

@@ -88,10 +88,11 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     const struct ceduo_measure judged = ceduo_judged(d->control, arrivals);
     double threshold = scene->simulation.threshold, accepted = ceduo_words_accepted(d->control);
     double bare = arrivals && arrivals->reached > 0 ? arrivals->energy.mean : NAN;
-    struct scale scales[BARS] = {
-        [ADC] = {threshold / 10, threshold * 2, threshold, _("ADC m")},
-        [SHARE] = {0, d->wooded ? 1000 : 0, d->wooded && !isnan(accepted) ? 1000 * CEDUO_EXCEED_MOST : NAN, _("kJ/100 m")},
-        [ENERGY] = {0, bare * J_TO_KJ, accepted, d->wooded ? _("mean kJ") : P_("head", "left kJ")}};
+    struct scale scales[BARS] = {[ADC] = {threshold / 10, threshold * 2, threshold, _("ADC m")},
+                                 [SHARE] = {0, d->wooded ? 1000 : 0,
+                                            d->wooded && !isnan(accepted) ? 1000 * ceduo_exceed_limit(scene, d->control) : NAN,
+                                            _("kJ/100 m")},
+                                 [ENERGY] = {0, bare * J_TO_KJ, accepted, d->wooded ? _("mean kJ") : P_("head", "left kJ")}};
     LOCAL_TEXT(head);
     if (d->wooded) {
         ceduo_measure_name(&head, &judged, CEDUO_SHORT_HEAD);
@@ -101,7 +102,7 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     for (size_t k = 0; k < BARS; k++) { /* a limit stands above its bars, what they are above their numbers */
         struct ceduo_page_cell *heads = &page->last->cells[3 * k + 1];
         if (!isnan(scales[k].limit))
-            ceduo_text_format(&heads[0].text, "\xe2\x94\x82 %s", SHORTEST(scales[k].limit));
+            ceduo_text_format(&heads[0].text, "\xe2\x94\x82 %s", ROUNDED(scales[k].limit, k == SHARE ? 3 : 6));
         ceduo_text_put(&heads[1].text, scales[k].head);
     }
     for (size_t i = 0; i < scene->options_count; i++) {

@@ -37,6 +37,7 @@ static void draw_strips(struct ceduo_drawing *d, int height, const double *x, do
     const struct ceduo_years *years = d->picture->years;
     int top = d->area.top + 1, first = height < 2 * STRIP_LEAST ? 0 : height / 2;
     double threshold = d->scene->simulation.threshold, accepted = d->control->accepted * J_TO_KJ, most = 0;
+    double limit = 1000 * ceduo_exceed_limit(d->scene, d->control);
     LOCAL_TEXT(adc);
     LOCAL_TEXT(share);
     ceduo_text_format(&adc, _("ADC of the worst belt, m (limit %g)"), threshold);
@@ -49,7 +50,7 @@ static void draw_strips(struct ceduo_drawing *d, int height, const double *x, do
     else if (isnan(accepted))
         ceduo_text_put(&share, _("of 1000 released arrive"));
     else
-        ceduo_text_format(&share, _("of 1000 released with > %g kJ (limit %g)"), accepted, CEDUO_EXCEED_MOST * 1000);
+        ceduo_text_format(&share, _("of 1000 released with > %g kJ (limit %g)"), accepted, limit);
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *year = &years->years[i];
         if (!d->wooded)
@@ -59,8 +60,8 @@ static void draw_strips(struct ceduo_drawing *d, int height, const double *x, do
         most = fmax(most, 1.1 * y[i]);
     }
     most = d->wooded ? 1000 : most > 0 ? most : 1;
-    draw_strip(d, top + first, height - first, most, d->wooded && !isnan(accepted) ? CEDUO_EXCEED_MOST * 1000 : NAN,
-               ceduo_text_string(&share), x, y);
+    draw_strip(d, top + first, height - first, most, d->wooded && !isnan(accepted) ? limit : NAN, ceduo_text_string(&share), x,
+               y);
 }
 
 static int column_of(const struct ceduo_drawing *d, double year)

@@ -232,6 +232,10 @@ static void say_shares(struct text *text, const struct ceduo_measure *m, const s
     LOCAL_TEXT(value);
     LOCAL_TEXT(name);
     LOCAL_TEXT(span);
+    if (length == BRIEF) {
+        ceduo_text_format(text, _("%.0f of 1000"), m->value);
+        return;
+    }
     ceduo_measure_value(&value, m);
     ceduo_measure_name(&name, m, length <= LONG ? CEDUO_PHRASE : CEDUO_SHORT_HEAD);
     ceduo_text_format(text, _("%s of 1000 %s"), ceduo_text_string(&value), ceduo_text_string(&name));

@@ -122,6 +122,19 @@ def side_by_side(page):
     return {name: {**m.groupdict(), "taken": kJ, "share": int(m["share"])} for name, m, kJ in rows}
 
 
+def told(pattern):
+    """Numbers that ceduo-workflows(7) has in a sentence."""
+    found = re.search(pattern, " ".join(PAGE.read_text(encoding="utf-8").split()))
+    expect(found, "ceduo-workflows(7) does not say", pattern)
+    return tuple(map(float, found.groups()))
+
+
+def over_years(page):
+    """Rows of the table of the years ahead at the end of a page: mean, worst year and years that fail, in the order of the options."""
+    row = r"^  \S.*? +(\d+) ±\d+ +\d+ \((\d+)\) +\d+/\d+ +\d+/\d+ +(\d+)/(\d+) "
+    return [tuple(map(int, m.groups())) for m in re.finditer(row, page[page.index("    Over years"):], re.M)]
+
+
 def keys_pressed(script):
     """Keys of a script; a typed character is one."""
     count = 0
@@ -244,6 +257,20 @@ def test_four_systems():
     expect_equal(min(rows, key=lambda n: rows[n]["share"]), "large reserves", "least comes through")
     expect_equal(max(grown, key=lambda n: grown[n]["share"]), "simple coppice, 25 years", "grown, most comes through")
     expect_equal(min(cut, key=lambda n: cut[n]["share"]), "large reserves, just cut", "just cut, least comes through")
+    share = {name: row["share"] for name, row in rows.items()}
+    bare, = re.findall(r"without forest +(\d+) \([^)]*\) +\d+ \(", page)
+    expect_equal(told(r"large reserves let the fewest through, (\d+), where (\d+) would arrive"), (share["large reserves"], int(bare)), "grown")
+    expect_equal(told(r"the simple coppice lets the most through, (\d+) grown and (\d+) just cut\."),
+                 (share["simple coppice, 25 years"], share["simple coppice, just cut"]), "simple coppice")
+    expect_equal(told(r"Of the four just cut, large reserves are best, with (\d+)\."), (share["large reserves, just cut"],), "just cut")
+    expect_equal(told(r"large reserves take most: ([\d.]+) kJ per 100 m, and ([\d.]+) just cut") +
+                 told(r"selection coppice could take ([\d.]+), less than the simple coppice with ([\d.]+)\."),
+                 tuple(float(re.search(r"\(Eq. 4\), ([\d.]+)\s+kJ\s+per\s+100\s+m", page[page.index(f"\n\n{name}\n"):])[1])
+                       for name in ("large reserves", "large reserves, just cut", "selection coppice", "simple coppice, 25 years")), "index")
+    expect(share["selection coppice"] < share["simple coppice, 25 years"], "yet fewer rocks", share)
+    means = [mean for mean, *_ in over_years(page)]
+    expect_equal(told(r"large reserves, just cut, let the fewest through, (\d+) in the mean"), (means[list(rows).index("large reserves, just cut")],))
+    expect_equal(min(means), means[list(rows).index("large reserves, just cut")], "over the years the least")
     for name in rows:
         if name in cut:
             older = next(n for n in grown if name.startswith(n.split(",")[0]))
@@ -280,6 +307,8 @@ def test_four_systems_keys():
     expect_in("ADC 29.2 m < 30", after)
     expect(re.search(r"30 m free [\d.]+ % > 10 +✘", after), after)
     expect_in("380", after)
+    found = tuple(int(re.search(r"above 50 kJ +(\d+)±", screen)[1]) for screen in (after, before))
+    expect_equal(told(r"(\d+) of 1000 rocks arrive with too much energy instead of (\d+)\."), found, "of 1000")
 
 
 def test_four_systems_in_italian():
@@ -311,6 +340,18 @@ def test_two_cuts():
     bare = re.findall(r"without forest +(\d+) \([^)]*\) +1000 \(", page)
     expect_equal(len(bare), 1, "the slope without forest, which the options share")
     expect(200 < int(bare[0]) < 300, page)
+    few, many = (rows[name]["share"] for name in ("selection", "simple"))
+    expect_equal(told(r"and (\d+) of 1000 rocks still arrive") + told(r"Through the selection coppice (\d+) arrive with too much"), (many, few))
+    expect_equal(told(r"The difference of (\d+) is four times its error"), (many - few,))
+    difference, error = map(int, re.match(r"-(\d+) ±(\d+)", rows["selection"]["difference"]).groups())
+    expect(3.5 < difference / error < 4.5, "four times", rows)
+    expect(few > 1.5 * 50, "not good enough", rows)
+    (many, _, many_fail, years), (few, _, few_fail, _) = over_years(page)
+    expect_equal(told(r"In the mean of (\d+) years (\d+) of 1000 arrive .*?, and more than 50 in (\d+) of these years; "
+                      r"through the simple coppice (\d+) arrive, and more than 50 in (\d+) years\."),
+                 (years, few, few_fail, many, many_fail), "over the years")
+    expect(re.search(r"It depends on uncertain inputs for 'simple', 'selection'\.", " ".join(page.split())), page)
+    expect(re.search(r"selection is better than simple in \d+ % of what may be true.*?: clear\. Measure first: roughness", " ".join(page.split())), page)
     assumed = page[page.index("Assumed, not measured"):]
     expect_in("density", assumed)
     expect_in("library's grounds", assumed)
@@ -345,7 +386,7 @@ def test_two_cuts_new():
     expect_in("Rock 0.6 m", screen)
     option_shown("simple-c", screen)
     option_shown("selection-", screen)
-    expect(re.search(r"│ ADC [\d.]+ m ≥ 30 +✘\n.*│ 30 m free [\d.]+ % > 10 +✘", screen), "the tests of the simple coppice", screen)
+    expect(re.search(r"│ ADC [\d.]+ m ≥ 30 +✘✘\n.*│ 30 m free [\d.]+ % > 10 +✘✘\n", screen), "the tests of the simple coppice, today and just after a cut", screen)
     expect(not re.search(r"^current", screen, re.M), screen)
 
 
@@ -467,25 +508,32 @@ def test_doubt():
     walk = walked("doubt")
     now, lo, hi, low, high = map(int, re.search(r"current +(\d+) +(\d+)–(\d+) +(\d+)–(\d+)", walk.outputs[0]).groups())
     expect(450 < now < 510 and 440 < lo < hi < 520, "480, 30 more or less", now, lo, hi)
-    told = re.search(r"but (\d+) to (\d+) may be true", PAGE.read_text(encoding="utf-8"))
-    expect(abs(low - int(told[1])) <= 15 and abs(high - int(told[2])) <= 15, told[0], low, high)
+    ends = told(r"but (\d+) to (\d+) may be true")
+    expect(abs(low - ends[0]) <= 15 and abs(high - ends[1]) <= 15, ends, low, high)
     expect(high - low > 6 * (hi - lo), "the doubt is mostly far more")
     shares = [(m[1].strip(), int(m[2])) for m in re.finditer(r"^  (\S.{33}).* (\d+) % +\d+$", walk.outputs[0], re.M)]
     expect_equal([name for name, _ in shares[:2]], ["energy law", "hit off centre"])
     expect(shares[0][1] > 50, shares)
     expect(sum(share for _, share in shares) > 105, "more than 100 %", shares)  # 113 % of these two alone, from four runs
     expect_in("280 scenes were computed", walk.outputs[0])
+<<<<<<< HEAD
     order = re.search(r"large reserves, just cut is better than .* in (\d+) % .*: (?:likely|undecided)\.", re.sub(r"\s+", " ", walk.outputs[1]))
     expect(order and abs(int(order[1]) - 80) <= 10, walk.outputs[1])
+=======
+    order = re.search(r"large reserves, just cut is better than .* in (\d+) % .*, worse in (\d+) %: likely\.", re.sub(r"\s+", " ", walk.outputs[1]))
+    better, worse = told(r"in some (\d+)\\~% of what may be true, and more in (\d+)\\~%\. The page calls that likely")
+    expect(order and abs(int(order[1]) - better) <= 5 and abs(int(order[2]) - worse) <= 5, better, worse, walk.outputs[1])
+>>>>>>> 39c34342ebcec3db40e81be2952d454c771e640e
 
 
 def test_hazard():
     """How often: years without and with the old coppice, just cut, the energy of 300 years, the picture"""
     walk = walked("hazard")
     page = " ".join(walk.outputs[0].split())
-    often = dict(re.findall(r"every 22 \(\S+\) years without forest, every (\d+ \(\d+–\d+\)) years with '([^']*)'", page))
-    expect_equal({name: years for years, name in often.items()}["simple coppice"], "55 (51–60)")
-    expect_in("simple coppice, just cut 25 (23–27) ", page)
+    expect_in("Within the limit over these years: none.", page)
+    expect(re.search(r"reaches road \(135 m\) every 22 \(\S+\) years today without forest", page), page)
+    for row in ("without forest 22 (21–24) ", "simple coppice 55 (51–60) ", "simple coppice, just cut 25 (23–27) "):
+        expect_in(row, page)
     bare, coppice = (re.search(rf"{name} .*?(\d+) \(\d+–\d+\)$", walk.outputs[0], re.M)[1]
                      for name in ("    without forest", "    simple coppice"))
     expect(385 < int(bare) < 400 and 290 < int(coppice) < 300, "390 to some 300 kJ", bare, coppice)
@@ -510,8 +558,9 @@ def test_page():
     walk = walked("page")
     pages = {name: walk.read(f"{name}.html") for name in ("page", "draft", "mill")}
     answer = re.search(r'<div class="answer">(.*?)</div>', pages["page"], re.S).group(1)
-    expect(re.search("✘ NO: .* of 1000 arrive with more than 50 kJ .*; may be ", answer), answer)
-    for words in ("by the number of rocks (", "by what is not known."):
+    years = r"✘ NO: in (\d+) of (\d+) years more than 50 of 1000 rocks exceed 50 kJ.*mean \d+ .*, worst \d+ in year \d+; today \d+ \(NO\)"
+    expect(re.search(years, answer, re.S), answer)
+    for words in ("In nine of ten plausible cases", "by the number of rocks (", "by what is not known."):
         expect_in(words, pages["page"])
     expect_equal([page.count("<h1>") for page in pages.values()], [1, 3, 1], "chapters, and before those of several the table of their verdicts")
     expect_in("<h1>Coppice above the mill, parcel 14</h1>", pages["mill"])

@@ -164,17 +164,19 @@ class Screen:
 
     def lights(self):
         """The tests in the column on the right, {'Contact': 'passes', …}: the sign and the comparison must agree."""
-        found = {}
-        for name, pattern in (("Contact", r"^(?:ADC|gap)\b(.*) (\S)$"), ("Free run", r"^[\d.]+ m free (.*) (\S)$"),
-                              ("Energy", r"^energy\b(.*) (\S)$")):
-            match = re.search(pattern, self.now, re.M)
+        return {name: today for name, (today, _) in self.lights_ahead().items()}
+
+    def lights_ahead(self):
+        """The same with the second sign, of the worst year ahead; None without one."""
+        found, words_of = {}, {"✔": "passes", "+": "passes", "✘": "FAILS", "x": "FAILS", "?": "unknown", "": None}
+        for name, pattern in (("Contact", r"^(?:ADC|gap)\b(.*)"), ("Free run", r"^[\d.]+ m free (.*)"), ("Energy", r"^energy\b(.*)")):
+            match = re.search(pattern + " ([✔✘+x?])([✔✘+x?]?)$", self.now, re.M)
             expect(match, f"no test '{name}' in the column on the right:", self)
-            words, sign = match.groups()
-            expect(sign in "✔✘+x?", f"{name}: the sign {sign!r}", self)
+            words, sign, ahead = match.groups()
             good, bad = re.search(r" (<|≤|<=) ", words), re.search(r" (≥|>|>=) |no (stems|forest)", words)
             expect(sign not in "✔+" or good, f"the sign {sign!r} does not go with {name}{words}", self)
             expect(sign not in "✘x" or bad, f"the sign {sign!r} does not go with {name}{words}", self)
-            found[name] = "passes" if sign in "✔+" else "FAILS" if sign in "✘x" else "unknown"
+            found[name] = (words_of[sign], words_of[ahead])
         return found
 
     def has(self, *parts):

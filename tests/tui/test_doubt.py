@@ -118,12 +118,12 @@ def test_options():
     for name in ("thick", "thin"):  # beside today's figure, of which it is
         band = re.search(rf"^{name} .*\((\d+–\d+)\)", thin.body, re.M).group(1)
         expect(re.search(rf"^{name} +\d+±\d+ +{band} +\d+±\d+ ", compared.body, re.M), compared)
-    expect(re.search("^ +today +may be +rotation ", compared.body, re.M), compared)
+    expect(re.search("^ +today +may be +mean ", compared.body, re.M), compared)
     further.has("thin is better than none left in")
 
 
 def test_over_the_rotation():
-    """Tab in view 7, and view 5: the mean over the rotation with its doubt, and the order of the options, as --sensitivity --years has them"""
+    """Tab in view 7, and view 5: the mean over the years with its doubt, and the order of the options, as --sensitivity --years has them"""
     option = "  - name: {}\n    forest: [{{from_m: 10, to_m: 60, stand: {}}}]\n"
     stands = ("{name: grows, stools: {per_ha: 800, spacing_m: 0.3}, shoots: [{per_ha: 2000, dbh_m: 0.08, height_m: 8}],"
               " growth: {shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.1, height_most_m: 14, height_rate_1_y: 0.1}},"
@@ -141,7 +141,7 @@ def test_over_the_rotation():
     bands = {f["option"]: "–".join(f"{f[k] * 1000:.0f}" for k in ("doubt_p5", "doubt_p95"))
              for f in run["figures"] if f["figure"] == "rotation.exceed_probability" and f["against"] is None}
     rank, = run["ranking"]
-    order = rf"Over the rotation {rank['better']} is better than {rank['than']} in {rank['probability'] * 100:.0f} % of what may be true"
+    order = rf"Over the years {rank['better']} is better than {rank['than']} in {rank['probability'] * 100:.0f} % of what may be true"
     expect_equal(sorted(bands), ["cut", "kept"])
     for name, band in bands.items():
         expect(re.search(rf"^{name} .* \d+ \({band}\)", over.body, re.M), name, band, over)
@@ -150,13 +150,13 @@ def test_over_the_rotation():
         expect(re.search(rf"{name} \d+ \d+–\d+ {band} ", written), name, band, written)
     expect(re.search(order, written), order, written)
     mean = re.search(r"^cut .* (\d+) [(]", over.body, re.M)[1]
-    expect_in(f"Over the rotation {mean} of 1000 (rocks ", over.body)
+    expect_in(f"Over the years {mean} of 1000 (rocks ", over.body)
     expect_in(f"doubt {bands['kept']})", other.body)
     for screen in (over, other, compared, small):
         expect(re.search(order, " ".join(screen.body.split())), order, screen)
-    expect(re.search("^ +today +rotation, may be ", compared.body, re.M), compared)
+    expect(re.search("^ +today +mean, may be ", compared.body, re.M), compared)
     for screen in (today, back):
-        expect("rotation, may be" not in screen.body, screen)
+        expect("mean, may be" not in screen.body, screen)
 
 
 def test_units():

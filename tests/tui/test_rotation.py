@@ -166,13 +166,13 @@ def test_strips():
 
 
 def test_window():
-    """View 6 shows one whole rotation after the first cut; the window is a field, and the column on the right follows the year"""
+    """View 6 shows the years ahead, from next year on and 20 at least; they are fields, and the column on the right follows the year"""
     screens = shown("""wait idle
         resize 200 50
         key 6
         wait idle
         dump
-        key Tab l l l
+        key Tab l l
         dump
         key Tab
         find last year shown
@@ -186,19 +186,20 @@ def test_window():
         dump""", "rotation.yaml")
     with Place() as place:
         option = result("--years", "-n", ROCKS, place.path / "rotation.yaml")["options"][0]
-    expect_equal([y["year"] for y in option["years"]], list(range(3, 11)), "the years of --years")
-    for screen, count in zip(screens, (8, 8, 3, 8)):
+    expect_equal([y["year"] for y in option["years"]], list(range(1, 21)), "the years of --years: the rotation has 8")
+    for screen, count in zip(screens, (20, 20, 3, 20)):
         expect_equal(len(marks(screen, "C")), count, "years")
-    expect_in("One whole rotation, years 3 to 10: mean", flat(screens[0]))
+    expect_in("Years 1 to 20: mean", flat(screens[0]))
     expect_in("Years 2 to 4: mean", flat(screens[2]))
-    expect_equal(len(columns_of_cuts(screens[0])), 1, "one cut in a rotation")
-    for screen, year in ((screens[0], option["years"][0]), (screens[1], option["years"][3])):
+    expect_equal(len(columns_of_cuts(screens[0])), 3, "cuts in years 3, 11 and 19")
+    for screen, year in ((screens[0], option["years"][0]), (screens[1], option["years"][2])):
         wooded = year["controls"][0]["wooded"]
         expect(re.search(rf"^Year {year['year']}(, just cut)?$", screen.now, re.M), f"the year in the column {year['year']}", screen)
         expect_equal(screen.pair("arrive")[0], round(1000 * wooded["reach_probability"]), "what arrives in that year")
         expect_equal(screen.pair("stems stop")[0], round(1000 * wooded["missed"]["stopped_by_stems"]), "what stems stop in it")
     felled = option["yield"]["cuts"][0]
-    expect_in(f"Felled: {felled['volume_m3_ha']:.0f} m³ per ha, {felled['stems_per_ha']:.0f} stems.", flat(screens[0]))
+    expect_equal(felled["year"], 3, "the first cut")
+    expect_in(f"Felled: {felled['volume_m3_ha']:.0f} m³ per ha, {felled['stems_per_ha']:.0f} stems.", flat(screens[1]))
 
 
 def test_thin_shoots():

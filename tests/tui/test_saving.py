@@ -346,7 +346,7 @@ def test_export():
         expect(page.count("\n") < whole.count("\n"), "the page is the short one", page, whole)
         written = place.text("ceduo-screen.txt").replace("computing,", "finished,")  # w asks for what the page would say, too
         old, new = screens[0].text.split("\n"), written.split("\n")
-        expect(re.match(r" ✔ YES so far: 0 of 1000 .* uncertainty \d+ %$", new[1]), "the answer until that is computed", new[1])
+        expect(re.match(r" road \(80 m\): ✔ YES so far, also without forest: 0 of 1000 +uncertainty \d+ %$", new[1]), "the answer until that is computed", new[1])
         expect_equal(new[:1] + new[2:], old[:1] + old[2:], "the rest of the screen as a file")
         rows = place.text("table.csv").splitlines()
         expect(rows[0].startswith("scene,title,") and len(rows) == 1 + 3 * 2, rows)
