@@ -141,7 +141,20 @@ def expect_run(run, model="stems"):
             expect_equal(ends["stopped_by_stems"], 0, "stopped by stems without stems")
         for control in option["controls"]:
             expect_equal(control["lights"]["energy"], energy_light(control), "energy light")
+        expect_window(option)
     expect_differences(run)
+
+
+def expect_window(option):
+    """The years by which an option is judged; without them the answer is that of today."""
+    window = option["window"]
+    if window is None:
+        for verdict in (c["verdict"] for c in option["controls"]):
+            expect_equal(verdict["answer"], verdict["today"], "the answer without years")
+        return
+    expect(1 <= window["from"] <= window["worst_year"] <= window["to"] <= 60 and window["to"] >= 20, "years", window)
+    expect(0 <= window["mean_lo"] <= window["mean"] <= min(window["mean_hi"], window["worst"] + 1e-12), "shares", window)
+    expect((window["failing_years"] or 0) <= window["to"] - window["from"] + 1, "years that fail", window)
 
 
 def energy_light(control):
