@@ -283,7 +283,6 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
     for (size_t i = 0; i < result->options_count; i++)
         for (size_t c = 0; c < result->scene->controls_count; c++) {
             const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
-<<<<<<< HEAD
             if (!a || !(a->exceed_lo <= a->limit && a->exceed_hi > a->limit) ||
                 ceduo_energy_light(a) == CEDUO_UNKNOWN) /* more rocks cannot help */
                 continue;
@@ -294,10 +293,6 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
                       "simulate more rocks."),
                     NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, a->hazard.accepted_return);
             else
-=======
-            if (a && a->exceed_lo <= a->limit && a->exceed_hi > a->limit &&
-                ceduo_energy_light(a) != CEDUO_UNKNOWN) /* and more rocks can help */
->>>>>>> 39c34342ebcec3db40e81be2952d454c771e640e
                 say_format(say, context,
                            _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
                              "fly more rocks."),
