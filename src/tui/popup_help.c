@@ -18,6 +18,7 @@ static const struct {
 } glossary[] = {
     {N_("ADC"), N_("mean distance between stem hits along the fall line; less than 30 m passes")},
     {N_("free run"), N_("chance that a rock meets no stem over 30 m of forest")},
+    {N_("two signs"), N_("of a test: today, and in the worst of the years ahead")},
     {N_("index"), N_("the paper's way: so many contacts, each takes one mean stem's energy")},
     {N_("p95"), N_("of 100 rocks 95 stay below it")},
     {N_("doubt"), N_("what is not known, such as the ground; more rocks do not cure it")},

@@ -112,13 +112,20 @@ static const char *than(enum ceduo_light light, const char *good, const char *ba
     return light == CEDUO_PASS ? good : bad;
 }
 
-/* Beside the sign of today that of the worst year ahead: fail if the test fails in any. */
-static void add_light(struct ceduo_page *page, const struct ceduo_pane *pane, enum ceduo_light today, size_t fails, bool known)
+/* The option over the years ahead; NULL if they are not known or are all as today. */
+static const struct ceduo_choice *choice_ahead(const struct ceduo_pane *pane)
 {
     const struct ceduo_verdict *v = pane->verdict;
     const struct ceduo_choice *c = v && pane->option < v->n && !pane->year ? &v->choices[pane->option] : NULL;
+    return c && c->over.years > 0 && c->window.kind != CEDUO_WINDOW_ALIKE ? c : NULL;
+}
+
+/* Beside the sign of today that of the worst year ahead: fail if the test fails in any. */
+static void add_light(struct ceduo_page *page, const struct ceduo_pane *pane, enum ceduo_light today, size_t fails, bool known)
+{
+    const struct ceduo_choice *c = choice_ahead(pane);
     ceduo_page_light(page, today);
-    if (c && c->over.years > 0 && c->window.kind != CEDUO_WINDOW_ALIKE)
+    if (c)
         ceduo_page_light(page, !known || c->over.nothing ? CEDUO_UNKNOWN : fails > 0 ? CEDUO_FAIL : CEDUO_PASS);
     else
         ceduo_page_write(page, "%s", "");
@@ -151,6 +158,8 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
     else
         ceduo_page_write(page, "%s", wood || !pane->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));
     add_light(page, pane, index->energy, c->over.unprotected_energy, c->energy_known);
+    if (pane->height >= HEIGHT_ALL && choice_ahead(pane))
+        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
 }
 
 static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_index *index)

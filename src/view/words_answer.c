@@ -200,7 +200,7 @@ static void say_years(struct text *text, const struct ceduo_subject *s, const st
     if (length == FULL && o->answer != CEDUO_YES && !s->apart)
         ceduo_text_format(text, _(": mean %.0f, worst %.0f in year %u"), 1000 * over->exceed.mean, worst, over->worst_year);
     if (length <= SHORT && !s->apart)
-        say_today(text, o, m.value, length != MIDDLE);
+        say_today(text, o, m.value, length <= LONG || (length == SHORT && o->today != o->answer));
 }
 
 /* With blocks: how often, beside what is accepted. */

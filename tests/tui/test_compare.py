@@ -7,7 +7,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import CUTS, Place  # noqa: E402
-from harness import expect, expect_equal, results, run_all  # noqa: E402
+from harness import ceduo, expect, expect_equal, results, run_all  # noqa: E402
 
 HEAD, TAIL = CUTS[:CUTS.index("options:")], CUTS[CUTS.index("simulation:"):]
 OPTION = """\
@@ -50,6 +50,8 @@ def test_blocks():
         rocks = re.search(r"(\d+) rocks", screen.now, re.M).group(1)
         options = results("-n", rocks, "blocks-above-the-road")[0]["options"]
         ahead = results("--years", "-n", 10240, "blocks-above-the-road")[0]["options"]
+        page = " ".join(ceduo("--batch", "--details", "-n", 2000, "-s", "controls[0].accepted_return_y=55", "blocks-above-the-road").out.split())
+    expect("simple coppice, 135 m: whether 36 of 1000 rocks at most arrive with too much energy is too close to call" in page, page)
     years = [o["controls"][0]["wooded"]["hazard"]["accepted_years"] for o in options]
     bare = options[0]["controls"][0]["bare"]["hazard"]["accepted_years"]
     expect_equal(screen.pair("years apart"), (round(years[0]), round(bare)))

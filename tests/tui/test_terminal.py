@@ -691,7 +691,7 @@ def test_no_color():
     for setting, wanted in (({}, True), ({"NO_COLOR": "1"}, False)):
         with Place() as place, Tmux(place, **setting) as t:
             t.start("fast.yaml")
-            t.sees("✔ YES: ", "finished, ")
+            t.sees("road (80 m): ✔ YES, also without forest: ", "finished, ")
             for view in "12345":
                 t.keys(view)
                 t.sees("? help")
@@ -837,7 +837,7 @@ def test_doubt_of_the_shown_option_first():
         t.start("four-systems")
         t.keys("7")
         shown = r"doubt (\d+–\d+)\)"
-        first = re.search(shown, t.sees("of 1000 (rocks ", "; may be "))
+        first = re.search(shown, t.sees("of 1000 (rocks ", "; doubt "))
         all_of_them = until("the doubt of all options",
                             lambda: (lambda s: len(re.findall(r"^[a-z].* \(\d+–\d+\) ", s, re.M)) >= 8 and s)(t.screen()))
         expect(first and first[1] == re.search(shown, all_of_them)[1], first, all_of_them)

@@ -202,6 +202,9 @@ TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
     expect_words(&subject, 80, "✘ NO: in 17 of 25 years more than 50 of 1000 rocks exceed 50 kJ; today 31 (YES)");
     expect_words(&subject, 78, "✘ NO: in 17 of 25 years more than 50 of 1000 exceed 50 kJ; today 31");
     expect_words(&subject, 60, "✘ NO: above the limit in 17 of 25 years; today 31 (YES)");
+    set_share(&wooded, .47, .44, .5); /* the same answer today */
+    expect_words(&subject, 51, "✘ NO: above the limit in 17 of 25 years; today 470");
+    set_share(&wooded, .031, .022, .043);
     expect_words(&subject, 30, "✘ NO: in 17 of 25 years");
     expect_words(&subject, 10, "✘ NO");
     choice.cut = 3; /* due, and it changes the answer */
@@ -228,4 +231,5 @@ TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
     choice.ahead = aheads;
     result.last_control = subject.control = 1;
     expect_words(&subject, 60, "road (80 m): ✔ YES, also without forest: 4 of 1000 > 50 kJ");
+    expect_words(&subject, 55, "road (80 m): ✔ YES, also without forest: 4 of 1000");
 }
