@@ -295,7 +295,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
             else
                 say_format(say, context,
                            _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
-                             "fly more rocks."),
+                             "simulate more rocks."),
                            NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, a->limit * 1000);
         }
     say_lost(result, say, context);
