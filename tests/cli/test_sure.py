@@ -201,7 +201,7 @@ def test_worst_year():
 def test_share_in_the_worst_year():
     """Shares of the rocks in the worst year: what is found, put into the scene, has a worst year that just keeps to the goal"""
     mapping = wood([]) | {"controls": [{"x_m": 90, "accepted_kJ": 120}]}
-    mapping["forest"] = [{"from_m": 0, "to_m": 90, "stand": "coppice-with-standards"}]
+    mapping["forest"] = [{"from_m": 0, "to_m": 90, "stand": {"base": "coppice-with-standards", "energy": {"offset": "whole"}}}]
     path, rocks = "forest[0].stand.cutting.stay_per_ha[0]", 400
     with Folder() as f:
         scene_file = f.write("s.yaml", mapping)
