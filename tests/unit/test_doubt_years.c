@@ -241,7 +241,7 @@ TEST(what_there_is_over_a_rotation)
 {
     open_scene();
     file.scene.controls[0].accepted = NAN;
-    ask(2, 8, &answer);
+    ask(2, 24, &answer);
     const struct ceduo_doubt_figure *mean = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_MEAN, false),
                                     *years = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_FAILING, false);
     EXPECT(mean->value, >, .5); /* most arrive just after the cut */
