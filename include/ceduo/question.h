@@ -40,7 +40,7 @@ struct ceduo_answer {
     struct ceduo_years **years;     /* one for each option, NULL of those that `only` leaves out; NULL: not asked for */
     struct ceduo_years **rotations; /* likewise */
     struct ceduo_block *blocks;     /* CEDUO_BLOCKS for each option; NULL: not asked for, or the rock has no other sizes */
-    struct ceduo_work work;         /* of all runs of the pool; without the blocks */
+    struct ceduo_work work;         /* of all runs of the pool; without the blocks, and without years_apart's years */
 };
 
 /* `pool` (may be NULL) keeps the runs from one question to the next, see ceduo_pool_for(): *pool is NULL at first, and

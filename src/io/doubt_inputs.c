@@ -143,7 +143,10 @@ static void consider(struct finder *f, const struct field *field, const struct n
         origin = ceduo_arena_format(f->arena, "%s of %d", key_of_species(field, path), belt->stand.species);
     else if (node)
         origin = ceduo_arena_format(f->arena, "%s:%u:%u", node->source->name, node->line, node->column);
-    add(f, path, origin, *range);
+    struct range kept = *range;
+    if (strcmp(key, "per_stool") == 0) /* a stool has one shoot at least */
+        kept.lo = fmin(1, fmax(kept.lo, 1 / ceduo_value_get(&v)));
+    add(f, path, origin, kept);
 }
 
 /* `map` may be NULL: nothing of the object is written. */

@@ -19,8 +19,9 @@
 #define FITS_YEARS  2        /* of its rotation, and half of one for each year */
 #define PLANNED     (2. / 3) /* of the bound: later points may meet more than the pilot */
 #define PILOT       8        /* points */
+#define PILOT_YEARS 4        /* a forest just cut has many times the stems */
 #define ROCKS_LEAST 100      /* of a point, if there are more at first */
-#define YEARS_LEAST 12
+#define YEARS_LEAST 8
 
 double ceduo_effort_of(const struct ceduo_scene *scene, const struct ceduo_work *work)
 {
@@ -65,7 +66,7 @@ static bool reduce(const struct plan *plan, struct ceduo_doubt_def *def, size_t 
     def->years_max = 0;
     for (def->rocks = rocks; afford(plan, def, points) < enough && def->rocks > least; enough /= 2)
         def->rocks = def->rocks / 2 > least ? def->rocks / 2 : least;
-    if (def->points < enough && def->rotation) {
+    if (def->points < points / 4 && def->rotation) {
         def->years_max = YEARS_LEAST;
         afford(plan, def, points);
     }
@@ -86,14 +87,16 @@ static enum ceduo_status run_pilot(const struct ceduo_doubt_def *def, struct pla
     uint64_t effort = 0;
     double *u = malloc(PILOT * def->inputs_count * sizeof *u + 1);
     pilot.rocks = CEDUO_SURFACE_GROUPS;
-    pilot.rotation = pilot.alone = false;
+    pilot.years_max = PILOT_YEARS;
+    pilot.alone = false;
+    double rocks = (double)pilot.rocks + (pilot.rotation ? (double)(ceduo_points_years(&pilot) * CEDUO_DOUBT_YEAR_ROCKS) : 0);
     pilot.effort_max = (uint64_t)((1 - PLANNED) * plan->most);
     enum ceduo_status status =
         u ? ceduo_surface_points(def->scene->simulation.seed, PILOT, def->inputs_count, u) : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_points_run(
             &(const struct points){.def = &pilot, .u = u, .today = true, .read = read_nothing, .effort = &effort}, 0, PILOT, 0);
-    plan->met = (double)effort / (PILOT * CEDUO_SURFACE_GROUPS);
+    plan->met = (double)effort / (PILOT * rocks);
     free(u);
     return status;
 }

@@ -609,7 +609,7 @@ static const struct ceduo_figure scene[] = {
 static const struct ceduo_figure work[] = {
     {"rocks_flown", "",
      "rocks of all runs: one without forest, and one for each forest that differs, under "
-     "each energy law",
+     "each energy law; with --years of its years, too, but not of the window",
      AT(report, work.rocks)},
     {"contacts", "", "contacts with the ground, of all rocks", AT(report, work.contacts)},
     {"stems_drawn", "", "stems generated along their ways, hit or not", AT(report, work.stems.drawn)},

@@ -176,7 +176,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (!v)
         return;
     bool known = false;
-    if (v->choices[0].over.years > 0)
+    if (v->choices[0].over.years > 0 && v->choices[0].window.kind != CEDUO_WINDOW_ALIKE)
         add_rotations(page, r, v);
     for (size_t i = 0; v->choices[0].over.years > 0 && i < v->n; i++) { /* what a yield leaves out */
         known |= !isnan(v->choices[i].yield.cut_per_year);
@@ -186,15 +186,16 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
                 _("'%s' keeps more standards than the ground bears (%.0f %% of the growing space): its yield is not computed."),
                 r->scene->options[i].name, 100 * v->choices[i].yield.space);
     }
-    for (size_t i = 0; i < v->n; i++)
-        if (!isnan(v->choices[i].rotation.mean)) {
-            const struct ceduo_measure mean = ceduo_share(v->choices[i].rotation);
-            struct ceduo_window w = ceduo_window_of(&r->scene->options[i]);
-            LOCAL_TEXT(share);
-            ceduo_measure_error(&share, &mean, " ");
-            ceduo_page_say(page, CEDUO_PAGE_NOTE, _("'%s', mean over a whole rotation, years %u to %u: %s of 1000."),
-                           r->scene->options[i].name, w.first, w.last, ceduo_text_string(&share));
-        }
+    for (size_t i = 0; i < v->n; i++) {
+        struct ceduo_window w = ceduo_window_of(&r->scene->options[i]);
+        if (w.kind != CEDUO_WINDOW_ROTATION || isnan(v->choices[i].rotation.mean))
+            continue;
+        const struct ceduo_measure mean = ceduo_share(v->choices[i].rotation);
+        LOCAL_TEXT(share);
+        ceduo_measure_error(&share, &mean, " ");
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("'%s', mean over a whole rotation, years %u to %u: %s of 1000."),
+                       r->scene->options[i].name, w.first, w.last, ceduo_text_string(&share));
+    }
     if (known)
         ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
                                 "quality of the wood are not modelled."));

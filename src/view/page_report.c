@@ -88,7 +88,7 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
                         _("Some of these cases keep within the limit and some do not: the answer depends on "
                           "uncertain inputs."));
     else if (o.answer == CEDUO_YES || o.answer == CEDUO_NO)
-        ceduo_text_then(text, " ", "%s", _("All of these cases give the same answer."));
+        ceduo_text_then(text, " ", "%s", _("The answer is the same in all of these cases."));
 }
 
 /* What the scene says for it; there is always room to date and to sign. */

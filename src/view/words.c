@@ -283,13 +283,20 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
     for (size_t i = 0; i < result->options_count; i++)
         for (size_t c = 0; c < result->scene->controls_count; c++) {
             const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
-            if (a && a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST &&
-                result->scene->blocks_count == 0 &&     /* which are judged by years, and said to be not decided */
-                ceduo_energy_light(a) != CEDUO_UNKNOWN) /* and more rocks can help */
+            if (!a || !(a->exceed_lo <= a->limit && a->exceed_hi > a->limit) ||
+                ceduo_energy_light(a) == CEDUO_UNKNOWN) /* more rocks cannot help */
+                continue;
+            if (result->scene->blocks_count > 0)
+                say_format(
+                    say, context,
+                    _("%s, %g m: whether a rock above the limit arrives at most once in %g years today is too close to call; "
+                      "simulate more rocks."),
+                    NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, a->hazard.accepted_return);
+            else
                 say_format(say, context,
                            _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
-                             "fly more rocks."),
-                           NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, CEDUO_EXCEED_MOST * 1000);
+                             "simulate more rocks."),
+                           NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, a->limit * 1000);
         }
     say_lost(result, say, context);
     if (remarks->ground_assumed)

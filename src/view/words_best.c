@@ -18,10 +18,7 @@ static const struct ceduo_window *window_of(const struct ceduo_verdict *v)
 void ceduo_words_span(struct text *text, const struct ceduo_verdict *v)
 {
     const struct ceduo_window *w = window_of(v);
-    if (w->kind == CEDUO_WINDOW_ALIKE)
-        ceduo_text_put(text, _("all years alike"));
-    else
-        ceduo_text_format(text, _("years %u to %u"), w->first, w->last);
+    ceduo_text_format(text, _("years %u to %u"), w->first, w->last);
 }
 
 void ceduo_words_window(struct text *text, const struct ceduo_option *option)
@@ -125,7 +122,7 @@ static void append_leaders(struct text *text, const struct ceduo_scene *scene, c
         ceduo_text_put(text, ceduo_text_string(&said));
 }
 
-/* "Over a whole rotation 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
+/* "In years 1 to 25 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
 static void say_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, bool rotation,
                      const char *when)
 {

@@ -264,6 +264,12 @@ def belt(from_m, to_m, **changes):
     return {"from_m": from_m, "to_m": to_m, "stand": stand(**changes)}
 
 
+def of_today(option):
+    """An option of JSON without what the years decide: them, their window and the answer over them."""
+    controls = [{**c, "verdict": {"today": c["verdict"]["today"]}} for c in option["controls"]]
+    return {**option, "controls": controls, "years": None, "rotation": None, "window": None}
+
+
 # ---- TAP ----
 
 class Suite:

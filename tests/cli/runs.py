@@ -18,7 +18,7 @@ PAIR = {"mean": MAYBE, "se": MAYBE}
 SHARES = {**PAIR, "below": MAYBE}  # a difference of shares
 SHAPE_OF_DIFFERENCE = {"reach_probability": SHARES, "exceed_probability": SHARES, "energy_per_released_kJ": PAIR}
 MISSED = {k: NUMBER for k in ("stopped_by_stems", "came_to_rest", "left_slope", "unfinished")}
-HAZARD = {"per_year": NUMBER, "effective_rocks": NUMBER, "reach_per_year": NUMBER, "reach_years": MAYBE,
+HAZARD = {"per_year": NUMBER, "effective_rocks": NUMBER, "reach_per_year": NUMBER, "reach_years": MAYBE, "accepted_return_y": MAYBE,
           "exceed_rate": NULL,  # with --details a list
           "return": [{"years": NUMBER, **{k: MAYBE for k in ("energy_kJ", "lo", "hi")}}],
           **{k: MAYBE for k in ("exceed_per_year", "accepted_years", "accepted_years_lo", "accepted_years_hi", "rate_left")},
@@ -37,7 +37,7 @@ TOPOGRAPHY = {"reach_angle_deg": NUMBER, "shadow_angle_deg": MAYBE}
 CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "topography": TOPOGRAPHY,
            "bare": ARRIVALS, "index": INDEX, "wooded": WOODED, "other_energy": OTHER,
            "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT, "contact_8cm": LIGHT, "free_run_8cm": LIGHT},
-           "verdict": {"answer": TEXT_OR_NULL, "because": TEXT}}
+           "verdict": {"answer": TEXT_OR_NULL, "today": TEXT_OR_NULL, "because": TEXT}}
 RULES = ("region", "standards_per_ha", "standards_least", "standards_most", "standards_met", "standards_article", "standards_year",
          "turn_y", "turn_least", "turn_most", "turn_met", "turn_article", "turn_year")
 RULED = {k: TEXT_OR_NULL if k == "region" or k.endswith("article") else FLAG_OR_NULL if k.endswith("met") else MAYBE
@@ -54,6 +54,9 @@ SUMMARY = {"length_m": NUMBER, "longest_gap_m": NUMBER, "adc_m": MAYBE, "contact
            "passes_threshold": FLAG}
 YIELD = {**{k: NUMBER for k in ("cut_m3_ha_per_year", "standing_m3_ha_mean", "died_m3_ha_per_year")},
          "cuts": [{k: NUMBER for k in ("year", "from_m", "to_m", "stems_per_ha", "volume_m3_ha")}]}  # null without growth
+# Of the share by which options are judged; null if all years are alike, or by the index.
+WINDOW = {"from": COUNT, "to": COUNT, "mean": NUMBER, "mean_lo": NUMBER, "mean_hi": NUMBER, "worst": NUMBER, "worst_year": COUNT,
+          "failing_years": MAYBE}
 STOPS = {"p50": NUMBER, "p95": NUMBER, "max": NUMBER}
 DIFFERENCES = tuple(SHAPE_OF_DIFFERENCE)
 DIFFERENCE = {"option": TEXT, "against": TEXT, "x_m": NUMBER, **SHAPE_OF_DIFFERENCE}
@@ -64,7 +67,7 @@ RESULT = {"format": TEXT, "version": TEXT, "scene": TEXT, "title": TEXT, "seed":
           "options": [{"name": TEXT, "stands": [STAND], "summary": SUMMARY, "controls": [CONTROL],
                        "ends": {"stopped_by_stems": NUMBER, "came_to_rest": NUMBER, "left_slope": NUMBER,
                                 "unfinished": COUNT},
-                       "stop_x_m": STOPS, "years": NULL, "rotation": NULL, "yield": YIELD}],
+                       "stop_x_m": STOPS, "window": WINDOW, "years": NULL, "rotation": NULL, "yield": YIELD}],
           "differences": [DIFFERENCE],
           "work": {"rocks_flown": COUNT, "contacts": COUNT, "stems_drawn": COUNT, "runs": COUNT, "runs_reused": COUNT,
                    "seconds": NUMBER}}
@@ -90,7 +93,7 @@ def expect_shape(value, shape, path="$"):
         expect(shape or not value, f"{path}: {value!r} is not empty")
         for i, item in enumerate(value):
             expect_shape(item, shape[0], f"{path}[{i}]")
-    elif shape in (STOPS, YIELD, OTHER, HAZARD, RULED) and value is None:
+    elif shape in (STOPS, YIELD, OTHER, HAZARD, RULED, WINDOW) and value is None:
         return
     else:
         expect(isinstance(value, dict), f"{path}: {value!r} is no object")
@@ -102,7 +105,7 @@ def expect_shape(value, shape, path="$"):
 
 def by_index(shape):
     """The shape of a run with contact_model index: nothing is known of the wood."""
-    if shape is WOODED or shape is OTHER:
+    if shape is WOODED or shape is OTHER or shape is WINDOW:
         return NULL
     if isinstance(shape, list):
         return [by_index(item) for item in shape]
@@ -138,14 +141,29 @@ def expect_run(run, model="stems"):
             expect_equal(ends["stopped_by_stems"], 0, "stopped by stems without stems")
         for control in option["controls"]:
             expect_equal(control["lights"]["energy"], energy_light(control), "energy light")
+        expect_window(option)
     expect_differences(run)
+
+
+def expect_window(option):
+    """The years by which an option is judged; without them the answer is that of today."""
+    window = option["window"]
+    if window is None:
+        for verdict in (c["verdict"] for c in option["controls"]):
+            expect_equal(verdict["answer"], verdict["today"], "the answer without years")
+        return
+    expect(1 <= window["from"] <= window["worst_year"] <= window["to"] <= 60 and window["to"] >= 20, "years", window)
+    expect(0 <= window["mean_lo"] <= window["mean"] <= min(window["mean_hi"], window["worst"] + 1e-12), "shares", window)
+    expect((window["failing_years"] or 0) <= window["to"] - window["from"] + 1, "years that fail", window)
 
 
 def energy_light(control):
     wooded = control["wooded"]
     if wooded is None or control["accepted_kJ"] is None:
         return "unknown"
-    return "pass" if wooded["exceed_probability"] <= 0.05 else "fail"
+    hazard = wooded["hazard"]  # with blocks a number of years between two such rocks is accepted
+    limit = 1 / hazard["accepted_return_y"] / hazard["per_year"] if hazard else 0.05
+    return "pass" if wooded["exceed_probability"] <= limit else "fail"
 
 
 def flown(control):
@@ -195,7 +213,7 @@ def without_seconds(text):
 HAZARD_CELLS = (["per_year", "effective_rocks"] +
                 [f"return[{t}].{k}" for t in range(4) for k in ("years", "energy_kJ", "lo", "hi")] +
                 ["reach_per_year", "reach_years", "exceed_per_year", "accepted_years", "accepted_years_lo",
-                 "accepted_years_hi"] +
+                 "accepted_years_hi", "accepted_return_y"] +
                 [f"matrix[{i}].{k}" for i in range(3)
                  for k in ("intensity", "from_kJ", "to_kJ", "per_year", "lo", "hi", "rate_left", "to_30_years", "to_100_years",
                            "to_300_years")] + ["rate_left"])
@@ -217,7 +235,7 @@ SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.m
 CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("topography.", TOPOGRAPHY) +
                  flat("bare.", ARRIVALS) + flat("index.", INDEX) + flat("wooded.", WOODED) + flat("other_energy.", OTHER) +
                  ["lights.contact", "lights.free_run", "lights.energy", "lights.contact_8cm", "lights.free_run_8cm",
-                  "verdict.answer", "verdict.because", "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
+                  "verdict.answer", "verdict.today", "verdict.because", "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
                  flat("stop_x_m.", STOPS) + flat("difference.", SHAPE_OF_DIFFERENCE) +
                  [f"yield.{k}" for k in YIELD if k != "cuts"] + ["warnings"])
 STAND_CELLS = (SCENE_CELLS + [n for n in flat("", STAND) if n != "warnings"] + ["warnings"])

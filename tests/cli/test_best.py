@@ -12,6 +12,18 @@ from pages import WHOLE, expect_arrivals, expect_cells, expect_option, expect_or
 from runs import FOUR, THICK, THIN, through, treated
 
 
+def leader(shares, to_first):
+    """The option with the smallest share. Each other one is worse by three errors, of which those of the differences to the first
+    are known."""
+    zero = {"mean": 0, "se": 0}
+    best = min(shares, key=shares.get)
+    mean, se = (to_first.get(best, zero)[key] for key in ("mean", "se"))
+    for name in shares:
+        d = to_first.get(name, zero)
+        expect(name == best or d["mean"] - mean > 3 * math.hypot(d["se"], se), f"{best} is not clearly better than {name}", d)
+    return best
+
+
 def test_table_options():
     """Table of the four systems: each option, then side by side with the differences, what does not separate them said"""
     text, run = good(*WHOLE, "-n", 500, FOUR).out, result(FOUR, "-n", 500)
@@ -37,12 +49,21 @@ def test_table_options():
         d = difference["exceed_probability"]
         expect_cells(rows[difference["option"]], f"{d['mean'] * 1000:+.0f} ±{math.ceil(d['se'] * 1959.963984540054)}")
     expect_in("Today no option passes the test of energy: it does not separate them", words, "what does not separate them")
-    grown = [o for o in run["options"] if "just cut" not in o["name"]]
-    few = [str(round(1000 * o["controls"][0]["wooded"]["exceed_probability"])) for o in grown]
-    expect_in("Today 'simple coppice, 25 years', 'coppice with standards', 'selection coppice' and 'large reserves' let the fewest "
-              f"dangerous rocks through and cannot be told apart: {', '.join(few[:-1])} and {few[-1]} of 1000.", words, "the best today")
-    expect_in("Over a whole rotation ", words, "over the rotation")
-    expect_in("in the worst of these years, counted from today, with 136 rocks in each; ", words)  # six times 500 in 22 years, their mean number
+    shares = {o["name"]: o["controls"][0]["wooded"]["exceed_probability"] for o in run["options"]}
+    best = leader(shares, {d["option"]: d["exceed_probability"] for d in run["differences"]})
+    expect_in(f"Today '{best}' lets the fewest dangerous rocks through: {1000 * shares[best]:.0f} of 1000.", words, "the best today")
+    windows = {o["name"]: o["window"] for o in run["options"]}
+    best = min(windows, key=lambda name: windows[name]["mean"])
+    expect(all(w["mean_lo"] > windows[best]["mean_hi"] for name, w in windows.items() if name != best), "none is best by far", windows)
+    expect_in(f"In years 1 to 25 '{best}' lets the fewest dangerous rocks through: {1000 * windows[best]['mean']:.0f} of 1000.", words,
+              "the best over the years")
+    expect_in("Over years 1 to 25: of 1000 released, in the mean and in the worst of these years, counted from today, with 500 rocks in each; ",
+              words)
+    lines = text[text.index("Over years 1 to 25:"):].splitlines()
+    first = next(i for i, line in enumerate(lines) if line.strip().startswith("option")) + 1
+    for w, row in zip(windows.values(), lines[first:first + len(names)]):
+        half = math.ceil(1000 * (w["mean_hi"] - w["mean"]))
+        expect(re.search(rf" {1000 * w['mean']:.0f} ±{half} +{1000 * w['worst']:.0f} \({w['worst_year']}\) .* {w['failing_years']}/25 ", row), row, w)
     expect("By contact" not in words, words)
     expect_width(text)
     same = good(*WHOLE, "-n", 50, FOUR, "--option", "large reserves", "--option", "coppice with standards").out
@@ -78,8 +99,12 @@ def test_table_best():
         for order in ({"many_thin": THIN, "few_thick": THICK}, {"few_thick": THICK, "many_thin": THIN}):
             words = best_sentence(f, treated(**order))
             expect_in("Today 'few thick' lets the fewest dangerous rocks through: ", words)
-            expect("Over a whole rotation" not in words, "a rotation of stands that do not grow", words)
-            expect_in("All years of 'few thick' are alike: the file of 'thick' has no growth", words)
+            expect("whole rotation" not in words and "Over " not in words, "a rotation of stands that do not grow", words)
+            expect_in("The answer for 'few thick' is that of today: the file of 'thick' has no growth", words)
+        options = [{"name": name, "forest": [{"from_m": 10, "to_m": 95, "stand": st}]} for name, st in (("cut", "simple-coppice"), ("grows", "ads-1"))]
+        words = best_sentence(f, wooded_scene(forest=None, options=options), "-n", 50)
+        expect_in("'cut', mean over a whole rotation, years 1 to 25: ", words)
+        expect("'grows', mean" not in words, "a rotation of what is never cut", words)
         words = best_sentence(f, treated(none=None, many_thin=THIN))  # which hardly take anything
         expect_in("Today no option is clearly better than the others.", words)
         expect_in("All years of 'none' are alike: no stem stands in it.", words)

@@ -63,7 +63,7 @@ def test_nobody_reaches():
         expect_unreached(far)
         expect_near(far["bare"]["reach_hi"], 0.0038306, 1e-6, "Wilson's bound of 0 of 999")
         text = good(*WHOLE, path).out
-        expect_order(text, "Nothing can be said of the wood above 39 m: of 999 rocks 0 arrive", "39 m", "0 \\(0", "nothing can be said")
+        expect_order(text, "Nothing can be said of the forest above 39 m: of 999 rocks 0 arrive", "39 m", "0 \\(0", "nothing can be said")
         expect("nan" not in text.lower() and "null" not in text, text)
         _, rows = read_csv(good("--batch", "-f", "csv", path).out)
         expect_rows(rows, [run], "controls")

@@ -321,8 +321,8 @@ def test_page():
         bare, wooded = hazard_of(result), hazard_of(result, "wooded", -1, 1)
         years = [f"{shown(h['accepted_years'])} ({shown(h['accepted_years_lo'])}–{shown(h['accepted_years_hi'])})"
                  for h in (bare, wooded)]
-        expect_in(f"A rock with more than 50 kJ reaches road (140 m) every {years[0]} years without forest, every {years[1]} years "
-                  "with 'coppice'.", page)
+        expect_in(f"A rock with more than 50 kJ reaches road (140 m) every {years[0]} years today without forest, "
+                  f"every {years[1]} years with 'coppice'.", page)
         expect_in("A rock with more than 30 kJ reaches 80 m every", page)
         expect_in("Rock sphere; rocks are the blocks below, the index is of ", page)
         left = " ".join(shown(100 * m["rate_left"]) for m in wooded["matrix"])
@@ -351,7 +351,7 @@ def test_page():
         expect(re.search(r"through the wood > \d+ 0 none none ", few), "intensities that do not arrive", few)
         expect(" - %" not in few and "- %" not in stuck, "a share of none", few, stuck)
         index = " ".join(good(*WHOLE, "-s", "simulation.contact_model=index", path).out.split())
-        expect_in(f"reaches road (140 m) every {years[0]} years without forest. ", index)
+        expect_in(f"reaches road (140 m) every {years[0]} years today without forest. ", index)
         without = good(*WHOLE, f.write("v.yaml", slope_site(blocks=None))).out
         expect("How often" not in without and "Blocks   " not in without, without)
 

@@ -50,6 +50,8 @@ def test_json_shape_everywhere():
         expect_equal(len(run["options"]), 8)
         expect(all(c["index"]["measured_kJ"] is None for o in run["options"] for c in o["controls"]), "measured_kJ")
         expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (runs, 50 * runs), model)
+    run = result("blocks-above-the-road", "-n", 50)  # four options, each under two laws: those of the years are not counted with blocks, either
+    expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (9, 50 * 9), "blocks")
 
 
 def test_json_numbers_shortest():

@@ -19,8 +19,8 @@ MEAN = re.compile(r"(\S*[\d-]) ?(?:\+-|\u00b1) ?(\S+)")
 
 def expect_same_means(*pages):
     """A mean has as many digits as its column has room for, and "+-" takes a column more than its sign: each pair of numbers
-    on one page is that on the other, but for its last digit."""
-    pairs = [[number for pair in MEAN.findall(page) for number in pair] for page in pages]
+    on one page is that on the other, but for its last digit. A line may end between a mean and its error."""
+    pairs = [[number for pair in MEAN.findall(" ".join(page.split())) for number in pair] for page in pages]
     expect_equal(*(len(p) for p in pairs), "numbers beside an error")
     for one, other in zip(*pairs):
         if one == other == "-":  # of so few rocks there is no error

@@ -96,7 +96,7 @@ def test_options():
         path = behind_the_edge(f, forest=None, options=[
             {"name": name, "forest": [{"from_m": 20, "to_m": 110, "stand": name}]} for name in ("simple-coppice", "large-reserves")])
         page = good(*WHOLE, "--years", path).out
-        expect_in("Nothing can be said of the wood above road (120 m)", page)
+        expect_in("Nothing can be said of the forest above road (120 m)", page)
         for word in ("lets the fewest", "clearly better", "0/25", "All options pass"):
             expect(word not in page, word, page)
 

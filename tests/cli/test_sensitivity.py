@@ -279,7 +279,7 @@ def test_growth():
     expect(mean["doubt_p95"] - mean["doubt_p5"] > 0.01, mean)
     for name in ("exceed_probability", "reach_probability"):
         expect_equal(figure(result, name)["inputs"], [], f"{name}: today")
-        expect_equal(figure(result, name)["doubt_p5"], figure(result, name)["doubt_p95"], f"{name}: today")
+        expect_near(figure(result, name)["doubt_p5"], figure(result, name)["doubt_p95"], 0.005, f"{name}: today")  # the points', and the value of more rocks
     expect_equal(answer(two_options())["figures"], [], "without --years nothing is in doubt")
     expect_equal(answer(two_options(kind="measured"), "--years")["figures"], [], "measured growth")
     two = two_options()
@@ -504,7 +504,7 @@ def test_a_year_as_today():
 def test_stools_that_were_just_cut():
     """Stools of a stand without shoots live on, whatever of the stand is in doubt: the rotation after is that of the grown stand"""
     for shoots in (True, False):
-        what = measured(forest=[{"from_m": 0, "to_m": 80, "stand": coppice(shoots, 50)}], controls=[{"x_m": 90, "accepted_kJ": 120}],
+        what = measured(forest=[{"from_m": 0, "to_m": 80, "cut_year": 1, "stand": coppice(shoots, 50)}], controls=[{"x_m": 90, "accepted_kJ": 120}],
                         doubt=[{"path": "rock.density_kg_m3", "lo": 2599, "hi": 2601}])
         mean = figure(answer(what, "--years", "-n", 32), "rotation.exceed_probability")
         expect_near(mean["doubt_p50"], mean["value"], 3 * math.hypot(mean["doubt_p5_se"], (mean["sampling_hi"] - mean["value"]) / 2), shoots)
@@ -529,24 +529,21 @@ def test_ranking():
 
 
 def test_equal_whatever_the_rocks():
-    """Options are equal within 5 of 1000, whatever the number of rocks: the shares of better, equal and worse do not move with it"""
-    options = [{"name": str(n), "forest": [{"from_m": 0, "to_m": 80, "stand": wood(trees=[{**TREES[0], "per_ha": n}])}]} for n in (500, 505, 900)]
-    what = measured(options=options, doubt=[DENSITY, {"path": "release.vx_m_s", "lo": 4, "hi": 6}], controls=[{"x_m": 90, "accepted_kJ": 80}])
-    del what["forest"]
-    with Folder() as f:
-        path = f.write("s.yaml", what)
-        few, many = (good("--sensitivity=64", "-f", "json", "-n", rocks, path).json()[0] for rocks in (400, 4000))
-    differences = {f["option"]: f for f in few["figures"] if f["figure"] == "exceed_probability" and f["against"]}
-    expect(differences["505"]["doubt_p5"] > -0.03 and differences["900"]["doubt_p95"] < -0.03, differences)
-    pairs = [{frozenset((r["better"], r["than"])): r for r in run["ranking"]} for run in (few, many)]
-    for pair in pairs[0].keys() & pairs[1].keys():
-        one, other = (p[pair] for p in pairs)
-        turned = one["better"] != other["better"]
-        for key, same in (("probability", "worse" if turned else "probability"), ("equal", "equal")):
-            error = math.sqrt(2 * 0.25 / 64)  # of a share of 64 points
-            expect_near(one[key], other[same], 3 * error, f"{sorted(pair)}, {key}")
-    alike = {k: r for k, r in pairs[0].items() if k == {"500", "505"}}
-    expect(all(r["equal"] > 0.3 for r in alike.values()), "5 trees more make less than 5 of 1000", pairs)
+    """Options are equal within 5 of 1000, whatever the number of rocks: what is better, equal and worse, and the word for it, do not
+    move with the rocks"""
+    for trees in (560, 600, 650):
+        options = [{"name": str(n), "forest": [{"from_m": 0, "to_m": 80, "stand": wood(trees=[{**TREES[0], "per_ha": n}])}]}
+                   for n in (500, trees)]
+        what = measured(options=options, doubt=[DENSITY, {"path": "release.vx_m_s", "lo": 4, "hi": 6}], controls=[{"x_m": 90, "accepted_kJ": 80}])
+        del what["forest"]
+        with Folder() as f:
+            path = f.write("s.yaml", what)
+            few, many = (good("--sensitivity=64", "-f", "json", "-n", rocks, path).json()[0]["ranking"][0] for rocks in (400, 4000))
+            words = [re.search(r"of what may be true.*?: ([a-z ]+)\.", " ".join(good("--sensitivity=64", "-n", rocks, path).out.split()))[1]
+                     for rocks in (400, 4000)]
+        for key in ("probability", "equal", "worse"):
+            expect_near(few[key], many[key], 0.1, f"{trees}: {key}")
+        expect(trees == 560 or words[0] == words[1], trees, words)  # of 560 the share lies just where the word changes
 
 
 def test_what_would_settle_it():
@@ -655,6 +652,28 @@ def test_paths_can_be_set():
                              "energy_per_released_kJ": w["energy_per_released_kJ"]["mean"]}
                     for name, known in shown.items() if (o["name"], "reach_probability") in wanted else []:
                         expect_near(wanted[o["name"], name], known, 1e-9 * max(1e-9, known), f"{path} {option}: {sets}, {name}")
+
+
+def test_as_scenes_at_random():
+    """The band of two options and of their difference is that of scenes drawn at random and set by the paths, within three errors"""
+    names, count, rocks = ("selection coppice", "large reserves"), 80, 600
+    option = [word for name in names for word in ("--option", name)]
+    figures = [f for f in good("--sensitivity", "-f", "json", *option, "rotation").json()[0]["figures"] if f["figure"] == "exceed_probability"]
+    inputs, draw, drawn = {i["path"]: i for f in figures for i in f["inputs"]}, random.Random(1), []
+    for _ in range(count):
+        values = {p: draw.choice([i["lo"], i["hi"]]) if isinstance(i["lo"], str) else draw.uniform(i["lo"], i["hi"])
+                  for p, i in sorted(inputs.items())}
+        sets = [word for p, i in sorted(inputs.items()) for one in i["paths"] for word in ("-s", f"{one}={values[p]}")]
+        run = good("-b", "-f", "json", "-n", rocks, *sets, *option, "rotation").json()[0]
+        drawn.append([o["controls"][-1]["wooded"]["exceed_probability"] for o in run["options"]])
+    for f in figures:
+        column = sorted(d[1] - d[0] if f["against"] else d[names.index(f["option"])] for d in drawn)
+        for key, share in (("doubt_p5", 0.05), ("doubt_p95", 0.95)):
+            found = column[round(share * (count - 1))]
+            apart = math.sqrt(count * share * (1 - share))  # ranks that other draws may move it by
+            near = [column[min(count - 1, max(0, round(share * (count - 1) + k * apart)))] for k in (-1, 1)]
+            error = math.hypot((near[1] - near[0]) / 2, f[key + "_se"], math.sqrt(0.25 / rocks))
+            expect_near(found, f[key], 3 * error, f"{f['option']} against {f['against']}: {key}")
 
 
 def test_options_by_number():

@@ -157,7 +157,7 @@ def test_table_lights():
                         lights["Energy"]), lights)
     lights = said("-s", "controls[1].accepted_kJ=1000")
     expect(re.fullmatch(r"passes\. 0 \(0–\d+\) of 1000 arrive with more than 1000 kJ \(50 are allowed\)\."
-                        r" The slope keeps to that without the wood, too\.", lights["Energy"]),
+                        r" The slope keeps to that without forest, too\.", lights["Energy"]),
            lights)
     expect(re.match(r"unknown\. .*not said what the place withstands \(accepted_kJ\)", said(where=0)["Energy"]), "no accepted_kJ")
     expect(re.match(r"unknown\. The index .*contact_model: index", said(*through("index"))["Energy"]), "index")
@@ -233,7 +233,7 @@ def test_table_blocks():
 
 
 def test_table_bounded():
-    """What a page adds costs a few times what was asked for: few rocks in each of many years, no sizes that meet all stems there are"""
+    """What a page adds is bounded: in a year no more rocks than in a run, no sizes that meet all stems there are"""
     slope = {"vertices_m": [[0, 2100], [3000, 0]], "segments": [{"rn": 0.35, "rt": 0.875, "roughness_rad": 0.25, "friction": 0.5}]}
     with Folder() as f:
         for dbh, thick, rocks in ((0.02, 1e-4, 50), (0.02, 1e-4, 500), (0.035, 1e-6, 500)):
@@ -248,7 +248,7 @@ def test_table_bounded():
             expect(thick > 1e-6 or float(largest[1]) > 100 * own > 0, "hundreds of times the stems", text)
             expect_in("A size with a dash was left out: its rocks come to so many stems", " ".join(text.split()))
         page = " ".join(good(*WHOLE, "-n", 50, "rotation").out.split())
-        expect_in("counted from today, with 13 rocks in each", page)  # six times 50, in 22 years
+        expect_in("counted from today, with 50 rocks in each", page)  # as many as in a run, at most 1000
         page = " ".join(good(*WHOLE, "-n", 5, "rotation").out.split())
         expect_in("counted from today, with 5 rocks in each", page)
 

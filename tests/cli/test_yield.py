@@ -200,7 +200,7 @@ def test_page():
     expect_in("wood felled per hectare and year", re.sub(r"\s+", " ", side))
     row = re.search(r"^  coppice .*\d/\d.*$", side, re.M).group(0).split()
     expect_equal(row[-2:], [f"{found['cut_m3_ha_per_year']:.1f}", f"{found['standing_m3_ha_mean']:.1f}"], side)
-    expect(re.search(r"^  still .*\d/1 +- +-$", side, re.M), side)
+    expect(re.search(r"^  still .*\d/25 +- +-$", side, re.M), side)
 
 
 def test_tradeoff():
@@ -224,7 +224,7 @@ def find(path, goal, value, *arguments):
 
 
 def test_find_rotation():
-    """--find: the length of the rotation and the standards that stay are sought over a whole rotation, with their yield"""
+    """--find: the length of the rotation and the standards that stay are sought over the years ahead, with their yield"""
     base = "options[0].forest[0].stand.cutting"
     found = find(f"{base}.rotation_years", "exceed=0.7", "10:40")
     expect_equal((found["found"], found["over"], found["side"]), (True, "rotation", "smallest"))
@@ -242,12 +242,12 @@ def test_find_rotation():
     expect_near(option["rotation"]["exceed_probability"]["mean"], stay["goal_at_value"], 1e-12)
     expect_near(stay["yield"]["cut_m3_ha_per_year"], option["yield"]["cut_m3_ha_per_year"], 1e-12)
     text = good("--find", f"{base}.rotation_years=10:40", "--goal", "exceed=0.7", "-n", 400, "--option", "simple coppice", "rotation").out
-    expect_in("in the mean of one whole rotation", text)
+    expect_in("in the mean of the years ahead", text)
     expect_in(f"yield: {found['yield']['cut_m3_ha_per_year']:.3g} m", text)
 
 
 def test_find_today():
-    """--find: other parameters are sought today, with --years over a whole rotation"""
+    """--find: other parameters are sought today, with --years over the years ahead"""
     stools = "options[0].forest[0].stand.stools.per_ha"
     today, years = (find(stools, "exceed=0.3", "1000:5000", *more) for more in ((), ("--years",)))
     expect_equal((today["over"], years["over"]), ("today", "rotation"))

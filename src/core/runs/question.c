@@ -90,12 +90,12 @@ enum ceduo_status ceduo_ask(const struct ceduo_question *q, struct ceduo_pool **
     if (status == CEDUO_OK)
         status = ceduo_result_create(scene, *pool, &a->result);
     a->years_count = scene->options_count;
+    struct ceduo_work today = *pool ? ceduo_pool_work(*pool) : a->work;
     if (status == CEDUO_OK && q->years)
         status = simulate_years(q, *pool, false, a);
     if (status == CEDUO_OK && q->rotations)
         status = simulate_years(q, *pool, true, a);
-    if (*pool)
-        a->work = ceduo_pool_work(*pool);
+    a->work = *pool && !q->years_apart ? ceduo_pool_work(*pool) : today;
     if (status == CEDUO_OK && q->block_rocks > 0 && scene->controls_count > 0)
         status = simulate_sizes(q, *pool, a);
     ceduo_pool_free(own);
