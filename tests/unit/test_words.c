@@ -175,8 +175,11 @@ TEST(an_answer_is_shortened_by_whole_clauses)
 {
     static const char *const shorter[] = {
         "✘ NO: 479 of 1000 arrive with more than 50 kJ (at most 50 rocks accepted); may be 234–748",
-        "✘ NO: 479 of 1000 arrive with more than 50 kJ; may be 234–748", "✘ NO: 479 of 1000 > 50 kJ; may be 234–748",
-        "✘ NO: 479 of 1000 > 50 kJ", "✘ NO: 479 of 1000", "✘ NO"};
+        "✘ NO: 479 of 1000 arrive with more than 50 kJ; may be 234–748",
+        "✘ NO: 479 of 1000 > 50 kJ; may be 234–748",
+        "✘ NO: 479 of 1000 > 50 kJ",
+        "✘ NO: 479 of 1000",
+        "✘ NO"};
     size_t form = 0, forms = sizeof shorter / sizeof shorter[0];
     open_scene(50e3);
     for (size_t width = 200; width > 0; width--) {
