@@ -64,8 +64,8 @@ enum ceduo_doubt_kind {
 #define CEDUO_DOUBT_ROCKS      400 /* of each, where they are not said */
 #define CEDUO_DOUBT_LEAST      20  /* points; of fewer there is no 90 % range */
 
-/* Two options are equal if their shares differ by at most this, or with blocks by at most a tenth of ceduo_exceed_limit(). Mean energies per released rock are equal if they differ by at
- * most this share of that energy without forest. */
+/* Two options are equal if their shares differ by at most this, or with blocks by at most a tenth of ceduo_exceed_limit(). Two
+ * mean energies per released rock are equal if they differ by at most this share of the energy without forest. */
 #define CEDUO_DOUBT_EQUAL 0.005
 
 /* Over a rotation each point has so many rocks in each of its years, others in each year; of an option with more years these many

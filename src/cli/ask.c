@@ -273,13 +273,13 @@ enum ceduo_status ceduo_ask_doubt(struct asked *c, const struct arguments *a, st
     return ask_doubt(c, file, &def, NULL);
 }
 
-enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments *a, struct scene_file *file, bool rotation)
+enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments *a, struct scene_file *file)
 {
     const struct ceduo_result *result = c->answer.result;
     uint64_t rocks = ceduo_result_rocks(result);
     struct ceduo_doubt_def def;
     enum ceduo_status status = CEDUO_OK;
-    rotation = (rotation || a->years) && c->answer.years && !ceduo_uncertainty_no_rotation(&file->scene);
+    bool rotation = c->answer.years && !ceduo_uncertainty_no_rotation(&file->scene);
     if (!begin_doubt(c, a, file, rotation, &def))
         return CEDUO_NO_MEMORY;
     def.brief = true;

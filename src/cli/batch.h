@@ -79,11 +79,10 @@ enum ceduo_status ceduo_ask_runs(struct asked *asked);
 /* Asks what doubt does to the scene, with the points and rocks of the command line. */
 enum ceduo_status ceduo_ask_doubt(struct asked *asked, const struct arguments *arguments, struct scene_file *file);
 
-/* The same beside the answer, with no more rocks than that has; `rotation`: over the rotation of each option as well, where there
- * is one. Nothing is computed where rocks among stems are not simulated, where nothing can be said, or where it would take far
+/* The same beside the answer, with no more rocks than that has, and over the rotation of each option if there is one.
+ * Nothing is computed where rocks among stems are not simulated, where nothing can be said, or where it would take far
  * longer than most scenes. */
-enum ceduo_status ceduo_ask_doubt_beside(struct asked *asked, const struct arguments *arguments, struct scene_file *file,
-                                         bool rotation);
+enum ceduo_status ceduo_ask_doubt_beside(struct asked *asked, const struct arguments *arguments, struct scene_file *file);
 
 /* Releases all, and says where it failed. Otherwise EXIT_DONE, or EXIT_RUN where more than one rock of 1000 is unfinished. */
 enum exit_status ceduo_ask_end(struct asked *asked, const struct scene_file *file, enum ceduo_status status);

@@ -52,7 +52,7 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
     c.question.run.other_energy = !page || a->details;
     enum ceduo_status status = ceduo_ask_runs(&c);
     if (status == CEDUO_OK && page)
-        status = ceduo_ask_doubt_beside(&c, a, file, true);
+        status = ceduo_ask_doubt_beside(&c, a, file);
     if (status == CEDUO_OK) {
         const struct ceduo_report report = {.file = file,
                                             .result = c.answer.result,
@@ -254,7 +254,7 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
     c.question.block_rocks = file->scene.options_count == 1 ? BLOCK_ROCKS : 0;
     enum ceduo_status status = ceduo_ask_runs(&c);
     if (status == CEDUO_OK)
-        status = ceduo_ask_doubt_beside(&c, a, file, true);
+        status = ceduo_ask_doubt_beside(&c, a, file);
     if (status == CEDUO_OK) {
         LOCAL_TEXT(command);
         LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);

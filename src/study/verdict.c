@@ -240,7 +240,8 @@ static enum ceduo_judgement judge_years(const struct ceduo_years_summary *s, con
 {
     if (o->doubted && o->failing_lo < 1 && o->failing_hi >= 1)
         return CEDUO_DEPENDS;
-    bool never = s->failing_hi == 0 && o->failing_hi<1, some = s->failing_lo> 0 && o->failing_lo >= 1;
+    bool never = s->failing_hi == 0 && o->failing_hi < 1;
+    bool some = s->failing_lo > 0 && o->failing_lo >= 1;
     return never ? CEDUO_YES : some ? CEDUO_NO : CEDUO_NOT_DECIDED;
 }
 

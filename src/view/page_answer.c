@@ -61,8 +61,7 @@ static void append_judged(struct text *text, const struct ceduo_report *report, 
     const struct ceduo_result *r = report->result;
     size_t n = 0;
     for (size_t i = 0; i < r->scene->options_count; i++) {
-        const struct ceduo_outcome o = ceduo_words_outcome(
-            &(const struct ceduo_subject){r, report->verdict, report->doubt, i, r->last_control, false, false});
+        const struct ceduo_outcome o = ceduo_words_at_last(r, report->verdict, report->doubt, i);
         if ((today ? o.today : o.answer) == judgement)
             ceduo_text_format(text, n++ > 0 ? ", '%s'" : "'%s'", r->scene->options[i].name);
     }
@@ -136,8 +135,7 @@ static void say_mean(struct ceduo_page *page, const struct ceduo_report *report)
                       1000 * c->worst.mean, c->over.worst_year);
     LOCAL_TEXT(value);
     ceduo_measure_value(&value, &today);
-    const struct ceduo_outcome o =
-        ceduo_words_outcome(&(const struct ceduo_subject){r, report->verdict, report->doubt, 0, r->last_control, false, false});
+    const struct ceduo_outcome o = ceduo_words_at_last(r, report->verdict, report->doubt, 0);
     ceduo_text_format(text, _("; today %s"), ceduo_text_string(&value));
     if (o.today != CEDUO_UNANSWERED)
         ceduo_text_format(text, " (%s)", ceduo_words_decided(o.today));

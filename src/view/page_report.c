@@ -58,8 +58,7 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     const struct ceduo_doubt_report *doubt = report->doubt;
     const struct ceduo_control *place = &r->scene->controls[r->last_control];
     size_t option = ceduo_result_best(r, report->verdict);
-    const struct ceduo_outcome o =
-        ceduo_words_outcome(&(const struct ceduo_subject){r, report->verdict, doubt, option, r->last_control, false, false});
+    const struct ceduo_outcome o = ceduo_words_at_last(r, report->verdict, doubt, option);
     struct ceduo_measure m = ceduo_judged(place, NULL);
     ceduo_measure_doubt(&m, doubt, option, r->last_control);
     if (isnan(m.may_lo)) {

@@ -124,8 +124,7 @@ static void add_span(struct ceduo_page *page, const struct ceduo_measure *m)
 static void add_rates(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
 {
     const struct ceduo_result *r = report->result;
-    const struct ceduo_outcome o =
-        ceduo_words_outcome(&(const struct ceduo_subject){r, report->verdict, report->doubt, i, r->last_control, false, false});
+    const struct ceduo_outcome o = ceduo_words_at_last(r, report->verdict, report->doubt, i);
     const struct ceduo_arrivals *today = ceduo_result_wooded(r, i, r->last_control);
     ceduo_words_years(ceduo_page_text(page), o.rate);
     ceduo_words_decision(ceduo_page_text(page), o.answer);

@@ -84,8 +84,7 @@ static bool has_rates(const struct ceduo_pane *pane)
 
 static struct ceduo_outcome outcome_of(const struct ceduo_pane *pane, size_t i)
 {
-    return ceduo_words_outcome(
-        &(const struct ceduo_subject){pane->result, pane->verdict, pane->doubt, i, pane->result->last_control, false, false});
+    return ceduo_words_at_last(pane->result, pane->verdict, pane->doubt, i);
 }
 
 static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)

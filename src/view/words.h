@@ -66,6 +66,10 @@ struct ceduo_subject {
 
 /* What is said of it, see ceduo_outcome_of(). */
 struct ceduo_outcome ceduo_words_outcome(const struct ceduo_subject *subject);
+
+/* The same at the last control, from the report's parts. */
+struct ceduo_outcome ceduo_words_at_last(const struct ceduo_result *result, const struct ceduo_verdict *verdict,
+                                         const struct ceduo_doubt_report *doubt, size_t option);
 const char *ceduo_words_decided(enum ceduo_judgement judgement);              /* "NO", translated; not of CEDUO_UNANSWERED */
 void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement); /* "✘ NO"; nothing where it is not answered */
 

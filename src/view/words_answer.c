@@ -126,6 +126,12 @@ struct ceduo_outcome ceduo_words_outcome(const struct ceduo_subject *s)
     return ceduo_outcome_of(s->result, s->verdict, answer_of(s->doubt), s->option, s->control);
 }
 
+struct ceduo_outcome ceduo_words_at_last(const struct ceduo_result *r, const struct ceduo_verdict *verdict,
+                                         const struct ceduo_doubt_report *doubt, size_t option)
+{
+    return ceduo_words_outcome(&(const struct ceduo_subject){r, verdict, doubt, option, r->last_control, false, false});
+}
+
 const char *ceduo_words_decided(enum ceduo_judgement judgement)
 {
     return _(judgements[judgement].verdict);
