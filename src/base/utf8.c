@@ -32,6 +32,20 @@ bool ceduo_utf8_printable(uint32_t code)
     return !control && !turns && !none;
 }
 
+bool ceduo_utf8_is_space(uint32_t code)
+{
+    return code == 0xa0 || (code >= 0x2000 && code <= 0x200a) || code == 0x202f || code == 0x205f || code == 0x3000;
+}
+
+size_t ceduo_utf8_blank(const char *p, size_t n)
+{
+    uint32_t code;
+    if (n > 0 && (*p == ' ' || *p == '\t'))
+        return 1;
+    size_t length = ceduo_utf8_decode(p, n, &code);
+    return length > 1 && ceduo_utf8_is_space(code) ? length : 0;
+}
+
 size_t ceduo_utf8_encode(uint32_t code, char to[4])
 {
     int length = u8_uctomb((uint8_t *)to, code, 4);
@@ -47,7 +61,7 @@ const char *ceduo_utf8_fold(const char *p, size_t n, char *to, size_t room)
         length = ceduo_utf8_decode(p, n, &code);
         if (length == 0) /* no UTF-8: nothing that a word is compared by */
             length = code = 1;
-        bool dropped = code < 0x80 ? !strchr("%0123456789abcdefghijklmnopqrstuvwxyz", (int)uc_tolower(code)) : code == 0xa0;
+        bool dropped = code < 0x80 ? !strchr("%0123456789abcdefghijklmnopqrstuvwxyz", (int)uc_tolower(code)) : ceduo_utf8_is_space(code);
         size_t m = dropped ? 0 : ceduo_utf8_encode(uc_tolower(code), one);
         if (used + m >= room)
             break;

@@ -16,6 +16,12 @@ size_t ceduo_utf8_decode(const char *p, size_t n, uint32_t *code);
  * Unicode keeps for no character, which no page may hold. */
 bool ceduo_utf8_printable(uint32_t code);
 
+/* True if a code point is a space that a keyboard or a spreadsheet puts in place of a blank: no-break, narrow, thin, of a figure. */
+bool ceduo_utf8_is_space(uint32_t code);
+
+/* Bytes of a blank, tab or such a space at p; 0: none within n bytes. */
+size_t ceduo_utf8_blank(const char *p, size_t n);
+
 /* Writes a code point as UTF-8; the number of bytes. */
 size_t ceduo_utf8_encode(uint32_t code, char to[4]);
 

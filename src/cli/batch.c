@@ -65,39 +65,22 @@ static bool is_copied(const struct each_head *head)
 
 /* ---- the table ---- */
 
-/* The next cell of what is left of a line, without blanks around it and the quotes of CSV; NULL: nothing is left. */
-static const char *next_cell(struct each *e, char separator, struct csv_span *left)
+static const char *copy_cell(struct each *e, struct csv_cell cell)
 {
-    struct csv_span f;
-    if (!ceduo_csv_cell(left, separator, &f))
-        return NULL;
-    for (; f.n > 0 && f.p[0] == ' '; f.p++)
-        f.n--;
-    for (; f.n > 0 && f.p[f.n - 1] == ' '; f.n--)
-        ;
-    bool quoted = f.n > 1 && f.p[0] == '"' && f.p[f.n - 1] == '"';
-    char *cell = ceduo_arena_copy(&e->arena, f.p + quoted, f.n - (quoted ? 2 : 0)), *to = cell;
-    for (const char *p = cell; *p; p++) {
-        *to++ = *p;
-        p += quoted && p[0] == '"' && p[1] == '"';
-    }
-    *to = '\0';
-    return cell;
+    return ceduo_arena_copy(&e->arena, cell.p, cell.n);
 }
 
 static bool read_heads(struct each *e)
 {
-    struct csv_span left = e->table.header;
-    LOCAL_TEXT(names);
-    e->heads = ceduo_arena_take(&e->arena, ceduo_csv_columns(&e->table, &names) * sizeof *e->heads);
-    const char *at = left.p;
-    for (const char *name; (name = next_cell(e, e->table.separator, &left)); at = left.p) {
+    const struct csv *t = &e->table;
+    e->heads = ceduo_arena_take(&e->arena, (t->heads_count + 1) * sizeof *e->heads);
+    for (size_t n = 0; n < t->heads_count; n++) {
+        const char *name = copy_cell(e, t->heads[n]);
         const char *first = ceduo_arena_copy(&e->arena, name, strcspn(name, ".["));
         bool sets = ceduo_schema_field(ceduo_schema_scene(), first) != NULL;
         for (size_t i = 0; i < e->heads_count; i++)
             if (name[0] && strcmp(e->heads[i].name, name) == 0)
-                return ceduo_problem(e->table.problems, e->table.source, 1, (size_t)(at - e->table.header.p) + 1,
-                                     _("'%s' is given twice"), name);
+                return ceduo_csv_complain(t, t->heads[n], _("'%s' is given twice"), name);
         e->heads[e->heads_count++] = (struct each_head){name, name, sets ? ceduo_schema_at(name) : NULL, sets};
     }
     return true;
@@ -109,24 +92,46 @@ static enum exit_status read_table(struct each *e)
     bool good = ceduo_csv_open(&e->table, &e->arena, e->given->each, &problems);
     if (good) {
         e->table.source->foreign = false; /* its name was given for this */
-        good = read_heads(e);
+        good = ceduo_csv_first(&e->table) && read_heads(e);
     }
     e->rows = good ? ceduo_arena_take(&e->arena, (ceduo_csv_lines(&e->table) + 1) * sizeof *e->rows) : NULL;
+    if (good)
+        ceduo_csv_scan(&e->table, NULL);
     while (good && ceduo_csv_next(&e->table)) {
-        struct csv_span left = e->table.line;
         const char **cells = ceduo_arena_take(&e->arena, e->heads_count * sizeof *cells);
-        for (size_t n = 0; n < e->heads_count; n++) {
-            const char *cell = next_cell(e, e->table.separator, &left);
-            cells[n] = cell ? cell : "";
-        }
-        e->bad_rows |= left.p != NULL;
-        if (left.p)
-            ceduo_csv_complain(&e->table, left, _("more columns than the first line has"));
-        e->rows[e->rows_count++] = (struct each_row){.line = e->table.number, .cells = left.p ? NULL : cells};
+        for (size_t n = 0; n < e->heads_count; n++)
+            cells[n] = copy_cell(e, ceduo_csv_cell(&e->table, n));
+        e->bad_rows |= e->table.bad;
+        e->rows[e->rows_count++] = (struct each_row){.line = e->table.place.line, .cells = e->table.bad ? NULL : cells};
     }
     ceduo_say_problems(&problems);
     e->table.problems = NULL;
     return good ? EXIT_DONE : EXIT_INPUT;
+}
+
+/* The next cell of a line that the program printed; NULL: nothing is left. */
+static const char *next_cell(struct each *e, const char **line)
+{
+    const char *from = *line, *end;
+    if (!from)
+        return NULL;
+    bool quoted = *from == '"';
+    for (end = from; *end && (quoted || (*end != ',' && *end != '\n')); end++)
+        if (quoted && end > from && *end == '"') {
+            quoted = end[1] == '"';
+            end += quoted;
+            if (!quoted)
+                continue;
+        }
+    *line = *end == ',' ? end + 1 : NULL;
+    quoted = *from == '"';
+    char *cell = ceduo_arena_copy(&e->arena, from + quoted, (size_t)(end - from) - (quoted ? 2 : 0)), *to = cell;
+    for (const char *p = cell; *p; p++) {
+        *to++ = *p;
+        p += quoted && p[0] == '"' && p[1] == '"';
+    }
+    *to = '\0';
+    return cell;
 }
 
 /* ---- lines of CSV ---- */
@@ -142,14 +147,16 @@ static void append_copied(const struct each *e, const char *const *cells, struct
 }
 
 /* The cells of a line at n places, each with a comma behind it. */
-static void append_cells(struct csv_span line, const size_t *at, size_t n, struct text *to)
+static void append_cells(const char *line, size_t length, const size_t *at, size_t n, struct text *to)
 {
     for (size_t k = 0; k < n; k++) {
-        struct csv_span left = line, f = {"", 0};
-        for (size_t i = 0; i <= at[k]; i++)
-            if (!ceduo_csv_cell(&left, ',', &f))
-                f.n = 0;
-        ceduo_text_add(to, f.p, f.n);
+        const char *p = line, *end = line + length, *from = p;
+        for (size_t i = 0; i <= at[k] && p <= end; i++, p++) {
+            bool quoted = false;
+            for (from = p; p < end && (quoted || *p != ','); p++)
+                quoted ^= *p == '"';
+        }
+        ceduo_text_add(to, from, p > from ? (size_t)(p - from) - 1 : 0);
         ceduo_text_char(to, ',');
     }
 }
@@ -158,7 +165,7 @@ static void append_cells(struct csv_span line, const size_t *at, size_t n, struc
 static void append_line(const struct each *e, const char *line, size_t n, struct text *out)
 {
     if (e->columns)
-        append_cells((struct csv_span){line, n}, e->columns, e->columns_count, out);
+        append_cells(line, n, e->columns, e->columns_count, out);
     else
         ceduo_text_add(out, line, n);
     out->length -= e->columns_count > 0; /* the last comma */
@@ -175,16 +182,16 @@ static enum exit_status choose_columns(struct each *e, const struct text *header
     const char **names = ceduo_arena_take(&e->arena, most * sizeof *names);
     for (size_t i = 0; i < e->heads_count; i++) {
         struct each_head *head = &e->heads[i];
-        struct csv_span left = {header->bytes, header->length > 0 ? header->length - 1 : 0};
-        for (const char *own; is_copied(head) && (own = next_cell(e, ',', &left));)
+        const char *left = header->length > 0 ? header->bytes : NULL;
+        for (const char *own; is_copied(head) && (own = next_cell(e, &left));)
             if (strcmp(own, head->name) == 0)
                 head->printed = ceduo_arena_format(&e->arena, "row.%s", head->name);
         if (is_copied(head))
             names[n++] = head->printed;
     }
-    struct csv_span left = {header->bytes, header->length > 0 ? header->length - 1 : 0};
+    const char *left = header->length > 0 ? header->bytes : NULL;
     copied = n;
-    for (const char *own; (own = next_cell(e, ',', &left));)
+    for (const char *own; (own = next_cell(e, &left));)
         names[n++] = own;
     e->copied_at = ceduo_arena_take(&e->arena, (copied + 1) * sizeof *e->copied_at);
     for (; e->copied < copied; e->copied++)
@@ -274,7 +281,7 @@ static enum exit_status resume(struct each *e, const struct text *header)
     for (const char *line = old->bytes + first.length, *end = line;
          e->resumed && (end = memchr(line, '\n', (size_t)(old->bytes + old->length - line))); line = end + 1) {
         LOCAL_TEXT(key);
-        append_cells((struct csv_span){line, (size_t)(end - line)}, e->copied_at, e->copied, &key);
+        append_cells(line, (size_t)(end - line), e->copied_at, e->copied, &key);
         if (last && strcmp(last, ceduo_text_string(&key)) == 0)
             continue;
         if (last)

@@ -1,149 +1,187 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Records, heads and rows of a table. */
 #include "csv.h"
 
-#include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <uniconv.h>
-#include <unistr.h>
 
 #include "base/language.h"
-#include "base/must.h"
 #include "base/utf8.h"
-#include "file.h"
 
-#define FOLDED_MOST 128 /* bytes of the head of a column that are compared */
-#define TITLE_MOST  20  /* lines that may stand above the heads */
+#define FOLDED_MAX 128  /* bytes of a head that are compared */
+#define TITLE_MAX  20   /* lines among which the head is */
+#define HEADS_MAX  1000 /* heads of a table whose heads are known */
+#define NAMES_MAX  10   /* unused columns that are named */
 
-/* ---- encodings ---- */
+/* ---- records ---- */
 
-/* What spreadsheets write that do not write UTF-8, as UTF-8: UTF-16 by its mark or its zeros, otherwise Windows-1252. What cannot
- * be read so stays as it is. False without memory. */
-static bool recode(struct arena *arena, struct source *s)
+static void trim(struct csv_cell *cell)
 {
-    const unsigned char *p = (const unsigned char *)s->bytes;
-    size_t n = s->length, length;
-    bool marked = n >= 2 && ((p[0] == 0xff && p[1] == 0xfe) || (p[0] == 0xfe && p[1] == 0xff));
-    bool wide = n % 2 == 0 &&
-                (marked || (n >= 4 && (p[0] == 0) != (p[1] == 0) && (p[2] == 0) == (p[0] == 0) && (p[3] == 0) == (p[1] == 0)));
-    bool big = wide && (marked ? p[0] == 0xfe : p[0] == 0);
-    if (!wide && !u8_check(p, n))
-        return true;
-    size_t skip = wide && marked ? 2 : 0;
-    uint8_t *bytes =
-        u8_conv_from_encoding(wide ? big ? "UTF-16BE" : "UTF-16LE" : "CP1252", /* of which each byte is a sign */
-                              wide ? iconveh_error : iconveh_question_mark, s->bytes + skip, n - skip, NULL, NULL, &length);
-    bool lost = !bytes && errno == ENOMEM;
-    const char *kept = bytes ? ceduo_arena_copy(arena, (const char *)bytes, length) : s->bytes;
-    s->length = bytes ? length : n;
-    s->bytes = kept;
-    free(bytes);
-    return kept && !lost;
-}
-
-/* ---- lines and fields ---- */
-
-static bool next_line(struct csv *csv)
-{
-    size_t from, to;
-    bool good = ceduo_source_next(csv->source, &csv->at, &from, &to);
-    if (good)
-        csv->line = (struct csv_span){csv->source->bytes + from, to - from};
-    return good;
-}
-
-static struct csv_span trim(struct csv_span f)
-{
-    for (; f.n > 0 && (f.p[0] == ' ' || f.p[0] == '"'); f.n--)
-        f.p++;
-    while (f.n > 0 && (f.p[f.n - 1] == ' ' || f.p[f.n - 1] == '"'))
-        f.n--;
-    return f;
-}
-
-bool ceduo_csv_cell(struct csv_span *left, char separator, struct csv_span *field)
-{
-    if (!left->p)
-        return false;
-    const char *end = left->p + left->n, *stop = left->p;
-    for (bool quoted = false; stop < end && (quoted || *stop != separator); stop++) /* one in quotes ends nothing */
-        quoted ^= *stop == '"';
-    *field = (struct csv_span){left->p, (size_t)(stop - left->p)};
-    *left = stop == end ? (struct csv_span){NULL, 0} : (struct csv_span){stop + 1, (size_t)(end - stop) - 1};
-    return true;
-}
-
-bool ceduo_csv_is(struct csv_span f, const char *word)
-{
-    return strlen(word) == f.n && strncasecmp(f.p, word, f.n) == 0;
-}
-
-/* The present line is the header. */
-static void take_header(struct csv *csv, size_t number)
-{
-    csv->header = csv->line;
-    csv->header_number = csv->number = number;
-    csv->separator = memchr(csv->line.p, ';', csv->line.n) ? ';' : memchr(csv->line.p, '\t', csv->line.n) ? '\t' : ',';
-}
-
-bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems)
-{
-    *csv = (struct csv){.source = (struct source *)(uintptr_t)ceduo_file_read(arena, path, CSV_BYTES_MOST, problems),
-                        .problems = problems};
-    if (!csv->source)
-        return false;
-    if (csv->source->length > 4 && /* xlsx and ods, xls */
-        (memcmp(csv->source->bytes, "PK\3\4", 4) == 0 || memcmp(csv->source->bytes, "\xd0\xcf\x11\xe0", 4) == 0))
-        return ceduo_problem_at(problems, (struct problem_place){.source = csv->source, .own = true},
-                                _("this is a workbook; open it and save its sheet as CSV (File, Save as)"));
-    if (!recode(arena, csv->source)) {
-        ceduo_no_memory();
-        return false;
+    const char *end = cell->p + cell->n;
+    for (size_t n; (n = ceduo_utf8_blank(cell->p, (size_t)(end - cell->p))) > 0;)
+        cell->p += n;
+    const char *last = cell->p; /* after the last character that is no blank */
+    for (const char *p = cell->p; p < end;) {
+        size_t n = ceduo_utf8_blank(p, (size_t)(end - p));
+        p += n > 0 ? n : 1;
+        last = n > 0 ? last : p;
     }
-    csv->at = ceduo_source_mark(csv->source);
-    if (!next_line(csv))
-        return ceduo_problem(problems, csv->source, 0, 0, _("the file is empty"));
-    take_header(csv, 1);
+    cell->n = (size_t)(last - cell->p);
+}
+
+static bool is_end_of_line(const char *p, const char *end)
+{
+    return p == end || *p == '\n' || (*p == '\r' && p + 1 < end && p[1] == '\n');
+}
+
+static bool is_separator(const struct csv *csv, const char *p)
+{
+    return csv->separator == ' ' ? *p == ' ' || *p == '\t' : *p == csv->separator;
+}
+
+static void mark_bad(struct csv *csv, const char *at, const char *why)
+{
+    if (!csv->bad)
+        ceduo_csv_complain(csv, (struct csv_cell){.at = at}, "%s", why);
+    csv->bad = true;
+}
+
+/* A quoted cell: from its first quote to the byte after its last. */
+static const char *read_quoted(struct csv *csv, const char *p, const char *end, struct csv_cell *cell)
+{
+    size_t doubled = 0;
+    const char *from = p + 1, *to = from;
+    while (to < end && !(*to == '"' && !(to + 1 < end && to[1] == '"'))) {
+        doubled += *to == '"';
+        to += *to == '"' ? 2 : 1;
+    }
+    *cell = (struct csv_cell){from, (size_t)(to - from), p, true};
+    if (to == end)
+        mark_bad(csv, p, _("this quote is not closed; close it, or remove it"));
+    char *copy = doubled > 0 ? ceduo_arena_copy(csv->arena, from, cell->n) : NULL;
+    if (copy) {
+        size_t n = 0;
+        for (size_t i = 0; i < cell->n; i++) {
+            copy[n++] = from[i];
+            i += from[i] == '"';
+        }
+        cell->p = copy;
+        cell->n = n;
+    }
+    return to < end ? to + 1 : end;
+}
+
+static const char *read_cell(struct csv *csv, const char *p, const char *end, struct csv_cell *cell)
+{
+    if (*p == '"' && p < end) {
+        p = read_quoted(csv, p, end, cell);
+        for (size_t n; p < end && !is_separator(csv, p) && (n = ceduo_utf8_blank(p, (size_t)(end - p))) > 0;)
+            p += n;
+        if (!is_end_of_line(p, end) && !is_separator(csv, p))
+            mark_bad(csv, p, _("text after a closing quote; double the quotes within a cell"));
+    } else {
+        *cell = (struct csv_cell){.p = p, .at = p};
+    }
+    const char *from = p;
+    while (!is_end_of_line(p, end) && !is_separator(csv, p))
+        p++;
+    if (!cell->quoted)
+        cell->n = (size_t)(p - from);
+    trim(cell);
+    return p;
+}
+
+static const char *skip_blanks(const char *p, const char *end)
+{
+    while (p < end && (*p == ' ' || *p == '\t'))
+        p++;
+    return p;
+}
+
+/* Read the record at csv->next. */
+static bool read_record(struct csv *csv)
+{
+    const char *bytes = csv->source->bytes, *end = bytes + csv->source->length, *p = bytes + csv->next.at;
+    bool more = true, blanks = csv->separator == ' ';
+    if (csv->next.at >= csv->source->length)
+        return false;
+    csv->place = csv->next;
+    csv->cells_count = 0;
+    csv->bad = false;
+    for (p = blanks ? skip_blanks(p, end) : p; more;) {
+        csv->cells = ceduo_arena_more(csv->arena, csv->cells, csv->cells_count, 1, &csv->cells_capacity, sizeof *csv->cells);
+        if (!csv->cells)
+            return false;
+        p = read_cell(csv, p, end, &csv->cells[csv->cells_count++]);
+        p = blanks ? skip_blanks(p, end) : p;
+        more = !is_end_of_line(p, end);
+        p += more && !blanks;
+    }
+    p += p < end && *p == '\r';
+    p += p < end;
+    for (const char *q = bytes + csv->place.at; q < p; q++)
+        csv->next.line += *q == '\n';
+    csv->next.at = (size_t)(p - bytes);
     return true;
 }
 
-static bool is_among(const char *word, const char *words)
+static bool is_blank_record(const struct csv *csv)
 {
-    char one[FOLDED_MOST];
-    for (size_t n; *words; words += n, words += *words == '|') {
-        n = strcspn(words, "|");
-        if (strcmp(ceduo_utf8_fold(words, n, one, sizeof one), word) == 0)
+    size_t i = 0;
+    while (i < csv->cells_count && csv->cells[i].n == 0)
+        i++;
+    return i == csv->cells_count;
+}
+
+/* Read the next record that is neither blank nor a comment, whatever its number of cells. */
+static bool read_filled(struct csv *csv)
+{
+    while (read_record(csv)) {
+        bool comment = csv->comments && csv->cells[0].n > 0 && strchr("#>", csv->cells[0].p[0]);
+        if ((!comment && !is_blank_record(csv)) || csv->bad)
             return true;
     }
     return false;
 }
 
-/* Whether the head of a column is a name, alone or with a unit. */
-static bool is_head(struct csv_span head, const char *name, const char *units)
+/* ---- heads ---- */
+
+bool ceduo_csv_among(const char *p, size_t n, const char *words)
 {
-    char said[FOLDED_MOST], wanted[FOLDED_MOST], unit[FOLDED_MOST];
+    char given[FOLDED_MAX], one[FOLDED_MAX];
+    ceduo_utf8_fold(p, n, given, sizeof given);
+    for (size_t length; *words; words += length, words += *words == '|') {
+        length = strcspn(words, "|");
+        if (strcmp(ceduo_utf8_fold(words, length, one, sizeof one), given) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* True if a head is a name, alone or with a unit. */
+static bool is_head(struct csv_cell head, const char *name, const char *units)
+{
+    char given[FOLDED_MAX], wanted[FOLDED_MAX];
     size_t before = 0;
     while (before < head.n && head.p[before] != '(' && head.p[before] != '[')
         before++;
-    ceduo_utf8_fold(head.p, before, said, sizeof said);
+    ceduo_utf8_fold(head.p, before, given, sizeof given);
     size_t n = strlen(ceduo_utf8_fold(name, strlen(name), wanted, sizeof wanted));
     if (ceduo_csv_is(head, name))
         return true;
-    if (n == 0 || strncmp(said, wanted, n) != 0)
+    if (n == 0 || strncmp(given, wanted, n) != 0)
         return false;
     if (before < head.n && units)
-        return !said[n] && is_among(ceduo_utf8_fold(head.p + before, head.n - before, unit, sizeof unit), units);
-    return !said[n] || (units && is_among(said + n, units));
+        return !given[n] && ceduo_csv_among(head.p + before, head.n - before, units);
+    return !given[n] || (units && ceduo_csv_among(given + n, strlen(given + n), units));
 }
 
 size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const char *units)
 {
     for (int k = 0; names[k]; k++) {
         size_t found = CEDUO_CSV_NONE;
-        struct csv_span left = csv->header, f;
-        for (size_t i = 0; ceduo_csv_cell(&left, csv->separator, &f); i++)
-            if (is_head(trim(f), names[k], units))
+        for (size_t i = 0; i < csv->heads_count; i++)
+            if (is_head(csv->heads[i], names[k], units))
                 found = found == CEDUO_CSV_NONE ? i : CEDUO_CSV_TWICE;
         if (found != CEDUO_CSV_NONE)
             return found;
@@ -151,60 +189,193 @@ size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const c
     return CEDUO_CSV_NONE;
 }
 
+/* Make the present record the head. */
+static void take_heads(struct csv *csv)
+{
+    csv->head_place = csv->place;
+    csv->heads_count = csv->cells_count;
+    csv->heads = ceduo_arena_take(csv->arena, (csv->cells_count + 1) * sizeof *csv->heads);
+    if (csv->heads)
+        memcpy(csv->heads, csv->cells, csv->cells_count * sizeof *csv->heads);
+    else
+        csv->heads_count = 0;
+}
+
+static size_t count_known(const struct csv *csv, const struct csv_head *heads, size_t n)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < n; i++)
+        known += ceduo_csv_column(csv, heads[i].names, heads[i].units) != CEDUO_CSV_NONE;
+    return known;
+}
+
+/* How well a line with a separator serves as the head: known heads count most, then whether the next record is as long. 0: it
+ * does not. Blanks separate heads only if half of the words are heads. */
+static size_t rate_head(struct csv *trial, struct csv_place line, const struct csv_head *heads, size_t n)
+{
+    trial->next = line;
+    if (!read_record(trial) || trial->cells_count > HEADS_MAX)
+        return 0;
+    trial->heads = trial->cells;
+    trial->heads_count = trial->cells_count;
+    size_t known = count_known(trial, heads, n), cells = trial->cells_count;
+    if (known == 0 || (trial->separator == ' ' && 2 * known < cells))
+        return 0;
+    return 2 * known + (read_filled(trial) && trial->cells_count == cells);
+}
+
+/* Go to the line, and take the separator, that serve best. */
+static void find_head(struct csv *csv, const struct csv_head *heads, size_t n)
+{
+    const char given[] = {csv->separator, '\0'}, *all = csv->separator ? given : csv->blanks ? ";\t,| " : ";\t,|";
+    struct csv trial = *csv;
+    struct csv_place line = csv->next, best_line = csv->next;
+    size_t most = 0, from, to;
+    char best = csv->separator ? csv->separator : ',';
+    trial.problems = NULL;
+    for (size_t k = 0; k < TITLE_MAX && line.at < csv->source->length; k++) {
+        for (const char *s = all; *s; s++) {
+            trial.separator = *s;
+            size_t rate = rate_head(&trial, line, heads, n);
+            if (rate > most) {
+                most = rate;
+                best = *s;
+                best_line = line;
+            }
+        }
+        size_t at = line.at;
+        if (!ceduo_source_next(csv->source, &at, &from, &to))
+            break;
+        line = (struct csv_place){at, line.line + 1};
+    }
+    csv->next = best_line;
+    csv->separator = best;
+    csv->cells = trial.cells;
+    csv->cells_capacity = trial.cells_capacity;
+}
+
+/* Units that may stand in a row of their own. */
+#define UNITS "m|m2|m\xc2\xb2|mq|cm|mm|km|ft|in|kj|\xc2\xb0|deg|degrees|gradi|grad|%|n|nr|cod|m slm|m asl|m \xc3\xbcm"
+
+/* Append the units of a row below the head to the heads. */
+static void take_units(struct csv *csv)
+{
+    struct csv_place before = csv->next;
+    struct problems *problems = csv->problems;
+    bool units = true;
+    size_t found = 0;
+    csv->problems = NULL;
+    units = read_record(csv) && !is_blank_record(csv) && csv->cells_count <= csv->heads_count;
+    csv->problems = problems;
+    for (size_t i = 0; units && i < csv->cells_count; i++) {
+        units = csv->cells[i].n == 0 || ceduo_csv_among(csv->cells[i].p, csv->cells[i].n, UNITS);
+        found += csv->cells[i].n > 0;
+    }
+    if (!units || found == 0) {
+        csv->next = before;
+        return;
+    }
+    for (size_t i = 0; i < csv->cells_count; i++) {
+        struct csv_cell *head = &csv->heads[i], unit = csv->cells[i];
+        if (unit.n == 0)
+            continue;
+        bool bare = unit.p[0] != '(' && unit.p[0] != '[';
+        const char *whole = ceduo_arena_format(csv->arena, "%.*s %s%.*s%s", (int)head->n, head->p, bare ? "(" : "", (int)unit.n,
+                                               unit.p, bare ? ")" : "");
+        if (whole)
+            *head = (struct csv_cell){whole, strlen(whole), head->at, head->quoted};
+    }
+}
+
 void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns)
 {
-    struct csv best = *csv, line = *csv;
-    size_t most = 0;
-    do {
-        size_t found = 0;
-        for (size_t i = 0; i < n; i++)
-            found += ceduo_csv_column(&line, heads[i].names, heads[i].units) != CEDUO_CSV_NONE;
-        if (found > most)
-            best = line;
-        most = found > most ? found : most;
-        if (!ceduo_csv_next(&line))
-            break;
-        take_header(&line, line.number);
-    } while (line.number <= TITLE_MOST);
-    *csv = best;
+    find_head(csv, heads, n);
+    if (read_record(csv))
+        take_heads(csv);
+    take_units(csv);
     for (size_t i = 0; i < n; i++) {
         columns[i] = ceduo_csv_column(csv, heads[i].names, heads[i].units);
         csv->source->foreign &= columns[i] == CEDUO_CSV_NONE;
     }
     for (size_t i = 0; i < n; i++)
         if (columns[i] == CEDUO_CSV_TWICE)
-            ceduo_problem(csv->problems, csv->source, csv->header_number, 1,
+            ceduo_problem(csv->problems, csv->source, csv->head_place.line, 1,
                           _("the column '%s' is there twice; rename all but one"), _(heads[i].names[0]));
 }
 
-size_t ceduo_csv_columns(const struct csv *csv, struct text *names)
+bool ceduo_csv_first(struct csv *csv)
 {
-    struct csv_span left = csv->header, f;
-    size_t n = 0;
-    for (; ceduo_csv_step(csv, &left, &f); n++) {
-        ceduo_text_put(names, n > 0 ? ", " : "");
-        ceduo_text_safe_n(names, f.p, f.n);
+    struct csv_place begin = csv->next;
+    if (!csv->separator) {
+        size_t most = 0;
+        struct problems *problems = csv->problems;
+        csv->problems = NULL;
+        csv->separator = ',';
+        for (const char *s = ";\t|,"; *s; s++) { /* the one that the head has; several: the one with most cells, ; first */
+            struct csv trial = *csv;
+            trial.separator = *s;
+            bool good = read_filled(&trial);
+            csv->cells = trial.cells;
+            csv->cells_capacity = trial.cells_capacity;
+            if (good && !trial.bad && trial.cells_count > most) {
+                most = trial.cells_count;
+                csv->separator = *s;
+            }
+        }
+        csv->problems = problems;
     }
-    size_t shown = csv->source->foreign ? ceduo_utf8_cut(ceduo_text_string(names), CEDUO_FOREIGN_MOST) : names->length;
+    csv->next = begin;
+    if (!read_filled(csv))
+        return ceduo_problem(csv->problems, csv->source, 0, 0, _("the file is empty"));
+    take_heads(csv);
+    return !csv->bad;
+}
+
+void ceduo_csv_headless(struct csv *csv, char separator)
+{
+    struct csv_place begin = csv->next;
+    csv->separator = separator;
+    csv->headless = true;
+    if (!read_filled(csv))
+        return;
+    csv->heads_count = csv->cells_count;
+    csv->heads = ceduo_arena_take(csv->arena, (csv->cells_count + 1) * sizeof *csv->heads);
+    csv->head_place = csv->place;
+    csv->next = begin;
+}
+
+void ceduo_csv_names(const struct csv *csv, struct text *names)
+{
+    size_t begin = names->length;
+    for (size_t i = 0; i < csv->heads_count; i++) {
+        ceduo_text_put(names, i > 0 ? ", " : "");
+        ceduo_text_safe_n(names, csv->heads[i].p, csv->heads[i].n);
+    }
+    if (!csv->source->foreign)
+        return;
+    size_t shown = begin + ceduo_utf8_cut(ceduo_text_string(names) + begin, CEDUO_FOREIGN_MOST);
     if (shown < names->length) {
         ceduo_text_cut(names, shown);
         ceduo_text_put(names, "\xe2\x80\xa6");
     }
-    return n;
 }
 
-bool ceduo_csv_next(struct csv *csv)
+void ceduo_csv_unused(const struct csv *csv, const size_t *used, size_t n, struct text *names)
 {
-    static const char blanks[] = {' ', '\t', ',', ';'};
-    while (next_line(csv)) {
-        size_t blank = 0;
-        while (blank < csv->line.n && memchr(blanks, csv->line.p[blank], sizeof blanks))
-            blank++;
-        csv->number++;
-        if (blank < csv->line.n)
-            return true;
+    size_t unused = 0;
+    for (size_t i = 0; i < csv->heads_count; i++) {
+        bool needed = csv->heads[i].n == 0;
+        for (size_t k = 0; k < n; k++)
+            needed |= used[k] == i;
+        if (needed)
+            continue;
+        if (unused++ < NAMES_MAX) {
+            ceduo_text_put(names, unused > 1 ? ", " : "");
+            ceduo_text_safe_n(names, csv->heads[i].p, csv->heads[i].n);
+        }
     }
-    return false;
+    if (unused > NAMES_MAX)
+        ceduo_text_format(names, _(" and %zu more"), unused - NAMES_MAX);
 }
 
 size_t ceduo_csv_lines(const struct csv *csv)
@@ -216,67 +387,126 @@ size_t ceduo_csv_lines(const struct csv *csv)
     return n;
 }
 
-bool ceduo_csv_step(const struct csv *csv, struct csv_span *left, struct csv_span *field)
+/* ---- rows ---- */
+
+void ceduo_csv_scan(struct csv *csv, const bool *numeric)
 {
-    if (!ceduo_csv_cell(left, csv->separator, field))
+    struct csv_place begin = csv->next;
+    struct problems *problems = csv->problems;
+    size_t filled = csv->heads_count, most = 0, of_head = csv->heads_count;
+    while (filled > 0 && !csv->headless && csv->heads[filled - 1].n == 0)
+        filled--;
+    csv->problems = NULL;
+    csv->rows = 0;
+    while (read_filled(csv)) {
+        csv->rows++;
+        most = csv->cells_count > most ? csv->cells_count : most;
+        if (numeric)
+            ceduo_csv_note(csv, numeric);
+    }
+    csv->width = most > filled ? of_head : filled;
+    csv->longer = csv->longer_by_one = 0;
+    csv->next = begin;
+    while (most > csv->width && read_filled(csv)) {
+        csv->longer += csv->cells_count > csv->width;
+        csv->longer_by_one += csv->cells_count == csv->width + 1;
+    }
+    csv->next = begin;
+    csv->problems = problems;
+}
+
+/* True if an empty cell beyond the head may be due to a cell that was doubled, or to a head that was removed: a single record is
+ * one cell longer, or all are. */
+static bool is_doubtful(const struct csv *csv)
+{
+    bool one = csv->cells_count == csv->width + 1 && csv->longer_by_one == csv->longer;
+    return one && (csv->longer == 1 || csv->longer == csv->rows);
+}
+
+/* Mark a record bad if its number of cells is wrong. Empty cells beyond the head are ignored unless they are doubtful. */
+static void check_width(struct csv *csv)
+{
+    const size_t n = csv->cells_count, width = csv->width;
+    size_t filled = n;
+    while (filled > 0 && csv->cells[filled - 1].n == 0)
+        filled--;
+    bool ignored = n > width && filled <= width && csv->separator != ' ' && !is_doubtful(csv);
+    if (csv->bad || n == width || ignored)
+        return;
+    csv->bad = true;
+    struct csv_cell at = csv->cells[n > width ? width : n - 1];
+    if (n < width)
+        ceduo_csv_complain(csv, at, _("too few columns: %zu, the head has %zu"), n, width);
+    else if (csv->separator == ',')
+        ceduo_csv_complain(csv, at,
+                           _("more columns than the first line has: %zu instead of %zu; if commas stand for decimals, separate "
+                             "the columns by semicolons"),
+                           n, width);
+    else
+        ceduo_csv_complain(csv, at, _("more columns than the first line has: %zu instead of %zu"), n, width);
+}
+
+bool ceduo_csv_next(struct csv *csv)
+{
+    if (!read_filled(csv))
         return false;
-    *field = trim(*field);
+    check_width(csv);
     return true;
 }
 
-bool ceduo_csv_field(const struct csv *csv, size_t column, struct csv_span *field)
+void ceduo_csv_return(struct csv *csv, struct csv_place place)
 {
-    struct csv_span left = csv->line;
-    size_t i = 0;
-    while (ceduo_csv_step(csv, &left, field))
-        if (i++ == column)
+    csv->next = place;
+    read_record(csv);
+}
+
+/* ---- cells ---- */
+
+struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column)
+{
+    if (column < csv->cells_count)
+        return csv->cells[column];
+    const struct csv_cell *last = &csv->cells[csv->cells_count - 1];
+    return (struct csv_cell){.p = "", .at = last->at};
+}
+
+bool ceduo_csv_is(struct csv_cell cell, const char *word)
+{
+    return strlen(word) == cell.n && strncasecmp(cell.p, word, cell.n) == 0;
+}
+
+bool ceduo_csv_is_empty(struct csv_cell cell)
+{
+    static const char *const words[] = {
+        "",   "-",  ".",    "NA",   "N/A", "NaN",          "NULL",         "n.d.",        "n.r.",
+        "nd", "nr", "#N/A", "#N/D", "#NV", "\xe2\x80\x93", "\xe2\x80\x94", "\xe2\x88\x92"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (ceduo_csv_is(cell, words[i]))
             return true;
     return false;
 }
 
-bool ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char *format, ...)
+size_t ceduo_csv_line(const struct csv *csv, struct csv_cell cell)
 {
-    va_list args;
-    va_start(args, format);
-    ceduo_problem_v(csv->problems,
-                    (struct problem_place){csv->source, csv->number, (size_t)(field.p - csv->line.p) + 1, NULL, false}, format,
-                    args);
-    va_end(args);
-    return false;
+    const char *bytes = csv->source->bytes;
+    struct csv_place from = cell.at < bytes + csv->place.at ? csv->head_place : csv->place;
+    for (const char *p = bytes + from.at; p < cell.at; p++)
+        from.line += *p == '\n';
+    return from.line;
 }
 
-bool ceduo_csv_number(struct csv *csv, struct csv_span f, double lo, double hi, const char *unit, double *value)
+bool ceduo_csv_complain(const struct csv *csv, struct csv_cell cell, const char *format, ...)
 {
-    char room[512];
-    bool fits = f.n < sizeof room;
-    if (fits) {
-        memcpy(room, f.p, f.n);
-        room[f.n] = '\0';
-    }
-    /* where commas do not separate they may stand for the decimals, in all numbers of a file or in none: a dot beside them would
-     * be one of thousands */
-    char *comma = fits && csv->separator != ',' ? strchr(room, ',') : NULL;
-    bool dot = fits && strchr(room, '.');
-    bool one_decimal = !(comma && (dot || csv->decimal == '.')) && !(dot && csv->decimal == ',');
-    if (one_decimal && comma)
-        *comma = '.';
-    if (one_decimal && (comma || dot))
-        csv->decimal = comma ? ',' : '.';
-    enum ceduo_number_reading reading =
-        fits && one_decimal && !memchr(room, '\0', f.n) ? ceduo_number_read(room, value) : CEDUO_NUMBER_NONE;
-    if (reading == CEDUO_NUMBER_GOOD && *value <= hi && *value >= lo)
-        return true;
-    if (f.n == 0)
-        ceduo_csv_complain(csv, f, _("a value is missing; remove the line"));
-    else if (reading == CEDUO_NUMBER_GOOD && *value < lo && lo > -hi)
-        ceduo_csv_complain(csv, f, _("'%s' is below %g %s"), room, lo, unit);
-    else if (reading != CEDUO_NUMBER_NONE)
-        ceduo_csv_complain(csv, f, _("beyond %g %s"), hi, unit);
-    else if (!one_decimal)
-        ceduo_csv_complain(csv, f, _("'%s': decimals stand after a comma or after a dot, not both"), room);
-    else if (fits && strchr(room, ','))
-        ceduo_csv_complain(csv, f, _("'%s' is not a number; write a dot for the decimals"), room);
-    else
-        ceduo_csv_complain(csv, f, _("'%s' is not a number"), fits ? room : "…");
+    if (!csv->problems)
+        return false;
+    va_list args;
+    size_t column = 1;
+    const char *begin = csv->source->bytes + ceduo_source_mark(csv->source);
+    for (const char *p = cell.at; p > begin && p[-1] != '\n'; p--)
+        column += !ceduo_utf8_inside(p[-1]);
+    va_start(args, format);
+    ceduo_problem_v(csv->problems, (struct problem_place){csv->source, ceduo_csv_line(csv, cell), column, NULL, false}, format,
+                    args);
+    va_end(args);
     return false;
 }

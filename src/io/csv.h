@@ -6,89 +6,143 @@
 #include "base/text.h"
 #include "problem.h"
 
-/* Tables as people export them: a header that names the columns, then rows; separated by semicolon, tab or comma, what
- * is in double quotes whole. Where commas do not separate, they may stand for the decimals. In UTF-8, or UTF-16 or Windows-1252,
- * which are recognised. */
+/* Tables as offices write them: RFC 4180, and what spreadsheets, GIS and forms make of it. Cells are separated by ; tab , | or,
+ * if the caller permits it, blanks. Text is UTF-8, or UTF-16 or Windows-1252, which are recognized. A table is read right or
+ * refused by line. */
 
-/* A part of a line. */
-struct csv_span {
-    const char *p;
-    size_t n;
+/* A cell of the present record. */
+struct csv_cell {
+    const char *p;  /* value without quotes and without blanks around it; valid as long as the arena */
+    size_t n;       /* bytes */
+    const char *at; /* first byte in the file */
+    bool quoted;
+};
+
+/* A record as a place to return to. */
+struct csv_place {
+    size_t at, line;
 };
 
 struct csv {
     struct source *source;
-    struct problems *problems; /* where what is wrong is reported */
-    size_t at, number;         /* bytes read; number of the present line, from 1 */
-    struct csv_span line;      /* the present line */
-    struct csv_span header;
-    size_t header_number;
-    char separator;
-    char decimal; /* ',' or '.', once a number has shown it; '\0' before */
+    struct arena *arena;
+    struct problems *problems; /* NULL: nothing is reported */
+    char separator;            /* ' ': blanks */
+    bool blanks;               /* blanks may separate */
+    bool comments;             /* records that begin with # or > are skipped */
+
+    struct csv_place place, next; /* present record, next one */
+    struct csv_cell *cells;       /* of the present record */
+    size_t cells_count, cells_capacity;
+    bool bad; /* the present record is broken or has the wrong number of cells, which is reported */
+
+    struct csv_place head_place;
+    struct csv_cell *heads; /* with the unit below a head in brackets after it */
+    size_t heads_count;
+    bool headless;
+
+    /* Properties of the whole table: ceduo_csv_scan(). */
+    size_t width;  /* cells that a record must have */
+    size_t rows;   /* records below the head that are not blank */
+    size_t longer; /* records with more cells than `width` */
+    size_t longer_by_one;
+    char decimal;        /* ',' or '.'; '\0': no number shows it */
+    size_t decimal_line; /* that shows it */
+    bool grouped;        /* at least one number has a decimal sign and a thousands separator */
 };
 
-/* Reads a file and its header. False where that fails, which is told. The file is foreign until a column is known. */
+/* Read a file. Report an error and return false if it cannot be read, if its encoding is broken, or if it is no text. */
 bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems);
 
 #define CEDUO_CSV_NONE  SIZE_MAX
 #define CEDUO_CSV_TWICE (SIZE_MAX - 1)
 
-/* What a column may be called, best first and ended by NULL, and the units in which its values may be, with | between them. */
+/* Names of a column, the best first, ended by NULL, and its units, separated by |. */
 struct csv_head {
-    const char *names[12];
-    const char *units; /* NULL: whatever stands in brackets is none */
+    const char *names[20];
+    const char *units; /* NULL: any unit in brackets is ignored */
 };
 
-/* The column of the first of some names, ended by NULL, that the header has; case, blanks, hyphens and the like do not matter, and
- * a unit, one of `units`, may stand behind it or in brackets. CEDUO_CSV_NONE: it has none; CEDUO_CSV_TWICE: it has that name twice. */
+/* Column with one of n known heads; CEDUO_CSV_NONE; CEDUO_CSV_TWICE. Case, blanks and punctuation do not matter. A unit may
+ * follow the name, in brackets or without. Earlier names win. */
 size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const char *units);
 
-/* The columns of a table whose header may stand below a title: goes to the line that has most of them. One that is there twice
- * is reported. */
+/* Find the head of a table: the line among the first 20, and the separator, with most of n known heads. Reads a row of units
+ * below it. Sets columns[i] for each head. Reports columns that occur twice. The file is foreign until a head is known. */
 void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns);
 
-/* How many columns the header has, and the names of all, with a comma between them; of a foreign file the beginning of that. */
-size_t ceduo_csv_columns(const struct csv *csv, struct text *names);
+/* Take the first line that is not blank as the head. Reports an empty file and returns false. */
+bool ceduo_csv_first(struct csv *csv);
 
-/* The next row that is not blank; false at the end. */
+/* Take a table without a head: the first record that is not blank is its first row. */
+void ceduo_csv_headless(struct csv *csv, char separator);
+
+/* Read the whole table once: number of cells a record has, rows, decimal sign. numeric[c] is true if column c holds numbers;
+ * NULL: none does. Call it before the first ceduo_csv_next(). */
+void ceduo_csv_scan(struct csv *csv, const bool *numeric);
+
+/* Read the next record that is not blank; false at the end. A broken record is reported and marked bad. */
 bool ceduo_csv_next(struct csv *csv);
 
-/* How many lines the file has at the most. */
+/* Read a record again. */
+void ceduo_csv_return(struct csv *csv, struct csv_place place);
+
+/* Cell of the present record; an empty cell at its end if it has fewer. */
+struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column);
+
+/* True if a text is one of the words, separated by |. Case, blanks and punctuation do not matter. */
+bool ceduo_csv_among(const char *p, size_t n, const char *words);
+
+/* True if a cell is a word; case does not matter. */
+bool ceduo_csv_is(struct csv_cell cell, const char *word);
+
+/* True if a cell has no value: empty, -, ., NA, NaN, NULL, n.d., n.r., #N/A, #N/D. */
+bool ceduo_csv_is_empty(struct csv_cell cell);
+
+/* Append the names of heads that are not among the n columns used, at most ten. */
+void ceduo_csv_unused(const struct csv *csv, const size_t *used, size_t n, struct text *names);
+
+/* Append all heads, separated by commas; of a foreign file the beginning only. */
+void ceduo_csv_names(const struct csv *csv, struct text *names);
+
+/* Number of lines at most. */
 size_t ceduo_csv_lines(const struct csv *csv);
 
-/* The first field of what is left of a line, as it stands there, which it takes off; false where nothing is left. A line without
- * a byte has one field. */
-bool ceduo_csv_cell(struct csv_span *left, char separator, struct csv_span *field);
+enum csv_numeral { CSV_NUMERAL_GOOD, CSV_NUMERAL_NONE, CSV_NUMERAL_TWO_WAYS, CSV_NUMERAL_TWO_NUMBERS, CSV_NUMERAL_OTHER_SIGN };
 
-/* The same of a row or of the header, without blanks and quotes around it. */
-bool ceduo_csv_step(const struct csv *csv, struct csv_span *left, struct csv_span *field);
+/* Write a number with a dot for decimals and without thousands separators to `to`. */
+#define CSV_NUMERAL_CAPACITY 128
+enum csv_numeral ceduo_csv_numeral(const struct csv *csv, struct csv_cell cell, char to[CSV_NUMERAL_CAPACITY]);
 
-/* A field of the present row, without blanks and quotes around it; false where the row has fewer. */
-bool ceduo_csv_field(const struct csv *csv, size_t column, struct csv_span *field);
+/* Number in a cell, lo <= number <= hi, in `unit`, which may follow it. Reports an error and returns false otherwise. */
+bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, double hi, const char *unit, double *value);
 
-bool ceduo_csv_is(struct csv_span field, const char *word);
+/* Note the decimal sign of the present record, if it shows one. numeric[c]: as in ceduo_csv_scan(). */
+void ceduo_csv_note(struct csv *csv, const bool *numeric);
 
-/* The number in a field of the present row, no smaller than lo and no larger than hi; of `unit` in messages. What is wrong
- * with it is told. */
-bool ceduo_csv_number(struct csv *csv, struct csv_span field, double lo, double hi, const char *unit, double *value);
+/* Report why a cell is not the number that ceduo_csv_numeral() looks for; returns false. */
+bool ceduo_csv_no_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral why);
 
-/* Reports a problem with a field of the present row; false. */
-bool ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char *format, ...)
+/* Report a problem at a cell of the present record; returns false. */
+bool ceduo_csv_complain(const struct csv *csv, struct csv_cell cell, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* Line of a cell of the present record. */
+size_t ceduo_csv_line(const struct csv *csv, struct csv_cell cell);
 
 /* ---- profiles (csv_slope.c) ---- */
 
-/* A profile as its files give it. */
+/* A profile as its file gives it. */
 struct points {
-    double *x, *z;
+    double *x, *z; /* m */
     size_t n;
-    bool commas; /* for the decimals, as spreadsheets write them in Italian or German */
+    const char *understood; /* one line for the user, in the arena; NULL: from no table */
 };
 
-/* A profile from a CSV file as QGIS writes it: a header with the columns distance and elevation (x and z will do),
- * separated by comma, semicolon or tab. Where they are not separated by commas, commas may stand for the decimals. With x, y and
- * elevation it is a line on the map, and distances are along it.
- * False where that fails, which is reported. */
-bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems);
+/* Read a profile: distance and elevation, x, y and elevation of a line on the map, WKT, or the output of GRASS or GMT.
+ * `layer`: which line of a file that holds several; NULL: the only one. Returns false if the file is refused, which is
+ * reported. */
+bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *layer, struct points *points,
+                          struct problems *problems);
 
 #endif

@@ -1,27 +1,214 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A profile from a CSV file: the header names the columns, each row is checked against the one before. */
+/* A profile from a table: distance and elevation, or a line on the map with elevations, as columns, WKT or the output of GRASS
+ * and GMT. First the points are read as they stand, then one line is chosen and checked, then walls and overhangs are made
+ * so that x rises. */
+#include <ctype.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/language.h"
 #include "bind.h"
 #include "csv.h"
 
-#define BEGINNING 4096 /* bytes of a file in which it says what it is */
-#define LINE_MIN  1    /* m: a shorter line on the map is in degrees */
+#define BEGINNING    4096 /* bytes of a file in which it says what it is */
+#define LAYERS_MAX   1000
+#define LINE_MIN     1    /* m: a shorter line on the map is in degrees */
+#define WALL_RUN     0.01 /* m between the edge and the foot of a vertical step */
+#define OVERHANG_MAX 10   /* m: farther back the line turns round (assumed) */
+#define SPIKE_RISE   200  /* m from both neighbours, */
+#define SPIKE_RUN    50   /* m: that is an error of the terrain model (assumed) */
+#define JUMP_RISE    20   /* m to 0 or 9999, */
+#define JUMP_SLOPE   6    /* times the run: no data (assumed) */
+#define TURN_STEP    0.1  /* m: shorter steps have no direction */
+#define CROSSINGS    2000 /* points between which crossings are looked for */
 
-enum column { DISTANCE, ELEVATION, EAST, NORTH, COLUMNS };
+enum column { DISTANCE, ELEVATION, EAST, NORTH, LAYER, WKT, LABEL, COLUMNS };
 
-/* Names of a column, the better ones first; in other languages as their spreadsheets have them. */
-#define METRES "m|mt|metri|metres|meters|m slm|m asl"
+/* Names of a column, the best first. */
+#define METRES "m|mt|metri|metro|metres|meters|meter|m slm|m sm|m asl|m amsl|m \xc3\xbcm|m \xc3\xbc nn|m nn|m nhn"
 static const struct csv_head heads[COLUMNS] = {
-    [DISTANCE] = {{"distance", "distanza", "progressiva", "entfernung", "distanz"}, METRES},
-    [ELEVATION] = {{"elevation", "quota", "elevazione", "altitudine", "höhe", "hoehe", "z"}, METRES},
-    [EAST] = {{"x", "est", "east", "easting"}, METRES},
-    [NORTH] = {{"y", "nord", "north", "northing"}, METRES},
+    [DISTANCE] = {{"distance", "distanza", "dist", "chainage", "progressiva", "distanza progressiva", "progr", "entfernung",
+                   "distanz", "station", "stazione"},
+                  METRES},
+    [ELEVATION] = {{"elevation", "quota", "altitude", "altitudine", "elevazione", "alt", "height", "h\xc3\xb6he", "hoehe", "z",
+                    "value", "quota terreno", "elev"},
+                   METRES},
+    [EAST] = {{"x", "est", "east", "easting", "e"}, METRES},
+    [NORTH] = {{"y", "nord", "north", "northing", "n"}, METRES},
+    [LAYER] = {{"layer", "layer name", "livello", "nome layer", "line", "linea", "line id", "profile", "profilo", "track"},
+               NULL},
+    [WKT] = {{"wkt", "wkt_geom", "geometry", "geom", "the_geom", "shape"}, NULL},
+    [LABEL] = {{"name", "nome", "id", "fid"}, NULL},
 };
 
-/* What is no table, by what it begins with. */
+/* A point as its file has it. */
+struct raw {
+    double x, y, z; /* m; x: distance, or easting */
+    size_t layer, line, column;
+};
+
+struct reader {
+    struct csv csv;
+    struct arena *arena;
+    struct problems *problems;
+    size_t columns[COLUMNS];
+    bool map; /* x and y are places on a map */
+    struct raw *raw;
+    size_t n, capacity;
+    const char *layers[LAYERS_MAX];
+    size_t layers_count;
+    struct text notes; /* what was changed */
+};
+
+static bool refuse_at(struct reader *r, const struct raw *raw, const char *why)
+{
+    const struct problem_place place = {r->csv.source, raw->line, raw->column, NULL, false};
+    return ceduo_problem_at(r->problems, place, "%s", why);
+}
+
+/* ---- points ---- */
+
+/* Number of a layer, which is added if it is new. */
+static size_t layer_of(struct reader *r, const char *name, size_t n)
+{
+    for (size_t i = r->layers_count; i-- > 0;)
+        if (strlen(r->layers[i]) == n && memcmp(r->layers[i], name, n) == 0)
+            return i;
+    if (r->layers_count == LAYERS_MAX)
+        return LAYERS_MAX - 1;
+    r->layers[r->layers_count] = ceduo_arena_copy(r->arena, name, n);
+    return r->layers[r->layers_count] ? r->layers_count++ : 0;
+}
+
+/* A layer without a name is called by its number. */
+static size_t next_layer(struct reader *r, const char *name, size_t n)
+{
+    const char *number = ceduo_arena_format(r->arena, "%zu", r->layers_count + 1);
+    return n > 0 ? layer_of(r, name, n) : number ? layer_of(r, number, strlen(number)) : 0;
+}
+
+static void add_point(struct reader *r, struct raw raw)
+{
+    r->raw = ceduo_arena_more(r->arena, r->raw, r->n, 1, &r->capacity, sizeof *r->raw);
+    if (r->raw)
+        r->raw[r->n++] = raw;
+}
+
+/* True if a height stands for a cell of a terrain model without data. */
+static bool is_no_data(double z)
+{
+    static const double values[] = {-9999, -32768, -32767, -99999, -10000};
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++)
+        if (z == values[i])
+            return true;
+    return fabs(z) >= 1e30;
+}
+
+static bool read_coordinate(struct reader *r, enum column c, double *value)
+{
+    const struct field *vertex = ceduo_schema_field(ceduo_schema_slope(), "vertices_m");
+    struct csv_cell cell = ceduo_csv_cell(&r->csv, r->columns[c]);
+    bool none = ceduo_csv_is_empty(cell);
+    if (c == ELEVATION && cell.n > 0 && none)
+        return ceduo_csv_complain(&r->csv, cell, _("'%.*s' is no height; remove the row, or fill the gap in the terrain model"),
+                                  (int)cell.n, cell.p);
+    char text[CSV_NUMERAL_CAPACITY];
+    if (c == ELEVATION && ceduo_csv_numeral(&r->csv, cell, text) == CSV_NUMERAL_GOOD &&
+        (ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE || is_no_data(*value)))
+        return ceduo_csv_complain(&r->csv, cell, _("'%s' means no data; remove the row, or fill the gap in the terrain model"),
+                                  text);
+    return ceduo_csv_number(&r->csv, cell, vertex->lo, vertex->hi, "m", value);
+}
+
+static void read_row(struct reader *r, size_t layer)
+{
+    struct csv *csv = &r->csv;
+    struct raw raw = {.layer = layer};
+    enum column first = r->map ? EAST : DISTANCE;
+    struct csv_cell cell = ceduo_csv_cell(csv, r->columns[first]);
+    bool good = read_coordinate(r, first, &raw.x);
+    good = (!r->map || read_coordinate(r, NORTH, &raw.y)) && good;
+    good = read_coordinate(r, ELEVATION, &raw.z) && good;
+    raw.line = ceduo_csv_line(csv, cell);
+    raw.column = 1;
+    if (good)
+        add_point(r, raw);
+}
+
+/* ---- WKT ---- */
+
+static bool is_wkt(const char *p, size_t n)
+{
+    static const char *const words[] = {"LINESTRING", "MULTILINESTRING", "SRID="};
+    for (size_t i = 0; i < 3; i++)
+        if (n > strlen(words[i]) && strncasecmp(p, words[i], strlen(words[i])) == 0)
+            return true;
+    return false;
+}
+
+/* Read one tuple of WKT, up to a comma or bracket. Number of values read; 0: it is none. */
+static size_t read_tuple(const char **p, const char *end, double values[4])
+{
+    size_t n = 0;
+    while (*p < end && !strchr(",()", **p)) {
+        char number[CSV_NUMERAL_CAPACITY];
+        size_t length = strcspn(*p, " ,()\r\n\t");
+        if (length == 0) {
+            ++*p;
+            continue;
+        }
+        if (n == 4 || length >= sizeof number || *p + length > end)
+            return 0;
+        memcpy(number, *p, length);
+        number[length] = '\0';
+        if (ceduo_number_read(number, &values[n++]) != CEDUO_NUMBER_GOOD)
+            return 0;
+        *p += length;
+    }
+    return n;
+}
+
+/* Read the lines of a WKT text: each pair of innermost brackets is one. */
+static bool read_wkt(struct reader *r, const char *p, const char *end, size_t line, struct csv_cell name)
+{
+    struct raw raw = {.line = line, .column = 1};
+    const char *semicolon = memchr(p, ';', (size_t)(end - p)); /* after SRID=… */
+    p = semicolon ? semicolon + 1 : p;
+    const char *open = memchr(p, '(', (size_t)(end - p)), *tag = open ? open : end;
+    while (tag > p && tag[-1] == ' ')
+        tag--;
+    bool within = false,
+         measured = tag > p + 1 && toupper((unsigned char)tag[-1]) == 'M' && toupper((unsigned char)tag[-2]) != 'Z';
+    for (p = open ? open : end; p < end;) {
+        double values[4];
+        if (strchr("() ,\r\n\t", *p)) {
+            within &= *p++ != ')';
+            continue;
+        }
+        raw.layer = within ? raw.layer : next_layer(r, name.p, name.n);
+        within = true;
+        size_t n = read_tuple(&p, end, values);
+        if (n < 2)
+            return refuse_at(r, &raw, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
+        if (n < 3 || (measured && n == 3))
+            return refuse_at(r, &raw,
+                             _("the line has no heights: drape it over the terrain model (in QGIS: Drape), so that it is a "
+                               "LINESTRING Z"));
+        if (is_no_data(values[2]))
+            return refuse_at(r, &raw, _("a height of the line means no data; fill the gap in the terrain model"));
+        raw.x = values[0];
+        raw.y = values[1];
+        raw.z = values[2];
+        add_point(r, raw);
+    }
+    return true;
+}
+
+/* ---- tables ---- */
+
+/* Refuse formats that are no tables, by their first bytes. */
 static bool check_table(const struct csv *csv, struct problems *problems)
 {
     static const struct {
@@ -41,73 +228,466 @@ static bool check_table(const struct csv *csv, struct problems *problems)
     return s->bytes[mark] != '<';
 }
 
-struct reader {
-    struct csv csv;
-    size_t columns[COLUMNS];
-    bool drawn;         /* a line on the map: distances are along it */
-    double east, north; /* of the point before, m */
-};
-
-static bool read_number(struct csv *csv, struct csv_span field, double *value)
+/* True if all cells of the present record are numbers. */
+static bool are_numbers(const struct csv *csv)
 {
-    const struct field *vertex = ceduo_schema_field(ceduo_schema_slope(), "vertices_m");
-    return ceduo_csv_number(csv, field, vertex->lo, vertex->hi, "m", value);
+    char text[CSV_NUMERAL_CAPACITY];
+    double value;
+    size_t i = 0;
+    while (i < csv->cells_count && ceduo_csv_numeral(csv, csv->cells[i], text) != CSV_NUMERAL_NONE &&
+           (ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD))
+        i++;
+    return i == csv->cells_count;
 }
 
-static void read_row(struct reader *r, struct points *points)
+/* Take a table without a head if its first record holds numbers only. GMT begins comments with # and lines with >. */
+static bool take_headless(struct reader *r, struct csv_place begin)
 {
     struct csv *csv = &r->csv;
-    struct csv_span first, second = {0}, height;
-    double x, north = 0, z, before = points->n > 0 ? points->x[points->n - 1] : -INFINITY;
-    if (!ceduo_csv_field(csv, r->columns[r->drawn ? EAST : DISTANCE], &first) ||
-        !ceduo_csv_field(csv, r->columns[ELEVATION], &height) ||
-        (r->drawn && !ceduo_csv_field(csv, r->columns[NORTH], &second))) {
-        ceduo_problem(csv->problems, csv->source, csv->number, 1, _("too few columns"));
-        return;
+    csv->comments = true;
+    for (const char *s = ";\t| ,"; *s; s++) {
+        struct problems *problems = csv->problems;
+        csv->next = begin;
+        csv->problems = NULL;
+        ceduo_csv_headless(csv, *s);
+        ceduo_csv_scan(csv, NULL);
+        bool good = ceduo_csv_next(csv) && csv->cells_count >= 2 && are_numbers(csv);
+        csv->problems = problems;
+        csv->next = begin;
+        if (!good)
+            continue;
+        csv->source->foreign = false;
+        if (csv->cells_count == 2 || csv->cells_count == 4) {
+            r->columns[DISTANCE] = csv->cells_count - 2;
+            r->columns[ELEVATION] = csv->cells_count - 1;
+            r->columns[EAST] = csv->cells_count == 4 ? 0 : CEDUO_CSV_NONE;
+            r->columns[NORTH] = csv->cells_count == 4 ? 1 : CEDUO_CSV_NONE;
+            return true;
+        }
+        return ceduo_problem(r->problems, csv->source, csv->place.line, 1,
+                             _("%zu columns without a head: write a first line that names them, such as x,y,z or "
+                               "distance,elevation"),
+                             csv->cells_count);
     }
-    if (!read_number(csv, first, &x) || !read_number(csv, height, &z) || (r->drawn && !read_number(csv, second, &north)))
-        return;
-    if (r->drawn) {
-        double east = x;
-        x = points->n > 0 ? before + hypot(east - r->east, north - r->north) : 0;
-        r->east = east;
-        r->north = north;
-    }
-    if (!(x > before)) {
-        ceduo_csv_complain(csv, first, _("distance %s does not lie beyond %s; distances must rise"), NUMERAL(x),
-                           NUMERAL(before));
-        return;
-    }
-    points->x[points->n] = x;
-    points->z[points->n++] = z;
+    csv->headless = csv->comments = false;
+    return ceduo_problem(r->problems, csv->source, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
 }
 
-bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems)
+/* Report a head with a unit that is not metres. */
+static bool check_units(struct reader *r)
+{
+    bool good = true;
+    for (enum column c = DISTANCE; c <= ELEVATION; c++) {
+        size_t column = r->columns[c] == CEDUO_CSV_NONE ? ceduo_csv_column(&r->csv, heads[c].names, NULL) : CEDUO_CSV_NONE;
+        if (column < CEDUO_CSV_TWICE && !(c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NONE))
+            good = ceduo_csv_complain(&r->csv, r->csv.heads[column],
+                                      _("its values must be in m; convert them and name the "
+                                        "column '%s'"),
+                                      heads[c].names[0]);
+    }
+    return good;
+}
+
+static bool find_columns(struct reader *r)
+{
+    struct csv *csv = &r->csv;
+    const struct csv_place begin = csv->next;
+    size_t before = r->problems->met, *columns = r->columns;
+    csv->blanks = true;
+    ceduo_csv_find(csv, heads, COLUMNS, columns);
+    if (r->problems->met > before)
+        return false;
+    if (columns[WKT] != CEDUO_CSV_NONE)
+        return true;
+    r->map = columns[DISTANCE] == CEDUO_CSV_NONE && columns[EAST] != CEDUO_CSV_NONE && columns[NORTH] != CEDUO_CSV_NONE;
+    bool none = columns[ELEVATION] == CEDUO_CSV_NONE && columns[DISTANCE] == CEDUO_CSV_NONE;
+    if (none && !take_headless(r, begin))
+        return false;
+    if (none)
+        return true;
+    if (!check_units(r))
+        return false;
+    if (columns[DISTANCE] == CEDUO_CSV_NONE && !r->map) /* x may be along the slope */
+        columns[DISTANCE] = columns[EAST];
+    if ((!r->map && columns[DISTANCE] == CEDUO_CSV_NONE) || columns[ELEVATION] == CEDUO_CSV_NONE)
+        return ceduo_problem(r->problems, csv->source, csv->head_place.line, 1,
+                             _("the first line must name the columns 'distance' and 'elevation'"));
+    return true;
+}
+
+/* Name of a line of GMT, which begins after '>', between two records; NULL: none begins there. */
+static const char *gmt_line(const struct csv *csv, size_t from, size_t *n)
+{
+    const char *bytes = csv->source->bytes, *p = bytes + from, *end = bytes + csv->place.at, *name = NULL;
+    for (; p < end; p += strcspn(p, "\n") + 1)
+        name = *p == '>' ? p + 1 : name;
+    if (!name)
+        return NULL;
+    name += strspn(name, " \t");
+    name += strncmp(name, "-L", 2) == 0 ? 2 : 0;
+    name += *name == '"';
+    *n = strcspn(name, "\"\r\n");
+    return name;
+}
+
+static bool read_rows(struct reader *r)
+{
+    struct csv *csv = &r->csv;
+    size_t before = r->problems->met, layer = 0, length = 0;
+    bool *numeric = ceduo_arena_take(r->arena, (csv->heads_count + 1) * sizeof *numeric);
+    for (enum column c = DISTANCE; numeric && c <= NORTH; c++)
+        if (r->columns[c] < csv->heads_count && (c == ELEVATION || (r->map ? c != DISTANCE : c == DISTANCE)))
+            numeric[r->columns[c]] = true;
+    ceduo_csv_scan(csv, numeric);
+    for (size_t from = csv->next.at; ceduo_csv_next(csv); from = csv->next.at) {
+        const struct csv_cell name = ceduo_csv_cell(csv, r->columns[LAYER]);
+        const char *gmt = gmt_line(csv, from, &length);
+        if (csv->bad)
+            continue;
+        if (r->columns[WKT] != CEDUO_CSV_NONE) {
+            const struct csv_cell wkt = ceduo_csv_cell(csv, r->columns[WKT]), label = ceduo_csv_cell(csv, r->columns[LABEL]);
+            r->map = true;
+            if (!is_wkt(wkt.p, wkt.n))
+                ceduo_csv_complain(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
+            else
+                read_wkt(r, wkt.p, wkt.p + wkt.n, ceduo_csv_line(csv, wkt), name.n > 0 ? name : label);
+            continue;
+        }
+        double x;
+        char text[CSV_NUMERAL_CAPACITY];
+        bool again = !r->map && r->columns[LAYER] == CEDUO_CSV_NONE && r->n > 1 &&
+                     ceduo_csv_numeral(csv, ceduo_csv_cell(csv, r->columns[DISTANCE]), text) == CSV_NUMERAL_GOOD &&
+                     ceduo_number_read(text, &x) == CEDUO_NUMBER_GOOD && x == r->raw[0].x && r->raw[r->n - 1].x > x &&
+                     r->raw[1].x > x;
+        if (r->columns[LAYER] != CEDUO_CSV_NONE)
+            layer = next_layer(r, name.p, name.n);
+        else if (gmt || again)
+            layer = next_layer(r, gmt ? gmt : "", gmt ? length : 0);
+        else if (r->layers_count == 0)
+            layer = next_layer(r, "", 0);
+        read_row(r, layer);
+    }
+    return r->problems->met == before;
+}
+
+/* ---- one line ---- */
+
+/* Keep the points of one line. */
+static bool choose_layer(struct reader *r, const char *wanted)
+{
+    LOCAL_TEXT(names);
+    size_t found = wanted || r->layers_count == 1 ? 0 : SIZE_MAX, n = 0;
+    for (size_t i = 0; i < r->layers_count; i++) {
+        if (i < 10)
+            ceduo_text_format(&names, "%s%.100s", i > 0 ? ", " : "", r->layers[i]);
+    }
+    if (r->layers_count > 10)
+        ceduo_text_put(&names, ", \xe2\x80\xa6");
+    while (wanted && found < r->layers_count && strcmp(r->layers[found], wanted) != 0)
+        found++;
+    if (wanted && found == r->layers_count)
+        return ceduo_problem(r->problems, r->csv.source, 0, 0, _("there is no line '%s'; the file holds: %s"), wanted,
+                             ceduo_text_string(&names));
+    if (found == SIZE_MAX && r->layers_count > 1)
+        return ceduo_problem(r->problems, r->csv.source, 0, 0,
+                             _("%zu lines in one file: %s; name one in the slope, such as 'layer: %s'"), r->layers_count,
+                             ceduo_text_string(&names), r->layers[0]);
+    for (size_t i = 0; i < r->n; i++)
+        if (r->raw[i].layer == found)
+            r->raw[n++] = r->raw[i];
+    r->n = n;
+    return true;
+}
+
+/* Take distance and elevation of four columns of GRASS, r.profile -g, if the distances are along the line of the first two. */
+static bool check_four(struct reader *r)
+{
+    if (!r->csv.headless || r->columns[EAST] == CEDUO_CSV_NONE)
+        return true;
+    double along = 0, east = 0, north = 0, x, y;
+    struct csv csv = r->csv;
+    char text[2][CSV_NUMERAL_CAPACITY];
+    csv.problems = NULL;
+    csv.next = csv.head_place;
+    for (size_t i = 0; i < r->n && ceduo_csv_next(&csv); i++) {
+        if (ceduo_csv_numeral(&csv, csv.cells[0], text[0]) != CSV_NUMERAL_GOOD ||
+            ceduo_csv_numeral(&csv, csv.cells[1], text[1]) != CSV_NUMERAL_GOOD ||
+            ceduo_number_read(text[0], &x) != CEDUO_NUMBER_GOOD || ceduo_number_read(text[1], &y) != CEDUO_NUMBER_GOOD)
+            return false;
+        along += i > 0 ? hypot(x - east, y - north) : 0;
+        east = x;
+        north = y;
+        if (fabs(r->raw[i].x - r->raw[0].x - along) > 0.01 * along + 0.5)
+            return refuse_at(
+                r, &r->raw[i],
+                _("four columns without a head: write a first line that names them, such as x,y,distance,elevation"));
+    }
+    return true;
+}
+
+/* Distances along a line on the map. */
+static bool measure_line(struct reader *r)
+{
+    double x = 0, y = 0, along = 0, low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (size_t i = 0; i < r->n; i++) {
+        low[0] = fmin(low[0], r->raw[i].x);
+        low[1] = fmin(low[1], r->raw[i].y);
+        high[0] = fmax(high[0], r->raw[i].x);
+        high[1] = fmax(high[1], r->raw[i].y);
+    }
+    double length = 0;
+    for (size_t i = 1; i < r->n; i++)
+        length += hypot(r->raw[i].x - r->raw[i - 1].x, r->raw[i].y - r->raw[i - 1].y);
+    if (r->n > 1 && length < LINE_MIN && length > 0)
+        return ceduo_problem(
+            r->problems, r->csv.source, r->csv.head_place.line, 1,
+            _("the line is %.2g m long on the map: x and y must be in metres, not in degrees; export it in the "
+              "coordinates of a map, such as UTM"),
+            length);
+    /* Web Mercator between Spain and Romania, but none of the grids there: UTM, Gauss-Boaga, Lambert-93 */
+    bool mercator = low[0] > 840e3 && high[0] < 2.3e6 && low[1] > 4.16e6 && high[1] < 6.3e6;
+    bool boaga = low[0] > 1.3e6 && high[0] < 1.85e6 && high[1] < 5.23e6;
+    bool lambert = high[0] < 1.3e6 && low[1] > 6e6;
+    if (mercator && !boaga && !lambert)
+        return ceduo_problem(r->problems, r->csv.source, r->csv.head_place.line, 1,
+                             _("the coordinates look like EPSG:3857 (Web Mercator), whose lengths are too long by a third; set "
+                               "the project to UTM and export the line again"));
+    if (mercator && boaga)
+        ceduo_text_put(&r->notes, _("; x and y taken as metres on the ground, not as EPSG:3857"));
+    for (size_t i = 1; i + 1 < r->n; i++) {
+        const struct raw *a = &r->raw[i - 1], *b = &r->raw[i], *c = &r->raw[i + 1];
+        double one = hypot(b->x - a->x, b->y - a->y), two = hypot(c->x - b->x, c->y - b->y);
+        double cosine = ((b->x - a->x) * (c->x - b->x) + (b->y - a->y) * (c->y - b->y)) / (one * two);
+        if (one > TURN_STEP && two > TURN_STEP && cosine < -M_SQRT1_2)
+            return refuse_at(r, b, _("the line turns back here; sort its points as numbers, or draw it again along the fall"));
+    }
+    size_t step = r->n / CROSSINGS + 1;
+    for (size_t i = step; i < r->n; i += step)
+        for (size_t k = i + 2 * step; k < r->n; k += step) {
+            const struct raw *a = &r->raw[i - step], *b = &r->raw[i], *c = &r->raw[k - step], *d = &r->raw[k];
+            if (fmax(a->x, b->x) < fmin(c->x, d->x) || fmax(c->x, d->x) < fmin(a->x, b->x) ||
+                fmax(a->y, b->y) < fmin(c->y, d->y) || fmax(c->y, d->y) < fmin(a->y, b->y))
+                continue;
+            double c1 = (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
+            double c2 = (b->x - a->x) * (d->y - a->y) - (b->y - a->y) * (d->x - a->x);
+            double d1 = (d->x - c->x) * (a->y - c->y) - (d->y - c->y) * (a->x - c->x);
+            double d2 = (d->x - c->x) * (b->y - c->y) - (d->y - c->y) * (b->x - c->x);
+            if (c1 * c2 < 0 && d1 * d2 < 0)
+                return refuse_at(r, d, _("the line crosses itself here; draw it again along the fall"));
+        }
+    for (size_t i = 0; i < r->n; i++) {
+        along += i > 0 ? hypot(r->raw[i].x - x, r->raw[i].y - y) : 0;
+        x = r->raw[i].x;
+        y = r->raw[i].y;
+        r->raw[i].x = along;
+    }
+    return true;
+}
+
+/* ---- heights ---- */
+
+static bool is_jump(const struct raw *a, const struct raw *b)
+{
+    double rise = fabs(b->z - a->z);
+    return rise > JUMP_RISE && rise > JUMP_SLOPE * fabs(b->x - a->x);
+}
+
+/* Refuse heights that can only be errors: 0 or 9999 among others, spikes. */
+static bool check_heights(struct reader *r)
+{
+    size_t before = r->problems->met;
+    for (size_t i = 0, last; i < r->n; i = last + 1) { /* a run of equal heights */
+        for (last = i; last + 1 < r->n && r->raw[last + 1].z == r->raw[i].z;)
+            last++;
+        bool stands_for = (r->raw[i].z == 0 || r->raw[i].z == 9999) && !(i == 0 && last + 1 == r->n);
+        bool jumps = stands_for && (i == 0 || is_jump(&r->raw[i - 1], &r->raw[i])) &&
+                     (last + 1 == r->n || is_jump(&r->raw[last], &r->raw[last + 1]));
+        for (size_t k = i; jumps && k <= last; k++)
+            refuse_at(
+                r, &r->raw[k],
+                _("a height of 0 or 9999 among others means no data; remove the row, or fill the gap in the terrain model"));
+        if (i == 0 || last != i || i + 1 == r->n)
+            continue;
+        double up = r->raw[i].z - r->raw[i - 1].z, down = r->raw[i].z - r->raw[i + 1].z;
+        bool near = fabs(r->raw[i].x - r->raw[i - 1].x) <= SPIKE_RUN && fabs(r->raw[i + 1].x - r->raw[i].x) <= SPIKE_RUN;
+        if (near && fmin(fabs(up), fabs(down)) > SPIKE_RISE && up * down > 0 && !jumps)
+            refuse_at(r, &r->raw[i],
+                      _("this height is more than 200 m from both neighbours; remove the row, or mend the terrain model"));
+    }
+    return r->problems->met == before;
+}
+
+/* ---- x that rises ---- */
+
+/* True if the distances rise once they are sorted, and stand in the order of their text. */
+static bool is_text_order(const struct reader *r)
+{
+    size_t i = 1;
+    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+    while (i < r->n && strcmp(ceduo_number_shortest(r->raw[i - 1].x, a), ceduo_number_shortest(r->raw[i].x, b)) <= 0)
+        i++;
+    return i == r->n;
+}
+
+static bool refuse_order(struct reader *r, const struct raw *raw, double before)
+{
+    const struct problem_place place = {r->csv.source, raw->line, raw->column, NULL, false};
+    if (is_text_order(r))
+        return ceduo_problem_at(r->problems, place,
+                                _("the rows stand in the order of their text; sort them by distance, as numbers"));
+    return ceduo_problem_at(r->problems, place,
+                            _("distance %s does not lie beyond %s; distances must rise: sort the rows by distance"),
+                            NUMERAL(raw->x), NUMERAL(before));
+}
+
+static void add_vertex(struct points *p, double x, double z)
+{
+    p->x[p->n] = p->n > 0 ? fmax(x, p->x[p->n - 1] + WALL_RUN / 10) : x;
+    p->z[p->n++] = z;
+}
+
+/* Make points whose x rises, from the top down: repeated points go, a vertical step becomes a wall, an overhang its outer
+ * envelope. `sign`: of x in the file. */
+static bool make_rising(struct reader *r, struct points *p, double sign)
+{
+    size_t repeated = 0, walls = 0, overhangs = 0, n = r->n;
+    double wall = NAN, overhang = NAN, edge = -INFINITY; /* edge: the farthest x so far */
+    for (size_t i = 0; i < n; i++) {
+        const struct raw *now = &r->raw[sign > 0 ? i : n - 1 - i], *last = i > 0 ? &r->raw[sign > 0 ? i - 1 : n - i] : now;
+        double x = sign * now->x, z = now->z, x_last = sign * last->x;
+        if (i > 0 && x == x_last && z == last->z) {
+            repeated++;
+        } else if (x > edge && x_last < edge && i > 0) { /* out of an overhang */
+            double t = (edge - x_last) / (x - x_last);
+            add_vertex(p, edge + WALL_RUN, last->z + t * (z - last->z));
+            add_vertex(p, x, z);
+        } else if (x > edge) {
+            add_vertex(p, x, z);
+        } else if (x == edge && x_last == edge) {
+            add_vertex(p, edge + WALL_RUN, z);
+            wall = walls++ == 0 ? sign * edge : wall;
+        } else if (x <= edge) {
+            if (z >= last->z || edge - x > OVERHANG_MAX)
+                return refuse_order(r, sign > 0 ? now : last, (sign > 0 ? last : now)->x);
+            overhang = x_last == edge && overhangs++ == 0 ? sign * edge : overhang;
+            if (x == edge || i + 1 == n) /* its foot lies below the edge, or is the end */
+                add_vertex(p, edge + WALL_RUN, z);
+        }
+        edge = fmax(edge, x);
+    }
+    if (repeated > 0)
+        ceduo_text_format(&r->notes, ngettext("; %zu repeated point dropped", "; %zu repeated points dropped", repeated),
+                          repeated);
+    if (walls > 0)
+        ceduo_text_format(
+            &r->notes,
+            ngettext("; %zu vertical step, at %s m, made a wall", "; %zu vertical steps, the first at %s m, made walls", walls),
+            walls, NUMERAL(wall));
+    if (overhangs > 0)
+        ceduo_text_format(&r->notes,
+                          ngettext("; %zu overhang, at %s m, replaced by its outer envelope",
+                                   "; %zu overhangs, the first at %s m, replaced by their outer envelope", overhangs),
+                          overhangs, NUMERAL(overhang));
+    return true;
+}
+
+static bool make_points(struct reader *r, struct points *p)
+{
+    p->x = ceduo_arena_take(r->arena, (2 * r->n + 1) * sizeof *p->x);
+    p->z = ceduo_arena_take(r->arena, (2 * r->n + 1) * sizeof *p->z);
+    if (!p->x || !p->z)
+        return false;
+    bool upward = r->n > 1 && r->raw[r->n - 1].z > r->raw[0].z;
+    size_t falling = 0;
+    for (size_t i = 1; i < r->n; i++)
+        falling += r->raw[i].x < r->raw[i - 1].x;
+    if (r->n > 1 && falling + 1 == r->n)
+        return refuse_order(r, &r->raw[1], r->raw[0].x);
+    if (!make_rising(r, p, upward ? -1 : 1))
+        return false;
+    for (size_t i = 0; upward && i < (p->n + 1) / 2; i++) {
+        size_t k = p->n - 1 - i;
+        double x = p->x[i], z = p->z[i];
+        p->x[i] = -p->x[k];
+        p->z[i] = p->z[k];
+        p->x[k] = -x;
+        p->z[k] = z;
+    }
+    return true;
+}
+
+/* ---- the whole ---- */
+
+static void understand(struct reader *r, struct points *p, const char *path)
+{
+    LOCAL_TEXT(line);
+    LOCAL_TEXT(unused);
+    const struct csv *csv = &r->csv;
+    const char *slash = strrchr(path, '/');
+    double rise = p->z[p->n - 1] - p->z[0];
+    ceduo_text_safe(&line, slash ? slash + 1 : path);
+    ceduo_text_format(&line,
+                      rise > 0 ? _(": %zu points, %.4g m long, rises %.4g m") : _(": %zu points, %.4g m long, falls %.4g m"),
+                      p->n, p->x[p->n - 1] - p->x[0], fabs(rise));
+    if (r->layers_count > 1)
+        ceduo_text_format(&line, _("; line '%.100s' of %zu"), r->layers[r->raw[0].layer], r->layers_count);
+    if (csv->headless)
+        ceduo_text_put(&line, _("; no head: taken as distance and elevation"));
+    else if (csv->heads_count > 0 && r->columns[WKT] == CEDUO_CSV_NONE) {
+        const enum column used[] = {r->map ? EAST : DISTANCE, r->map ? NORTH : ELEVATION, ELEVATION};
+        for (size_t i = 0; i < (r->map ? 3u : 2u); i++) {
+            ceduo_text_put(&line, i == 0 ? _("; columns ") : ", ");
+            ceduo_text_safe_n(&line, csv->heads[r->columns[used[i]]].p, csv->heads[r->columns[used[i]]].n);
+        }
+    }
+    if (csv->decimal == ',')
+        ceduo_text_put(&line, _("; decimal commas"));
+    ceduo_text_put(&line, ceduo_text_string(&r->notes));
+    if (!csv->headless)
+        ceduo_csv_unused(csv, r->columns, COLUMNS, &unused);
+    if (unused.length > 0)
+        ceduo_text_format(&line, _("; not used: %s"), unused.bytes);
+    p->understood = ceduo_arena_string(r->arena, ceduo_text_string(&line));
+}
+
+/* Read the points as they stand. */
+static bool read_points(struct reader *r)
+{
+    const struct source *s = r->csv.source;
+    const char *begin = s->bytes + r->csv.next.at, *end = s->bytes + s->length;
+    while (begin < end && isspace((unsigned char)*begin))
+        begin++;
+    if (!is_wkt(begin, (size_t)(end - begin)))
+        return find_columns(r) && read_rows(r);
+    r->map = true;
+    for (size_t c = 0; c < COLUMNS; c++)
+        r->columns[c] = CEDUO_CSV_NONE;
+    r->columns[WKT] = 0;
+    r->csv.source->foreign = false;
+    size_t line = 1;
+    for (const char *p = begin; p < end; line++) {
+        size_t n = strcspn(p, "\n");
+        if (is_wkt(p, n) && !read_wkt(r, p, p + n, line, (struct csv_cell){.p = ""}))
+            return false;
+        p += n + (p + n < end);
+    }
+    return true;
+}
+
+bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *layer, struct points *points,
+                          struct problems *problems)
 {
     size_t before = problems->met;
-    struct reader r = {.drawn = false};
-    if (!ceduo_csv_open(&r.csv, arena, path, problems) || !check_table(&r.csv, problems))
+    struct reader *r = ceduo_arena_take(arena, sizeof *r);
+    *points = (struct points){0};
+    if (!r)
         return false;
-    const struct source *source = r.csv.source;
-    size_t *columns = r.columns, rows = ceduo_csv_lines(&r.csv);
-    ceduo_csv_find(&r.csv, heads, COLUMNS, columns);
-    r.drawn = columns[DISTANCE] == CEDUO_CSV_NONE && columns[EAST] < CEDUO_CSV_TWICE && columns[NORTH] < CEDUO_CSV_TWICE;
-    if (columns[DISTANCE] == CEDUO_CSV_NONE && !r.drawn) /* x may be along the slope */
-        columns[DISTANCE] = columns[EAST];
-    points->x = ceduo_arena_take(arena, rows * sizeof(double));
-    points->z = ceduo_arena_take(arena, rows * sizeof(double));
-    size_t x = r.drawn ? columns[EAST] : columns[DISTANCE], z = columns[ELEVATION];
-    if (x == CEDUO_CSV_NONE || z == CEDUO_CSV_NONE)
-        ceduo_problem(problems, source, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
-    if (!points->x || !points->z || problems->met > before)
-        return false;
-    while (ceduo_csv_next(&r.csv))
-        read_row(&r, points);
-    if (r.drawn && points->n > 1 && points->x[points->n - 1] < LINE_MIN && problems->met == before)
-        ceduo_problem(problems, source, r.csv.header_number, 1,
-                      _("the line is %.2g m long on the map: x and y must be in metres, not in degrees; export it in the "
-                        "coordinates of a map, such as UTM"),
-                      points->x[points->n - 1]);
-    points->commas = r.csv.decimal == ',';
-    return problems->met == before;
+    *r = (struct reader){.arena = arena, .problems = problems};
+    bool good = ceduo_csv_open(&r->csv, arena, path, problems) && check_table(&r->csv, problems) && read_points(r) &&
+                (r->n == 0 || (choose_layer(r, layer) && check_four(r) && (!r->map || measure_line(r)) && check_heights(r))) &&
+                make_points(r, points) && problems->met == before;
+    if (good && points->n > 0)
+        understand(r, points, path);
+    ceduo_text_free(&r->notes);
+    return good;
 }

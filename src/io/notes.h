@@ -4,6 +4,8 @@
 
 #include <stdbool.h>
 
+#define CEDUO_NOTE_TABLE "table" /* kind of a note: what was understood of a table */
+
 /* A note of where a value comes from. */
 struct source_note {
     const char *path;           /* of the mapping that it stands in, or of a value in it that it is not of */

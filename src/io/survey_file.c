@@ -59,7 +59,7 @@ static const char *const totals[] = {"total|totals|totale|totali|sum|somma|mean|
 static const struct choices other_words = {others, 1, others}, total_words = {totals, 1, totals};
 
 struct plot {
-    struct csv_span name;
+    struct csv_cell name;
     size_t line;          /* where it comes first */
     double of[SLOPE + 1]; /* AREA, RADIUS, SLOPE; NaN: not said */
 };
@@ -67,7 +67,7 @@ struct plot {
 /* The stool of a shoot by its name, before stools are numbered. */
 struct stool {
     size_t plot, stem;
-    struct csv_span name;
+    struct csv_cell name;
 };
 
 struct reader {
@@ -75,7 +75,7 @@ struct reader {
     struct problems *problems;
     size_t columns[COLUMNS];
     bool percent;                    /* slopes */
-    struct csv_span fields[COLUMNS]; /* of the present row */
+    struct csv_cell fields[COLUMNS]; /* of the present row */
     struct plot *plots;
     size_t plots_count, plot; /* the present one */
     struct ceduo_survey_stem *stems;
@@ -87,41 +87,13 @@ struct reader {
 
 static void read_header(struct reader *r, struct text *unused)
 {
-    struct csv_span field;
-    const char *missing[COLUMNS];
-    size_t n = 0;
     ceduo_csv_find(&r->csv, heads, COLUMNS, r->columns);
-    const size_t line = r->csv.header_number;
+    const size_t line = r->csv.head_place.line;
     if (r->columns[SLOPE] == CEDUO_CSV_NONE) {
         r->columns[SLOPE] = ceduo_csv_column(&r->csv, heads[SLOPE].names, PERCENT);
         r->percent = r->columns[SLOPE] < CEDUO_CSV_TWICE;
     }
-    for (int c = 0; c < COLUMNS; c++)
-        if (r->columns[c] == CEDUO_CSV_NONE)
-            missing[n++] = heads[c].names[0];
-    for (size_t i = 0; ceduo_csv_field(&r->csv, i, &field); i++) {
-        bool used = field.n == 0;
-        for (int c = 0; c < COLUMNS; c++)
-            used |= r->columns[c] == i;
-        if (used)
-            continue;
-        char word[64] = "";
-        if (field.n < sizeof word)
-            memcpy(word, field.p, field.n);
-        const struct csv one = {.header = field, .separator = '\0'};
-        for (int c = 0; c < COLUMNS; c++) /* one of its names but for its unit */
-            if (r->columns[c] == CEDUO_CSV_NONE && heads[c].units && memchr(field.p, '(', field.n) &&
-                ceduo_csv_column(&one, heads[c].names, NULL) == 0) {
-                ceduo_csv_complain(&r->csv, field, _("'%s': its values must be in %s; convert them and name the column '%s'"),
-                                   word, ranges[c].unit, _(heads[c].names[0]));
-                r->columns[c] = i; /* which is there */
-            }
-        const char *near = ceduo_text_nearest(word, missing, n); /* near to one that is missing: a slip */
-        if (near)
-            ceduo_csv_complain(&r->csv, field, _("'%s': unknown column; did you mean '%s'?"), word, _(near));
-        ceduo_text_put(unused, unused->length > 0 ? ", " : "");
-        ceduo_text_safe_n(unused, field.p, field.n);
-    }
+    ceduo_csv_unused(&r->csv, r->columns, COLUMNS, unused);
     for (int c = 0; c < COLUMNS; c++)
         if ((c == PLOT || c == KIND || c == DBH) && r->columns[c] == CEDUO_CSV_NONE)
             ceduo_problem_at(r->problems, (struct problem_place){r->csv.source, line, 1, NULL, true},
@@ -147,7 +119,7 @@ static bool read_number(struct reader *r, enum column c, double *value)
 
 static bool read_plot(struct reader *r, size_t *plot)
 {
-    struct csv_span name = r->fields[PLOT];
+    struct csv_cell name = r->fields[PLOT];
     size_t i = r->plots_count;
     bool good = true;
     if (name.n == 0)
@@ -157,7 +129,7 @@ static bool read_plot(struct reader *r, size_t *plot)
     if (i == 0 && r->plots_count == PLOTS_MOST)
         return ceduo_csv_complain(&r->csv, name, _("more than %d plots"), PLOTS_MOST);
     if (i == 0) {
-        r->plots[r->plots_count] = (struct plot){name, r->csv.number, {NAN, NAN, NAN, NAN}};
+        r->plots[r->plots_count] = (struct plot){name, r->csv.place.line, {NAN, NAN, NAN, NAN}};
         i = ++r->plots_count;
     }
     *plot = i - 1;
@@ -177,7 +149,7 @@ static bool read_plot(struct reader *r, size_t *plot)
 }
 
 /* The value that a cell's word stands for; -1: it is none. */
-static int find_word(const struct choices *words, struct csv_span field)
+static int find_word(const struct choices *words, struct csv_cell field)
 {
     char word[64] = "";
     if (field.n < sizeof word)
@@ -187,7 +159,7 @@ static int find_word(const struct choices *words, struct csv_span field)
 
 static bool read_words(struct reader *r, struct ceduo_survey_stem *stem)
 {
-    const struct csv_span kind = r->fields[KIND], species = r->fields[SPECIES];
+    const struct csv_cell kind = r->fields[KIND], species = r->fields[SPECIES];
     int found = find_word(&kind_words, kind);
     bool known = found >= 0;
     stem->kind = known ? (enum ceduo_survey_kind)found : CEDUO_SURVEY_TREE;
@@ -208,7 +180,7 @@ static bool read_words(struct reader *r, struct ceduo_survey_stem *stem)
 static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
 {
     const struct csv *csv = &r->csv;
-    const struct csv_span *fields = r->fields;
+    const struct csv_cell *fields = r->fields;
     bool good = read_number(r, DBH, &stem->dbh), stump = stem->kind == CEDUO_SURVEY_STUMP;
     good = read_number(r, HEIGHT, &stem->height) && good;
     good = read_number(r, SPACING, &stem->spacing) && good;
@@ -238,18 +210,17 @@ static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
 static void read_row(struct reader *r, struct survey_file *file)
 {
     struct ceduo_survey_stem stem = {0};
-    struct csv_span left = r->csv.line, first = {0};
+    struct csv_cell first = ceduo_csv_cell(&r->csv, 0);
     bool any = false; /* there is a stem */
-    while (first.n == 0 && ceduo_csv_step(&r->csv, &left, &first))
-        ;
+    for (size_t i = 1; first.n == 0 && i < r->csv.cells_count; i++)
+        first = ceduo_csv_cell(&r->csv, i);
     for (int c = 0; c < COLUMNS; c++) {
-        if (r->columns[c] >= CEDUO_CSV_TWICE || !ceduo_csv_field(&r->csv, r->columns[c], &r->fields[c]))
-            r->fields[c] = (struct csv_span){r->csv.line.p + r->csv.line.n, 0};
-        if (r->fields[c].n == 1 && r->fields[c].p[0] == '-') /* nothing */
+        r->fields[c] = ceduo_csv_cell(&r->csv, r->columns[c]);
+        if (ceduo_csv_is_empty(r->fields[c]))
             r->fields[c].n = 0;
         any |= c >= SPECIES && r->fields[c].n > 0;
     }
-    struct csv_span word = first; /* "Totale fusti" */
+    struct csv_cell word = first; /* "Totale fusti" */
     for (size_t n = first.n; n > 0; n--)
         word.n = strchr(" :", first.p[n - 1]) ? n - 1 : word.n;
     if (find_word(&total_words, first) >= 0 || (r->fields[KIND].n == 0 && find_word(&total_words, word) >= 0)) {
@@ -311,9 +282,16 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
     file->unused = ceduo_arena_string(arena, ceduo_text_string(&unused));
     if (problems->met > before)
         return false;
+    bool *numeric = ceduo_arena_take(arena, (r.csv.heads_count + 1) * sizeof *numeric);
+    for (int c = 0; numeric && c < COLUMNS; c++)
+        if (r.columns[c] < CEDUO_CSV_TWICE && c != PLOT && c != SPECIES && c != KIND && c != STOOL)
+            numeric[r.columns[c]] = true;
+    ceduo_csv_scan(&r.csv, numeric);
     for (size_t n = 0; ceduo_csv_next(&r.csv); n++) {
+        if (r.csv.bad)
+            continue;
         if (n == STEMS_MOST)
-            return ceduo_problem(problems, r.csv.source, r.csv.number, 1, _("more than %d rows"), STEMS_MOST);
+            return ceduo_problem(problems, r.csv.source, r.csv.place.line, 1, _("more than %d rows"), STEMS_MOST);
         read_row(&r, file);
     }
     if (problems->met == before && r.plots_count == 0)

@@ -359,10 +359,9 @@ static const struct field *find_fitted(struct validator *v, const char *path, st
 static bool take_header(struct draws *t)
 {
     struct validator *v = t->v;
-    struct csv_span left = t->csv.header, field;
     struct ceduo_input found;
-    for (size_t c = 0; ceduo_csv_step(&t->csv, &left, &field); c++) {
-        char *head = ceduo_arena_copy(v->arena, field.p, field.n), *rest = head;
+    for (size_t c = 0; c < t->csv.heads_count; c++) {
+        char *head = ceduo_arena_copy(v->arena, t->csv.heads[c].p, t->csv.heads[c].n), *rest = head;
         char *path = head ? strtok_r(head, " ", &rest) : NULL;
         if (!head)
             return false;
@@ -400,33 +399,29 @@ static bool read_table(struct draws *t, const char *path)
     struct problems *problems = t->v->problems;
     struct csv *csv = &t->csv;
     size_t before = problems->met;
-    LOCAL_TEXT(names);
-    if (!ceduo_csv_open(csv, t->v->arena, path, problems))
+    if (!ceduo_csv_open(csv, t->v->arena, path, problems) || !ceduo_csv_first(csv))
         return false;
-    t->columns = ceduo_csv_columns(csv, &names);
+    t->columns = csv->heads_count;
     t->values = ceduo_room(t->v, t->columns, sizeof *t->values);
-    bool good = t->values != NULL;
-    for (size_t c = 0; good && c < t->columns; c++)
+    bool *numeric = ceduo_room(t->v, t->columns, sizeof *numeric), good = t->values && numeric;
+    for (size_t c = 0; good && c < t->columns; c++) {
+        numeric[c] = true;
         good = (t->values[c] = ceduo_room(t->v, ceduo_csv_lines(csv), sizeof **t->values)) != NULL;
+    }
     if (!good || !take_header(t))
         return false;
-    for (; ceduo_csv_next(csv); t->rows++) {
-        struct csv_span left = csv->line, span;
-        size_t c = 0, h = 0;
-        for (; c < t->columns && ceduo_csv_step(csv, &left, &span); c++) {
+    for (ceduo_csv_scan(csv, numeric); ceduo_csv_next(csv); t->rows++) {
+        for (size_t c = 0, h = 0; c < t->columns && !csv->bad; c++) {
+            struct csv_cell cell = ceduo_csv_cell(csv, c);
             double *to = &t->values[c][t->rows];
-            bool number = ceduo_csv_number(csv, span, -1e12, 1e12, "", to);
+            bool number = ceduo_csv_number(csv, cell, -1e12, 1e12, "", to);
             for (; h < t->heads_count && t->heads[h].column == c; h++) {
                 const struct field *f = t->heads[h].field;
                 if (number && !ceduo_schema_in_range(f, *to))
-                    ceduo_csv_complain(csv, span, _("%s is outside the range of %s: %s"), NUMERAL(*to), f->key,
+                    ceduo_csv_complain(csv, cell, _("%s is outside the range of %s: %s"), NUMERAL(*to), f->key,
                                        ceduo_range(t->v, f));
             }
         }
-        if (c < t->columns)
-            ceduo_problem(problems, csv->source, csv->number, 1, _("too few columns"));
-        else if (ceduo_csv_step(csv, &left, &span))
-            ceduo_csv_complain(csv, span, _("more columns than the first line has"));
     }
     if (t->rows == 0)
         ceduo_problem_at(problems, ceduo_node_place(t->v->draws, "doubt.draws"), _("the table has no row"));

@@ -126,55 +126,134 @@ struct place {
     const struct node *node;
 };
 
-/* The column of a table that holds the values; CEDUO_CSV_NONE if there is none, which is reported. */
-static size_t find_column(const struct place *p, struct csv *csv, const char *named, const char *key)
+/* Columns of a table of observations. */
+enum column { VALUES, MAP, NAMED, ONLY, COLUMNS };
+
+struct table {
+    struct csv csv;
+    size_t columns[COLUMNS];
+    const char *only_name, *only_word; /* rows that are used: this column has this word; NULL: all rows */
+};
+
+/* Set the column and the word of `only`, COLUMN=WORD. */
+static bool split_only(const struct place *p, struct table *t)
 {
-    const char *const own[] = {named, NULL};
+    const char *only = p->values->only, *equals = only ? strchr(only, '=') : NULL;
+    if (!only)
+        return true;
+    size_t n = equals ? (size_t)(equals - only) : 0;
+    while (n > 0 && only[n - 1] == ' ')
+        n--;
+    if (n == 0)
+        return ceduo_complain(p->v, p->at, "only", _("'%s' is not COLUMN=WORD, such as block=1"), only);
+    t->only_name = ceduo_format(p->v, "%.*s", (int)n, only);
+    t->only_word = equals + 1 + strspn(equals + 1, " ");
+    return true;
+}
+
+/* Find the head and the columns. Returns false if the column of the values or of `only` is not known, which is reported. */
+static bool find_columns(const struct place *p, struct table *t)
+{
+    const struct ceduo_quantity_row *quantity = ceduo_observed_quantity(p->kind);
+    struct csv *csv = &t->csv;
+    struct csv_head heads[COLUMNS] = {[VALUES] = {.units = quantity->unit},
+                                      [MAP] = {{"y_m", "y", "northing", "north", "nord"}, "m"},
+                                      [NAMED] = {{p->values->column}, ""},
+                                      [ONLY] = {{t->only_name}, ""}};
+    const struct csv_place begin = csv->next;
     LOCAL_TEXT(all);
-    size_t known = ceduo_csv_column(csv, ceduo_observed_quantity(p->kind)->columns, "");
-    size_t column = named ? ceduo_csv_column(csv, own, "") : known;
-    csv->source->foreign = known == CEDUO_CSV_NONE;
-    size_t n = ceduo_csv_columns(csv, &all);
-    if (column == CEDUO_CSV_NONE && !named && n == 1)
-        column = 0;
-    key = ceduo_node_get(p->node, key) ? key : "csv";
-    if (column == CEDUO_CSV_TWICE)
-        ceduo_complain(p->v, p->at, key, _("the table has this column twice; rename one: %s"), ceduo_text_string(&all));
-    else if (column == CEDUO_CSV_NONE && named)
-        ceduo_complain(p->v, p->at, key, _("the table has no column '%s'; it has: %s"), named, ceduo_text_string(&all));
-    else if (column == CEDUO_CSV_NONE)
-        ceduo_complain(p->v, p->at, key, _("name the column that holds the values (column); the table has: %s"),
-                       ceduo_text_string(&all));
-    return column == CEDUO_CSV_TWICE ? CEDUO_CSV_NONE : column;
+    double number;
+    char text[CSV_NUMERAL_CAPACITY];
+    memcpy(heads[VALUES].names, quantity->columns, sizeof quantity->columns);
+    ceduo_csv_find(csv, heads, COLUMNS, t->columns);
+    size_t *column = &t->columns[p->values->column ? NAMED : VALUES];
+    bool place = p->is->where == CEDUO_WHERE_AT_REST && csv->heads_count > 0 && *column < CEDUO_CSV_TWICE;
+    bool map = place && !p->values->column && t->columns[MAP] != CEDUO_CSV_NONE &&
+               ceduo_csv_among(csv->heads[*column].p, csv->heads[*column].n, "x|x_m|x (m)|x [m]");
+    if (*column == CEDUO_CSV_NONE && !p->values->column && csv->heads_count == 1) {
+        *column = 0;
+        if (ceduo_csv_numeral(csv, csv->heads[0], text) == CSV_NUMERAL_GOOD &&
+            ceduo_number_read(text, &number) == CEDUO_NUMBER_GOOD) {
+            csv->next = begin;
+            ceduo_csv_headless(csv, csv->separator);
+        }
+    }
+    ceduo_csv_names(csv, &all);
+    const char *key = ceduo_node_get(p->node, "column") ? "column" : "csv", *names = ceduo_text_string(&all);
+    if (map)
+        return ceduo_complain(p->v, p->at, key,
+                              _("the table has x and y, which are places on a map; name the column that holds the distance "
+                                "along the slope (column); it has: %s"),
+                              names);
+    if (*column == CEDUO_CSV_TWICE)
+        return ceduo_complain(p->v, p->at, key, _("the table has this column twice; rename one: %s"), names);
+    if (*column == CEDUO_CSV_NONE && p->values->column)
+        return ceduo_complain(p->v, p->at, key, _("the table has no column '%s'; it has: %s"), p->values->column, names);
+    if (*column == CEDUO_CSV_NONE)
+        return ceduo_complain(p->v, p->at, key, _("name the column that holds the values (column); the table has: %s"), names);
+    if (t->only_name && t->columns[ONLY] >= CEDUO_CSV_TWICE)
+        return ceduo_complain(p->v, p->at, "only", _("the table has no column '%s'; it has: %s"), t->only_name, names);
+    t->columns[VALUES] = *column;
+    return true;
+}
+
+/* True if the cell of the column of `only` has its word, or is the same number. */
+static bool is_wanted(const struct table *t)
+{
+    double number, wanted;
+    char text[CSV_NUMERAL_CAPACITY];
+    if (!t->only_name)
+        return true;
+    struct csv_cell cell = ceduo_csv_cell(&t->csv, t->columns[ONLY]);
+    return ceduo_csv_is(cell, t->only_word) || (ceduo_number_read(t->only_word, &wanted) == CEDUO_NUMBER_GOOD &&
+                                                ceduo_csv_numeral(&t->csv, cell, text) == CSV_NUMERAL_GOOD &&
+                                                ceduo_number_read(text, &number) == CEDUO_NUMBER_GOOD && number == wanted);
+}
+
+/* Note what was read from a table, for the user. */
+static void understand(const struct place *p, const struct table *t, const char *path)
+{
+    LOCAL_TEXT(line);
+    LOCAL_TEXT(unused);
+    const char *slash = strrchr(path, '/');
+    const struct csv_cell *head = t->csv.headless ? NULL : &t->csv.heads[t->columns[VALUES]];
+    ceduo_text_safe(&line, slash ? slash + 1 : path);
+    ceduo_text_format(&line, ngettext(": %zu value", ": %zu values", p->values->values_count), p->values->values_count);
+    if (head)
+        ceduo_text_format(&line, _(" in the column %.*s"), head->n < 100 ? (int)head->n : 100, head->p);
+    else
+        ceduo_text_put(&line, _(", no head"));
+    if (t->only_name)
+        ceduo_text_format(&line, _("; rows with %s = %s"), t->only_name, t->only_word);
+    if (t->csv.decimal == ',')
+        ceduo_text_put(&line, _("; decimal commas"));
+    ceduo_csv_unused(&t->csv, t->columns, COLUMNS, &unused);
+    if (unused.length > 0 && !t->csv.headless)
+        ceduo_text_format(&line, _("; not used: %s"), unused.bytes);
+    ceduo_understand(p->v, p->at, ceduo_text_string(&line));
 }
 
 static bool read_table(const struct place *p, const char *path)
 {
     struct validator *v = p->v;
     struct observed_values *to = p->values;
-    struct csv csv;
-    struct csv_span field;
-    size_t only = CEDUO_CSV_NONE; /* the column in which those rows that are wanted have a word */
-    const char *equals = to->only ? strchr(to->only, '=') : NULL;
-    if (!ceduo_csv_open(&csv, v->arena, path, v->problems))
+    struct table t = {0};
+    struct csv *csv = &t.csv;
+    if (!split_only(p, &t) || !ceduo_csv_open(csv, v->arena, path, v->problems) || !find_columns(p, &t))
         return false;
-    size_t column = find_column(p, &csv, to->column, "column");
-    if (column == CEDUO_CSV_NONE)
+    bool *numeric = ceduo_room(v, csv->heads_count, sizeof *numeric);
+    to->values = ceduo_room(v, ceduo_csv_lines(csv), sizeof *to->values);
+    if (!numeric || !to->values)
         return false;
-    if (to->only && (!equals || equals == to->only))
-        return ceduo_complain(v, p->at, "only", _("'%s' is not COLUMN=WORD, such as block=1"), to->only);
-    if (equals)
-        only = find_column(p, &csv, ceduo_format(v, "%.*s", (int)(equals - to->only), to->only), "only");
-    if ((equals && only == CEDUO_CSV_NONE) || !(to->values = ceduo_room(v, ceduo_csv_lines(&csv), sizeof *to->values)))
-        return false;
-    while (ceduo_csv_next(&csv)) {
-        if (equals && (!ceduo_csv_field(&csv, only, &field) || !ceduo_csv_is(field, equals + 1)))
-            continue;
-        if (!ceduo_csv_field(&csv, column, &field))
-            ceduo_problem(v->problems, csv.source, csv.number, 1, _("too few columns"));
-        else if (ceduo_csv_number(&csv, field, -1e9, 1e9, "", &to->values[to->values_count]))
+    numeric[t.columns[VALUES]] = true;
+    ceduo_csv_scan(csv, numeric);
+    while (ceduo_csv_next(csv))
+        if (!csv->bad && is_wanted(&t) &&
+            ceduo_csv_number(csv, ceduo_csv_cell(csv, t.columns[VALUES]), -1e9, 1e9, ceduo_observed_quantity(p->kind)->unit,
+                             &to->values[to->values_count]))
             to->values_count++;
-    }
+    if (to->values_count > 0)
+        understand(p, &t, path);
     return to->values_count > 0 || ceduo_complain(v, p->at, "csv", _("the table has no such row")); /* untaken: complaint */
 }
 

@@ -16,6 +16,13 @@
 
 /* ---- the profile ---- */
 
+/* Line of the file that is wanted; NULL: the only one. */
+static const char *layer_of(struct validator *v)
+{
+    const struct node *layer = ceduo_node_get(ceduo_node_get(v->root, "slope"), "layer");
+    return layer && layer->kind == NODE_SCALAR ? layer->text : NULL;
+}
+
 static bool read_vertices(struct validator *v, struct points *p)
 {
     const struct ceduo_slope *s = &v->draft.scene.slope;
@@ -30,9 +37,9 @@ static bool read_vertices(struct validator *v, struct points *p)
     if (!path)
         ceduo_complain(v, "slope.csv", "", _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
                        node->text);
-    bool good = path && ceduo_csv_slope_read(v->arena, path, p, v->problems);
-    if (good && p->commas)
-        ceduo_assume(v, "slope.csv", _("commas in the file of the profile stand for decimals: 12,5 is 12.5"));
+    bool good = path && ceduo_csv_slope_read(v->arena, path, layer_of(v), p, v->problems);
+    if (good && p->understood)
+        ceduo_understand(v, "slope.csv", p->understood);
     return good;
 }
 
@@ -230,8 +237,12 @@ static bool reuse_slope(struct validator *v)
     v->profile = true;
     v->file->ground_assumed = previous->ground_assumed;
     for (const struct source_note *n = previous->notes; n; n = n->before)
-        if (strcmp(n->kind, "assumed") == 0 && strncmp(n->path, "slope", 5) == 0 && n->made && strcmp(n->path, TOLERANCE) != 0)
+        if (strncmp(n->path, "slope", 5) != 0 || !n->made || strcmp(n->path, TOLERANCE) == 0)
+            continue;
+        else if (strcmp(n->kind, "assumed") == 0)
             ceduo_assume(v, n->path, n->text);
+        else if (strcmp(n->kind, CEDUO_NOTE_TABLE) == 0)
+            ceduo_understand(v, n->path, n->text);
     return true;
 }
 
@@ -248,7 +259,7 @@ double ceduo_validate_end(void *validator)
         return before->origin_x + before->x[before->vertices - 1];
     if (csv && csv->kind == NODE_SCALAR) {
         const char *path = ceduo_resolve_path(v->arena, csv, "slopes");
-        if (path && ceduo_csv_slope_read(v->arena, path, &p, &problems) && p.n > 1)
+        if (path && ceduo_csv_slope_read(v->arena, path, layer_of(v), &p, &problems) && p.n > 1)
             end = p.x[p.n - 1];
     } else if (list && list->n > 1) {
         const struct node *last = list->items[list->n - 1];

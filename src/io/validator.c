@@ -75,13 +75,23 @@ bool ceduo_is_given(struct validator *v, const char *path, const char *key)
     return ceduo_resolve_at(v->root, whole) || !ceduo_is_known(v, "%s", whole);
 }
 
+static void note(struct validator *v, const char *path, const char *kind, const char *text)
+{
+    struct source_note *made = ceduo_room(v, 0, sizeof *made);
+    if (!made)
+        return;
+    *made = (struct source_note){.path = path, .kind = kind, .text = text, .before = *v->notes, .made = true};
+    *v->notes = made;
+}
+
 void ceduo_assume(struct validator *v, const char *path, const char *text)
 {
-    struct source_note *note = ceduo_room(v, 0, sizeof *note);
-    if (!note)
-        return;
-    *note = (struct source_note){.path = path, .kind = "assumed", .text = text, .before = *v->notes, .made = true};
-    *v->notes = note;
+    note(v, path, "assumed", text);
+}
+
+void ceduo_understand(struct validator *v, const char *path, const char *line)
+{
+    note(v, path, CEDUO_NOTE_TABLE, ceduo_format(v, "%s", line));
 }
 
 bool ceduo_is_too_long(struct validator *v, const char *path, size_t n)

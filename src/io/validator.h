@@ -78,6 +78,9 @@ bool ceduo_is_given(struct validator *v, const char *path, const char *key);
 /* Adds an assumption of the program itself to those of the files. */
 void ceduo_assume(struct validator *v, const char *path, const char *text);
 
+/* Note what was understood of a table, in one line. */
+void ceduo_understand(struct validator *v, const char *path, const char *line);
+
 /* Reports a list that is longer than anybody reads. */
 bool ceduo_is_too_long(struct validator *v, const char *path, size_t n);
 

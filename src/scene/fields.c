@@ -107,6 +107,7 @@ static const struct field slope_fields[] = {
           N_("the ground from the library, instead of segments"), &material_object),
     OTHER(FIELD_FILE, "csv", NAMED(N_("file")), NOWHERE, FIELD_NOWHERE, NULL,
           N_("the profile from a CSV file with distance and elevation, instead of vertices_m"), NULL, NULL),
+    TEXT("layer", NAMED(N_("line")), NOWHERE, FIELD_NOWHERE, N_("line of the CSV file, if the file holds several")),
     NUMBER(
         "tolerance_m", USUAL(N_("simplify to, m"), 0, 2), AT(ceduo_slope, tolerance), "m", 0, 100, 0, "0.5",
         N_("distance within which points of the profile are left out: the roughness of the ground stands for smaller relief; "

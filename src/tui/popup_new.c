@@ -62,7 +62,7 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
     LOCAL_PROBLEMS(problems);
     struct points points = {0};
     if (ceduo_picker_is_file(typed, p->endings)) {
-        bool good = ceduo_csv_slope_read(&p->arena, typed, &points, &problems) && points.n > 1;
+        bool good = ceduo_csv_slope_read(&p->arena, typed, NULL, &points, &problems) && points.n > 1;
         if (!good)
             wrong = problems.text.bytes ? problems.text.bytes : _("a profile needs two points or more");
         a->first = good ? points.x[0] : 0;

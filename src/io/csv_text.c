@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the file of a table and makes its text UTF-8 with lines that end in LF. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <uniconv.h>
+#include <unistr.h>
+
+#include "base/language.h"
+#include "base/must.h"
+#include "base/utf8.h"
+#include "csv.h"
+#include "file.h"
+
+static bool refuse(struct csv *csv, const char *why)
+{
+    return ceduo_problem_at(csv->problems, (struct problem_place){.source = csv->source, .own = true}, "%s", why);
+}
+
+/* Kinds of files that are no text, by their first bytes. */
+static const char *name_binary(const struct source *s)
+{
+    static const struct {
+        const char *bytes, *why;
+        size_t n;
+    } kinds[] = {
+        {"PK\3\4", N_("this is a workbook; open it and save its sheet as CSV (File, Save as)"), 4},           /* xlsx, ods */
+        {"\xd0\xcf\x11\xe0", N_("this is a workbook; open it and save its sheet as CSV (File, Save as)"), 4}, /* xls */
+        {"SQLite format 3", N_("this is a GeoPackage or another database; export its layer as CSV"), 15},
+        {"%PDF", N_("this is a PDF; save the table as CSV"), 4},
+    };
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (s->length >= kinds[i].n && memcmp(s->bytes, kinds[i].bytes, kinds[i].n) == 0)
+            return _(kinds[i].why);
+    return NULL;
+}
+
+/* Replace the text of the source by its UTF-8. Returns false if there is none. */
+static bool convert(struct csv *csv, const char *from, size_t skip)
+{
+    struct source *s = csv->source;
+    size_t length;
+    uint8_t *bytes = u8_conv_from_encoding(from, iconveh_error, s->bytes + skip, s->length - skip, NULL, NULL, &length);
+    if (!bytes)
+        return false;
+    s->bytes = ceduo_arena_copy(csv->arena, (const char *)bytes, length);
+    s->length = length;
+    free(bytes);
+    return s->bytes != NULL;
+}
+
+/* Bytes of 16 bits: by their byte order mark, or by the zeros of the first two characters. NULL: not in UTF-16. */
+static const char *name_utf16(const unsigned char *p, size_t n, size_t *mark)
+{
+    *mark = n >= 2 && ((p[0] == 0xff && p[1] == 0xfe) || (p[0] == 0xfe && p[1] == 0xff)) ? 2 : 0;
+    if (*mark > 0)
+        return p[0] == 0xfe ? "UTF-16BE" : "UTF-16LE";
+    bool zeros = n >= 4 && (p[0] == 0) != (p[1] == 0) && (p[2] == 0) == (p[0] == 0) && (p[3] == 0) == (p[1] == 0);
+    return !zeros ? NULL : p[0] == 0 ? "UTF-16BE" : "UTF-16LE";
+}
+
+/* True if some bytes beyond ASCII are valid UTF-8 although others are not. */
+static bool is_broken_utf8(const struct source *s)
+{
+    size_t valid = 0;
+    uint32_t code;
+    for (size_t i = 0, n; i<s->length; i += n> 0 ? n : 1) {
+        n = ceduo_utf8_decode(s->bytes + i, s->length - i, &code);
+        valid += n > 1;
+    }
+    return valid > 0;
+}
+
+/* Make the text of the source UTF-8. */
+static bool decode(struct csv *csv)
+{
+    struct source *s = csv->source;
+    size_t mark;
+    const char *utf16 = name_utf16((const unsigned char *)s->bytes, s->length, &mark);
+    errno = 0;
+    if (utf16 && (s->length % 2 != 0 || !convert(csv, utf16, mark)))
+        return errno == ENOMEM ? false : refuse(csv, _("broken UTF-16; save it again as CSV in UTF-8"));
+    if (!utf16 && u8_check((const uint8_t *)s->bytes, s->length)) {
+        if (is_broken_utf8(s))
+            return refuse(csv, _("broken UTF-8; save it again as CSV in UTF-8"));
+        if (!convert(csv, "CP1252", 0))
+            return errno == ENOMEM ? false : refuse(csv, _("neither UTF-8 nor Windows-1252; save it again as CSV in UTF-8"));
+    }
+    const char *nul = memchr(s->bytes, '\0', s->length);
+    size_t line = 1;
+    for (const char *p = s->bytes; nul && p < nul; p++)
+        line += *p == '\n';
+    return !nul || ceduo_problem_at(csv->problems, (struct problem_place){s, line, 1, NULL, true}, "%s",
+                                    _("a NUL byte (U+0000) cannot be meant; save it again as CSV in UTF-8"));
+}
+
+/* Old Macintosh files end lines with CR alone. */
+static bool end_lines(struct csv *csv)
+{
+    struct source *s = csv->source;
+    if (memchr(s->bytes, '\n', s->length) || !memchr(s->bytes, '\r', s->length))
+        return true;
+    char *bytes = ceduo_arena_copy(csv->arena, s->bytes, s->length);
+    for (size_t i = 0; bytes && i < s->length; i++)
+        if (bytes[i] == '\r')
+            bytes[i] = '\n';
+    s->bytes = bytes;
+    return bytes != NULL;
+}
+
+bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems)
+{
+    *csv = (struct csv){.source = (struct source *)(uintptr_t)ceduo_file_read(arena, path, CSV_BYTES_MOST, problems),
+                        .arena = arena,
+                        .problems = problems};
+    size_t before = problems->met;
+    if (!csv->source)
+        return false;
+    const char *binary = name_binary(csv->source);
+    if (binary)
+        return refuse(csv, binary);
+    if (!decode(csv) || !end_lines(csv)) {
+        if (problems->met == before)
+            ceduo_no_memory();
+        return false;
+    }
+    size_t at = ceduo_source_mark(csv->source);
+    const char *bytes = csv->source->bytes + at;
+    csv->next = (struct csv_place){at, 1};
+    if (!*bytes)
+        return ceduo_problem(problems, csv->source, 0, 0, _("the file is empty"));
+    if (strncasecmp(bytes, "sep=", 4) == 0 && bytes[4] && strchr("\r\n", bytes[5])) { /* Excel */
+        csv->separator = bytes[4];
+        csv->next = (struct csv_place){at + strcspn(bytes, "\n") + (strchr(bytes, '\n') != NULL), 2};
+    }
+    return true;
+}
