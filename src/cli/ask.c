@@ -137,14 +137,32 @@ void ceduo_progress_scenes(struct progress *p, size_t computed, size_t done, siz
 
 #define LOOK_ROCKS 1000
 
+/* Warnings about a scene; each is printed once. */
+struct warnings {
+    const struct scene_file *file;
+    struct text printed;
+};
+
 static void warn(void *context, const char *sentence)
 {
-    const struct scene_file *file = context;
-    ceduo_say_why(file->path, sentence);
+    struct warnings *warnings = context;
+    if (strstr(ceduo_text_string(&warnings->printed), sentence))
+        return;
+    ceduo_say_why(warnings->file->path, sentence);
+    ceduo_text_format(&warnings->printed, "%s\n", sentence);
 }
 
-void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file)
+/* Warn of stands that no forest has. */
+static void warn_stands(const struct ceduo_result *result, struct warnings *warnings)
 {
+    for (size_t i = 0; i < result->options_count; i++)
+        for (size_t k = 0; k < result->scene->options[i].belts_count; k++)
+            ceduo_words_unlikely(&result->scene->options[i].belts[k], &result->options[i].stands[k], warn, warnings);
+}
+
+void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file, bool stands)
+{
+    struct warnings warnings = {.file = file};
     struct ceduo_scene bare = file->scene;
     bare.simulation.contact_model = CEDUO_INDEX; /* nothing is flown through the forests */
     struct ceduo_question question = ceduo_question_default(&bare);
@@ -153,9 +171,13 @@ void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file)
     question.run.rocks_most = question.rocks;
     question.run.threads = (unsigned)a->threads;
     question.run.cancel = ceduo_interrupt_flag();
-    if (ceduo_ask(&question, NULL, &answer) == CEDUO_OK)
-        ceduo_words_still(answer.result, warn, (void *)(uintptr_t)file);
+    if (ceduo_ask(&question, NULL, &answer) == CEDUO_OK) {
+        ceduo_words_still(answer.result, warn, &warnings);
+        if (stands)
+            warn_stands(answer.result, &warnings);
+    }
     ceduo_answer_release(&answer);
+    ceduo_text_free(&warnings.printed);
 }
 
 enum exit_status ceduo_batch_failed(const struct scene_file *file, enum ceduo_status status)

@@ -30,9 +30,9 @@ enum exit_status ceduo_batch_read(const struct arguments *arguments, const char 
 /* The option of a name. EXIT_USAGE where there is none, once that is told. */
 enum exit_status ceduo_batch_option(const struct scene_file *file, const char *name, size_t *index);
 
-/* Says on standard error that nothing can be said of a scene, where hardly a rock arrives even without forest: for modes whose
- * answer is of something else. It looks at no more than LOOK_ROCKS. */
-void ceduo_batch_warn(const struct arguments *arguments, const struct scene_file *file);
+/* Print a warning to standard error if hardly a rock arrives even without forest, so that the scene has no answer. Simulates at
+ * most LOOK_ROCKS rocks. `stands`: warn of unusual stands, too. */
+void ceduo_batch_warn(const struct arguments *arguments, const struct scene_file *file, bool stands);
 
 /* Says why there is no answer; an interruption says nothing. EXIT_RUN. */
 enum exit_status ceduo_batch_failed(const struct scene_file *file, enum ceduo_status status);

@@ -78,7 +78,7 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
 enum exit_status ceduo_print_doubt(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct asked c;
-    ceduo_batch_warn(a, file);
+    ceduo_batch_warn(a, file, false);
     ceduo_ask_begin(&c, a, file);
     enum ceduo_status status = ceduo_ask_doubt(&c, a, file);
     const struct ceduo_place place = {.doubt = &c.doubt};
@@ -122,7 +122,7 @@ enum exit_status ceduo_print_find(const struct arguments *a, struct scene_file *
     struct search_answer answer;
     if (choose_option(a, file, &search.option) != EXIT_DONE)
         return EXIT_USAGE;
-    ceduo_batch_warn(a, file);
+    ceduo_batch_warn(a, file, false);
     enum ceduo_status status = ceduo_search(file, &search, (unsigned)a->threads, ceduo_interrupt_flag(), &answer);
     bool usage = answer.problems.count > 0;
     ceduo_say_problems(&answer.problems);
@@ -190,7 +190,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
     if (a->plot == CEDUO_PLOT_DOUBT) {
         status = ceduo_ask_doubt(&c, a, file);
     } else if (ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_RUN) {
-        ceduo_batch_warn(a, file);
+        ceduo_batch_warn(a, file, false);
         c.pictures = true;
         c.cells = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS;
         c.trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0;

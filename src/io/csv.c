@@ -125,12 +125,13 @@ static bool read_record(struct csv *csv)
     return true;
 }
 
+/* True if a record holds nothing but blanks and separators, of whatever kind. */
 static bool is_blank_record(const struct csv *csv)
 {
-    size_t i = 0;
-    while (i < csv->cells_count && csv->cells[i].n == 0)
-        i++;
-    return i == csv->cells_count;
+    bool blank = true;
+    for (size_t i = 0; i < csv->cells_count && blank; i++)
+        blank = strspn(csv->cells[i].p, " \t,;|") >= csv->cells[i].n;
+    return blank;
 }
 
 /* Read the next record that is neither blank nor a comment, whatever its number of cells. */

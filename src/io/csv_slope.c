@@ -15,11 +15,12 @@
 #define BEGINNING    4096 /* bytes of a file in which it says what it is */
 #define LAYERS_MAX   1000
 #define LINE_MIN     1    /* m: a shorter line on the map is in degrees */
+#define LENGTH_MIN   0.1  /* m of a profile */
 #define WALL_RUN     0.01 /* m between the edge and the foot of a vertical step */
 #define OVERHANG_MAX 10   /* m: farther back the line turns round (assumed) */
 #define SPIKE_RISE   200  /* m from both neighbours, */
 #define SPIKE_RUN    50   /* m: that is an error of the terrain model (assumed) */
-#define JUMP_RISE    20   /* m to 0 or 9999, */
+#define JUMP_RISE    50   /* m to 0 or 9999, */
 #define JUMP_SLOPE   6    /* times the run: no data (assumed) */
 #define TURN_STEP    0.1  /* m: shorter steps have no direction */
 #define CROSSINGS    2000 /* points between which crossings are looked for */
@@ -489,7 +490,7 @@ static bool measure_line(struct reader *r)
 static bool is_jump(const struct raw *a, const struct raw *b)
 {
     double rise = fabs(b->z - a->z);
-    return rise > JUMP_RISE && rise > JUMP_SLOPE * fabs(b->x - a->x);
+    return b->x != a->x && rise > JUMP_RISE && rise > JUMP_SLOPE * fabs(b->x - a->x);
 }
 
 /* Refuse heights that can only be errors: 0 or 9999 among others, spikes. */
@@ -567,10 +568,10 @@ static bool make_rising(struct reader *r, struct points *p, double sign)
             add_vertex(p, edge + WALL_RUN, z);
             wall = walls++ == 0 ? sign * edge : wall;
         } else if (x <= edge) {
-            if (z >= last->z || edge - x > OVERHANG_MAX)
+            if (z >= last->z || edge - x > OVERHANG_MAX || i + 1 == n)
                 return refuse_order(r, sign > 0 ? now : last, (sign > 0 ? last : now)->x);
             overhang = x_last == edge && overhangs++ == 0 ? sign * edge : overhang;
-            if (x == edge || i + 1 == n) /* its foot lies below the edge, or is the end */
+            if (x == edge)
                 add_vertex(p, edge + WALL_RUN, z);
         }
         edge = fmax(edge, x);
@@ -605,6 +606,8 @@ static bool make_points(struct reader *r, struct points *p)
         return refuse_order(r, &r->raw[1], r->raw[0].x);
     if (!make_rising(r, p, upward ? -1 : 1))
         return false;
+    if (p->n > 1 && fabs(p->x[p->n - 1] - p->x[0]) < LENGTH_MIN)
+        return refuse_at(r, &r->raw[r->n - 1], _("all points lie at the same distance; a profile must have a length"));
     for (size_t i = 0; upward && i < (p->n + 1) / 2; i++) {
         size_t k = p->n - 1 - i;
         double x = p->x[i], z = p->z[i];

@@ -91,8 +91,8 @@ static bool decode(struct csv *csv)
     size_t line = 1;
     for (const char *p = s->bytes; nul && p < nul; p++)
         line += *p == '\n';
-    return !nul || ceduo_problem_at(csv->problems, (struct problem_place){s, line, 1, NULL, true}, "%s",
-                                    _("a NUL byte (U+0000) cannot be meant; save it again as CSV in UTF-8"));
+    return !nul || ceduo_problem_at(csv->problems, (struct problem_place){.source = s, .own = true},
+                                    _("a NUL byte (U+0000) on line %zu cannot be meant; save it again as CSV in UTF-8"), line);
 }
 
 /* Old Macintosh files end lines with CR alone. */

@@ -472,6 +472,16 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     add_assumed(page, report, report->file->notes, places);
 }
 
+/* One line for each table that was read. The notes are kept last first. */
+static void add_tables(struct ceduo_page *page, const struct source_note *note)
+{
+    if (!note)
+        return;
+    add_tables(page, note->before);
+    if (strcmp(note->kind, CEDUO_NOTE_TABLE) == 0)
+        ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", note->text);
+}
+
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report)
 {
     ceduo_page_add(page, CEDUO_PAGE_GAP);
@@ -480,6 +490,12 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
     if (page->last == gap)
         ceduo_page_drop(page);
     const struct source_note *note = report->file->notes;
+    for (const struct source_note *n = note; n; n = n->before)
+        if (strcmp(n->kind, CEDUO_NOTE_TABLE) == 0) {
+            ceduo_page_say(page, CEDUO_PAGE_SECTION, _("Tables as they were read:"));
+            add_tables(page, report->file->notes);
+            break;
+        }
     while (note && !is_shown(report, note))
         note = note->before;
     if (!note)

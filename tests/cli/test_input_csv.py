@@ -39,10 +39,10 @@ def test_csv_of_spreadsheets():
                            ("distance;elevation", rows.replace("\n", "\r\n")), ("distance\televation", rows.replace(";", "\t")),
                            ("distance;elevation", '"0";"64,5"\n"50,25";"30"\n"100";"0,75"\n')):
             expect_equal(slope_numbers(f, f"{head}\n{body}"), wanted, head)
-        page = good("-b", "-n", 1, "s.yaml", cwd=f.path).out
-        expect_in("commas in the file of the profile stand for decimals", " ".join(page.split()), "the page")
+        page = good("-b", "--details", "-n", 1, "s.yaml", cwd=f.path).out
+        expect_in("line.csv: 3 points, 100 m long, falls 63.75 m; columns distance, elevation; decimal commas", " ".join(page.split()))
         slope_numbers(f, "distance;elevation\n0;64.5\n50.25;30\n100;0.75\n")
-        expect("commas in the file" not in good("-b", "-n", 1, "s.yaml", cwd=f.path).out, "dots are usual")
+        expect("decimal commas" not in good("-b", "--details", "-n", 1, "s.yaml", cwd=f.path).out, "dots are usual")
 
 
 def test_csv_of_offices():
@@ -53,7 +53,7 @@ def test_csv_of_offices():
         italian = "Progressiva (m);Quota (m s.l.m.)\r\n0;64,5\r\n50;30\r\n100;0,75\r\n"
         for text in (plain.replace("distance,elevation", "Distance (m),Elevation (m)"), italian,
                      "Profilo A della parete;\n;\n" + italian, italian.encode("utf-16"), italian.encode("utf-16-be"),
-                     ("\ufeff" + italian).encode("utf-16-be"), "N\0te\n" + plain, ("\u00fever\n" + italian).encode("cp1252"),
+                     ("\ufeff" + italian).encode("utf-16-be"), ("\u00fever\n" + italian).encode("cp1252"),
                      ("Profilo d\u2019asse \u2013 et\u00e0 1950;\n" + italian).encode("cp1252"),
                      "Entfernung [m];H\u00d6HE (m)\n0;64,5\n50;30\n100;0,75\n".encode("cp1252"),
                      "X,Y,Z\n0,0,64.5\n30,40,30\n60,80,0.75\n", "id,Est (m),Nord (m),Quota (m)\na,700000,4800000,64.5\n"
@@ -65,9 +65,13 @@ OTHER = [  # what a GPS or a drawing program writes, and how it is called
     ('<?xml version="1.0"?>\n<gpx version="1.1"><trk><trkseg><trkpt lat="43" lon="12"/></trkseg></trk></gpx>\n', "GPX is no profile"),
     ('<?xml version="1.0"?>\n<LandXML version="1.2"/>\n', "LandXML is no profile"), ("<a/>\n", "XML is no profile"),
     ("x,y,z\n12.1,43.1,300\n12.1001,43.1,200\n", "x and y must be in metres, not in degrees"),
-    ("x,y,z\n1,1,300\n1,1,200\n", "distance 0 does not lie beyond 0"),
-    ("\ufeffdistance;elevation\n\udc00;1\n".encode("utf-16-le", "surrogatepass"), "must name the columns"),
+    ("x,y,z\n1,1,300\n1,1,200\n", "all points lie at the same distance"),
+    ("\ufeffdistance;elevation\n\udc00;1\n".encode("utf-16-le", "surrogatepass"), "broken UTF-16"),
     ("x,y,z\n12.1,43.1,300\n12.1001,-,250\n12.1002,43.1,200\n", "'-' is not a number"),
+    ("N\0te\ndistance,elevation\n0,9\n50,1\n", "NUL byte"),
+    ("N\u00f6te, t\u00eete\n".encode() + b"distance,elevation\n0,9\n50,1\n\xff\n", "broken UTF-8"),
+    (b"N\x81te\ndistance,elevation\n0,9\n50,1\n", "neither UTF-8 nor Windows-1252"),
+    ("SQLite format 3\0", "GeoPackage"),
 ]
 
 
@@ -87,28 +91,27 @@ def test_no_table():
 
 CSV_CASES = [
     # (content, place, words)
-    ("", None, "is empty"), ("distance,height\n0,1\n", (1, None), "'distance' and 'elevation'"),
-    ("0,64\n100,0\n", (1, None), "'distance' and 'elevation'"), ("\n\n", (1, None), "'distance' and 'elevation'"),
+    ("", None, "is empty"), ("distance,depth\n0,1\n", (1, None), "'distance' and 'elevation'"),
+    ("a,64\n100,0\n", (1, None), "'distance' and 'elevation'"), ("\n\n", (1, None), "'distance' and 'elevation'"),
     ("distance,elevation\n", None, "two points"), ("distance,elevation\n0,64\n", None, "two points"),
     ("distance,elevation\n0,64\n50,\n100,0\n", (3, 4), "missing"), ("distance,elevation\n0,64\n,30\n100,0\n", (3, 1), "missing"),
     ("distance,elevation\n0,64\n50\n100,0\n", (3, None), "too few"), ("elevation,distance\n64,0\n30\n0,100\n", (3, None), "too few"),
     ("x,z,y\n0,64,0\n30,30\n60,0,80\n", (3, None), "too few"), ("x,y,z\n0,0,64\n30,b,30\n60,80,0\n", (3, 4), "'b' is not a number"),
-    ("distance,elevation\n0,64\n50,\"30,5\"\n100,0\n", (3, 5), "'30,5' is not a number; write a dot"),
-    ("distance;elevation\n0;64\n50;1.030,5\n100;0\n", (3, 4), "not both"),
-    ("distance;elevation\n0;64,5\n50.5;30\n100;0\n", (3, 1), "not both"),
-    ("distance;elevation\n0;64.5\n50,5;30\n100;0\n", (3, 1), "not both"),
+    ("distance;elevation\n0;64.5\n50;1.030,5\n100;0\n", (3, 4), "decimals stand after a dot on line 2"),
+    ("distance;elevation\n0;64,5\n50.5;30\n100;0\n", (3, 1), "decimals stand after a comma on line 2"),
+    ("distance;elevation\n0;64.5\n50,5;30\n100;0\n", (3, 1), "decimals stand after a dot on line 2"),
     ("distance,elevation\n0,64\n50,30\n40,0\n", (4, 1), "distance 40 does not lie beyond 50"),
-    ("distance,elevation\n0,64\n50,30\n50,0\n", (4, 1), "must rise"),
+    ("distance,elevation\n0,64\n50,30\n50,64\n45,20\n", (5, 1), "must rise"),
     ("distance,elevation\n0,64\n50,abc\n100,0\n", (3, 4), "'abc' is not a number"),
-    ("distance,elevation\n0,64\n50,nan\n100,0\n", (3, 4), "'nan' is not a number"),
-    ("distance,elevation\n0,64\n50,NULL\n100,0\n", (3, 4), "'NULL' is not a number"),
-    ("distance,elevation\n0,64\n50,-\n100,0\n", (3, 4), "'-' is not a number"),
-    ("distance,elevation\n0,64\n50,1e999\n100,0\n", (3, 4), "beyond"),
+    ("distance,elevation\n0,64\n50,nan\n100,0\n", (3, 4), "'nan' is no height"),
+    ("distance,elevation\n0,64\n50,NULL\n100,0\n", (3, 4), "'NULL' is no height"),
+    ("distance,elevation\n0,64\n50,-\n100,0\n", (3, 4), "'-' is no height"),
+    ("distance,elevation\n0,64\n50,1e999\n100,0\n", (3, 4), "no data"),
     ("distance,elevation\n0,64\n50,1e10\n100,0\n", (3, 4), "beyond"),
     ("distance,elevation\n0,64\n50,-9999999999\n100,0\n", (3, 4), "beyond"),
     ("distance,elevation\n0,64\n50,0x10\n100,0\n", (3, 4), "'0x10' is not a number"),
-    ("distance,elevation\n0,64\n50,\x1b[31m\n100,0\n", (3, 4), "is not a number"),
-    ("distance,elevation\n0,64\n50,\x00\n100,0\n", (3, 4), "is not a number"),
+    ("distance,elevation\n0,64\n50,\x1b[31m\n100,0\n", (3, 4), "the character U+001B cannot be meant"),
+    ("distance,elevation\n0,64\n50,\x00\n100,0\n", None, "NUL byte (U+0000) on line 3"),
     ("distance,elevation\n0,64\n50," + "9" * 1000 + "\n100,0\n", (3, 4), ""),
     ("distance,elevation,distance\n0,64,1\n50,30,2\n100,0,3\n", (1, None), "distance"),
 ]

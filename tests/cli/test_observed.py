@@ -195,7 +195,8 @@ def test_misplaced():
     refused("'=a' is not COLUMN=WORD", {"stops": {"csv": "stops.csv", "only": "=a"}}, table)
     refused("names something of a table", {"stops": {"x_m": [40], "only": "block=1"}})
     refused("observed[0].stops.onli: unknown key", [{"stops": {"column": "a", "onli": "b"}}])
-    accepted({"stops": {"csv": "t.csv", "only": "block=b"}}, ("t.csv", "x,block\n40,a\n50\n60,b\n"))
+    accepted({"stops": {"csv": "t.csv", "only": "block=b"}}, ("t.csv", "x,block\n40,a\n50,\n60,b\n"))
+    refused("t.csv:3:1: too few columns", {"stops": {"csv": "t.csv", "only": "block=b"}}, ("t.csv", "x,block\n40,a\n50\n60,b\n"))
     refused("observed[0].speed.x_m: 150 lies beyond the slope", [{"speed": {"x_m": 150, **mean}}])
     refused("observed[0].scars.from_m: -5 lies beyond the slope", {"scars": {"from_m": -5, "to_m": 20, "height_m": [1]}})
     refused("-1 is below 0", {"scars": {"from_m": 5, "to_m": 20, "height_m": [-1]}})
@@ -215,7 +216,7 @@ def test_draws_have_names():
     draws = {"doubt": {"draws": "d.csv"}}
     accepted([], ("d.csv", "rock.density_kg_m3\n2600\n"), **draws)
     refused("the table has a column '', which is no value of this scene", [], ("d.csv", "rock.density_kg_m3,\n2600,1\n"), **draws)
-    refused("the table has a column '', which is no value of this scene", [], ("d.csv", "\n2600\n"), **draws)
+    refused("the table has a column '2600', which is no value of this scene", [], ("d.csv", "\n2600\n"), **draws)
     refused("the table has a column 'rock.size', which", [], ("d.csv", "rock.density_kg_m3 rock.size\n2600\n"), **draws)
 
 
