@@ -235,13 +235,15 @@ static void find_head(struct csv *csv, const struct csv_head *heads, size_t n)
     char best = csv->separator ? csv->separator : ',';
     trial.problems = NULL;
     for (size_t k = 0; k < TITLE_MAX && line.at < csv->source->length; k++) {
+        const bool comment = csv->comments && csv->source->bytes[line.at] == '#'; /* may hold the heads */
+        const struct csv_place head = {line.at + comment, line.line};
         for (const char *s = all; *s; s++) {
             trial.separator = *s;
-            size_t rate = rate_head(&trial, line, heads, n);
+            size_t rate = rate_head(&trial, head, heads, n);
             if (rate > most) {
                 most = rate;
                 best = *s;
-                best_line = line;
+                best_line = head;
             }
         }
         size_t at = line.at;

@@ -245,7 +245,6 @@ static bool are_numbers(const struct csv *csv)
 static bool take_headless(struct reader *r, struct csv_place begin)
 {
     struct csv *csv = &r->csv;
-    csv->comments = true;
     for (const char *s = ";\t| ,"; *s; s++) {
         struct problems *problems = csv->problems;
         csv->next = begin;
@@ -270,7 +269,7 @@ static bool take_headless(struct reader *r, struct csv_place begin)
                                "distance,elevation"),
                              csv->cells_count);
     }
-    csv->headless = csv->comments = false;
+    csv->headless = false;
     return ceduo_problem(r->problems, csv->source, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
 }
 
@@ -280,11 +279,13 @@ static bool check_units(struct reader *r)
     bool good = true;
     for (enum column c = DISTANCE; c <= ELEVATION; c++) {
         size_t column = r->columns[c] == CEDUO_CSV_NONE ? ceduo_csv_column(&r->csv, heads[c].names, NULL) : CEDUO_CSV_NONE;
-        if (column < CEDUO_CSV_TWICE && !(c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NONE))
-            good = ceduo_csv_complain(&r->csv, r->csv.heads[column],
-                                      _("its values must be in m; convert them and name the "
-                                        "column '%s'"),
-                                      heads[c].names[0]);
+        if (column >= CEDUO_CSV_TWICE || (c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NONE))
+            continue;
+        r->csv.source->foreign = false;
+        good = ceduo_csv_complain(&r->csv, r->csv.heads[column],
+                                  _("its values must be in m; convert them and name the "
+                                    "column '%s'"),
+                                  heads[c].names[0]);
     }
     return good;
 }
@@ -294,7 +295,7 @@ static bool find_columns(struct reader *r)
     struct csv *csv = &r->csv;
     const struct csv_place begin = csv->next;
     size_t before = r->problems->met, *columns = r->columns;
-    csv->blanks = true;
+    csv->blanks = csv->comments = true;
     ceduo_csv_find(csv, heads, COLUMNS, columns);
     if (r->problems->met > before)
         return false;
@@ -302,12 +303,10 @@ static bool find_columns(struct reader *r)
         return true;
     r->map = columns[DISTANCE] == CEDUO_CSV_NONE && columns[EAST] != CEDUO_CSV_NONE && columns[NORTH] != CEDUO_CSV_NONE;
     bool none = columns[ELEVATION] == CEDUO_CSV_NONE && columns[DISTANCE] == CEDUO_CSV_NONE;
-    if (none && !take_headless(r, begin))
-        return false;
-    if (none)
-        return true;
     if (!check_units(r))
         return false;
+    if (none)
+        return take_headless(r, begin);
     if (columns[DISTANCE] == CEDUO_CSV_NONE && !r->map) /* x may be along the slope */
         columns[DISTANCE] = columns[EAST];
     if ((!r->map && columns[DISTANCE] == CEDUO_CSV_NONE) || columns[ELEVATION] == CEDUO_CSV_NONE)
@@ -627,7 +626,13 @@ static void understand(struct reader *r, struct points *p, const char *path)
     LOCAL_TEXT(unused);
     const struct csv *csv = &r->csv;
     const char *slash = strrchr(path, '/');
+    const bool wkt = r->columns[WKT] != CEDUO_CSV_NONE, table = csv->heads_count > 0 && !csv->headless;
+    size_t used[5] = {r->columns[wkt ? WKT : r->map ? EAST : DISTANCE]}, n = 1;
     double rise = p->z[p->n - 1] - p->z[0];
+    if (!wkt && r->map)
+        used[n++] = r->columns[NORTH];
+    if (!wkt)
+        used[n++] = r->columns[ELEVATION];
     ceduo_text_safe(&line, slash ? slash + 1 : path);
     ceduo_text_format(&line,
                       rise > 0 ? _(": %zu points, %.4g m long, rises %.4g m") : _(": %zu points, %.4g m long, falls %.4g m"),
@@ -636,18 +641,18 @@ static void understand(struct reader *r, struct points *p, const char *path)
         ceduo_text_format(&line, _("; line '%.100s' of %zu"), r->layers[r->raw[0].layer], r->layers_count);
     if (csv->headless)
         ceduo_text_put(&line, _("; no head: taken as distance and elevation"));
-    else if (csv->heads_count > 0 && r->columns[WKT] == CEDUO_CSV_NONE) {
-        const enum column used[] = {r->map ? EAST : DISTANCE, r->map ? NORTH : ELEVATION, ELEVATION};
-        for (size_t i = 0; i < (r->map ? 3u : 2u); i++) {
-            ceduo_text_put(&line, i == 0 ? _("; columns ") : ", ");
-            ceduo_text_safe_n(&line, csv->heads[r->columns[used[i]]].p, csv->heads[r->columns[used[i]]].n);
-        }
+    for (size_t i = 0; table && i < n; i++) {
+        ceduo_text_put(&line, i > 0 ? ", " : n > 1 ? _("; columns ") : _("; column "));
+        ceduo_text_safe_n(&line, csv->heads[used[i]].p, csv->heads[used[i]].n);
     }
     if (csv->decimal == ',')
         ceduo_text_put(&line, _("; decimal commas"));
     ceduo_text_put(&line, ceduo_text_string(&r->notes));
-    if (!csv->headless)
-        ceduo_csv_unused(csv, r->columns, COLUMNS, &unused);
+    used[n++] = r->columns[LAYER];
+    if (wkt)
+        used[n++] = r->columns[LABEL];
+    if (table)
+        ceduo_csv_unused(csv, used, n, &unused);
     if (unused.length > 0)
         ceduo_text_format(&line, _("; not used: %s"), unused.bytes);
     p->understood = ceduo_arena_string(r->arena, ceduo_text_string(&line));

@@ -23,6 +23,7 @@ enum { NEW_TITLE, NEW_PROFILE, NEW_RELEASE, NEW_FACE, NEW_MATERIAL, NEW_ROCK, NE
 struct answers {
     struct text slope;         /* the profile as YAML: "vertices_m: …", "csv: …" */
     struct scene_file profile; /* a scene of it alone; turned round where it was drawn upward */
+    const char *understood;    /* of the table of the profile, one line; NULL: typed points */
     double first, last;        /* x of the profile */
     double release;            /* where rocks start */
     double face;               /* where the face ends; the first x without one */
@@ -65,6 +66,7 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
         bool good = ceduo_csv_slope_read(&p->arena, typed, NULL, &points, &problems) && points.n > 1;
         if (!good)
             wrong = problems.text.bytes ? problems.text.bytes : _("a profile needs two points or more");
+        a->understood = points.understood;
         a->first = good ? points.x[0] : 0;
         a->last = good ? points.x[points.n - 1] : 0;
         append_quoted(&a->slope, "csv: ", typed);
@@ -126,8 +128,12 @@ static void describe(struct popup *p, const struct answers *a)
     const struct ceduo_slope *s = &a->profile.scene.slope;
     double at = s->x[steepest_of(s)];
     ceduo_text_free(&p->text);
-    ceduo_text_format(&p->text, _("The profile is %.4g m long and falls by %.4g m; it is steepest at %.4g m, %.0f\xc2\xb0."),
-                      s->x[s->vertices - 1], -s->z[s->vertices - 1], at + s->origin_x, degrees_at(s, at));
+    if (a->understood)
+        ceduo_text_format(&p->text, "%s.", a->understood);
+    else
+        ceduo_text_format(&p->text, _("The profile is %.4g m long and falls by %.4g m."), s->x[s->vertices - 1],
+                          -s->z[s->vertices - 1]);
+    ceduo_text_then(&p->text, " ", _("It is steepest at %.4g m, %.0f\xc2\xb0."), at + s->origin_x, degrees_at(s, at));
     if (s->reversed)
         ceduo_text_then(&p->text, " ", "%s", _("It was drawn upward and is turned round."));
     if (a->release >= a->first && a->release < a->last)

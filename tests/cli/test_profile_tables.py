@@ -1,0 +1,237 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Profiles as offices, GIS and instruments write them: read right, or refused with a remedy that works."""
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import DONE, INPUT, Folder, ceduo, expect, expect_equal, expect_in, result, run_all, scene
+
+SHEETS = Path(__file__).resolve().parent / "cases/profiles"
+POINTS = [[0, 412.5], [12.5, 398.2], [40, 371], [75.25, 345.9], [118, 330.1], [160, 326]]
+HIGHER = [[x, z + 1000] for x, z in POINTS]
+GROUND = {"segments": [{"rn": 0.3, "rt": 0.8}]}
+
+
+def runs(f, slope):
+    """What rocks do on a slope: the figures of its control, and where rocks stop"""
+    return result("-n", 200, f.write("s.yaml", scene(slope={**slope, **GROUND}, controls=[{"x_m": 84}])))["options"][0]["controls"]
+
+
+def expect_same(found, wanted, what):
+    """The same figures but for the rounding of coordinates"""
+    if isinstance(wanted, dict):
+        expect_equal(sorted(found), sorted(wanted), what)
+    if isinstance(wanted, (dict, list)):
+        for key in wanted if isinstance(wanted, dict) else range(len(wanted)):
+            expect_same(found[key], wanted[key], f"{what}.{key}")
+    elif isinstance(wanted, float) and isinstance(found, float):
+        expect(abs(found - wanted) <= 1e-6 * (1 + abs(wanted)), f"{what}: {found}, wanted {wanted}")
+    else:
+        expect_equal(found, wanted, what)
+
+
+def check(f, slope):
+    return ceduo("--check", f.write("s.yaml", scene(slope={**slope, **GROUND}, controls=[{"x_m": 84}])))
+
+
+def expect_read(f, name, content, vertices, words=(), **slope):
+    f.write(name, content)
+    done = check(f, {"csv": name, **slope})
+    expect_equal(done.status, DONE, f"{name}: {done.err}")
+    for word in words:
+        expect_in(word, done.out, name)
+    upward = {"reversed": slope["reversed"]} if "reversed" in slope else {}
+    expect_same(runs(f, {"csv": name, **slope}), runs(f, {"vertices_m": vertices, **upward}), name)
+
+
+def expect_refused(f, name, content, words, **slope):
+    f.write(name, content)
+    done = check(f, {"csv": name, **slope})
+    expect_equal((done.status, done.out), (INPUT, ""), f"{name}: {done.out}{done.err}")
+    for word in words:
+        expect_in(word, done.err, name)
+
+
+READ = [  # (file, vertices, words of the line of understanding, keys of the slope)
+    ("qgis-profile.csv", POINTS, ["6 points, 160 m long, falls 86.5 m; columns distance, elevation"], {}),
+    ("qgis-two-layers.csv", POINTS, ["line 'dtm_1m' of 2"], {"layer": "dtm_1m"}),
+    ("excel-italian.csv", POINTS, ["columns Distanza progressiva (m), Quota terreno (m s.l.m.); decimal commas; not used: Punto, Note"], {}),
+    ("excel-german-thousands.csv", HIGHER, ["falls 86.5 m", "decimal commas"], {}),
+    ("swiss.csv", HIGHER, ["falls 86.5 m"], {}),
+    ("excel-unicode.txt", POINTS, ["columns Chainage (m), Altitude (m a.s.l.); decimal commas; not used: Remark"], {}),
+    ("grass-r-profile.txt", POINTS, ["no head: taken as distance and elevation"], {}),
+    ("grass-r-profile-g.txt", POINTS, ["6 points, 160 m long"], {}),
+    ("gmt-two-lines.txt", POINTS, ["line 'right line' of 2"], {"layer": "right line"}),
+    ("wkt.csv", POINTS, ["6 points, 160 m long, falls 86.5 m"], {}),
+    ("gps-utm.csv", POINTS, ["columns Est (m), Nord (m), Quota (m); decimal commas; not used: Nome, Precisione"], {}),
+    ("r-write-csv.csv", POINTS, ["6 points"], {}),
+    ("old-form.csv", [[x, z - 500] for x, z in POINTS], ["6 points"], {}),
+    ("word-table.txt", POINTS, ["not used: Ground"], {}),
+    ("total-station.csv", [[0, 412.5], [12.5, 398.2], [12.51, 369.5], [13.5, 368.5], [40, 351], [160, 326]],
+     ["1 repeated point dropped", "1 vertical step, at 12.5 m, made a wall", "1 overhang, at 12.5 m, replaced by its outer envelope"], {}),
+    ("drawn-upward.csv", [[0, 326], [42, 330.1], [84.74, 345.9], [84.75, 371], [120, 398.2], [132.5, 412.5]],
+     ["rises 86.5 m", "1 vertical step, at 84.75 m, made a wall"], {"reversed": True}),
+]
+
+
+def test_sheets():
+    """Sheets of offices: QGIS, Excel in three countries, GRASS, GMT, R, a GPS, a total station, an old form"""
+    with Folder() as f:
+        for name, vertices, words, slope in READ:
+            expect_read(f, name, (SHEETS / name).read_bytes(), vertices, words, **slope)
+
+
+def points_of(name, text):
+    return {"excel-german-two-ways.csv": [[x, int(z)] for x, z in HIGHER]}.get(name, POINTS)
+
+
+MENDED = [  # (file, words of the refusal, how the remedy is followed, vertices, keys of the slope then)
+    ("qgis-two-layers.csv", ["2 lines in one file: dsm_1m, dtm_1m", "'layer: dsm_1m'"], lambda s: s, POINTS, {"layer": "dtm_1m"}),
+    ("gmt-two-lines.txt", ["2 lines in one file: left line, right line"], lambda s: s, POINTS, {"layer": "right line"}),
+    ("excel-german-two-ways.csv", [":2:3: '1.412' can be read in two ways: write '1412' or '1,412'", "5 more"],
+     lambda s: s.replace(";1.", ";1"), [[x, int(z)] for x, z in HIGHER], {}),
+    ("wkt-flat.csv", ["has no heights", "Drape"], lambda s: re.sub(r"(\S+ \S+)(, |\))", "\\1 @\\2", s).replace("LINESTRING ", "LINESTRING Z "), POINTS, {}),
+    ("gps-text-order.csv", [":5:1: the line turns back here; sort its points as numbers"],
+     lambda s: "".join([s.splitlines(True)[0], *sorted(s.splitlines(True)[1:], key=lambda r: int(r.split(",")[0]))]),
+     [[10 * k, 400 - 7 * k] for k in range(12)], {}),
+    ("r-nodata.csv", [":5:7: 'NA' is no height; remove the row"], lambda s: s.replace("75.25,NA\n", ""), [p for p in POINTS if p[0] != 75.25], {}),
+]
+
+
+def test_remedies():
+    """What is refused names the line and the remedy, and the remedy works"""
+    with Folder() as f:
+        for name, words, mend, vertices, slope in MENDED:
+            content = (SHEETS / name).read_bytes()
+            expect_refused(f, name, content, words)
+            text = content.decode("cp1252" if b"\xf6" in content else "utf-8")
+            mended = mend(text)
+            for _, z in POINTS if "@" in mended else ():
+                mended = mended.replace("@", f"{z:g}", 1)
+            expect_read(f, name, mended, vertices, **slope)
+
+
+ROWS = "0{s}412{d}5\n12{d}5{s}398{d}2\n40{s}371\n75{d}25{s}345{d}9\n118{s}330{d}1\n160{s}326\n"
+
+
+def rows(separator=",", decimal="."):
+    return ROWS.format(s=separator, d=decimal)
+
+
+def test_heads():
+    """Names of the columns in four languages, with their units in brackets, behind the name and in a row of their own"""
+    with Folder() as f:
+        for head in ("distance,elevation", "distanza,quota", "dist,altitude", "chainage,altitudine", "x,alt", "distance,height", "x,z",
+                     "distance,value", "Distance (m),Elevation [m]", "distanza_m,quota_m_slm", "Dist. m,Quota m s.l.m.", "Entfernung,H\u00f6he m \u00fc. M.",
+                     "chainage m,height m a.s.l.", "distance,elevation\n[m],[m]", "distanza,quota\nm,m s.l.m.", '"distance","elevation"',
+                     '"Distanza\nprogressiva","Quota\n(m)"', "Progressiva,Elevazione\n\n"):
+            expect_read(f, "p.csv", f"{head}\n{rows()}", POINTS)
+        for head, words in (("distance (ft),elevation (ft)", "must be in m"), ("distance,elevation\n(km),(m)", "must be in m"),
+                            ("length,depth", "'distance' and 'elevation'"), ("distance,elevation,distance", "is there twice"),
+                            ("distance", "'distance' and 'elevation'")):
+            expect_refused(f, "p.csv", f"{head}\n{rows()}", [words])
+
+
+def test_numbers():
+    """One convention for a whole file; what could be read in two ways is asked about, by line"""
+    with Folder() as f:
+        for text in (rows(";", ","), rows("\t", ","), rows("\t"), rows("|"), rows(" "), rows(" ", ","), rows(";", ",").replace("412,5", "+412,50"),
+                     rows().replace("412.5", '"412,5"').replace("398.2", '"398,2"').replace("345.9", '"345,9"').replace("330.1", '"330,1"')
+                     .replace("12.5,", '"12,5",').replace("75.25,", '"75,25",'), rows().replace("412.5", "4.125e2"), rows(";").replace("412.5", "412.5 m"),
+                     rows(";", ",").replace("412,5", "\u00a0412,5\u202f")):
+            head = "distance elevation" if " " in text.split("\n")[2] else "distance{0}elevation".format(text[1])
+            expect_read(f, "p.csv", f"{head}\n{text}", POINTS)
+        for text in (rows(";", ",").replace("412,5", "1.412,5").replace(";398,2", ";1.398,2").replace(";371", ";1.371").replace(";345", ";1.345")
+                     .replace(";330", ";1.330").replace(";326", ";1.326"),
+                     rows().replace("412.5", "1 412.5").replace(",398", ",1 398").replace(",371", ",1 371").replace(",345", ",1 345")
+                     .replace(",330", ",1 330").replace(",326", ",1 326"),
+                     rows(";").replace("412.5", "1\u2019412.5").replace(";398", ";1\u2019398").replace(";371", ";1\u2019371").replace(";345", ";1\u2019345")
+                     .replace(";330", ";1'330").replace(";326", ";1'326")):
+            expect_read(f, "p.csv", "distance{0}elevation\n{1}".format(";" if ";" in text else ",", text), HIGHER)
+        for text, words in ((rows(";", ",").replace("398,2", "398.2"), ":3:6: '398.2': decimals stand after a comma on line 2"),
+                            (rows(";").replace("398.2", "398,2"), ":3:6: '398,2': decimals stand after a dot on line 2"),
+                            (rows(",", ","), ":2:7: more columns than the first line has: 3 instead of 2; if commas stand for decimals, separate"),
+                            (rows(";", ",").replace(";371", ";1.371"), ":4:4: '1.371' can be read in two ways: write '1371' or '1,371'"),
+                            (rows().replace(",371", ',"1,371"'), ":4:4: '1,371' can be read in two ways: write '1371' or '1.371'"),
+                            (rows().replace(",371", ",37 1"), "'37 1': two numbers in one cell"),
+                            (rows().replace(",371", ",37\u200b1"), "the character U+200B cannot be meant"),
+                            (rows().replace(",371", ",1.371.2"), "'1.371.2' is not a number"), (rows().replace(",371", ",3,71"), "more columns"),
+                            (rows().replace("40,", "40;"), "too few columns: 1, the head has 2"), (rows().replace(",371", ",l371"), "'l371' is not a number")):
+            expect_refused(f, "p.csv", "distance{0}elevation\n{1}".format(";" if ";" in text.split("\n")[0] else ",", text), [words])
+
+
+def test_no_data():
+    """Heights that stand for no data, and heights that only an error of the terrain model has, are refused by line"""
+    with Folder() as f:
+        for value in ("-9999", "-32768", "-99999", "-10000", "3.4e38", "-3.40282346638529e+38", "-9999.0", "\u22129999"):
+            expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("371", value), [":4:4: ", "means no data"])
+            expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("326", value), [":7:5: ", "means no data"])
+        for value in ("0", "9999"):
+            for place, line in (("412.5", 2), ("371", 4), ("326", 7)):
+                expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace(place, value), [f":{line}:", "0 or 9999 among others"])
+        expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("371", "671"), [":4:1: ", "more than 200 m from both neighbours"])
+        expect_refused(f, "p.csv", "distance,elevation\n0,900\n20,880\n21,620\n22,870\n90,800\n", [":4:1: ", "more than 200 m"])
+        expect_read(f, "p.csv", "distance,elevation\n0,300\n10,280\n12,40\n60,20\n90,0\n", [[0, 300], [10, 280], [12, 40], [60, 20], [90, 0]])  # a face, and the sea
+        expect_read(f, "p.csv", "distance,elevation\n0,64\n50,30\n90,0\n", [[0, 64], [50, 30], [90, 0]])
+
+
+def line(to_east, to_north, points=POINTS):
+    return "x,y,z\n" + "".join(f"{to_east(x)},{to_north(x)},{z}\n" for x, z in points)
+
+
+def test_map():
+    """A line on the map: metres are taken, Web Mercator, degrees, turns and loops are named; Gauss-Boaga is no Mercator"""
+    with Folder() as f:
+        for east, north in ((600000, 4870000), (1680000, 4850000), (2350000, 4700000), (2600000, 1200000), (950000, 6500000), (0, 0)):
+            expect_read(f, "p.csv", line(lambda x: east + 0.6 * x, lambda x: north - 0.8 * x), POINTS, ["columns x, y, z"])
+        expect_in("not as EPSG:3857", check_text(f, line(lambda x: 1400000 + 0.6 * x, lambda x: 5150000 - 0.8 * x)))
+        for east, north in ((1402000, 5390000), (1252344, 5465442), (1450000, 5300000)):  # 43.5, 44 and 43 degrees north
+            expect_refused(f, "p.csv", line(lambda x: east + 0.6 * x, lambda x: north - 0.8 * x), ["EPSG:3857", "set the project to UTM"])
+        expect_refused(f, "p.csv", line(lambda x: 11.25 + 7e-6 * x, lambda x: 43.5 - 7e-6 * x), ["not in degrees", "such as UTM"])
+        expect_refused(f, "p.csv", "x,y,z\n0,0,90\n40,0,70\n10,1,60\n80,0,40\n", [":3:1: ", "turns back here"])
+        expect_refused(f, "p.csv", "x,y,z\n0,0,90\n60,0,70\n60,40,60\n30,40,55\n30,-40,50\n90,-60,40\n", ["crosses itself"])
+        expect_refused(f, "p.csv", "wkt\n\"POINT (1 2 3)\"\n", ["this is no WKT"])
+        expect_refused(f, "p.csv", "wkt\n\"LINESTRING M (0 0 3, 0 90 4)\"\n", ["has no heights"])
+        expect_read(f, "p.csv", "SRID=32632;LINESTRINGZ(0 0 412.5,12.5 0 398.2,40 0 371,75.25 0 345.9,118 0 330.1,160 0 326)\n", POINTS)
+        expect_read(f, "p.csv", 'name;geom\nb;MULTILINESTRING Z ((0 0 1, 9 0 0))\na;"MULTILINESTRING Z ((0 0 412.5,12.5 0 398.2,40 0 371,75.25 0 345.9,'
+                    '118 0 330.1,160 0 326))"\n', POINTS, layer="a")
+
+
+def check_text(f, text):
+    f.write("p.csv", text)
+    return check(f, {"csv": "p.csv"}).out
+
+
+def test_several_lines():
+    """Several lines in one file, by a column, by where distances begin anew, by WKT: named, and chosen by slope.layer"""
+    other = "0,90\n60,30\n100,0\n"
+    with Folder() as f:
+        twice = "distance,elevation\n" + rows() + other
+        expect_refused(f, "p.csv", twice, ["2 lines in one file: 1, 2"])
+        expect_read(f, "p.csv", twice, POINTS, ["line '1' of 2"], layer="1")
+        expect_read(f, "p.csv", twice, [[0, 90], [60, 30], [100, 0]], layer="2")
+        expect_refused(f, "p.csv", twice, ["there is no line '3'; the file holds: 1, 2"], layer="3")
+        mixed = "linea;distanza;quota\n" + "".join(f"{'ab'[i % 2]};{x};{z}\n" for i, (x, z) in enumerate(p for pair in zip(POINTS, HIGHER) for p in pair))
+        expect_refused(f, "p.csv", mixed, ["2 lines in one file: a, b"])
+        expect_read(f, "p.csv", mixed, POINTS, layer="a")
+
+
+def test_walls():
+    """Repeated points go, vertical steps become walls of 0.01 m, overhangs their outer envelope; what only runs backward is refused"""
+    with Folder() as f:
+        expect_read(f, "p.csv", "x,z\n0,50\n0,50\n20,40\n20,30\n60,10\n60,8\n90,0\n",
+                    [[0, 50], [20, 40], [20.01, 30], [60, 10], [60.01, 8], [90, 0]], ["1 repeated point", "2 vertical steps, the first at 20 m"])
+        expect_read(f, "p.csv", "x,z\n0,50\n20,40\n18,30\n24,24\n90,0\n", [[0, 50], [20, 40], [20.01, 28], [24, 24], [90, 0]],
+                    ["1 overhang, at 20 m, replaced by its outer envelope"])
+        expect_read(f, "p.csv", "x,z\n0,0\n66,24\n72,30\n70,40\n90,50\n", [[0, 0], [66, 24], [69.99, 28], [70, 40], [90, 50]], ["1 overhang"], reversed=True)
+        expect_read(f, "p.csv", "x,z\n0,50\n20,40\n19,38\n18,30\n20,29\n30,24\n90,0\n", [[0, 50], [20, 40], [20.01, 29], [30, 24], [90, 0]])
+        for text, words in (("x,z\n0,50\n20,40\n5,30\n10,0\n", "distance 5 does not lie beyond 20"), ("x,z\n0,50\n20,40\n18,45\n90,0\n", "18 does not lie"),
+                            ("x,z\n90,0\n20,40\n0,50\n", "sort the rows by distance"), ("x,z\n0,50\n10,48\n100,0\n20,45\n", "as numbers"),
+                            ("x,z\n0,50\n20,40\n18,30\n", "does not lie beyond"), ("x,z\n5,50\n5,40\n", "all points lie at the same distance")):
+            expect_refused(f, "p.csv", text, [words])
+
+
+if __name__ == "__main__":
+    run_all(__name__)
