@@ -49,15 +49,21 @@ static void mark_bad(struct csv *csv, const char *at, const char *why)
 /* A quoted cell: from its first quote to the byte after its last. */
 static const char *read_quoted(struct csv *csv, const char *p, const char *end, struct csv_cell *cell)
 {
-    size_t doubled = 0;
+    size_t doubled = 0, lines = 0, inside = 0; /* inside: separators */
     const char *from = p + 1, *to = from;
     while (to < end && !(*to == '"' && !(to + 1 < end && to[1] == '"'))) {
         doubled += *to == '"';
+        lines += *to == '\n';
+        inside += is_separator(csv, to);
         to += *to == '"' ? 2 : 1;
     }
     *cell = (struct csv_cell){from, (size_t)(to - from), p, true};
     if (to == end)
         mark_bad(csv, p, _("this quote is not closed; close it, or remove it"));
+    else if (lines > 0 && csv->heads_count > 1 && inside + 1 >= csv->heads_count) /* it may have swallowed a row */
+        mark_bad(csv, p,
+                 _("from this quote to the next one lie a line break and as many separators as a row has; remove the quote, or "
+                   "the line breaks"));
     char *copy = doubled > 0 ? ceduo_arena_copy(csv->arena, from, cell->n) : NULL;
     if (copy) {
         size_t n = 0;
@@ -487,6 +493,11 @@ bool ceduo_csv_is_empty(struct csv_cell cell)
         if (ceduo_csv_is(cell, words[i]))
             return true;
     return false;
+}
+
+bool ceduo_csv_has_stray_quote(struct csv_cell cell)
+{
+    return !cell.quoted && cell.n > 0 && memchr(cell.p, '"', cell.n);
 }
 
 size_t ceduo_csv_line(const struct csv *csv, struct csv_cell cell)

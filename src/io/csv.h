@@ -99,6 +99,9 @@ bool ceduo_csv_is(struct csv_cell cell, const char *word);
 /* True if a cell has no value: empty, -, ., NA, NaN, NULL, n.d., n.r., #N/A, #N/D. */
 bool ceduo_csv_is_empty(struct csv_cell cell);
 
+/* True if a quote stands within a cell that is not in quotes itself. */
+bool ceduo_csv_has_stray_quote(struct csv_cell cell);
+
 /* Append the names of heads that are not among the n columns used, at most ten. */
 void ceduo_csv_unused(const struct csv *csv, const size_t *used, size_t n, struct text *names);
 

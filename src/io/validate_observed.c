@@ -197,7 +197,7 @@ static bool find_columns(const struct place *p, struct table *t)
     return true;
 }
 
-/* True if the cell of the column of `only` has its word, or is the same number. */
+/* True if the cell of the column of `only` has its word, or is the same number. Reports a stray quote. */
 static bool is_wanted(const struct table *t)
 {
     double number, wanted;
@@ -205,6 +205,8 @@ static bool is_wanted(const struct table *t)
     if (!t->only_name)
         return true;
     struct csv_cell cell = ceduo_csv_cell(&t->csv, t->columns[ONLY]);
+    if (ceduo_csv_has_stray_quote(cell))
+        return ceduo_csv_complain(&t->csv, cell, _("a quote within a cell; remove it, or put the cell in quotes"));
     return ceduo_csv_is(cell, t->only_word) || (ceduo_number_read(t->only_word, &wanted) == CEDUO_NUMBER_GOOD &&
                                                 ceduo_csv_numeral(&t->csv, cell, text) == CSV_NUMERAL_GOOD &&
                                                 ceduo_number_read(text, &number) == CEDUO_NUMBER_GOOD && number == wanted);
