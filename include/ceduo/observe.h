@@ -65,8 +65,8 @@ struct ceduo_observed_row {
 };
 
 struct ceduo_quantity_row {
-    const char *unit;       /* in files and for people; "": of a count */
-    double scale;           /* SI per unit */
+    const char *unit;        /* in files and for people; "": of a count */
+    double scale;            /* SI per unit */
     const char *columns[20]; /* of a table that holds the values, ended by NULL */
 };
 

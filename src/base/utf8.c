@@ -61,7 +61,8 @@ const char *ceduo_utf8_fold(const char *p, size_t n, char *to, size_t room)
         length = ceduo_utf8_decode(p, n, &code);
         if (length == 0) /* no UTF-8: nothing that a word is compared by */
             length = code = 1;
-        bool dropped = code < 0x80 ? !strchr("%0123456789abcdefghijklmnopqrstuvwxyz", (int)uc_tolower(code)) : ceduo_utf8_is_space(code);
+        bool dropped =
+            code < 0x80 ? !strchr("%0123456789abcdefghijklmnopqrstuvwxyz", (int)uc_tolower(code)) : ceduo_utf8_is_space(code);
         size_t m = dropped ? 0 : ceduo_utf8_encode(uc_tolower(code), one);
         if (used + m >= room)
             break;

@@ -475,7 +475,8 @@ static void add_tables(const struct source_note *note, struct text *out)
 
 static enum exit_status check(const struct arguments *a, struct scene_file *file, struct text *out)
 {
-    add_tables(file->notes, out);
+    if (!a->quiet)
+        add_tables(file->notes, out);
     ceduo_batch_warn(a, file, true);
     return EXIT_DONE;
 }
@@ -524,7 +525,7 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
         if (result <= EXIT_RUN && one.bytes && !atomic_load(ceduo_interrupt_flag())) {
             if (first)
                 add_header(&each, &header, &out);
-            else if (a->format == CEDUO_TABLE && profiles.count == 0)
+            else if (a->format == CEDUO_TABLE && profiles.count == 0 && a->mode != MODE_CHECK)
                 ceduo_text_char(&out, '\n');
             add_answer(&each, &one, &out);
             starts[profiles.count] = out.length;

@@ -9,6 +9,7 @@
 #include "base/utf8.h"
 
 #define FOLDED_MAX 128  /* bytes of a head that are compared */
+#define HEAD_MAX   500  /* bytes of a head that is known */
 #define TITLE_MAX  20   /* lines among which the head is */
 #define HEADS_MAX  1000 /* heads of a table whose heads are known */
 #define NAMES_MAX  10   /* unused columns that are named */
@@ -20,13 +21,13 @@ static void trim(struct csv_cell *cell)
     const char *end = cell->p + cell->n;
     for (size_t n; (n = ceduo_utf8_blank(cell->p, (size_t)(end - cell->p))) > 0;)
         cell->p += n;
-    const char *last = cell->p; /* after the last character that is no blank */
-    for (const char *p = cell->p; p < end;) {
-        size_t n = ceduo_utf8_blank(p, (size_t)(end - p));
-        p += n > 0 ? n : 1;
-        last = n > 0 ? last : p;
+    while (end > cell->p) {
+        const char *last = ceduo_utf8_back(cell->p, end);
+        if (ceduo_utf8_blank(last, (size_t)(end - last)) == 0)
+            break;
+        end = last;
     }
-    cell->n = (size_t)(last - cell->p);
+    cell->n = (size_t)(end - cell->p);
 }
 
 static bool is_end_of_line(const char *p, const char *end)
@@ -116,8 +117,10 @@ static bool read_record(struct csv *csv)
     csv->bad = false;
     for (p = blanks ? skip_blanks(p, end) : p; more;) {
         csv->cells = ceduo_arena_more(csv->arena, csv->cells, csv->cells_count, 1, &csv->cells_capacity, sizeof *csv->cells);
-        if (!csv->cells)
+        if (!csv->cells) {
+            csv->cells_count = csv->cells_capacity = 0;
             return false;
+        }
         p = read_cell(csv, p, end, &csv->cells[csv->cells_count++]);
         p = blanks ? skip_blanks(p, end) : p;
         more = !is_end_of_line(p, end);
@@ -170,6 +173,8 @@ static bool is_head(struct csv_cell head, const char *name, const char *units)
 {
     char given[FOLDED_MAX], wanted[FOLDED_MAX];
     size_t before = 0;
+    if (head.n > HEAD_MAX)
+        return false;
     while (before < head.n && head.p[before] != '(' && head.p[before] != '[')
         before++;
     ceduo_utf8_fold(head.p, before, given, sizeof given);
@@ -316,7 +321,7 @@ bool ceduo_csv_first(struct csv *csv)
 {
     struct csv_place begin = csv->next;
     if (!csv->separator) {
-        size_t most = 0;
+        size_t most = 1;
         struct problems *problems = csv->problems;
         csv->problems = NULL;
         csv->separator = ',';
@@ -347,8 +352,8 @@ void ceduo_csv_headless(struct csv *csv, char separator)
     csv->headless = true;
     if (!read_filled(csv))
         return;
-    csv->heads_count = csv->cells_count;
     csv->heads = ceduo_arena_take(csv->arena, (csv->cells_count + 1) * sizeof *csv->heads);
+    csv->heads_count = csv->heads ? csv->cells_count : 0;
     csv->head_place = csv->place;
     csv->next = begin;
 }
@@ -475,8 +480,8 @@ struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column)
 {
     if (column < csv->cells_count)
         return csv->cells[column];
-    const struct csv_cell *last = &csv->cells[csv->cells_count - 1];
-    return (struct csv_cell){.p = "", .at = last->at};
+    const char *at = csv->cells_count > 0 ? csv->cells[csv->cells_count - 1].at : csv->source->bytes + csv->place.at;
+    return (struct csv_cell){.p = "", .at = at};
 }
 
 bool ceduo_csv_is(struct csv_cell cell, const char *word)

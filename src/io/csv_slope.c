@@ -95,6 +95,8 @@ static void add_point(struct reader *r, struct raw raw)
     r->raw = ceduo_arena_more(r->arena, r->raw, r->n, 1, &r->capacity, sizeof *r->raw);
     if (r->raw)
         r->raw[r->n++] = raw;
+    else
+        r->n = r->capacity = 0;
 }
 
 /* True if a height stands for a cell of a terrain model without data. */

@@ -36,28 +36,38 @@ static const char *name_binary(const struct source *s)
     return NULL;
 }
 
-/* Replace the text of the source by its UTF-8. Returns false if there is none. */
-static bool convert(struct csv *csv, const char *from, size_t skip)
+/* Replace the text of the source by UTF-8, which is freed. False without memory. */
+static bool replace(struct csv *csv, uint8_t *bytes, size_t length)
 {
-    struct source *s = csv->source;
-    size_t length;
-    uint8_t *bytes = u8_conv_from_encoding(from, iconveh_error, s->bytes + skip, s->length - skip, NULL, NULL, &length);
-    if (!bytes)
-        return false;
-    s->bytes = ceduo_arena_copy(csv->arena, (const char *)bytes, length);
-    s->length = length;
+    csv->source->bytes = bytes ? ceduo_arena_copy(csv->arena, (const char *)bytes, length) : NULL;
+    csv->source->length = csv->source->bytes ? length : 0;
     free(bytes);
-    return s->bytes != NULL;
+    return csv->source->bytes != NULL;
 }
 
-/* Bytes of 16 bits: by their byte order mark, or by the zeros of the first two characters. NULL: not in UTF-16. */
-static const char *name_utf16(const unsigned char *p, size_t n, size_t *mark)
+/* True if a text is in UTF-16, by its byte order mark or by the zeros of the first two characters. */
+static bool is_utf16(const unsigned char *p, size_t n)
 {
-    *mark = n >= 2 && ((p[0] == 0xff && p[1] == 0xfe) || (p[0] == 0xfe && p[1] == 0xff)) ? 2 : 0;
-    if (*mark > 0)
-        return p[0] == 0xfe ? "UTF-16BE" : "UTF-16LE";
+    bool marked = n >= 2 && ((p[0] == 0xff && p[1] == 0xfe) || (p[0] == 0xfe && p[1] == 0xff));
     bool zeros = n >= 4 && (p[0] == 0) != (p[1] == 0) && (p[2] == 0) == (p[0] == 0) && (p[3] == 0) == (p[1] == 0);
-    return !zeros ? NULL : p[0] == 0 ? "UTF-16BE" : "UTF-16LE";
+    return marked || zeros;
+}
+
+static bool decode_utf16(struct csv *csv)
+{
+    const unsigned char *p = (const unsigned char *)csv->source->bytes;
+    size_t n = csv->source->length / 2, length;
+    bool big = p[0] == 0 || p[0] == 0xfe;
+    size_t mark = (p[0] | p[1]) >= 0xfe;
+    uint16_t *units = ceduo_arena_take(csv->arena, (n + 1) * sizeof *units);
+    if (!units)
+        return false;
+    for (size_t i = 0; i < n; i++)
+        units[i] = (uint16_t)(p[2 * i + big] | p[2 * i + !big] << 8);
+    if (csv->source->length % 2 != 0 || u16_check(units, n))
+        return refuse(csv, _("broken UTF-16; save it again as CSV in UTF-8"));
+    uint8_t *bytes = u16_to_u8(units + mark, n - mark, NULL, &length);
+    return replace(csv, bytes, length);
 }
 
 /* True if some bytes beyond ASCII are valid UTF-8 although others are not. */
@@ -76,16 +86,19 @@ static bool is_broken_utf8(const struct source *s)
 static bool decode(struct csv *csv)
 {
     struct source *s = csv->source;
-    size_t mark;
-    const char *utf16 = name_utf16((const unsigned char *)s->bytes, s->length, &mark);
-    errno = 0;
-    if (utf16 && (s->length % 2 != 0 || !convert(csv, utf16, mark)))
-        return errno == ENOMEM ? false : refuse(csv, _("broken UTF-16; save it again as CSV in UTF-8"));
+    size_t length = 0;
+    bool utf16 = is_utf16((const unsigned char *)s->bytes, s->length);
+    if (utf16 && !decode_utf16(csv))
+        return false;
     if (!utf16 && u8_check((const uint8_t *)s->bytes, s->length)) {
         if (is_broken_utf8(s))
             return refuse(csv, _("broken UTF-8; save it again as CSV in UTF-8"));
-        if (!convert(csv, "CP1252", 0))
-            return errno == ENOMEM ? false : refuse(csv, _("neither UTF-8 nor Windows-1252; save it again as CSV in UTF-8"));
+        errno = 0;
+        uint8_t *bytes = u8_conv_from_encoding("CP1252", iconveh_error, s->bytes, s->length, NULL, NULL, &length);
+        if (!bytes && errno == EILSEQ)
+            return refuse(csv, _("neither UTF-8 nor Windows-1252; save it again as CSV in UTF-8"));
+        if (!replace(csv, bytes, length))
+            return false;
     }
     const char *nul = memchr(s->bytes, '\0', s->length);
     size_t line = 1;

@@ -166,6 +166,7 @@ static bool find_columns(const struct place *p, struct table *t)
     char text[CSV_NUMERAL_CAPACITY];
     memcpy(heads[VALUES].names, quantity->columns, sizeof quantity->columns);
     ceduo_csv_find(csv, heads, COLUMNS, t->columns);
+    csv->source->foreign = t->columns[VALUES] == CEDUO_CSV_NONE; /* any file has some column that a scene may name */
     size_t *column = &t->columns[p->values->column ? NAMED : VALUES];
     bool place = p->is->where == CEDUO_WHERE_AT_REST && csv->heads_count > 0 && *column < CEDUO_CSV_TWICE;
     bool map = place && !p->values->column && t->columns[MAP] != CEDUO_CSV_NONE &&

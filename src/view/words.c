@@ -126,8 +126,6 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
 {
     const struct ceduo_stand *s = &belt->stand;
     const struct ceduo_stems *const odd[] = {first_unlikely(s, CEDUO_WARN_SLENDER), first_unlikely(s, CEDUO_WARN_STOUT)};
-    const struct ceduo_stems *thick = first_unlikely(s, CEDUO_WARN_THICK);
-    size_t n;
     if (r->warnings & CEDUO_WARN_BASAL_AREA)
         say_format(say, context,
                    _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."),
@@ -151,6 +149,13 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
                                "gives %.1f at that age: check diameter, age and growth."),
                        NAME_OF(belt), at.age, at.basal_area, at.by_curve);
     }
+}
+
+void ceduo_words_thick(const struct ceduo_belt *belt, ceduo_words_say *say, void *context)
+{
+    const struct ceduo_stand *s = &belt->stand;
+    const struct ceduo_stems *thick = first_unlikely(s, CEDUO_WARN_THICK);
+    size_t n;
     if (thick)
         say_format(say, context,
                    _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
@@ -166,6 +171,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
         say_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."), NAME_OF(belt),
                    r->trees_per_ha, scene->reserves_minimum);
     ceduo_words_unlikely(belt, r, say, context);
+    ceduo_words_thick(belt, say, context);
     double diameter = ceduo_rock_mean(&scene->rock).mean_diameter;
     if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
         say_format(say, context,

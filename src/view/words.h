@@ -34,6 +34,9 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
 void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_words_say *say,
                           void *context);
 
+/* Print a warning if a stem is thicker than those that the volumes of its species were measured on. */
+void ceduo_words_thick(const struct ceduo_belt *belt, ceduo_words_say *say, void *context);
+
 /* What is to be said of a run as a whole, but for ceduo_words_still(). `tolerance` is 0 where none was asked for. */
 struct ceduo_run_remarks {
     double tolerance;
