@@ -457,8 +457,14 @@ static void add_draws(struct validator *v)
                                       .draws_count = t.rows,
                                       .draws = draws,
                                       .source = N_("doubt, in the scene")};
-    if (places && draws)
-        add_input(v, input, NULL);
+    if (!places || !draws)
+        return;
+    add_input(v, input, NULL);
+    LOCAL_TEXT(line);
+    const char *slash = strrchr(path, '/');
+    ceduo_text_safe(&line, slash ? slash + 1 : path);
+    ceduo_text_format(&line, _(": %zu draws of %zu values that belong together"), t.rows, t.columns);
+    ceduo_understand(v, "doubt.draws", ceduo_text_string(&line));
 }
 
 /* ---- all ---- */
