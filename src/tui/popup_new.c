@@ -133,9 +133,9 @@ static void describe(struct popup *p, const struct answers *a)
     else
         ceduo_text_format(&p->text, _("The profile is %.4g m long and falls by %.4g m."), s->x[s->vertices - 1],
                           -s->z[s->vertices - 1]);
-    ceduo_text_then(&p->text, " ", _("It is steepest at %.4g m, %.0f\xc2\xb0."), at + s->origin_x, degrees_at(s, at));
+    ceduo_text_then(&p->text, " ", _("Steepest at %.4g m, %.0f\xc2\xb0."), at + s->origin_x, degrees_at(s, at));
     if (s->reversed)
-        ceduo_text_then(&p->text, " ", "%s", _("It was drawn upward and is turned round."));
+        ceduo_text_then(&p->text, " ", "%s", _("Turned round."));
     if (a->release >= a->first && a->release < a->last)
         ceduo_text_then(&p->text, " ", _("Rocks start at %.4g m, on %.0f\xc2\xb0."), a->release,
                         degrees_at(s, a->release - s->origin_x));

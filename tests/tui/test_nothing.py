@@ -48,9 +48,9 @@ def test_new_from_profiles():
     """n guesses the edge, marks the face, turns an upward profile round and shows it while it asks; the verdict is of moving rocks"""
     figures = []
     for points, release, face, words in (
-            (LINE, "4", "14", "line.csv: 6 points, 160 m long, falls 126.4 m; columns distance, elevation. It is steepest at 4 m, 74"),
-            (upward(LINE), "4", "14", "It was drawn upward and is turned round. Rocks start at 4 m, on 74"),
-            (FINE, "30", "45", "steepest at 30 m, 63"),
+            (LINE, "4", "14", "line.csv: 6 points, 160 m long, falls 126.4 m; columns distance, elevation. Steepest at 4 m, 74"),
+            (upward(LINE), "4", "14", "Turned round. Rocks start at 4 m, on 74"),
+            (FINE, "30", "45", "Steepest at 30 m, 63"),
             (LINE[3:], "40", "", "Rocks start at 40 m, on 32")):
         for size in ("80 24", "200 50"):
             with Folder() as f:

@@ -253,7 +253,7 @@ def test_new_is_drawn():
     for screen in (typed, known):
         screen.whole().has(f"┤ steepest, {degrees}°")
     typed.lacks("▼ release")
-    known.has("70 m long and falls by 90 m", f"steepest at 10 m, {degrees}°", "turned round", "Rocks start at 0 m, on 68°", "▼ release")
+    known.has("70 m long and falls by 90 m", f"Steepest at 10 m, {degrees}°", "Turned", "Rocks start at 0 m, on 68°", "▼ release")
     line = next(line for line in known.lines if "steepest," in line and "├" in line)
     axis = next(line for line in known.lines if re.search(r"0 m +10 +20 +30", line))
     for sign, number in (("├", "10"), ("┤", "20")):
