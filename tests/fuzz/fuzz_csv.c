@@ -60,7 +60,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct arena arena = {0};
     struct problems problems = {0};
     struct points points = {0};
-    if (ceduo_csv_slope_read(&arena, path, &points, &problems)) {
+    if (ceduo_csv_slope_read(&arena, path, NULL, &points, &problems)) {
         for (size_t i = 0; i < points.n; i++)
             if (!isfinite(points.x[i]) || !isfinite(points.z[i]) || (i > 0 && !(points.x[i] > points.x[i - 1])))
                 abort();
