@@ -140,6 +140,7 @@ struct points {
     double *x, *z; /* m */
     size_t n;
     const char *understood; /* one line for the user, in the arena; NULL: from no table */
+    const char *lines;      /* names of the lines, if the file is refused because it holds several; else NULL */
 };
 
 /* Read a profile: distance and elevation, x, y and elevation of a line on the map, WKT, or the output of GRASS or GMT.

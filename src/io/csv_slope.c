@@ -60,7 +60,8 @@ struct reader {
     size_t n, capacity;
     const char *layers[LAYERS_MAX];
     size_t layers_count;
-    struct text notes; /* what was changed */
+    struct text notes;   /* what was changed */
+    const char *several; /* names of the lines, if one must be chosen */
 };
 
 static bool refuse_at(struct reader *r, const struct raw *raw, const char *why)
@@ -391,6 +392,8 @@ static bool choose_layer(struct reader *r, const char *wanted)
         return ceduo_problem(r->problems, r->csv.source, 0, 0, _("there is no line '%s'; the file holds: %s"), wanted,
                              ceduo_text_string(&names));
     if (found == SIZE_MAX && r->layers_count > 1)
+        r->several = ceduo_arena_string(r->arena, ceduo_text_string(&names));
+    if (r->several)
         return ceduo_problem(r->problems, r->csv.source, 0, 0,
                              _("%zu lines in one file: %s; name one in the slope, such as 'layer: %s'"), r->layers_count,
                              ceduo_text_string(&names), r->layers[0]);
@@ -408,13 +411,10 @@ static bool check_four(struct reader *r)
         return true;
     double along = 0, east = 0, north = 0, x, y;
     struct csv csv = r->csv;
-    char text[2][CSV_NUMERAL_CAPACITY];
-    csv.problems = NULL;
     csv.next = csv.head_place;
     for (size_t i = 0; i < r->n && ceduo_csv_next(&csv); i++) {
-        if (ceduo_csv_numeral(&csv, csv.cells[0], text[0]) != CSV_NUMERAL_GOOD ||
-            ceduo_csv_numeral(&csv, csv.cells[1], text[1]) != CSV_NUMERAL_GOOD ||
-            ceduo_number_read(text[0], &x) != CEDUO_NUMBER_GOOD || ceduo_number_read(text[1], &y) != CEDUO_NUMBER_GOOD)
+        if (!ceduo_csv_number(&csv, csv.cells[0], -INFINITY, INFINITY, "m", &x) ||
+            !ceduo_csv_number(&csv, csv.cells[1], -INFINITY, INFINITY, "m", &y))
             return false;
         along += i > 0 ? hypot(x - east, y - north) : 0;
         east = x;
@@ -696,6 +696,7 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *lay
     bool good = ceduo_csv_open(&r->csv, arena, path, problems) && check_table(&r->csv, problems) && read_points(r) &&
                 (r->n == 0 || (choose_layer(r, layer) && check_four(r) && (!r->map || measure_line(r)) && check_heights(r))) &&
                 make_points(r, points) && problems->met == before;
+    points->lines = r->several;
     if (good && points->n > 0)
         understand(r, points, path);
     ceduo_text_free(&r->notes);
