@@ -265,6 +265,28 @@ def test_new_is_drawn():
     taken.lacks("New scene").has("My slope")
 
 
+def test_lines_of_a_profile():
+    """n names the lines of a file that holds several, and takes FILE.csv#LINE"""
+    with Place() as place:
+        place.write("two.csv", "layer,distance,elevation\ncrown,0,108\ncrown,60,38\nground,0,90\nground,40,40\nground,60,20\n")
+        asked, known, saved = place.play("""key n
+            key Enter Ctrl-U
+            type two.csv
+            key Enter
+            dump
+            type #ground
+            key Enter
+            dump
+            key Enter Enter Enter Enter Enter Enter Enter
+            key s Ctrl-U
+            type new.yaml
+            key Enter
+            dump""")
+        asked.whole().has("several lines: crown, ground; add one to the name: two.csv#crown")
+        known.whole().has("two.csv: 3 points, 60 m long, falls 70 m; line 'ground' of 2")
+        expect_in("layer: ground", (place.path / "new.yaml").read_text())
+
+
 def test_starts():
     """p in view 3 takes over the rock of another scene, or how it starts but not where, each as one edit that u takes back"""
     with Place() as place:
