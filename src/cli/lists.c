@@ -149,6 +149,7 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
     struct problems problems = {0};
     struct survey_file file;
     LOCAL_TEXT(yaml);
+    LOCAL_TEXT(line);
     bool sheet = strcmp(a->survey, "--template") == 0, standard = strcmp(a->survey, "-") == 0;
     const char *found = standard || sheet ? NULL : ceduo_file_find(&arena, a->survey, NULL, "surveys");
     if (sheet)
@@ -156,5 +157,9 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
     bool good = sheet || (ceduo_survey_read(&file, &arena, found ? found : a->survey, &problems) &&
                           ceduo_survey_stand(&file, &yaml, &problems));
     ceduo_say_problems(&problems);
+    if (good && !sheet && !a->quiet) {
+        ceduo_text_format(&line, "%s\n", file.understood);
+        ceduo_say(&line);
+    }
     return good ? ceduo_output_write(a, &yaml) : EXIT_INPUT;
 }

@@ -282,8 +282,9 @@ static void take_units(struct csv *csv)
     units = read_record(csv) && !is_blank_record(csv) && csv->cells_count <= csv->heads_count;
     csv->problems = problems;
     for (size_t i = 0; units && i < csv->cells_count; i++) {
-        units = csv->cells[i].n == 0 || ceduo_csv_among(csv->cells[i].p, csv->cells[i].n, UNITS);
-        found += csv->cells[i].n > 0;
+        bool none = ceduo_csv_is_empty(csv->cells[i]);
+        units = none || ceduo_csv_among(csv->cells[i].p, csv->cells[i].n, UNITS);
+        found += !none;
     }
     if (!units || found == 0) {
         csv->next = before;
@@ -291,7 +292,7 @@ static void take_units(struct csv *csv)
     }
     for (size_t i = 0; i < csv->cells_count; i++) {
         struct csv_cell *head = &csv->heads[i], unit = csv->cells[i];
-        if (unit.n == 0)
+        if (ceduo_csv_is_empty(unit))
             continue;
         bool bare = unit.p[0] != '(' && unit.p[0] != '[';
         const char *whole = ceduo_arena_format(csv->arena, "%.*s %s%.*s%s", (int)head->n, head->p, bare ? "(" : "", (int)unit.n,

@@ -59,7 +59,7 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
 
 /* Names of a column, the best first, ended by NULL, and its units, separated by |. */
 struct csv_head {
-    const char *names[20];
+    const char *names[40];
     const char *units; /* NULL: any unit in brackets is ignored */
 };
 

@@ -1,316 +1,642 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads the rows of a survey. What belongs to a plot may stand in its first row alone; a row of a plot without a stem
- * says that there is none. */
-#include "survey_file.h"
-
+/* Reads the rows of a survey. The values of a plot may stand in its first row only. A row of a plot without a stem
+ * stands for a plot without stems. A row may hold one stem, or several of one size. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/language.h"
 #include "base/must.h"
-#include "csv.h"
-#include "scene/choices.h"
+#include "survey_reader.h"
 
 #define PLOTS_MOST 1000
 #define STEMS_MOST 200000
-#define SLOPE_MOST 85  /* degrees */
-#define STUMP_MOST 20  /* m of height, as in a stand */
-#define DBH_MOST   300 /* cm: beyond it a diameter is in mm rather than of such a tree (assumed) */
-
-enum column { PLOT, AREA, RADIUS, SLOPE, SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING, ENERGY, COLUMNS };
-
-/* Names of a column, the first one is that of the manual and of messages; in other languages as their spreadsheets have them. */
-static const struct csv_head heads[COLUMNS] = {
-    [PLOT] = {{N_("plot"), "saggio", "area di saggio", "n saggio", "ads", "probefläche"}, NULL},
-    [AREA] = {{N_("area_m2"), "area", "superficie", "sup", "fläche"}, "m2|m²|mq"},
-    [RADIUS] = {{N_("radius_m"), "radius", "raggio", "r"}, "m"},
-    [SLOPE] = {{N_("slope_deg"), "slope", "pendenza", "pend", "neigung"}, "deg|degrees|°|gradi|grad"},
-    [SPECIES] = {{N_("species"), "specie", "baumart"}, NULL},
-    [KIND] = {{N_("kind"), "tipo", "tipo fusto", "origine", "p/m", "typ"}, NULL},
-    [STOOL] = {{N_("stool"), "ceppaia", "n ceppaia", "ceppaia n", "stock"}, NULL},
-    [DBH] = {{N_("dbh_cm"), "dbh", "diametro", "diam", "d", "d130", "diametro a 1,30 m", "diametro a 1,30", "bhd"}, "cm"},
-    [HEIGHT] = {{N_("height_m"), "height", "altezza", "alt", "h", "höhe"}, "m"},
-    [SPACING] = {{N_("spacing_m"), "spacing", "distanza", "abstand"}, "m"},
-    [ENERGY] = {{N_("energy_kJ"), "energy", "energia", "energie"}, "kJ"},
-};
-
-#define PERCENT "%|percent|percento|perc" /* of a slope */
+#define SLOPE_MOST 85   /* degrees */
+#define SLOPE_BARE 45   /* degrees or percent: a steeper slope needs a unit (assumed) */
+#define AREA_BARE  10   /* m2: a smaller plot needs a unit (assumed) */
+#define STUMP_MOST 20   /* m of height, as in a stand */
+#define DBH_MOST   300  /* cm: a larger diameter is in mm (assumed) */
+#define SAME_DBH   1.05 /* ratio of a diameter to that of the circumference that still is the same (assumed) */
 
 static const struct {
     double lo, hi;
     const char *unit;
-} ranges[COLUMNS] = {[AREA] = {1, 1e6, "m2"},  [RADIUS] = {0.5, 500, "m"}, [SLOPE] = {0, SLOPE_MOST, N_("degrees")},
-                     [DBH] = {0.1, 1e6, "cm"}, [HEIGHT] = {0, 150, "m"},   [SPACING] = {0.01, 20, "m"},
-                     [ENERGY] = {0, 1e6, "kJ"}};
-
-/* Words of a kind of stem, the first one is that of the manual. */
-#define X(NAME, word) word,
-static const char *const kind_names[] = {CEDUO_SURVEY_KINDS(X)};
-#undef X
-static const char *const kinds_also[] = {"shoot|shoots|pollone|polloni|p", "standard|standards|matricina|matricine|m",
-                                         "tree|trees|albero|alberi|allievo|allievi", "stump|stumps|ceppo|ceppi"};
-static const struct choices kind_words = {kind_names, CEDUO_SURVEY_KINDS_COUNT, kinds_also};
-
-/* Species of which nothing more is said, and rows that are no stems. */
-static const char *const others[] = {"other|others|altro|altra|altri|altre|altre latifoglie|altra specie"};
-static const char *const totals[] = {"total|totals|totale|totali|sum|somma|mean|average|media|medie"};
-static const struct choices other_words = {others, 1, others}, total_words = {totals, 1, totals};
-
-struct plot {
-    struct csv_cell name;
-    size_t line;          /* where it comes first */
-    double of[SLOPE + 1]; /* AREA, RADIUS, SLOPE; NaN: not said */
+} ranges[COLUMNS] = {
+    [AREA] = {1, 1e6, N_("m2")},     [RADIUS] = {0.5, 500, N_("m")},         [STOOLS] = {0, 1e5, ""},
+    [DBH] = {0.1, 1e6, N_("cm")},    [CIRCUMFERENCE] = {0.3, 1e6, N_("cm")}, [HEIGHT] = {0, 150, N_("m")},
+    [SPACING] = {0.01, 20, N_("m")}, [ENERGY] = {0, 1e6, N_("kJ")},          [COUNT] = {0, STEMS_MOST, ""},
+    [SHOOTS] = {0, STEMS_MOST, ""},  [STANDARDS] = {0, STEMS_MOST, ""},      [TREES] = {0, STEMS_MOST, ""},
 };
 
-/* The stool of a shoot by its name, before stools are numbered. */
-struct stool {
-    size_t plot, stem;
-    struct csv_cell name;
-};
+#define HEAD(c) _(ceduo_survey_heads[c].names[0])
 
-struct reader {
-    struct csv csv;
-    struct problems *problems;
-    size_t columns[COLUMNS];
-    bool percent;                    /* slopes */
-    struct csv_cell fields[COLUMNS]; /* of the present row */
-    struct plot *plots;
-    size_t plots_count, plot; /* the present one */
-    struct ceduo_survey_stem *stems;
-    size_t stems_count, shoots_count;
-    struct stool *stools; /* of each shoot */
-};
+/* ---- numbers ---- */
 
-/* ---- header ---- */
-
-static void read_header(struct reader *r, struct text *unused)
+/* Slope in degrees. Its unit stands in the head or in the cell. */
+static bool read_slope(struct survey_reader *r, double *value)
 {
-    ceduo_csv_find(&r->csv, heads, COLUMNS, r->columns);
-    const size_t line = r->csv.head_place.line;
-    if (r->columns[SLOPE] == CEDUO_CSV_NONE) {
-        r->columns[SLOPE] = ceduo_csv_column(&r->csv, heads[SLOPE].names, PERCENT);
-        r->percent = r->columns[SLOPE] < CEDUO_CSV_TWICE;
-    }
-    ceduo_csv_unused(&r->csv, r->columns, COLUMNS, unused);
-    for (int c = 0; c < COLUMNS; c++)
-        if ((c == PLOT || c == KIND || c == DBH) && r->columns[c] == CEDUO_CSV_NONE)
-            ceduo_problem_at(r->problems, (struct problem_place){r->csv.source, line, 1, NULL, true},
-                             _("the first line must name the column '%s'"), _(heads[c].names[0]));
-    if (r->columns[AREA] == CEDUO_CSV_NONE && r->columns[RADIUS] == CEDUO_CSV_NONE)
-        ceduo_problem(r->problems, r->csv.source, line, 1, _("the first line must name the column 'area_m2' or 'radius_m'"));
-}
-
-/* ---- rows ---- */
-
-/* A number that may be left empty: NaN then. False if it is wrong, which is reported. */
-static bool read_number(struct reader *r, enum column c, double *value)
-{
-    bool percent = c == SLOPE && r->percent;
-    double hi = percent ? 100 * tan(SLOPE_MOST * M_PI / 180) : ranges[c].hi;
-    *value = NAN;
-    if (r->fields[c].n > 0 &&
-        !ceduo_csv_number(&r->csv, r->fields[c], ranges[c].lo, hi, percent ? "%" : _(ranges[c].unit), value))
+    struct csv_cell cell = r->fields[SLOPE];
+    enum survey_unit own = ceduo_survey_cell_unit(SLOPE, cell), unit = own ? own : r->units[SLOPE];
+    if (own && r->units[SLOPE] && own != r->units[SLOPE])
+        return ceduo_csv_complain(&r->csv, cell,
+                                  _("the first line gives another unit for this column; write it without a unit"));
+    bool percent = unit == SURVEY_UNIT_OTHER;
+    while (own && cell.n > 0 && !(cell.p[cell.n - 1] >= '0' && cell.p[cell.n - 1] <= '9'))
+        cell.n--;
+    double hi = percent ? 100 * tan(SLOPE_MOST * M_PI / 180) : SLOPE_MOST;
+    if (!ceduo_csv_number(&r->csv, cell, 0, unit ? hi : 1e4, percent ? "%" : _("degrees"), value))
         return false;
+    if (!unit && *value > SLOPE_BARE)
+        return ceduo_csv_complain(
+            &r->csv, cell,
+            _("a slope of %g without a unit: name the column 'slope_deg' if it is in degrees, 'slope (%%)' if "
+              "it is in percent"),
+            *value);
+    r->marked_slopes |= own != SURVEY_UNIT_NONE;
+    r->bare_slopes |= !unit && *value > 0;
+    if (r->marked_slopes && r->bare_slopes)
+        return ceduo_csv_complain(&r->csv, cell, _("some slopes have a unit and others have none; write it in each cell"));
     *value = percent ? atan(*value / 100) * 180 / M_PI : *value;
     return true;
 }
 
-static bool read_plot(struct reader *r, size_t *plot)
+/* Read a number in the unit of the manual; NaN: not given. Report a wrong one and return false. */
+static bool read_number(struct survey_reader *r, enum column c, double *value)
 {
-    struct csv_cell name = r->fields[PLOT];
+    struct csv_cell cell = r->fields[c];
+    *value = NAN;
+    if (cell.n == 0)
+        return true;
+    if (c == SLOPE)
+        return read_slope(r, value);
+    bool mm = r->units[c] == SURVEY_UNIT_OTHER;
+    double scale = mm ? 10 : 1;
+    const char *unit = mm ? _("mm") : ranges[c].unit[0] ? _(ranges[c].unit) : "";
+    if (!ceduo_csv_number(&r->csv, cell, ranges[c].lo * scale, ranges[c].hi * scale, unit, value))
+        return false;
+    *value /= scale;
+    return true;
+}
+
+/* Read a whole number. */
+static bool read_count(struct survey_reader *r, enum column c, size_t *count)
+{
+    double value;
+    *count = 0;
+    if (!read_number(r, c, &value))
+        return false;
+    if (!isnan(value) && value != floor(value))
+        return ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' must be a whole number"), HEAD(c));
+    *count = isnan(value) ? 0 : (size_t)value;
+    return true;
+}
+
+/* Read a diameter, which may be the class of it. */
+static bool read_diameter(struct survey_reader *r, enum column c, double *value)
+{
+    const struct csv_cell cell = r->fields[c];
+    int lo, hi, n = -1;
+    char text[CSV_NUMERAL_CAPACITY] = "";
+    if (cell.n < sizeof text)
+        memcpy(text, cell.p, cell.n);
+    if (sscanf(text, "%d-%d%n", &lo, &hi, &n) == 2 && n == (int)cell.n && hi > lo && lo >= 0)
+        return ceduo_csv_complain(&r->csv, cell, _("'%s' is a class: write its middle, %g"), text, (lo + hi) / 2.0);
+    return read_number(r, c, value);
+}
+
+/* ---- plots ---- */
+
+static bool is_same(struct csv_cell a, struct csv_cell b)
+{
+    return a.n == b.n && memcmp(a.p, b.p, a.n) == 0;
+}
+
+static bool are_same_sites(const struct csv_cell *a, const struct csv_cell *b)
+{
+    for (size_t i = 0; i < SITES; i++)
+        if (!is_same(a[i], b[i]))
+            return false;
+    return true;
+}
+
+/* Find the plot of a row, or add it. Joined cells: a name may stand in the first of its rows only. */
+static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
+{
+    const bool first = r->plots_count == 0;
+    const struct survey_plot *above = first ? NULL : &r->plots[r->plot];
+    struct csv_cell *sites = &r->fields[SITE], *name = &r->fields[PLOT];
+    for (size_t i = 0; above && i < SITES; i++)
+        if (sites[i].n == 0)
+            sites[i] = above->sites[i];
+    if (name->n == 0 && has_stem && above && are_same_sites(sites, above->sites)) {
+        *name = above->name;
+        r->filled++;
+    }
+    if (name->n == 0)
+        return ceduo_csv_complain(&r->csv, *name, _("'%s' is missing: give it in each row"), HEAD(PLOT));
     size_t i = r->plots_count;
-    bool good = true;
-    if (name.n == 0)
-        return ceduo_csv_complain(&r->csv, name, _("'%s' is missing: give it in each row"), _(heads[PLOT].names[0]));
-    while (i > 0 && !(r->plots[i - 1].name.n == name.n && memcmp(r->plots[i - 1].name.p, name.p, name.n) == 0))
+    while (i > 0 && !(is_same(r->plots[i - 1].name, *name) && are_same_sites(r->plots[i - 1].sites, sites)))
         i--; /* mostly the last */
     if (i == 0 && r->plots_count == PLOTS_MOST)
-        return ceduo_csv_complain(&r->csv, name, _("more than %d plots"), PLOTS_MOST);
+        return ceduo_csv_complain(&r->csv, *name, _("more than %d plots"), PLOTS_MOST);
     if (i == 0) {
-        r->plots[r->plots_count] = (struct plot){name, r->csv.place.line, {NAN, NAN, NAN, NAN}};
+        r->plots[r->plots_count] = (struct survey_plot){
+            .name = *name, .line = r->csv.place.line, .values = {[AREA] = NAN, [RADIUS] = NAN, [SLOPE] = NAN, [STOOLS] = NAN}};
+        memcpy(r->plots[r->plots_count].sites, sites, SITES * sizeof *sites);
         i = ++r->plots_count;
+    } else if (i - 1 != r->plot && r->plots[i - 1].returned == 0) {
+        r->plots[i - 1].returned = r->csv.place.line;
     }
-    *plot = i - 1;
-    for (enum column c = AREA; c <= SLOPE; c++) { /* what is said of a plot again must be the same */
-        double now, *known = &r->plots[*plot].of[c];
-        bool read = read_number(r, c, &now), differs = !isnan(now) && !isnan(*known) && now != *known;
-        if (read && differs)
-            ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), _(heads[c].names[0]),
-                               *known, now);
+    *plot = r->plot = i - 1;
+    return true;
+}
+
+/* Refuse a small plot unless the head says that it is in m2. */
+static bool check_area(struct survey_reader *r, enum column c, double value)
+{
+    double area = c == RADIUS ? M_PI * value * value : value;
+    if ((c != AREA && c != RADIUS) || !(area < AREA_BARE) || r->units[c])
+        return true;
+    return ceduo_csv_complain(&r->csv, r->fields[c], _("a plot of %.3g m2 is very small; name the column '%s' if it is right"),
+                              area, HEAD(c));
+}
+
+/* Read the values of a plot. A value that is given again must be the same. */
+static bool read_plot(struct survey_reader *r, struct survey_plot *plot)
+{
+    bool good = true;
+    for (enum column c = AREA; c <= STOOLS; c++) {
+        double now, *known = &plot->values[c];
+        bool read = read_number(r, c, &now) && check_area(r, c, now),
+             differs = read && !isnan(now) && !isnan(*known) && now != *known;
+        if (differs && (c == AREA || c == RADIUS))
+            ceduo_csv_complain(
+                &r->csv, r->fields[c],
+                _("'%s' is %g elsewhere for this plot, here %g; if thin stems were measured on a smaller area, make a "
+                  "survey of each area and join the stands: as two plots they would count half"),
+                HEAD(c), *known, now);
+        else if (differs && c == STOOLS)
+            ceduo_csv_complain(&r->csv, r->fields[c],
+                               _("'%s' is %g elsewhere for this plot, here %g; name the column '%s' if it numbers the stools"),
+                               HEAD(c), *known, now, HEAD(STOOL));
+        else if (differs)
+            ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), HEAD(c), *known, now);
+        if (read && c == STOOLS && now != floor(now) && !isnan(now))
+            read = ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' must be a whole number"), HEAD(c));
         good = good && read && !differs;
         *known = read && isnan(*known) ? now : *known;
     }
     if (r->fields[AREA].n > 0 && r->fields[RADIUS].n > 0)
-        return ceduo_csv_complain(&r->csv, r->fields[RADIUS], _("%s already says this; keep one of the two"),
-                                  _(heads[AREA].names[0]));
+        return ceduo_csv_complain(&r->csv, r->fields[RADIUS], _("%s already says this; keep one of the two"), HEAD(AREA));
     return good;
 }
 
-/* The value that a cell's word stands for; -1: it is none. */
-static int find_word(const struct choices *words, struct csv_cell field)
-{
-    char word[64] = "";
-    if (field.n < sizeof word)
-        memcpy(word, field.p, field.n);
-    return ceduo_choice_find(words, word);
-}
+/* ---- stems of a row ---- */
 
-static bool read_words(struct reader *r, struct ceduo_survey_stem *stem)
+/* Species of a row; -1: not given. */
+static bool read_species(struct survey_reader *r, int *found)
 {
-    const struct csv_cell kind = r->fields[KIND], species = r->fields[SPECIES];
-    int found = find_word(&kind_words, kind);
-    bool known = found >= 0;
-    stem->kind = known ? (enum ceduo_survey_kind)found : CEDUO_SURVEY_TREE;
-    stem->species = find_word(&ceduo_species_words, species);
-    if (!known)
-        ceduo_csv_complain(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
-                           kind.n < 100 ? (int)kind.n : 100, kind.p);
-    if (stem->species >= 0 || species.n == 0 || find_word(&other_words, species) >= 0)
-        return known;
+    const struct csv_cell species = r->fields[SPECIES], genus = r->fields[GENUS], cell = species.n > 0 ? species : genus;
+    *found = ceduo_survey_find_species(species, genus);
+    if (*found >= 0 || cell.n == 0 || ceduo_survey_is_other_species(cell))
+        return true;
     LOCAL_TEXT(all);
     for (size_t i = 0, n; i < ceduo_species_words.n; i++)
         ceduo_text_format(&all, "%s%s", i > 0 ? ", " : "", _(ceduo_species_list(&n)[i].common));
-    return ceduo_csv_complain(&r->csv, species, _("'%.*s' is an unknown species; leave it empty, or one of: %s"),
-                              species.n < 100 ? (int)species.n : 100, species.p, ceduo_text_string(&all));
+    return ceduo_csv_complain(&r->csv, cell, _("'%.*s' is an unknown species; leave it empty, or one of: %s"),
+                              cell.n < 100 ? (int)cell.n : 100, cell.p, ceduo_text_string(&all));
 }
 
-/* The sizes of a stem. */
-static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
+/* Numbers of stems by columns of their own: shoots, standards, trees. `all`: their sum. */
+static bool read_own_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KINDS_COUNT], size_t *all)
+{
+    bool good = true;
+    *all = 0;
+    for (enum column c = SHOOTS; c <= TREES; c++) {
+        good = read_count(r, c, &counts[c - SHOOTS]) && good;
+        *all += counts[c - SHOOTS];
+    }
+    return good;
+}
+
+/* Numbers of stems of each kind in a row: of the kind that the row names, or by columns of their own. */
+static bool read_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KINDS_COUNT])
+{
+    const struct csv_cell kind = r->fields[KIND], count = r->fields[COUNT];
+    const bool tally = r->columns[KIND] == CEDUO_CSV_NONE;
+    size_t sum, given;
+    int found = ceduo_survey_find_word(&ceduo_survey_kind_words, kind);
+    if (!tally && found < 0)
+        return ceduo_csv_complain(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
+                                  kind.n < 100 ? (int)kind.n : 100, kind.p);
+    if (!read_own_counts(r, counts, &sum) || !read_count(r, COUNT, &given))
+        return false;
+    for (int k = 0; !tally && k < CEDUO_SURVEY_STUMP; k++)
+        if (k != found && counts[k] > 0)
+            return ceduo_csv_complain(&r->csv, r->fields[SHOOTS + k], _("this row is of another kind; leave '%s' empty here"),
+                                      HEAD(SHOOTS + k));
+    bool own = !tally && found < CEDUO_SURVEY_STUMP && r->fields[SHOOTS + found].n > 0;
+    if (count.n > 0 && (tally || own) && given != sum)
+        return ceduo_csv_complain(&r->csv, count,
+                                  _("'%s' is %zu, but '%s', '%s' and '%s' add up to %zu; correct one, or leave it empty"),
+                                  HEAD(COUNT), given, HEAD(SHOOTS), HEAD(STANDARDS), HEAD(TREES), sum);
+    if (tally || own)
+        return true;
+    if (count.n == 0 && r->columns[COUNT] != CEDUO_CSV_NONE)
+        return ceduo_csv_complain(&r->csv, count, _("'%s' is missing: write the number of stems, 0 for none"), HEAD(COUNT));
+    counts[found] = r->columns[COUNT] == CEDUO_CSV_NONE ? 1 : given;
+    return true;
+}
+
+/* Number of stems of a row that are live; the others are counted. Stumps need no status. */
+static bool read_status(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KINDS_COUNT])
+{
+    const struct csv_cell status = r->fields[STATUS];
+    size_t sum = counts[CEDUO_SURVEY_SHOOT] + counts[CEDUO_SURVEY_STANDARD] + counts[CEDUO_SURVEY_TREE];
+    int found = ceduo_survey_find_word(&ceduo_survey_status_words, status);
+    if (r->columns[STATUS] == CEDUO_CSV_NONE)
+        return true;
+    if (status.n > 0 && found < 0)
+        return ceduo_csv_complain(&r->csv, status,
+                                  _("'%.*s' is no status: live, dead or cut; rename the column if it means something else"),
+                                  status.n < 100 ? (int)status.n : 100, status.p);
+    r->unmarked += status.n == 0 ? sum : 0;
+    if (found <= SURVEY_LIVE)
+        return true;
+    *(found == SURVEY_DEAD ? &r->dead : &r->cut) += sum;
+    counts[CEDUO_SURVEY_SHOOT] = counts[CEDUO_SURVEY_STANDARD] = counts[CEDUO_SURVEY_TREE] = 0;
+    return true;
+}
+
+/* Diameter of a stem in m, measured or from its circumference. */
+static bool read_dbh(struct survey_reader *r, double *dbh)
 {
     const struct csv *csv = &r->csv;
     const struct csv_cell *fields = r->fields;
-    bool good = read_number(r, DBH, &stem->dbh), stump = stem->kind == CEDUO_SURVEY_STUMP;
+    const enum column c = fields[DBH].n > 0 || r->columns[CIRCUMFERENCE] == CEDUO_CSV_NONE ? DBH : CIRCUMFERENCE;
+    double girth;
+    bool good = read_diameter(r, DBH, dbh);
+    if (!read_number(r, CIRCUMFERENCE, &girth) || !good)
+        return false;
+    double ratio = *dbh / (girth / M_PI); /* NaN: one of the two */
+    if (ratio > SAME_DBH || ratio < 1 / SAME_DBH)
+        return ceduo_csv_complain(csv, fields[CIRCUMFERENCE],
+                                  _("a circumference of %g cm is a diameter of %.3g cm, not %g; leave one empty"), girth,
+                                  girth / M_PI, *dbh);
+    *dbh = isnan(*dbh) ? girth / M_PI : *dbh;
+    if (isnan(*dbh))
+        return ceduo_csv_complain(csv, fields[c], _("'%s' is missing: give it in each row"), HEAD(c));
+    if (*dbh > DBH_MOST)
+        return ceduo_csv_complain(csv, fields[c], _("%g cm: more than %d cm; is it in mm? Then name the column 'dbh_mm'"), *dbh,
+                                  DBH_MOST);
+    *dbh /= 100;
+    return true;
+}
+
+/* Sizes of the stems of a row. */
+static bool read_sizes(struct survey_reader *r, struct ceduo_survey_stem *stem)
+{
+    const struct csv *csv = &r->csv;
+    const struct csv_cell *fields = r->fields;
+    bool good = read_dbh(r, &stem->dbh), stump = stem->kind == CEDUO_SURVEY_STUMP;
     good = read_number(r, HEIGHT, &stem->height) && good;
     good = read_number(r, SPACING, &stem->spacing) && good;
     good = read_number(r, ENERGY, &stem->energy) && good;
     if (!good)
         return false;
-    if (isnan(stem->dbh))
-        return ceduo_csv_complain(csv, fields[DBH], _("'%s' is missing: give it in each row"), _(heads[DBH].names[0]));
-    if (stem->dbh > DBH_MOST)
-        return ceduo_csv_complain(csv, fields[DBH], _("%g cm: more than %d cm; is it in mm?"), stem->dbh, DBH_MOST);
     double lo = stump ? 0 : CEDUO_BREAST_HEIGHT, hi = stump ? STUMP_MOST : ranges[HEIGHT].hi;
     if (stem->height <= lo || stem->height > hi)
-        return ceduo_csv_complain(csv, fields[HEIGHT],
-                                  _("%g m is no height of a stem of this kind: it must be above %g and at most %g m"),
-                                  stem->height, lo, hi);
+        return ceduo_csv_complain(
+            csv, fields[HEIGHT],
+            _("%g m is no height of a stem of this kind: it must be above %g and at most %g m; leave it empty if "
+              "it was not measured"),
+            stem->height, lo, hi);
     enum column other = stem->kind != CEDUO_SURVEY_SHOOT && !isnan(stem->spacing) ? SPACING
                         : !stump && !isnan(stem->energy)                          ? ENERGY
                                                                                   : PLOT;
     if (other != PLOT)
-        return ceduo_csv_complain(csv, fields[other], _("a stem of this kind has no '%s'; leave it empty here"),
-                                  _(heads[other].names[0]));
-    stem->dbh /= 100;
+        return ceduo_csv_complain(csv, fields[other], _("a stem of this kind has no '%s'; leave it empty here"), HEAD(other));
+    if (!isnan(stem->spacing) && fields[STOOL].n == 0)
+        return ceduo_csv_complain(csv, fields[SPACING], _("a shoot without a stool has no '%s'; leave it empty here"),
+                                  HEAD(SPACING));
     stem->energy *= 1000;
     return true;
 }
 
-static void read_row(struct reader *r, struct survey_file *file)
+/* ---- rows ---- */
+
+/* Add n equal stems. */
+static bool add_stems(struct survey_reader *r, struct ceduo_survey_stem stem, size_t n)
 {
-    struct ceduo_survey_stem stem = {0};
-    struct csv_cell first = ceduo_csv_cell(&r->csv, 0);
-    bool any = false; /* there is a stem */
-    for (size_t i = 1; first.n == 0 && i < r->csv.cells_count; i++)
-        first = ceduo_csv_cell(&r->csv, i);
-    for (int c = 0; c < COLUMNS; c++) {
-        r->fields[c] = ceduo_csv_cell(&r->csv, r->columns[c]);
-        if (ceduo_csv_is_empty(r->fields[c]))
-            r->fields[c].n = 0;
-        any |= c >= SPECIES && r->fields[c].n > 0;
+    bool shoot = stem.kind == CEDUO_SURVEY_SHOOT, loose = shoot && r->fields[STOOL].n == 0;
+    struct survey_plot *plot = &r->plots[stem.plot];
+    if (r->stems_count + n > STEMS_MOST)
+        return ceduo_csv_complain(&r->csv, r->fields[COUNT], _("more than %d stems"), STEMS_MOST);
+    struct ceduo_survey_stem *stems =
+        ceduo_arena_more(r->arena, r->stems, r->stems_count, n, &r->stems_capacity, sizeof *stems);
+    struct survey_shoot *shoots =
+        ceduo_arena_more(r->arena, r->shoots, r->shoots_count, shoot ? n : 0, &r->shoots_capacity, sizeof *shoots);
+    r->stems = stems ? stems : r->stems;
+    r->shoots = shoots ? shoots : r->shoots;
+    if (!stems || (shoot && !shoots))
+        return false;
+    if (loose && n > 0 && !plot->has_loose) {
+        plot->has_loose = true;
+        plot->loose = r->csv.place;
     }
-    struct csv_cell word = first; /* "Totale fusti" */
-    for (size_t n = first.n; n > 0; n--)
-        word.n = strchr(" :", first.p[n - 1]) ? n - 1 : word.n;
-    if (find_word(&total_words, first) >= 0 || (r->fields[KIND].n == 0 && find_word(&total_words, word) >= 0)) {
-        file->totals++;
-        return;
+    for (size_t i = 0; i < n; i++) {
+        if (shoot)
+            r->shoots[r->shoots_count++] = (struct survey_shoot){stem.plot, r->stems_count, r->fields[STOOL]};
+        r->stems[r->stems_count++] = stem;
     }
-    if (r->fields[PLOT].n == 0 && any && r->plots_count > 0) { /* cells that were joined: it stands in the first alone */
-        r->fields[PLOT] = r->plots[r->plot].name;
-        file->filled++;
-    }
-    if (!read_plot(r, &stem.plot))
-        return;
-    r->plot = stem.plot;
-    if (!any || !read_words(r, &stem) || !read_sizes(r, &stem))
-        return;
-    if (stem.kind == CEDUO_SURVEY_SHOOT && r->fields[STOOL].n == 0) {
-        ceduo_csv_complain(&r->csv, r->fields[STOOL],
-                           _("the stool of this shoot is missing; number the stools of a plot (column 'stool')"));
-        return;
-    }
-    if (stem.kind == CEDUO_SURVEY_SHOOT)
-        r->stools[r->shoots_count++] = (struct stool){stem.plot, r->stems_count, r->fields[STOOL]};
-    r->stems[r->stems_count++] = stem;
+    return true;
 }
 
-/* ---- what the rows make ---- */
-
-static int compare_stools(const void *a, const void *b)
+static void add_id(struct survey_reader *r, const struct ceduo_survey_stem *stem)
 {
-    const struct stool *one = a, *other = b;
+    struct survey_id *ids = ceduo_arena_more(r->arena, r->ids, r->ids_count, 1, &r->ids_capacity, sizeof *ids);
+    if (!ids || r->fields[ID].n == 0)
+        return;
+    r->ids = ids;
+    r->ids[r->ids_count++] =
+        (struct survey_id){stem->plot, r->csv.place.line, (int)stem->kind, r->fields[STOOL], r->fields[ID]};
+}
+
+/* Take the cells of a row. Returns false if a name has a quote or a line break, which only a slip puts there. */
+static bool read_fields(struct survey_reader *r)
+{
+    bool good = true;
+    for (int c = 0; c < COLUMNS; c++) {
+        struct csv_cell *cell = &r->fields[c];
+        *cell = ceduo_csv_cell(&r->csv, r->columns[c]);
+        if (ceduo_csv_is_empty(*cell))
+            cell->n = 0;
+        bool name = c == PLOT || c == SPECIES || c == GENUS || c == KIND || c == STOOL || c == STATUS || c >= SITE;
+        if (name && memchr(cell->p, '"', cell->n))
+            good = ceduo_csv_complain(&r->csv, *cell, _("a quote within a name is a slip; remove it"));
+        else if (name && memchr(cell->p, '\n', cell->n))
+            good = ceduo_csv_complain(&r->csv, *cell,
+                                      _("a line break within a name is a slip; remove it, and the quotes around it"));
+    }
+    return good;
+}
+
+/* True if a row holds totals: its first word says so, or the cell of a kind, species, stool or size. */
+static bool is_total_row(const struct survey_reader *r)
+{
+    static const enum column columns[] = {KIND, SPECIES, STOOL, DBH, CIRCUMFERENCE};
+    const bool sized = r->fields[DBH].n > 0 || r->fields[CIRCUMFERENCE].n > 0;
+    size_t at = 0;
+    while (at + 1 < r->csv.cells_count && ceduo_csv_cell(&r->csv, at).n == 0)
+        at++;
+    struct csv_cell first = ceduo_csv_cell(&r->csv, at), word = first; /* "Totale fusti" */
+    for (size_t n = first.n; n > 0; n--)
+        word.n = strchr(" :", first.p[n - 1]) ? n - 1 : word.n;
+    bool begins = r->columns[KIND] == CEDUO_CSV_NONE ? !sized : r->fields[KIND].n == 0;
+    if (at != r->columns[STATUS] && (ceduo_survey_is_total(first) || (begins && ceduo_survey_is_total(word))))
+        return true;
+    for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
+        if (ceduo_survey_is_total(r->fields[columns[i]]))
+            return true;
+    return false;
+}
+
+static bool has_stem(const struct survey_reader *r)
+{
+    for (int c = SPECIES; c <= TREES; c++)
+        if (r->fields[c].n > 0 && !(c >= COUNT && ceduo_csv_is(r->fields[c], "0")))
+            return true;
+    return false;
+}
+
+/* Read a row. Returns false if no more rows are read. */
+static bool read_row(struct survey_reader *r)
+{
+    struct ceduo_survey_stem stem = {0};
+    size_t counts[CEDUO_SURVEY_KINDS_COUNT] = {0};
+    if (!read_fields(r))
+        return true;
+    if (is_total_row(r)) {
+        r->totals++;
+        return true;
+    }
+    bool any = has_stem(r);
+    if (!find_plot(r, any, &stem.plot) || !read_plot(r, &r->plots[stem.plot]) || !any)
+        return true;
+    bool good = read_species(r, &stem.species);
+    if (!read_counts(r, counts) || !read_status(r, counts) || !good)
+        return true;
+    for (int k = 0; k < CEDUO_SURVEY_KINDS_COUNT; k++) {
+        stem.kind = (enum ceduo_survey_kind)k;
+        if (counts[k] == 0)
+            continue;
+        if (!read_sizes(r, &stem))
+            return true;
+        if (!add_stems(r, stem, counts[k]))
+            return false;
+        add_id(r, &stem);
+    }
+    return true;
+}
+
+/* Refuse a column 'n' or 'numero' that numbers the rows instead of counting stems. */
+static bool check_numbering(struct survey_reader *r)
+{
+    struct csv_place begin = r->csv.next;
+    char text[CSV_NUMERAL_CAPACITY];
+    size_t rises = 0, rows = 0;
+    bool numbering = true;
+    double value, last = 0;
+    if (r->columns[COUNT] >= CEDUO_CSV_TWICE || !ceduo_survey_is_vague(&r->csv, r->columns[COUNT]))
+        return true;
+    r->csv.problems = NULL;
+    while (numbering && ceduo_csv_next(&r->csv)) {
+        struct csv_cell cell = ceduo_csv_cell(&r->csv, r->columns[COUNT]);
+        if (ceduo_csv_numeral(&r->csv, cell, text) != CSV_NUMERAL_GOOD || ceduo_number_read(text, &value) != CEDUO_NUMBER_GOOD)
+            continue;
+        numbering = rows++ == 0 || value == last + 1 || value == 1;
+        rises += rows > 1 && value == last + 1;
+        last = value;
+    }
+    r->csv.problems = r->problems;
+    r->csv.next = begin;
+    return !numbering || rises < 2 ||
+           ceduo_csv_complain(&r->csv, r->csv.heads[r->columns[COUNT]],
+                              _("this column goes 1, 2, 3: name it 'id' if it numbers the stems, 'count' if it counts them"));
+}
+
+/* ---- stools and areas ---- */
+
+static int compare_cells(struct csv_cell a, struct csv_cell b)
+{
+    if (a.n != b.n)
+        return a.n < b.n ? -1 : 1;
+    return memcmp(a.p, b.p, a.n);
+}
+
+static int compare_shoots(const void *a, const void *b)
+{
+    const struct survey_shoot *one = a, *other = b;
     if (one->plot != other->plot)
         return one->plot < other->plot ? -1 : 1;
-    if (one->name.n != other->name.n)
-        return one->name.n < other->name.n ? -1 : 1;
-    return memcmp(one->name.p, other->name.p, one->name.n);
+    return compare_cells(one->stool, other->stool);
+}
+
+static int compare_ids(const void *a, const void *b)
+{
+    const struct survey_id *one = a, *other = b;
+    int stools = compare_cells(one->stool, other->stool), ids = compare_cells(one->id, other->id);
+    if (one->plot != other->plot)
+        return one->plot < other->plot ? -1 : 1;
+    if (one->kind != other->kind)
+        return one->kind < other->kind ? -1 : 1;
+    return stools != 0 ? stools : ids;
+}
+
+static void count_repeated(struct survey_reader *r)
+{
+    if (r->ids_count > 0)
+        qsort(r->ids, r->ids_count, sizeof *r->ids, compare_ids);
+    for (size_t i = 1; i < r->ids_count; i++) {
+        if (compare_ids(&r->ids[i - 1], &r->ids[i]) != 0)
+            continue;
+        size_t a = r->ids[i - 1].line, b = r->ids[i].line, line = a > b ? a : b;
+        r->repeated_line = r->repeated++ == 0 || line < r->repeated_line ? line : r->repeated_line;
+    }
+}
+
+/* Report a problem at the stool of the first shoot of a plot that has none. */
+static bool refuse_loose(struct survey_reader *r, const struct survey_plot *plot, const char *why)
+{
+    ceduo_csv_return(&r->csv, plot->loose);
+    return ceduo_csv_complain(&r->csv, ceduo_csv_cell(&r->csv, r->columns[STOOL]), "%s", why);
+}
+
+/* Number the stools of a plot, whose n shoots begin at `shoots` and are sorted by stool. Shoots without a stool are spread evenly
+ * over the number of stools of the plot. */
+static bool number_stools(struct survey_reader *r, const struct survey_plot *plot, const struct survey_shoot *shoots, size_t n)
+{
+    const double given = plot->values[STOOLS];
+    size_t begin = r->stools_count, loose = 0;
+    while (loose < n && shoots[loose].stool.n == 0)
+        loose++;
+    if (loose > 0 && isnan(given))
+        return refuse_loose(
+            r, plot,
+            _("the stool of this shoot is missing; number the stools (column 'stool'), or give the number of stools "
+              "of the plot (column 'stools')"));
+    if (loose > 0 && loose < n)
+        return refuse_loose(r, plot, _("the stool of this shoot is missing, but other shoots of the plot have one"));
+    if (given > (double)n || (loose > 0 && given == 0))
+        return ceduo_problem(
+            r->problems, r->csv.source, plot->line, 1,
+            _("%g stools with %zu live shoots: each stool needs at least one; count stools with live shoots only"), given, n);
+    if (loose > 0) {
+        for (size_t i = 0; i < n; i++)
+            r->stems[shoots[i].stem].stool = begin + i % (size_t)given;
+        r->stools_count += (size_t)given;
+        return true;
+    }
+    for (size_t i = 0; i < n; i++) {
+        r->stools_count += i == 0 || compare_shoots(&shoots[i - 1], &shoots[i]) != 0;
+        r->stems[shoots[i].stem].stool = r->stools_count - 1;
+    }
+    if (!isnan(given) && given != (double)(r->stools_count - begin))
+        return ceduo_problem(r->problems, r->csv.source, plot->line, 1,
+                             _("'%s' is %g, but the shoots of this plot stand on %zu; correct it, or remove the column"),
+                             HEAD(STOOLS), given, r->stools_count - begin);
+    return true;
+}
+
+/* Number the stools over all plots. */
+static void number_all_stools(struct survey_reader *r)
+{
+    if (r->shoots_count > 0)
+        qsort(r->shoots, r->shoots_count, sizeof *r->shoots, compare_shoots);
+    for (size_t p = 0, begin = 0, end; p < r->plots_count; p++, begin = end) {
+        for (end = begin; end < r->shoots_count && r->shoots[end].plot == p;)
+            end++;
+        number_stools(r, &r->plots[p], r->shoots + begin, end - begin);
+    }
+}
+
+/* Areas of the plots on the map. */
+static void measure_plots(struct survey_reader *r, double *areas)
+{
+    for (size_t i = 0; i < r->plots_count; i++) {
+        const double *of = r->plots[i].values, area = isnan(of[AREA]) ? M_PI * of[RADIUS] * of[RADIUS] : of[AREA];
+        areas[i] = ceduo_survey_horizontal(area, isnan(of[SLOPE]) ? 0 : of[SLOPE] * M_PI / 180);
+        if (isnan(area))
+            ceduo_problem(r->problems, r->csv.source, r->plots[i].line, 1,
+                          _("this plot has no area_m2 and no radius_m; give one, or remove the row if it is no plot"));
+    }
+}
+
+/* ---- the whole ---- */
+
+static void scan_numbers(struct survey_reader *r)
+{
+    bool *numeric = ceduo_arena_take(r->arena, (r->csv.heads_count + 1) * sizeof *numeric);
+    for (int c = 0; numeric && c < COLUMNS; c++) {
+        bool number = (c >= AREA && c <= STOOLS) || (c >= DBH && c <= TREES);
+        if (number && r->columns[c] < CEDUO_CSV_TWICE)
+            numeric[r->columns[c]] = true;
+    }
+    ceduo_csv_scan(&r->csv, numeric);
+}
+
+static void read_rows(struct survey_reader *r)
+{
+    for (size_t n = 0; ceduo_csv_next(&r->csv); n++) {
+        if (n == STEMS_MOST) {
+            ceduo_problem(r->problems, r->csv.source, r->csv.place.line, 1, _("more than %d rows"), STEMS_MOST);
+            return;
+        }
+        if (!r->csv.bad && !read_row(r))
+            return;
+    }
+    if (r->plots_count == 0)
+        ceduo_problem(r->problems, r->csv.source, 0, 0, _("there is no plot: no row under the first"));
 }
 
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct problems *problems)
 {
-    struct reader r = {.problems = problems};
+    struct survey_reader *r = ceduo_arena_take(arena, sizeof *r);
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const bool standard = strcmp(name, "-") == 0;
     size_t length = strlen(name), before = problems->met;
     ceduo_memory_lost(); /* what was lost before is of others */
     length -= length > 4 && strcasecmp(name + length - 4, ".csv") == 0 ? 4 : 0;
-    name = strcmp(name, "-") == 0 ? "survey" : ceduo_arena_copy(arena, name, length);
-    *file = (struct survey_file){.name = name};
-    if (!ceduo_csv_open(&r.csv, arena, path, problems))
+    *file = (struct survey_file){.name = standard ? "survey" : ceduo_arena_copy(arena, name, length)};
+    if (!r)
         return false;
-    size_t rows = ceduo_csv_lines(&r.csv);
-    rows = rows < STEMS_MOST ? rows : STEMS_MOST;
-    r.plots = ceduo_arena_take(arena, PLOTS_MOST * sizeof *r.plots);
-    r.stems = ceduo_arena_take(arena, rows * sizeof *r.stems);
-    r.stools = ceduo_arena_take(arena, rows * sizeof *r.stools);
+    *r = (struct survey_reader){.arena = arena, .problems = problems};
+    if (!ceduo_csv_open(&r->csv, arena, path, problems))
+        return false;
+    r->plots = ceduo_arena_take(arena, PLOTS_MOST * sizeof *r->plots);
     double *areas = ceduo_arena_take(arena, PLOTS_MOST * sizeof *areas);
-    if (!r.plots || !r.stems || !r.stools || !areas)
+    if (!r->plots || !areas || !ceduo_survey_find_columns(&r->csv, r->columns, r->units))
         return false;
-    LOCAL_TEXT(unused);
-    read_header(&r, &unused);
-    file->unused = ceduo_arena_string(arena, ceduo_text_string(&unused));
+    scan_numbers(r);
+    if (!check_numbering(r))
+        return false;
+    read_rows(r);
     if (problems->met > before)
         return false;
-    bool *numeric = ceduo_arena_take(arena, (r.csv.heads_count + 1) * sizeof *numeric);
-    for (int c = 0; numeric && c < COLUMNS; c++)
-        if (r.columns[c] < CEDUO_CSV_TWICE && c != PLOT && c != SPECIES && c != KIND && c != STOOL)
-            numeric[r.columns[c]] = true;
-    ceduo_csv_scan(&r.csv, numeric);
-    for (size_t n = 0; ceduo_csv_next(&r.csv); n++) {
-        if (r.csv.bad)
-            continue;
-        if (n == STEMS_MOST)
-            return ceduo_problem(problems, r.csv.source, r.csv.place.line, 1, _("more than %d rows"), STEMS_MOST);
-        read_row(&r, file);
-    }
-    if (problems->met == before && r.plots_count == 0)
-        ceduo_problem(problems, r.csv.source, 0, 0, _("there is no plot: no row under the first"));
-    for (size_t i = 0; i < r.plots_count; i++) {
-        const double *of = r.plots[i].of, area = isnan(of[AREA]) ? M_PI * of[RADIUS] * of[RADIUS] : of[AREA];
-        areas[i] = ceduo_survey_horizontal(area, isnan(of[SLOPE]) ? 0 : of[SLOPE] * M_PI / 180);
-        if (isnan(area))
-            ceduo_problem(problems, r.csv.source, r.plots[i].line, 1, _("this plot has no area_m2 and no radius_m"));
-    }
-    size_t stools = 0; /* are numbered over all plots */
-    qsort(r.stools, r.shoots_count, sizeof *r.stools, compare_stools);
-    for (size_t i = 0; i < r.shoots_count; i++) {
-        stools += i == 0 || compare_stools(&r.stools[i - 1], &r.stools[i]) != 0;
-        r.stems[r.stools[i].stem].stool = stools - 1;
-    }
-    file->survey = (struct ceduo_survey){
-        .plots_count = r.plots_count, .areas = areas, .stools_count = stools, .stems_count = r.stems_count, .stems = r.stems};
-    return problems->met == before && ceduo_problems_settle(problems);
+    number_all_stools(r);
+    measure_plots(r, areas);
+    count_repeated(r);
+    file->survey = (struct ceduo_survey){.plots_count = r->plots_count,
+                                         .areas = areas,
+                                         .stools_count = r->stools_count,
+                                         .stems_count = r->stems_count,
+                                         .stems = r->stems};
+    if (problems->met > before || !ceduo_survey_check(r, &file->survey))
+        return false;
+    file->understood = ceduo_survey_understand(r, &file->survey, standard ? file->name : name);
+    return ceduo_problems_settle(problems);
 }
 
 void ceduo_survey_template(struct text *sheet)

@@ -7,16 +7,14 @@
 #include "ceduo/survey.h"
 #include "problem.h"
 
-/* A survey from a CSV file: a row for each stem, with the plot that it stands on. */
+/* A survey from a table: a row for each stem, or for several of one size, with the plot that it stands on. */
 struct survey_file {
-    const char *name;   /* of the file, without its folder and .csv */
-    const char *unused; /* columns that say nothing to the program, with a comma between them; "": none */
-    size_t totals;      /* rows of totals, which are no stems */
-    size_t filled;      /* rows without a plot: it stands above */
+    const char *name;       /* of the file, without its folder and .csv */
+    const char *understood; /* one line for the user: how the table was read */
     struct ceduo_survey survey;
 };
 
-/* Reads and checks a survey; what it holds lies in the arena. False where something is wrong, which is reported. */
+/* Read and check a survey. Its memory is the arena's. Report what is wrong and return false. */
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct problems *problems);
 
 /* Adds the stand as a YAML file: what the survey says, with its standard errors as `doubt`, and what had to be assumed. False

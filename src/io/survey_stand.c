@@ -82,10 +82,7 @@ static void remark(const struct writer *w)
 {
     const struct ceduo_survey_answer *a = w->answer;
     struct text *out = w->out;
-    LOCAL_TEXT(name);
-    ceduo_text_safe(&name, w->file->name);
-    ceduo_text_format(out, _("# From the survey '%s': plots %zu, stems %zu, %.0f m2 of the map.\n"), ceduo_text_string(&name),
-                      w->file->survey.plots_count, w->file->survey.stems_count, w->area);
+    ceduo_text_format(out, "# %s\n", w->file->understood ? w->file->understood : w->file->name);
     ceduo_text_format(out, "# %-10s %8s %8s    %s\n", "", _("per ha"), w->one_plot ? "" : _("s.e."),
                       w->one_plot ? "" : _("95 % interval"));
     remark_estimate(out, _("stools"), &a->stools);
@@ -117,12 +114,6 @@ static void remark(const struct writer *w)
             ceduo_text_format(out, "%s%s %.0f %%", said++ ? ", " : _("# basal area: "),
                               k < 0 ? _("not said") : _(list[k].common), 100 * own / all);
     ceduo_text_put(out, said ? "\n" : "");
-    if (w->file->unused[0])
-        ceduo_text_format(out, _("# columns that were not used: %s\n"), w->file->unused);
-    if (w->file->totals > 0)
-        ceduo_text_format(out, _("# rows of totals, which are no stems: %zu\n"), w->file->totals);
-    if (w->file->filled > 0)
-        ceduo_text_format(out, _("# rows without a plot, which belong to the one above: %zu\n"), w->file->filled);
     if (!(a->per_ha[CEDUO_SURVEY_STUMP].mean > 0) || w->stumps)
         return;
     ceduo_text_put(out, /* what a stump takes from a rock has no default: it is asked for, not made up */

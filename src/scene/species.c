@@ -13,18 +13,23 @@
 /* The last number: the fracture ratio of Dorren and Berger 2006, in the list that RockforNET uses. After the name: what foresters
  * call it in Italy, where a file may have that; maples are one. */
 #define SPECIES(X)                                                                                                             \
-    X("ostrya-carpinifolia", "carpino nero", N_("hop hornbeam"), -1.4983, 0.038828, 0, 5, 30, 5, 35, U_BEECH, false, NAN)      \
-    X("carpinus-betulus", "carpino bianco", N_("hornbeam"), -1.4983, 0.038828, 0, 5, 30, 5, 35, U_BEECH, false, NAN)           \
-    X("fraxinus-ornus", "orniello", N_("manna ash"), -0.11137, 0.039108, 0, 5, 26, 5, 35, U_BEECH, false, NAN)                 \
-    X("quercus-cerris", "cerro", N_("Turkey oak"), -0.043221, 0.038079, 0, 5, 30, 5, 55, U_BEECH, false, 2.2)                  \
-    X("quercus-pubescens", "roverella", N_("downy oak"), 0.51025, 0.045184, -0.36026, 5, 26, 5, 55, U_BEECH, false, 2.2)       \
-    X("quercus-ilex", "leccio", N_("holm oak"), -2.2219, 0.039685, 0.62762, 7, 22, 6, 55, U_BEECH, false, 2.2)                 \
-    X("fagus-sylvatica", "faggio", N_("beech"), 0.81151, 0.038965, 0, 5, 34, 5, 65, U_BEECH, true, 1.5)                        \
-    X("castanea-sativa", "castagno", N_("chestnut"), -2.001, 0.036524, 0.74466, 5, 30, 6, 60, U_BEECH, false, NAN)             \
-    X("acer", "acero|acero campestre|acero opalo|acero montano", N_("maple"), 1.6905, 0.037082, 0, 5, 24, 5, 40, U_BEECH,      \
-      false, 1.1)                                                                                                              \
-    X("robinia-pseudoacacia", "robinia|acacia", N_("robinia"), -2.1214, 0.037123, 0.14296, 5, 28, 5, 45, U_BEECH, false, 2.7)  \
-    X("picea-abies", "abete rosso|peccio", N_("spruce"), -9.1298, 0.034866, 1.4633, 5, 40, 6, 70, U_SPRUCE, true, 0.9)
+    X("ostrya-carpinifolia", "carpino nero|hopfenbuche", N_("hop hornbeam"), -1.4983, 0.038828, 0, 5, 30, 5, 35, U_BEECH,      \
+      false, NAN)                                                                                                              \
+    X("carpinus-betulus", "carpino bianco|hainbuche", N_("hornbeam"), -1.4983, 0.038828, 0, 5, 30, 5, 35, U_BEECH, false, NAN) \
+    X("fraxinus-ornus", "orniello|manna-esche|mannaesche|blumenesche", N_("manna ash"), -0.11137, 0.039108, 0, 5, 26, 5, 35,   \
+      U_BEECH, false, NAN)                                                                                                     \
+    X("quercus-cerris", "cerro|zerreiche", N_("Turkey oak"), -0.043221, 0.038079, 0, 5, 30, 5, 55, U_BEECH, false, 2.2)        \
+    X("quercus-pubescens", "roverella|flaumeiche", N_("downy oak"), 0.51025, 0.045184, -0.36026, 5, 26, 5, 55, U_BEECH, false, \
+      2.2)                                                                                                                     \
+    X("quercus-ilex", "leccio|steineiche", N_("holm oak"), -2.2219, 0.039685, 0.62762, 7, 22, 6, 55, U_BEECH, false, 2.2)      \
+    X("fagus-sylvatica", "faggio|buche|rotbuche", N_("beech"), 0.81151, 0.038965, 0, 5, 34, 5, 65, U_BEECH, true, 1.5)         \
+    X("castanea-sativa", "castagno|kastanie|edelkastanie", N_("chestnut"), -2.001, 0.036524, 0.74466, 5, 30, 6, 60, U_BEECH,   \
+      false, NAN)                                                                                                              \
+    X("acer", "acero|acero campestre|acero opalo|acero montano|ahorn|feldahorn|bergahorn", N_("maple"), 1.6905, 0.037082, 0,   \
+      5, 24, 5, 40, U_BEECH, false, 1.1)                                                                                       \
+    X("robinia-pseudoacacia", "robinia|acacia|robinie", N_("robinia"), -2.1214, 0.037123, 0.14296, 5, 28, 5, 45, U_BEECH,      \
+      false, 2.7)                                                                                                              \
+    X("picea-abies", "abete rosso|peccio|fichte", N_("spruce"), -9.1298, 0.034866, 1.4633, 5, 40, 6, 70, U_SPRUCE, true, 0.9)
 
 static const struct ceduo_species species[] = {
 #define X(name, also, ...) {name, __VA_ARGS__},

@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What only the whole table of a survey shows: values that can only be in another unit, and the line for the user. */
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/language.h"
+#include "survey_reader.h"
+
+/* Limits beyond which a column needs a unit (assumed). */
+#define BASAL_BARE      80   /* m2/ha */
+#define BASAL_MOST      300  /* m2/ha: more is refused whatever the heads say */
+#define DBH_BARE        0.40 /* m, mean diameter, */
+#define SLENDERNESS_MIN 25   /* if the mean height is less than 25 diameters */
+#define HEIGHT_BARE     45   /* m, mean height */
+
+/* Mean of what stems measure. */
+struct sizes {
+    double lo, hi, dbh;           /* m, of all stems but stumps */
+    double height, height_of_dbh; /* m, of stems with a height, and the mean of their diameters */
+    size_t n, heights;
+};
+
+static struct sizes measure_sizes(const struct ceduo_survey *survey)
+{
+    struct sizes s = {.lo = INFINITY};
+    for (size_t i = 0; i < survey->stems_count; i++) {
+        const struct ceduo_survey_stem *stem = &survey->stems[i];
+        if (stem->kind == CEDUO_SURVEY_STUMP)
+            continue;
+        s.n++;
+        s.dbh += stem->dbh;
+        s.lo = fmin(s.lo, stem->dbh);
+        s.hi = fmax(s.hi, stem->dbh);
+        if (isnan(stem->height))
+            continue;
+        s.heights++;
+        s.height += stem->height;
+        s.height_of_dbh += stem->dbh;
+    }
+    s.dbh /= (double)s.n;
+    s.height /= (double)s.heights;
+    s.height_of_dbh /= (double)s.heights;
+    return s;
+}
+
+/* Mean basal area over the plots, m2/ha. */
+static double mean_basal_area(const struct ceduo_survey *survey)
+{
+    size_t n;
+    double sum = 0;
+    ceduo_species_list(&n);
+    for (int k = -1; k < (int)n; k++)
+        sum += ceduo_survey_basal(survey, k);
+    return sum * (M_PI / 4) * 10000 / (double)survey->plots_count;
+}
+
+static bool has_column(const struct survey_reader *r, enum column c)
+{
+    return r->columns[c] < CEDUO_CSV_TWICE;
+}
+
+/* True if the heads of these columns name their units, as far as they are there. */
+static bool have_units(const struct survey_reader *r, enum column a, enum column b)
+{
+    return (!has_column(r, a) || r->units[a]) && (!has_column(r, b) || r->units[b]);
+}
+
+/* Report a problem of a column at its head. */
+static bool refuse_column(const struct survey_reader *r, enum column c, const char *why)
+{
+    const struct csv_cell head = r->csv.heads[r->columns[c]];
+    return ceduo_csv_complain(&r->csv, (struct csv_cell){.at = head.at}, "%s", why);
+}
+
+static enum column size_column(const struct survey_reader *r)
+{
+    return has_column(r, DBH) ? DBH : CIRCUMFERENCE;
+}
+
+static bool check_sizes(const struct survey_reader *r, const struct ceduo_survey *survey)
+{
+    const struct sizes s = measure_sizes(survey);
+    const double basal = mean_basal_area(survey);
+    const enum column size = size_column(r), area = has_column(r, AREA) ? AREA : RADIUS;
+    const bool sized = have_units(r, DBH, CIRCUMFERENCE), laid = have_units(r, AREA, RADIUS);
+    LOCAL_TEXT(why);
+    if (has_column(r, HEIGHT) && !r->units[HEIGHT] && s.height > HEIGHT_BARE) {
+        ceduo_text_format(
+            &why,
+            _("a mean height of %.0f m: name the column 'height_m' if it holds heights in metres, 'altitude' if it holds "
+              "altitudes"),
+            s.height);
+        return refuse_column(r, HEIGHT, ceduo_text_string(&why));
+    }
+    if (!sized && s.dbh > DBH_BARE && s.height < SLENDERNESS_MIN * s.height_of_dbh) {
+        ceduo_text_format(&why,
+                          size == DBH
+                              ? _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column 'dbh_mm' if it is "
+                                  "in millimetres, 'dbh_cm' if it is in centimetres")
+                              : _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column "
+                                  "'circumference_mm' if it is in millimetres, 'circumference_cm' if it is in centimetres"),
+                          s.dbh * 100, s.height);
+        return refuse_column(r, size, ceduo_text_string(&why));
+    }
+    if (basal > BASAL_MOST) {
+        ceduo_text_format(
+            &why, _("a basal area of %.0f m2/ha is more than any forest has; are the areas in m2 and the diameters in cm?"),
+            basal);
+        return refuse_column(r, area, ceduo_text_string(&why));
+    }
+    if (basal > BASAL_BARE && !(sized && laid)) {
+        ceduo_text_format(&why,
+                          size == DBH
+                              ? _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'dbh_cm' if it is right, "
+                                  "'dbh_mm' if the diameters are in millimetres")
+                              : _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'circumference_cm' if it "
+                                  "is right, 'circumference_mm' if the circumferences are in millimetres"),
+                          basal, _(ceduo_survey_heads[area].names[0]));
+        return refuse_column(r, sized ? area : size, ceduo_text_string(&why));
+    }
+    return true;
+}
+
+/* Compare plots of the same number at several sites. Rows of such plots must not alternate: then the column is no site. */
+static bool check_sites(struct survey_reader *r)
+{
+    bool good = true;
+    for (size_t i = 0; i < r->plots_count; i++)
+        for (size_t k = 0; k < i; k++) {
+            const struct survey_plot *a = &r->plots[k], *b = &r->plots[i];
+            size_t line = a->returned ? a->returned : b->returned, site = 0;
+            if (a->name.n != b->name.n || memcmp(a->name.p, b->name.p, a->name.n) != 0)
+                continue;
+            r->split = true;
+            while (site + 1 < SITES && a->sites[site].n == b->sites[site].n &&
+                   memcmp(a->sites[site].p, b->sites[site].p, a->sites[site].n) == 0)
+                site++;
+            LOCAL_TEXT(name);
+            const struct csv_cell head = r->csv.heads[r->columns[SITE + site]];
+            ceduo_text_safe_n(&name, head.p, head.n);
+            if (line > 0 && good)
+                good = ceduo_problem(
+                    r->problems, r->csv.source, line, 1,
+                    _("the rows of plot '%.*s' change the column '%s' in turns: sort the rows by it if it is where the "
+                      "plot lies; rename it if not"),
+                    a->name.n < 100 ? (int)a->name.n : 100, a->name.p, ceduo_text_string(&name));
+        }
+    return good;
+}
+
+bool ceduo_survey_check(struct survey_reader *r, const struct ceduo_survey *survey)
+{
+    bool good = check_sites(r);
+    return check_sizes(r, survey) && good;
+}
+
+/* ---- the line for the user ---- */
+
+static void describe_plots(const struct survey_reader *r, struct text *line)
+{
+    double lo = INFINITY, hi = 0;
+    for (size_t i = 0; i < r->plots_count; i++) {
+        const double *of = r->plots[i].values, area = isnan(of[AREA]) ? M_PI * of[RADIUS] * of[RADIUS] : of[AREA];
+        lo = fmin(lo, area);
+        hi = fmax(hi, area);
+    }
+    ceduo_text_format(line, ngettext("%zu plot", "%zu plots", r->plots_count), r->plots_count);
+    if (lo == hi)
+        ceduo_text_format(line, _(" of %.4g m2"), lo);
+    else
+        ceduo_text_format(line, _(" of %.4g to %.4g m2"), lo, hi);
+    for (int c = SITE; r->split && c <= SITE_LAST; c++)
+        if (has_column(r, (enum column)c)) {
+            const struct csv_cell head = r->csv.heads[r->columns[c]];
+            LOCAL_TEXT(name);
+            ceduo_text_safe_n(&name, head.p, head.n);
+            ceduo_text_format(line, _(", told apart by %s"), ceduo_text_string(&name));
+        }
+}
+
+static void describe_slopes(const struct survey_reader *r, struct text *line)
+{
+    double lo = INFINITY, hi = -INFINITY;
+    for (size_t i = 0; i < r->plots_count; i++) {
+        const double slope = r->plots[i].values[SLOPE];
+        lo = isnan(slope) ? lo : fmin(lo, slope);
+        hi = isnan(slope) ? hi : fmax(hi, slope);
+    }
+    if (lo < hi)
+        ceduo_text_format(line, _("; slopes %.0f to %.0f degrees"), lo, hi);
+    else if (lo == hi)
+        ceduo_text_format(line, _("; slope %.0f degrees"), lo);
+    if (lo <= hi && r->units[SLOPE] == SURVEY_UNIT_OTHER)
+        ceduo_text_put(line, _(", given in percent"));
+}
+
+static void describe_stems(const struct survey_reader *r, const struct ceduo_survey *survey, struct text *line)
+{
+    size_t counts[CEDUO_SURVEY_KINDS_COUNT] = {0}, all = 0;
+    for (size_t i = 0; i < survey->stems_count; i++)
+        counts[survey->stems[i].kind]++;
+    for (int k = 0; k < CEDUO_SURVEY_KINDS_COUNT; k++) {
+        const size_t n = counts[k], stools = survey->stools_count;
+        all += n;
+        if (n == 0)
+            continue;
+        ceduo_text_put(line, ", ");
+        if (k == CEDUO_SURVEY_SHOOT) {
+            ceduo_text_format(line, ngettext("%zu shoot", "%zu shoots", n), n);
+            ceduo_text_format(line, ngettext(" on %zu stool", " on %zu stools", stools), stools);
+        } else if (k == CEDUO_SURVEY_STANDARD)
+            ceduo_text_format(line, ngettext("%zu standard", "%zu standards", n), n);
+        else if (k == CEDUO_SURVEY_TREE)
+            ceduo_text_format(line, ngettext("%zu tree", "%zu trees", n), n);
+        else
+            ceduo_text_format(line, ngettext("%zu stump", "%zu stumps", n), n);
+    }
+    if (all == 0)
+        ceduo_text_put(line, _(", no stems"));
+    if (all == counts[CEDUO_SURVEY_STUMP])
+        return;
+    const struct sizes s = measure_sizes(survey);
+    ceduo_text_format(line, s.lo < s.hi ? _("; dbh %.3g to %.3g cm") : _("; dbh %.3g cm"), s.lo * 100, s.hi * 100);
+    if (r->units[size_column(r)] == SURVEY_UNIT_OTHER)
+        ceduo_text_put(line, _(", given in mm"));
+    if (!has_column(r, DBH))
+        ceduo_text_put(line, _(", from circumferences"));
+    ceduo_text_format(line, _("; basal area %.3g m2/ha"), mean_basal_area(survey));
+}
+
+static void describe_rows(const struct survey_reader *r, struct text *line)
+{
+    if (r->dead > 0 && r->cut > 0)
+        ceduo_text_format(line, _("; %zu dead and %zu cut left out"), r->dead, r->cut);
+    else if (r->dead > 0)
+        ceduo_text_format(line, _("; %zu dead left out"), r->dead);
+    else if (r->cut > 0)
+        ceduo_text_format(line, _("; %zu cut left out"), r->cut);
+    if (r->unmarked > 0)
+        ceduo_text_format(
+            line, ngettext("; %zu without a status counts as live", "; %zu without a status count as live", r->unmarked),
+            r->unmarked);
+    if (r->repeated > 0)
+        ceduo_text_format(
+            line,
+            ngettext("; %zu stem occurs twice (line %zu)", "; %zu stems occur twice (the first on line %zu)", r->repeated),
+            r->repeated, r->repeated_line);
+    if (r->totals > 0)
+        ceduo_text_format(line, ngettext("; %zu row of totals left out", "; %zu rows of totals left out", r->totals),
+                          r->totals);
+    if (r->filled > 0)
+        ceduo_text_format(line,
+                          ngettext("; %zu row without a plot belongs to the plot above",
+                                   "; %zu rows without a plot belong to the plot above", r->filled),
+                          r->filled);
+}
+
+/* Columns whose heads can have several meanings, with the meaning that they got. */
+static void describe_heads(const struct survey_reader *r, struct text *line)
+{
+    static const enum column columns[] = {RADIUS, DBH, HEIGHT, COUNT};
+    size_t n = 0;
+    for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++) {
+        const enum column c = columns[i];
+        if (!has_column(r, c) || !ceduo_survey_is_vague(&r->csv, r->columns[c]))
+            continue;
+        const struct csv_cell head = r->csv.heads[r->columns[c]];
+        ceduo_text_put(line, n++ == 0 ? _("; columns ") : ", ");
+        ceduo_text_safe_n(line, head.p, head.n);
+        ceduo_text_format(line, " = %s", _(ceduo_survey_heads[c].names[0]));
+    }
+}
+
+const char *ceduo_survey_understand(const struct survey_reader *r, const struct ceduo_survey *survey, const char *name)
+{
+    LOCAL_TEXT(line);
+    LOCAL_TEXT(unused);
+    ceduo_text_safe(&line, name);
+    ceduo_text_put(&line, ": ");
+    describe_plots(r, &line);
+    describe_stems(r, survey, &line);
+    describe_slopes(r, &line);
+    describe_rows(r, &line);
+    if (r->csv.decimal == ',')
+        ceduo_text_put(&line, _("; decimal commas"));
+    describe_heads(r, &line);
+    ceduo_csv_unused(&r->csv, r->columns, COLUMNS, &unused);
+    if (unused.length > 0)
+        ceduo_text_format(&line, _("; not used: %s"), unused.bytes);
+    return ceduo_arena_string(r->arena, ceduo_text_string(&line));
+}

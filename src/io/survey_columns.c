@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "survey_columns.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/language.h"
+#include "base/utf8.h"
+#include "ceduo/survey.h"
+
+#define FOLDED_MAX 128 /* bytes of a head that are compared */
+#define WORD_MAX   64  /* bytes of a cell that are compared */
+
+#define AREA_UNITS "m2|m\xc2\xb2|mq|qm|m q|metri quadrati"
+#define DEGREES    "deg|degrees|\xc2\xb0|gradi|gradi sessagesimali|grad"
+#define PERCENT    "%|percent|percento|perc|percentuale|prozent|proz"
+#define KILOJOULES "kJ"
+
+/* Words of other units. A head that ends with one of them has a unit that the column cannot have. */
+#define FOREIGN_UNITS "mm|cm|dm|m|km|in|inch|inches|ft|feet|ha|ar|are|acre|acres|J|MJ|gon|zoll"
+
+/* Heads that can have several meanings. */
+#define VAGUE "h|d|n|nr|num|numero|alt|r"
+
+const struct csv_head ceduo_survey_heads[COLUMNS] = {
+    [PLOT] = {{N_("plot"), "saggio", "n saggio", "num saggio", "numero saggio", "area di saggio", "n area di saggio",
+               "numero area di saggio", "ads", "n ads", "id saggio", "plot id", "plot no", "plot number", "id plot",
+               "probefl\xc3\xa4"
+               "che",
+               "probekreis", "parzelle"},
+              NULL},
+    [AREA] = {{N_("area_m2"), "area", "plot area", "area saggio", "area del saggio", "area ads", "superficie",
+               "superficie saggio", "superficie del saggio", "superficie ads", "sup", "sup saggio",
+               "fl\xc3\xa4"
+               "che",
+               "probefl\xc3\xa4"
+               "chengr\xc3\xb6\xc3\x9f"
+               "e"},
+              AREA_UNITS},
+    [RADIUS] = {{N_("radius_m"), "radius", "plot radius", "raggio", "raggio saggio", "r"}, "m"},
+    [SLOPE] = {{N_("slope_deg"), "slope", "pendenza", "pend", "pendenza media", "inclinazione", "neigung", "hangneigung"},
+               DEGREES "|" PERCENT},
+    [STOOLS] = {{N_("stools"), "ceppaie", "n ceppaie", "num ceppaie", "numero ceppaie", "n di ceppaie", "stool count",
+                 "number of stools", "no of stools",
+                 "anzahl st\xc3\xb6"
+                 "cke",
+                 "st\xc3\xb6"
+                 "cke"},
+                NULL},
+    [SPECIES] = {{N_("species"), "specie", "essenza", "spp", "baumart", "holzart"}, NULL},
+    [GENUS] = {{N_("genus"), "genere", "gattung"}, NULL},
+    [KIND] = {{N_("kind"), "tipo", "tipo fusto", "tipo di fusto", "origine", "p/m", "typ", "stem type"}, NULL},
+    [STOOL] = {{N_("stool"), "ceppaia", "n ceppaia", "num ceppaia", "numero ceppaia", "ceppaia n", "id ceppaia", "stool id",
+                "stool no", "stool number", "stock", "stock nr"},
+               NULL},
+    [DBH] = {{N_("dbh_cm"),
+              "dbh",
+              "dap",
+              "diametro",
+              "diam",
+              "diametro a 1,30 m",
+              "diametro a 1,30",
+              "diam a 1,30",
+              "diam a 1,30 m",
+              "diam 1,30",
+              "d130",
+              "diametro medio",
+              "diam medio",
+              "d medio",
+              "classe diam",
+              "classe diametrica",
+              "classe di diametro",
+              "diameter",
+              "mean dbh",
+              "mean diameter",
+              "dbh class",
+              "diameter class",
+              "bhd",
+              "brusth\xc3\xb6hendurchmesser",
+              "mitteldurchmesser",
+              "durchmesser",
+              "\xc3\x98",
+              "\xe2\x8c\x80",
+              "d"},
+             "cm|mm"},
+    [CIRCUMFERENCE] = {{N_("circumference_cm"), "circumference", "circonferenza", "circonferenza a 1,30",
+                        "circonferenza a 1,30 m", "circ", "circ a 1,30", "c130", "girth", "gbh", "cbh", "umfang",
+                        "brusth\xc3\xb6henumfang"},
+                       "cm|mm"},
+    [HEIGHT] = {{N_("height_m"), "height", "total height", "altezza", "altezza totale", "altezza media", "mean height", "h tot",
+                 "ht", "h media", "h medio", "h\xc3\xb6he", "baumh\xc3\xb6he", "h", "alt"},
+                "m|mt|metri"},
+    [SPACING] = {{N_("spacing_m"), "spacing", "distanza", "distanza polloni", "abstand"}, "m|mt|metri"},
+    [ENERGY] = {{N_("energy_kJ"), "energy", "energia", "energie"}, KILOJOULES},
+    [COUNT] = {{N_("count"),  "n fusti",       "num fusti", "numero fusti", "numero di fusti", "n piante",
+                "num piante", "numero piante", "n stems",   "no of stems",  "number of stems", "stems",
+                "stem count", "tree count",    "freq",      "frequenza",    "frequency",       "conteggio",
+                "anzahl",     "stammzahl",     "n",         "num",          "numero",          "nr"},
+               NULL},
+    [SHOOTS] = {{N_("shoots"), "polloni", "n polloni", "num polloni", "numero polloni", "n di polloni", "number of shoots",
+                 "no of shoots", "n shoots", "stockausschl\xc3\xa4ge", "loden"},
+                NULL},
+    [STANDARDS] = {{N_("standards"), "matricine", "n matricine", "num matricine", "numero matricine", "number of standards",
+                    "no of standards", "n standards",
+                    "\xc3\xbc"
+                    "berh\xc3\xa4lter",
+                    "lassreitel"},
+                   NULL},
+    [TREES] = {{N_("trees"), "alberi", "n alberi", "num alberi", "numero alberi", "number of trees", "no of trees", "n trees",
+                "b\xc3\xa4ume"},
+               NULL},
+    [STATUS] = {{N_("status"), "stato", "vitalit\xc3\xa0", "vitalita", "condizione", "condizioni", "condition", "health",
+                 "statuscd", "status cd", "live/dead", "vivo/morto", "v/m", "zustand", "vitalit\xc3\xa4t"},
+                NULL},
+    [ID] = {{N_("id"), "n pianta", "num pianta", "numero pianta", "pianta", "id pianta", "id pollone", "n pollone", "id fusto",
+             "n fusto", "n albero", "id albero", "tree", "tree id", "tree no", "tree number", "stem id", "baum nr",
+             "baumnummer"},
+            NULL},
+    [SITE] = {{N_("site"), "sito", "localit\xc3\xa0", "localita", "locality", "location", "standort", "ort"}, NULL},
+    [SITE + 1] = {{N_("stand"), "popolamento", "soprassuolo", "bestand"}, NULL},
+    [SITE + 2] = {{N_("compresa")}, NULL},
+    [SITE + 3] = {{N_("compartment"), "particella", "particella forestale", "part for", "abteilung"}, NULL},
+    [SITE + 4] = {{N_("subcompartment"), "sottoparticella", "sub", "unterabteilung"}, NULL},
+    [SITE + 5] = {{N_("stratum"), "strato", "strata"}, NULL},
+    [SITE + 6] = {{N_("county"), "countycd", "county cd"}, NULL},
+};
+
+static const char *const other_units[COLUMNS] = {[SLOPE] = PERCENT, [DBH] = "mm", [CIRCUMFERENCE] = "mm"};
+
+/* Units for a message. */
+static const char *const unit_names[COLUMNS] = {[AREA] = N_("m2"),
+                                                [RADIUS] = N_("m"),
+                                                [SLOPE] = N_("degrees or %"),
+                                                [DBH] = N_("cm or mm"),
+                                                [CIRCUMFERENCE] = N_("cm or mm"),
+                                                [HEIGHT] = N_("m"),
+                                                [SPACING] = N_("m"),
+                                                [ENERGY] = N_("kJ")};
+
+/* ---- words ---- */
+
+#define X(NAME, word) word,
+static const char *const kind_names[] = {CEDUO_SURVEY_KINDS(X)};
+#undef X
+static const char *const kinds_also[] = {
+    "shoot|shoots|coppice shoot|sprout|pollone|polloni|poll|p|agamica|agamico|stockausschlag|lode|loden",
+    "standard|standards|matricina|matricine|matr|m|matr 1t|matr 2t|matr 3t|matricina 1t|matricina 2t|matricina 3t|m1t|m2t|m3t|"
+    "riserva|\xc3\xbc"
+    "berh\xc3\xa4lter|lassreitel",
+    "tree|trees|high forest|albero|alberi|allievo|allievi|fustaia|alto fusto|gamica|gamico|da seme|baum|b\xc3\xa4ume|kernwuchs",
+    "stump|stumps|ceppo|ceppi|stubben|baumstumpf"};
+const struct choices ceduo_survey_kind_words = {kind_names, CEDUO_SURVEY_KINDS_COUNT, kinds_also};
+
+static const char *const statuses[] = {"live", "dead", "cut"};
+static const char *const statuses_also[] = {
+    "live|alive|living|li|l|vivo|viva|vivi|vive|v|vivente|sano|sana|healthy|lebend|lebendig",
+    "dead|ds|standing dead|dead standing|d|morto|morta|morti|morte|m|secco|secca|morto in piedi|tot|abgestorben",
+    "cut|felled|removed|tagliato|tagliata|tagliati|tagliate|t|abbattuto|abbattuta|gef\xc3\xa4llt|entnommen"};
+const struct choices ceduo_survey_status_words = {statuses, 3, statuses_also};
+
+static const char *const others[] = {
+    "other|others|altro|altra|altri|altre|altre latifoglie|altra specie|altre specie|sonstige"};
+static const char *const totals[] = {"total|totals|totale|totali|tot|sum|somma|mean|average|media|medie|summe|gesamt|mittel|"
+                                     "mittelwert"};
+static const struct choices other_words = {others, 1, others}, total_words = {totals, 1, totals};
+
+int ceduo_survey_find_word(const struct choices *words, struct csv_cell cell)
+{
+    char word[WORD_MAX] = "";
+    if (cell.n < sizeof word)
+        memcpy(word, cell.p, cell.n);
+    return ceduo_choice_find(words, word);
+}
+
+bool ceduo_survey_is_other_species(struct csv_cell cell)
+{
+    return ceduo_survey_find_word(&other_words, cell) >= 0;
+}
+
+bool ceduo_survey_is_total(struct csv_cell cell)
+{
+    return cell.n > 0 && ceduo_survey_find_word(&total_words, cell) >= 0;
+}
+
+/* Species of a genus that begins with n letters, and of an epithet; -1: none, or several. */
+static int find_abbreviated(const char *genus, size_t n, const char *epithet)
+{
+    int found = -1, count = 0;
+    for (size_t i = 0; i < ceduo_species_words.n; i++) {
+        const char *name = ceduo_species_words.names[i], *dash = strchr(name, '-');
+        if (dash && strncasecmp(name, genus, n) == 0 && strcasecmp(dash + 1, epithet) == 0) {
+            found = (int)i;
+            count++;
+        }
+    }
+    return count == 1 ? found : -1;
+}
+
+/* Index of a genus that the program does not divide into species; -1: none. */
+static int find_genus(const char *word)
+{
+    for (size_t i = 0; i < ceduo_species_words.n; i++)
+        if (!strchr(ceduo_species_words.names[i], '-') && strcasecmp(ceduo_species_words.names[i], word) == 0)
+            return (int)i;
+    return -1;
+}
+
+/* Species by a name in latin, with an author, or with another name in brackets. */
+static int find_latin(char *word)
+{
+    char *bracket = strchr(word, '('), *first = word, *second, *third, *rest;
+    if (bracket > word && bracket[-1] == ' ') {
+        *bracket = '\0';
+        int known = ceduo_choice_find(&ceduo_species_words, word);
+        *bracket = '(';
+        if (known >= 0)
+            return known;
+    }
+    size_t letters = 0;
+    while (isalpha((unsigned char)word[letters]))
+        letters++;
+    bool abbreviated = letters > 0 && letters <= 4 && word[letters] == '.';
+    if (abbreviated)
+        word[letters] = ' ';
+    first = strtok_r(word, " ", &rest);
+    second = first ? strtok_r(NULL, " ", &rest) : NULL;
+    third = second ? strtok_r(NULL, " ", &rest) : NULL;
+    if (!second || (third && !isupper((unsigned char)third[0]) && third[0] != '('))
+        return first ? find_genus(first) : -1;
+    if (abbreviated)
+        return find_abbreviated(first, letters, second);
+    char both[WORD_MAX + 2];
+    snprintf(both, sizeof both, "%s %s", first, second);
+    int known = ceduo_choice_find(&ceduo_species_words, both);
+    return known >= 0 ? known : find_genus(first);
+}
+
+int ceduo_survey_find_species(struct csv_cell cell, struct csv_cell genus)
+{
+    char word[WORD_MAX] = "";
+    int known = ceduo_survey_find_word(&ceduo_species_words, cell);
+    if (known >= 0)
+        return known;
+    if (genus.n > 0 && genus.n + cell.n + 1 < sizeof word)
+        snprintf(word, sizeof word, "%.*s%s%.*s", (int)genus.n, genus.p, cell.n > 0 ? " " : "", (int)cell.n, cell.p);
+    else if (cell.n < sizeof word)
+        memcpy(word, cell.p, cell.n);
+    known = ceduo_choice_find(&ceduo_species_words, word);
+    return known >= 0 ? known : find_latin(word);
+}
+
+/* ---- heads ---- */
+
+/* True if a head ends with a unit. */
+static bool has_unit(struct csv_cell head, const char *units)
+{
+    char given[FOLDED_MAX], unit[FOLDED_MAX];
+    size_t length = strlen(ceduo_utf8_fold(head.p, head.n, given, sizeof given));
+    for (size_t n; *units; units += n, units += *units == '|') {
+        n = strcspn(units, "|");
+        size_t m = strlen(ceduo_utf8_fold(units, n, unit, sizeof unit));
+        if (m < length && strcmp(given + length - m, unit) == 0)
+            return true;
+    }
+    return false;
+}
+
+bool ceduo_survey_is_vague(const struct csv *csv, size_t column)
+{
+    struct csv_cell head = csv->heads[column];
+    return ceduo_csv_among(head.p, head.n, VAGUE);
+}
+
+enum survey_unit ceduo_survey_cell_unit(enum column column, struct csv_cell cell)
+{
+    size_t n = cell.n;
+    while (n > 0 && !isdigit((unsigned char)cell.p[n - 1]))
+        n--;
+    if (n == cell.n || n == 0)
+        return SURVEY_UNIT_NONE;
+    struct csv_cell unit = {.p = cell.p + n, .n = cell.n - n};
+    if (other_units[column] && ceduo_csv_among(unit.p, unit.n, other_units[column]))
+        return SURVEY_UNIT_OTHER;
+    return ceduo_csv_among(unit.p, unit.n, ceduo_survey_heads[column].units) ? SURVEY_UNIT_USUAL : SURVEY_UNIT_NONE;
+}
+
+/* Refuse a column that is known but for its unit. */
+static bool check_foreign_unit(const struct csv *csv, enum column c)
+{
+    const struct csv_head *head = &ceduo_survey_heads[c];
+    size_t found = ceduo_csv_column(csv, head->names, NULL);
+    found = found == CEDUO_CSV_NONE ? ceduo_csv_column(csv, head->names, FOREIGN_UNITS) : found;
+    if (found >= CEDUO_CSV_TWICE)
+        return true;
+    const struct csv_cell cell = csv->heads[found];
+    size_t n = 0;
+    while (n < cell.n && !strchr(" ([_.", cell.p[n]))
+        n++;
+    if (ceduo_csv_among(cell.p, n, VAGUE))
+        return true; /* h (hours) */
+    LOCAL_TEXT(name);
+    ceduo_text_safe_n(&name, cell.p, cell.n);
+    return ceduo_csv_complain(csv, cell, _("'%s': its values must be in %s; convert them and name the column '%s'"),
+                              ceduo_text_string(&name), _(unit_names[c]), _(head->names[0]));
+}
+
+/* Refuse a table without a column, with the names of the columns that it has. */
+static bool refuse_head(const struct csv *csv, const char *missing)
+{
+    LOCAL_TEXT(names);
+    ceduo_csv_names(csv, &names);
+    return ceduo_problem_at(csv->problems, (struct problem_place){csv->source, csv->head_place.line, 1, NULL, true},
+                            _("the first line must name the column %s; it has: %s"), missing, ceduo_text_string(&names));
+}
+
+bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum survey_unit units[COLUMNS])
+{
+    size_t before = csv->problems->met;
+    ceduo_csv_find(csv, ceduo_survey_heads, COLUMNS, columns);
+    bool none[COLUMNS];
+    for (int c = 0; c < COLUMNS; c++)
+        none[c] = columns[c] == CEDUO_CSV_NONE;
+    bool sized = !none[DBH] || !none[CIRCUMFERENCE], laid = !none[AREA] || !none[RADIUS];
+    for (int c = 0; c < COLUMNS; c++) {
+        const char *usual = ceduo_survey_heads[c].units, *other = other_units[c];
+        units[c] = SURVEY_UNIT_NONE;
+        bool needed = c == DBH || c == CIRCUMFERENCE ? !sized : c == AREA || c == RADIUS ? !laid : true;
+        if (usual && none[c] && needed)
+            check_foreign_unit(csv, (enum column)c);
+        if (!usual || columns[c] >= CEDUO_CSV_TWICE)
+            continue;
+        const struct csv_cell head = csv->heads[columns[c]];
+        units[c] = other && has_unit(head, other) ? SURVEY_UNIT_OTHER
+                   : has_unit(head, usual)        ? SURVEY_UNIT_USUAL
+                                                  : SURVEY_UNIT_NONE;
+    }
+    if (csv->problems->met > before)
+        return false;
+    if (none[PLOT])
+        refuse_head(csv, _("'plot'"));
+    if (none[KIND] && none[SHOOTS] && none[STANDARDS] && none[TREES])
+        refuse_head(csv, _("'kind', or columns 'shoots', 'standards', 'trees' with numbers of stems"));
+    if (!sized)
+        refuse_head(csv, _("'dbh_cm' or 'circumference_cm'"));
+    if (!laid)
+        refuse_head(csv, _("'area_m2' or 'radius_m'"));
+    return csv->problems->met == before;
+}
