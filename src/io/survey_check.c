@@ -266,7 +266,7 @@ static void describe_heads(const struct survey_reader *r, struct text *line)
         if (!has_column(r, c) || !ceduo_survey_is_vague(&r->csv, r->columns[c]))
             continue;
         const struct csv_cell head = r->csv.heads[r->columns[c]];
-        ceduo_text_put(line, n++ == 0 ? _("; columns ") : ", ");
+        ceduo_text_put(line, n++ == 0 ? _("; read as: ") : ", ");
         ceduo_text_safe_n(line, head.p, head.n);
         ceduo_text_format(line, " = %s", _(ceduo_survey_heads[c].names[0]));
     }

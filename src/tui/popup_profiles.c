@@ -199,8 +199,8 @@ static void offer_surveys(struct app *app, struct popup *p)
         ceduo_popup_item(p, _("six-plots.csv: an example, made up"), shipped);
 }
 
-/* The stand of a survey on one line, as a change takes it. */
-static bool read_survey(const char *path, struct text *value, struct problems *problems)
+/* Read the stand of a survey on one line, as a change takes it, and how its table was understood. */
+static bool read_survey(const char *path, struct text *value, struct text *understood, struct problems *problems)
 {
     LOCAL_ARENA(arena);
     struct survey_file file;
@@ -210,8 +210,10 @@ static bool read_survey(const char *path, struct text *value, struct problems *p
         const struct source source = {.name = path, .bytes = yaml.bytes, .length = yaml.length};
         root = ceduo_yaml_read(&arena, &source, problems);
     }
-    if (root)
+    if (root) {
         ceduo_emit_flow(value, root);
+        ceduo_text_put(understood, file.understood);
+    }
     return root != NULL;
 }
 
@@ -271,25 +273,30 @@ static bool replace_stand(struct app *app, const char *path, const char *value)
 static void chose_survey(struct app *app, struct popup *p)
 {
     LOCAL_TEXT(value);
-    if (!read_survey(p->value, &value, &app->problems)) {
+    LOCAL_TEXT(understood);
+    if (!read_survey(p->value, &value, &understood, &app->problems)) {
         ceduo_app_edited(app, false);
         return;
     }
     app->message[0] = '\0';
-    if (replace_stand(app, p->path, value.bytes) && !app->message[0])
+    if (!replace_stand(app, p->path, value.bytes))
+        return;
+    if (app->message[0])
+        ceduo_app_say(app, "%s; %s", ceduo_app_format(app, "%s", app->message), ceduo_text_string(&understood));
+    else
         ceduo_app_say(app,
                       ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
-                          ? _("the stand of the survey '%.100s'; its growth and cutting are assumed: check them")
-                          : _("the stand of the survey '%.100s'; it says nothing of growth and cutting"),
-                      p->value);
+                          ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
+                          : _("the stand of the survey; it has no growth and cutting; %s"),
+                      ceduo_text_string(&understood));
 }
 
 void ceduo_popup_survey(struct app *app)
 {
-    struct popup *p =
-        ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem"), ceduo_app_stand(app), chose_survey);
+    struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem, or for each class"),
+                                       ceduo_app_stand(app), chose_survey);
     ceduo_text_put(&p->text,
-                   _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, spacing_m; "
+                   _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, status; "
                      "see ceduo-stand(5)."));
     p->fields[0].offer = offer_surveys;
     p->endings = ".csv .txt";
