@@ -78,6 +78,12 @@ static enum column size_column(const struct survey_reader *r)
     return has_column(r, DBH) ? DBH : CIRCUMFERENCE;
 }
 
+/* True if a head of heights may mean altitudes even with a unit. */
+static bool is_altitude(struct csv_cell head)
+{
+    return ceduo_csv_among(head.p, head.n, "alt|alt m|alt mt|alt metri");
+}
+
 static bool check_sizes(const struct survey_reader *r, const struct ceduo_survey *survey)
 {
     const struct sizes s = measure_sizes(survey);
@@ -85,7 +91,8 @@ static bool check_sizes(const struct survey_reader *r, const struct ceduo_survey
     const enum column size = size_column(r), area = has_column(r, AREA) ? AREA : RADIUS;
     const bool sized = have_units(r, DBH, CIRCUMFERENCE), laid = have_units(r, AREA, RADIUS);
     LOCAL_TEXT(why);
-    if (has_column(r, HEIGHT) && !r->units[HEIGHT] && s.height > HEIGHT_BARE) {
+    const bool may_be_altitude = has_column(r, HEIGHT) && (!r->units[HEIGHT] || is_altitude(r->csv.heads[r->columns[HEIGHT]]));
+    if (may_be_altitude && s.height > HEIGHT_BARE) {
         ceduo_text_format(
             &why,
             _("a mean height of %.0f m: name the column 'height_m' if it holds heights in metres, 'altitude' if it holds "

@@ -273,17 +273,19 @@ bool ceduo_survey_is_vague(const struct csv *csv, size_t column)
     return ceduo_csv_among(head.p, head.n, VAGUE);
 }
 
-enum survey_unit ceduo_survey_cell_unit(enum column column, struct csv_cell cell)
+enum survey_unit ceduo_survey_split_unit(enum column column, struct csv_cell *cell)
 {
-    size_t n = cell.n;
-    while (n > 0 && !isdigit((unsigned char)cell.p[n - 1]))
-        n--;
-    if (n == cell.n || n == 0)
+    size_t n = 0, digits = 0;
+    while (n < cell->n && strchr("0123456789.,+-' ", cell->p[n]))
+        digits = cell->p[n++] == ' ' ? digits : n;
+    const char *unit = cell->p + n;
+    if (digits == 0 || n == cell->n || !ceduo_survey_heads[column].units)
         return SURVEY_UNIT_NONE;
-    struct csv_cell unit = {.p = cell.p + n, .n = cell.n - n};
-    if (other_units[column] && ceduo_csv_among(unit.p, unit.n, other_units[column]))
-        return SURVEY_UNIT_OTHER;
-    return ceduo_csv_among(unit.p, unit.n, ceduo_survey_heads[column].units) ? SURVEY_UNIT_USUAL : SURVEY_UNIT_NONE;
+    bool other = other_units[column] && ceduo_csv_among(unit, cell->n - n, other_units[column]);
+    if (!other && !ceduo_csv_among(unit, cell->n - n, ceduo_survey_heads[column].units))
+        return SURVEY_UNIT_NONE;
+    cell->n = digits;
+    return other ? SURVEY_UNIT_OTHER : SURVEY_UNIT_USUAL;
 }
 
 /* Refuse a column that is known but for its unit. */
@@ -306,13 +308,16 @@ static bool check_foreign_unit(const struct csv *csv, enum column c)
                               ceduo_text_string(&name), _(unit_names[c]), _(head->names[0]));
 }
 
-/* Refuse a table without a column, with the names of the columns that it has. */
+/* Refuse a table without a column, with the names of the columns that it has unless it is foreign. */
 static bool refuse_head(const struct csv *csv, const char *missing)
 {
+    const struct problem_place place = {csv->source, csv->head_place.line, 1, NULL, true};
     LOCAL_TEXT(names);
     ceduo_csv_names(csv, &names);
-    return ceduo_problem_at(csv->problems, (struct problem_place){csv->source, csv->head_place.line, 1, NULL, true},
-                            _("the first line must name the column %s; it has: %s"), missing, ceduo_text_string(&names));
+    if (csv->source->foreign)
+        return ceduo_problem_at(csv->problems, place, _("the first line must name the column %s"), missing);
+    return ceduo_problem_at(csv->problems, place, _("the first line must name the column %s; it has: %s"), missing,
+                            ceduo_text_string(&names));
 }
 
 bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum survey_unit units[COLUMNS])

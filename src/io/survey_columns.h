@@ -54,8 +54,8 @@ extern const struct choices ceduo_survey_status_words;
  * or that have another unit, and return false. */
 bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum survey_unit units[COLUMNS]);
 
-/* Unit that follows the number in a cell. */
-enum survey_unit ceduo_survey_cell_unit(enum column column, struct csv_cell cell);
+/* Remove the unit that follows the number in a cell, and return it. */
+enum survey_unit ceduo_survey_split_unit(enum column column, struct csv_cell *cell);
 
 /* True if the head of a column can have several meanings: h, d, n, alt. */
 bool ceduo_survey_is_vague(const struct csv *csv, size_t column);

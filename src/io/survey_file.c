@@ -11,42 +11,45 @@
 #include "base/must.h"
 #include "survey_reader.h"
 
-#define PLOTS_MOST 1000
-#define STEMS_MOST 200000
-#define SLOPE_MOST 85   /* degrees */
-#define SLOPE_BARE 45   /* degrees or percent: a steeper slope needs a unit (assumed) */
-#define AREA_BARE  10   /* m2: a smaller plot needs a unit (assumed) */
-#define STUMP_MOST 20   /* m of height, as in a stand */
-#define DBH_MOST   300  /* cm: a larger diameter is in mm (assumed) */
-#define SAME_DBH   1.05 /* ratio of a diameter to that of the circumference that still is the same (assumed) */
+#define PLOTS_MOST      1000
+#define STEMS_MOST      200000
+#define SLOPE_MOST      85 /* degrees */
+#define SLOPE_BARE_MOST 1e4
+#define SLOPE_BARE      45   /* degrees or percent: a steeper slope needs a unit (assumed) */
+#define AREA_BARE       10   /* m2: a smaller plot needs a unit (assumed) */
+#define STUMP_MOST      20   /* m of height, as in a stand */
+#define DBH_MOST        300  /* cm: a larger diameter is in mm (assumed) */
+#define SAME_DBH        1.05 /* ratio of a diameter to that of the circumference that still is the same (assumed) */
 
 static const struct {
     double lo, hi;
     const char *unit;
 } ranges[COLUMNS] = {
-    [AREA] = {1, 1e6, N_("m2")},     [RADIUS] = {0.5, 500, N_("m")},         [STOOLS] = {0, 1e5, ""},
-    [DBH] = {0.1, 1e6, N_("cm")},    [CIRCUMFERENCE] = {0.3, 1e6, N_("cm")}, [HEIGHT] = {0, 150, N_("m")},
-    [SPACING] = {0.01, 20, N_("m")}, [ENERGY] = {0, 1e6, N_("kJ")},          [COUNT] = {0, STEMS_MOST, ""},
-    [SHOOTS] = {0, STEMS_MOST, ""},  [STANDARDS] = {0, STEMS_MOST, ""},      [TREES] = {0, STEMS_MOST, ""},
+    [AREA] = {1, 1e6, N_("m2")},
+    [RADIUS] = {0.5, 500, N_("m")},
+    [STOOLS] = {0, STEMS_MOST, N_("stools")},
+    [DBH] = {0.1, 1e6, N_("cm")},
+    [CIRCUMFERENCE] = {0.3, 3e6, N_("cm")},
+    [HEIGHT] = {0, 150, N_("m")},
+    [SPACING] = {0.01, 20, N_("m")},
+    [ENERGY] = {0, 1e6, N_("kJ")},
+    [COUNT] = {0, STEMS_MOST, N_("stems")},
+    [SHOOTS] = {0, STEMS_MOST, N_("stems")},
+    [STANDARDS] = {0, STEMS_MOST, N_("stems")},
+    [TREES] = {0, STEMS_MOST, N_("stems")},
 };
 
 #define HEAD(c) _(ceduo_survey_heads[c].names[0])
 
 /* ---- numbers ---- */
 
-/* Slope in degrees. Its unit stands in the head or in the cell. */
-static bool read_slope(struct survey_reader *r, double *value)
+/* Slope in degrees of a cell. `own`: the unit that stood in the cell. */
+static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum survey_unit own, double *value)
 {
-    struct csv_cell cell = r->fields[SLOPE];
-    enum survey_unit own = ceduo_survey_cell_unit(SLOPE, cell), unit = own ? own : r->units[SLOPE];
-    if (own && r->units[SLOPE] && own != r->units[SLOPE])
-        return ceduo_csv_complain(&r->csv, cell,
-                                  _("the first line gives another unit for this column; write it without a unit"));
+    const enum survey_unit unit = own ? own : r->units[SLOPE];
     bool percent = unit == SURVEY_UNIT_OTHER;
-    while (own && cell.n > 0 && !(cell.p[cell.n - 1] >= '0' && cell.p[cell.n - 1] <= '9'))
-        cell.n--;
     double hi = percent ? 100 * tan(SLOPE_MOST * M_PI / 180) : SLOPE_MOST;
-    if (!ceduo_csv_number(&r->csv, cell, 0, unit ? hi : 1e4, percent ? "%" : _("degrees"), value))
+    if (!ceduo_csv_number(&r->csv, cell, 0, unit ? hi : SLOPE_BARE_MOST, percent ? "%" : _("degrees"), value))
         return false;
     if (!unit && *value > SLOPE_BARE)
         return ceduo_csv_complain(
@@ -62,19 +65,23 @@ static bool read_slope(struct survey_reader *r, double *value)
     return true;
 }
 
-/* Read a number in the unit of the manual; NaN: not given. Report a wrong one and return false. */
+/* Read a number in the unit of the manual; NaN: not given. Its unit may stand in the head or in the cell. Report a wrong one and
+ * return false. */
 static bool read_number(struct survey_reader *r, enum column c, double *value)
 {
     struct csv_cell cell = r->fields[c];
     *value = NAN;
     if (cell.n == 0)
         return true;
+    enum survey_unit own = ceduo_survey_split_unit(c, &cell);
+    if (own && r->units[c] && own != r->units[c])
+        return ceduo_csv_complain(&r->csv, cell,
+                                  _("the first line gives another unit for this column; write it without a unit"));
     if (c == SLOPE)
-        return read_slope(r, value);
-    bool mm = r->units[c] == SURVEY_UNIT_OTHER;
+        return read_slope(r, cell, own, value);
+    bool mm = (own ? own : r->units[c]) == SURVEY_UNIT_OTHER;
     double scale = mm ? 10 : 1;
-    const char *unit = mm ? _("mm") : ranges[c].unit[0] ? _(ranges[c].unit) : "";
-    if (!ceduo_csv_number(&r->csv, cell, ranges[c].lo * scale, ranges[c].hi * scale, unit, value))
+    if (!ceduo_csv_number(&r->csv, cell, ranges[c].lo * scale, ranges[c].hi * scale, mm ? _("mm") : _(ranges[c].unit), value))
         return false;
     *value /= scale;
     return true;
@@ -101,7 +108,7 @@ static bool read_diameter(struct survey_reader *r, enum column c, double *value)
     char text[CSV_NUMERAL_CAPACITY] = "";
     if (cell.n < sizeof text)
         memcpy(text, cell.p, cell.n);
-    if (sscanf(text, "%d-%d%n", &lo, &hi, &n) == 2 && n == (int)cell.n && hi > lo && lo >= 0)
+    if (sscanf(text, "%d - %d%n", &lo, &hi, &n) == 2 && n == (int)cell.n && hi > lo && lo >= 0)
         return ceduo_csv_complain(&r->csv, cell, _("'%s' is a class: write its middle, %g"), text, (lo + hi) / 2.0);
     return read_number(r, c, value);
 }
@@ -286,11 +293,18 @@ static bool read_dbh(struct survey_reader *r, double *dbh)
                                   _("a circumference of %g cm is a diameter of %.3g cm, not %g; leave one empty"), girth,
                                   girth / M_PI, *dbh);
     *dbh = isnan(*dbh) ? girth / M_PI : *dbh;
+    const enum column missing = r->columns[DBH] == CEDUO_CSV_NONE ? CIRCUMFERENCE : DBH;
     if (isnan(*dbh))
-        return ceduo_csv_complain(csv, fields[c], _("'%s' is missing: give it in each row"), HEAD(c));
+        return ceduo_csv_complain(csv, fields[missing], _("'%s' is missing: give it in each row"), HEAD(missing));
+    if (*dbh > DBH_MOST && r->units[c] == SURVEY_UNIT_OTHER)
+        return ceduo_csv_complain(csv, fields[c], _("%g cm: more than %d cm; correct it"), *dbh, DBH_MOST);
     if (*dbh > DBH_MOST)
-        return ceduo_csv_complain(csv, fields[c], _("%g cm: more than %d cm; is it in mm? Then name the column 'dbh_mm'"), *dbh,
-                                  DBH_MOST);
+        return ceduo_csv_complain(csv, fields[c],
+                                  c == DBH
+                                      ? _("%g cm: more than %d cm; is it in mm? Then name the column 'dbh_mm'")
+                                      : _("a diameter of %g cm: more than %d cm; is the circumference in mm? Then name the "
+                                          "column 'circumference_mm'"),
+                                  *dbh, DBH_MOST);
     *dbh /= 100;
     return true;
 }

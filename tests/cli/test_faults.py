@@ -136,8 +136,8 @@ def test_memory_plot():
 
 def test_memory_survey():
     """Allocations of a survey fails once, and from some allocation on"""
-    no_memory(("--survey", "six-plots.csv"), False)
-    no_memory(("--survey", "six-plots.csv"), True)
+    no_memory(("--survey", "six-plots.csv", "-q"), False)
+    no_memory(("--survey", "six-plots.csv", "-q"), True)
 
 
 def test_memory_output():

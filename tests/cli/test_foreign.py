@@ -108,8 +108,8 @@ def test_first_characters():
         path = f.path / "passwd"
         done = ceduo("--check", f.write("s.yaml", scene(observed={"stops": {"csv": str(path), "column": FIRST}})))
         expect_equal(done.err.splitlines()[0], f"{path}:2:1: '…' is not a number")
-        for column in ("plot", "kind", "dbh_cm"):
-            expect_in(f"{path}:1:1: the first line must name the column '{column}'\n", ceduo("--survey", path).err)
+        for column in ("'plot'", "'kind', or columns 'shoots', 'standards', 'trees' with numbers of stems", "'dbh_cm' or 'circumference_cm'"):
+            expect_in(f"{path}:1:1: the first line must name the column {column}\n", ceduo("--survey", path).err)
         expect_in(": 'ceduo' is missing: scene/1", ceduo("--check", f.write("keys.yaml", PRIVATE["keys.yaml"])).err)
 
 

@@ -97,7 +97,12 @@ class Walk:
 
 @functools.cache
 def walked(way):
-    return Walk(way)
+    return Walk(way, understood if way == "survey" else lambda err: False)
+
+
+def understood(err):
+    """Standard error holds nothing but the line that says how the survey was read."""
+    return bool(re.fullmatch(r"six-plots.csv: 6 .*\n", err))
 
 
 def option_shown(start, screen):
@@ -417,7 +422,7 @@ def test_survey():
 
 def test_survey_in_italian():
     """The whole way in Italian, from two CSV files to the page: no sentence of it stays English, and the figures are the same"""
-    walk = Walk("survey", page=PAGINA, LANGUAGE="it")
+    walk = Walk("survey", understood, page=PAGINA, LANGUAGE="it")
     english = walked("survey")
     expect_equal(len(walk.outputs), len(english.outputs), "steps")
     stands = [re.sub(r'(?m)text: "[^"]*"|^#.*$', "text", text[text.index("ceduo: stand/1"):])
