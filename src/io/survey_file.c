@@ -617,11 +617,11 @@ static void read_rows(struct survey_reader *r)
 
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct problems *problems)
 {
+    ceduo_memory_lost(); /* what was lost before is of others */
     struct survey_reader *r = ceduo_arena_take(arena, sizeof *r);
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const bool standard = strcmp(name, "-") == 0;
     size_t length = strlen(name), before = problems->met;
-    ceduo_memory_lost(); /* what was lost before is of others */
     length -= length > 4 && strcasecmp(name + length - 4, ".csv") == 0 ? 4 : 0;
     *file = (struct survey_file){.name = standard ? "survey" : ceduo_arena_copy(arena, name, length)};
     if (!r)
