@@ -2,6 +2,7 @@
 /* Records, heads and rows of a table. */
 #include "csv.h"
 
+#include <ctype.h>
 #include <string.h>
 #include <strings.h>
 
@@ -168,17 +169,27 @@ bool ceduo_csv_among(const char *p, size_t n, const char *words)
     return false;
 }
 
-/* True if a head is a name, alone or with a unit. */
-static bool is_head(struct csv_cell head, const char *name, const char *units)
+/* True if a head may begin with the letter of a folded name. Most heads do not, which saves the folding. */
+static bool may_begin(struct csv_cell head, char letter)
 {
-    char given[FOLDED_MAX], wanted[FOLDED_MAX];
+    size_t i = 0;
+    while (i < head.n && (unsigned char)head.p[i] < 0x80 && !isalnum((unsigned char)head.p[i]) && head.p[i] != '%')
+        i++;
+    unsigned char first = i < head.n ? (unsigned char)head.p[i] : 0;
+    return first >= 0x80 || (unsigned char)letter >= 0x80 || tolower(first) == letter;
+}
+
+/* True if a head is a name, alone or with a unit. `wanted`: the folded name. */
+static bool is_head(struct csv_cell head, const char *name, const char *wanted, const char *units)
+{
+    char given[FOLDED_MAX];
     size_t before = 0;
-    if (head.n > HEAD_MAX)
+    if (head.n > HEAD_MAX || !may_begin(head, wanted[0]))
         return false;
     while (before < head.n && head.p[before] != '(' && head.p[before] != '[')
         before++;
     ceduo_utf8_fold(head.p, before, given, sizeof given);
-    size_t n = strlen(ceduo_utf8_fold(name, strlen(name), wanted, sizeof wanted));
+    size_t n = strlen(wanted);
     if (ceduo_csv_is(head, name))
         return true;
     if (n == 0 || strncmp(given, wanted, n) != 0)
@@ -191,9 +202,11 @@ static bool is_head(struct csv_cell head, const char *name, const char *units)
 size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const char *units)
 {
     for (int k = 0; names[k]; k++) {
+        char wanted[FOLDED_MAX];
         size_t found = CEDUO_CSV_NONE;
+        ceduo_utf8_fold(names[k], strlen(names[k]), wanted, sizeof wanted);
         for (size_t i = 0; i < csv->heads_count; i++)
-            if (is_head(csv->heads[i], names[k], units))
+            if (is_head(csv->heads[i], names[k], wanted, units))
                 found = found == CEDUO_CSV_NONE ? i : CEDUO_CSV_TWICE;
         if (found != CEDUO_CSV_NONE)
             return found;

@@ -129,36 +129,57 @@ static bool check_sizes(const struct survey_reader *r, const struct ceduo_survey
     return true;
 }
 
-/* Compare plots of the same number at several sites. Rows of such plots must not alternate: then the column is no site. */
-static bool check_sites(struct survey_reader *r)
+/* True if two plots have the same name and the same sites but for case. */
+static bool differ_in_case(const struct survey_plot *a, const struct survey_plot *b)
+{
+    bool same = a->name.n == b->name.n && strncasecmp(a->name.p, b->name.p, a->name.n) == 0;
+    for (size_t i = 0; i < SITES && same; i++)
+        same = a->sites[i].n == b->sites[i].n && strncasecmp(a->sites[i].p, b->sites[i].p, a->sites[i].n) == 0;
+    return same;
+}
+
+/* Check two plots of the same number at several sites. Their rows must not alternate: then the column is no site. */
+static bool check_sites(const struct survey_reader *r, const struct survey_plot *a, const struct survey_plot *b)
+{
+    size_t line = a->returned ? a->returned : b->returned, site = 0;
+    if (line == 0)
+        return true;
+    while (site + 1 < SITES && ceduo_survey_is_same(a->sites[site], b->sites[site]))
+        site++;
+    LOCAL_TEXT(name);
+    const struct csv_cell head = r->csv.heads[r->columns[SITE + site]];
+    ceduo_text_safe_n(&name, head.p, head.n);
+    return ceduo_problem(
+        r->problems, r->csv.source, line, 1,
+        _("the rows of plot '%.*s' change the column '%s' in turns: sort the rows by it if it is where the plot "
+          "lies; rename it if not"),
+        a->name.n < 100 ? (int)a->name.n : 100, a->name.p, ceduo_text_string(&name));
+}
+
+/* Check the names of plots against one another. Stops at the first problem. */
+static bool check_plots(struct survey_reader *r)
 {
     bool good = true;
-    for (size_t i = 0; i < r->plots_count; i++)
-        for (size_t k = 0; k < i; k++) {
+    for (size_t i = 0; i < r->plots_count && good; i++)
+        for (size_t k = 0; k < i && good; k++) {
             const struct survey_plot *a = &r->plots[k], *b = &r->plots[i];
-            size_t line = a->returned ? a->returned : b->returned, site = 0;
-            if (a->name.n != b->name.n || memcmp(a->name.p, b->name.p, a->name.n) != 0)
-                continue;
-            r->split = true;
-            while (site + 1 < SITES && a->sites[site].n == b->sites[site].n &&
-                   memcmp(a->sites[site].p, b->sites[site].p, a->sites[site].n) == 0)
-                site++;
-            LOCAL_TEXT(name);
-            const struct csv_cell head = r->csv.heads[r->columns[SITE + site]];
-            ceduo_text_safe_n(&name, head.p, head.n);
-            if (line > 0 && good)
-                good = ceduo_problem(
-                    r->problems, r->csv.source, line, 1,
-                    _("the rows of plot '%.*s' change the column '%s' in turns: sort the rows by it if it is where the "
-                      "plot lies; rename it if not"),
-                    a->name.n < 100 ? (int)a->name.n : 100, a->name.p, ceduo_text_string(&name));
+            if (differ_in_case(a, b))
+                good =
+                    ceduo_problem(r->problems, r->csv.source, b->line, 1,
+                                  _("the names of this plot and of the plot on line %zu differ only in case; write both in the "
+                                    "same way, or rename one"),
+                                  a->line);
+            else if (ceduo_survey_is_same(a->name, b->name)) {
+                r->split = true;
+                good = check_sites(r, a, b);
+            }
         }
     return good;
 }
 
 bool ceduo_survey_check(struct survey_reader *r, const struct ceduo_survey *survey)
 {
-    bool good = check_sites(r);
+    bool good = check_plots(r);
     return check_sizes(r, survey) && good;
 }
 

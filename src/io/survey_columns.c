@@ -13,8 +13,8 @@
 #define FOLDED_MAX 128 /* bytes of a head that are compared */
 #define WORD_MAX   64  /* bytes of a cell that are compared */
 
-#define AREA_UNITS "m2|m\xc2\xb2|mq|qm|m q|metri quadrati"
-#define DEGREES    "deg|degrees|\xc2\xb0|gradi|gradi sessagesimali|grad"
+#define AREA_UNITS "m2|m²|mq|qm|m q|metri quadrati"
+#define DEGREES    "deg|degrees|°|gradi|gradi sessagesimali|grad"
 #define PERCENT    "%|percent|percento|perc|percentuale|prozent|proz"
 #define KILOJOULES "kJ"
 
@@ -27,31 +27,21 @@
 const struct csv_head ceduo_survey_heads[COLUMNS] = {
     [PLOT] = {{N_("plot"), "saggio", "n saggio", "num saggio", "numero saggio", "area di saggio", "n area di saggio",
                "numero area di saggio", "ads", "n ads", "id saggio", "plot id", "plot no", "plot number", "id plot",
-               "probefl\xc3\xa4"
-               "che",
-               "probekreis", "parzelle"},
+               "probefläche", "probekreis", "parzelle"},
               NULL},
-    [AREA] = {{N_("area_m2"), "area", "plot area", "area saggio", "area del saggio", "area ads", "superficie",
-               "superficie saggio", "superficie del saggio", "superficie ads", "sup", "sup saggio",
-               "fl\xc3\xa4"
-               "che",
-               "probefl\xc3\xa4"
-               "chengr\xc3\xb6\xc3\x9f"
-               "e"},
+    [AREA] = {{N_("area_m2"), "plot area", "area saggio", "area del saggio", "area ads", "superficie saggio",
+               "superficie del saggio", "superficie ads", "sup saggio", "probeflächengröße", "area", "superficie", "sup",
+               "fläche"},
               AREA_UNITS},
     [RADIUS] = {{N_("radius_m"), "radius", "plot radius", "raggio", "raggio saggio", "r"}, "m"},
     [SLOPE] = {{N_("slope_deg"), "slope", "pendenza", "pend", "pendenza media", "inclinazione", "neigung", "hangneigung"},
                DEGREES "|" PERCENT},
     [STOOLS] = {{N_("stools"), "ceppaie", "n ceppaie", "num ceppaie", "numero ceppaie", "n di ceppaie", "stool count",
-                 "number of stools", "no of stools",
-                 "anzahl st\xc3\xb6"
-                 "cke",
-                 "st\xc3\xb6"
-                 "cke"},
+                 "number of stools", "no of stools", "anzahl stöcke", "stöcke"},
                 NULL},
     [SPECIES] = {{N_("species"), "specie", "essenza", "spp", "baumart", "holzart"}, NULL},
     [GENUS] = {{N_("genus"), "genere", "gattung"}, NULL},
-    [KIND] = {{N_("kind"), "tipo", "tipo fusto", "tipo di fusto", "origine", "p/m", "typ", "stem type"}, NULL},
+    [KIND] = {{N_("kind"), "stem type", "tipo fusto", "tipo di fusto", "tipo", "origine", "p/m", "typ"}, NULL},
     [STOOL] = {{N_("stool"), "ceppaia", "n ceppaia", "num ceppaia", "numero ceppaia", "ceppaia n", "id ceppaia", "stool id",
                 "stool no", "stool number", "stock", "stock nr"},
                NULL},
@@ -78,19 +68,19 @@ const struct csv_head ceduo_survey_heads[COLUMNS] = {
               "dbh class",
               "diameter class",
               "bhd",
-              "brusth\xc3\xb6hendurchmesser",
+              "brusthöhendurchmesser",
               "mitteldurchmesser",
               "durchmesser",
-              "\xc3\x98",
-              "\xe2\x8c\x80",
+              "Ø",
+              "⌀",
               "d"},
              "cm|mm"},
     [CIRCUMFERENCE] = {{N_("circumference_cm"), "circumference", "circonferenza", "circonferenza a 1,30",
                         "circonferenza a 1,30 m", "circ", "circ a 1,30", "c130", "girth", "gbh", "cbh", "umfang",
-                        "brusth\xc3\xb6henumfang"},
+                        "brusthöhenumfang"},
                        "cm|mm"},
     [HEIGHT] = {{N_("height_m"), "height", "total height", "altezza", "altezza totale", "altezza media", "mean height", "h tot",
-                 "ht", "h media", "h medio", "h\xc3\xb6he", "baumh\xc3\xb6he", "h", "alt"},
+                 "ht", "h media", "h medio", "höhe", "baumhöhe", "h", "alt"},
                 "m|mt|metri"},
     [SPACING] = {{N_("spacing_m"), "spacing", "distanza", "distanza polloni", "abstand"}, "m|mt|metri"},
     [ENERGY] = {{N_("energy_kJ"), "energy", "energia", "energie"}, KILOJOULES},
@@ -100,25 +90,23 @@ const struct csv_head ceduo_survey_heads[COLUMNS] = {
                 "anzahl",     "stammzahl",     "n",         "num",          "numero",          "nr"},
                NULL},
     [SHOOTS] = {{N_("shoots"), "polloni", "n polloni", "num polloni", "numero polloni", "n di polloni", "number of shoots",
-                 "no of shoots", "n shoots", "stockausschl\xc3\xa4ge", "loden"},
+                 "no of shoots", "n shoots", "stockausschläge", "loden"},
                 NULL},
     [STANDARDS] = {{N_("standards"), "matricine", "n matricine", "num matricine", "numero matricine", "number of standards",
-                    "no of standards", "n standards",
-                    "\xc3\xbc"
-                    "berh\xc3\xa4lter",
-                    "lassreitel"},
+                    "no of standards", "n standards", "überhälter", "lassreitel"},
                    NULL},
     [TREES] = {{N_("trees"), "alberi", "n alberi", "num alberi", "numero alberi", "number of trees", "no of trees", "n trees",
-                "b\xc3\xa4ume"},
+                "bäume"},
                NULL},
-    [STATUS] = {{N_("status"), "stato", "vitalit\xc3\xa0", "vitalita", "condizione", "condizioni", "condition", "health",
-                 "statuscd", "status cd", "live/dead", "vivo/morto", "v/m", "zustand", "vitalit\xc3\xa4t"},
+    [STATUS] = {{N_("status"), "vitalità", "vitalita", "stato", "condizione", "condizioni", "condition", "health", "statuscd",
+                 "status cd", "live/dead", "vivo/morto", "v/m", "zustand", "vitalität"},
                 NULL},
     [ID] = {{N_("id"), "n pianta", "num pianta", "numero pianta", "pianta", "id pianta", "id pollone", "n pollone", "id fusto",
              "n fusto", "n albero", "id albero", "tree", "tree id", "tree no", "tree number", "stem id", "baum nr",
              "baumnummer"},
             NULL},
-    [SITE] = {{N_("site"), "sito", "localit\xc3\xa0", "localita", "locality", "location", "standort", "ort"}, NULL},
+    [YEAR] = {{N_("year"), "anno", "anno rilievo", "survey year", "measurement year", "invyr", "jahr", "aufnahmejahr"}, NULL},
+    [SITE] = {{N_("site"), "sito", "località", "localita", "locality", "location", "standort", "ort"}, NULL},
     [SITE + 1] = {{N_("stand"), "popolamento", "soprassuolo", "bestand"}, NULL},
     [SITE + 2] = {{N_("compresa")}, NULL},
     [SITE + 3] = {{N_("compartment"), "particella", "particella forestale", "part for", "abteilung"}, NULL},
@@ -147,9 +135,8 @@ static const char *const kind_names[] = {CEDUO_SURVEY_KINDS(X)};
 static const char *const kinds_also[] = {
     "shoot|shoots|coppice shoot|sprout|pollone|polloni|poll|p|agamica|agamico|stockausschlag|lode|loden",
     "standard|standards|matricina|matricine|matr|m|matr 1t|matr 2t|matr 3t|matricina 1t|matricina 2t|matricina 3t|m1t|m2t|m3t|"
-    "riserva|\xc3\xbc"
-    "berh\xc3\xa4lter|lassreitel",
-    "tree|trees|high forest|albero|alberi|allievo|allievi|fustaia|alto fusto|gamica|gamico|da seme|baum|b\xc3\xa4ume|kernwuchs",
+    "riserva|überhälter|lassreitel",
+    "tree|trees|high forest|albero|alberi|allievo|allievi|fustaia|alto fusto|gamica|gamico|da seme|baum|bäume|kernwuchs",
     "stump|stumps|ceppo|ceppi|stubben|baumstumpf"};
 const struct choices ceduo_survey_kind_words = {kind_names, CEDUO_SURVEY_KINDS_COUNT, kinds_also};
 
@@ -157,7 +144,7 @@ static const char *const statuses[] = {"live", "dead", "cut"};
 static const char *const statuses_also[] = {
     "live|alive|living|li|l|vivo|viva|vivi|vive|v|vivente|sano|sana|healthy|lebend|lebendig",
     "dead|ds|standing dead|dead standing|d|morto|morta|morti|morte|m|secco|secca|morto in piedi|tot|abgestorben",
-    "cut|felled|removed|tagliato|tagliata|tagliati|tagliate|t|abbattuto|abbattuta|gef\xc3\xa4llt|entnommen"};
+    "cut|felled|removed|tagliato|tagliata|tagliati|tagliate|t|abbattuto|abbattuta|gefällt|entnommen"};
 const struct choices ceduo_survey_status_words = {statuses, 3, statuses_also};
 
 static const char *const others[] = {

@@ -28,6 +28,7 @@ enum column {
     TREES,
     STATUS,
     ID,
+    YEAR, /* of the survey */
     SITE,
     SITE_LAST = SITE + 6,
     COLUMNS

@@ -115,15 +115,10 @@ static bool read_diameter(struct survey_reader *r, enum column c, double *value)
 
 /* ---- plots ---- */
 
-static bool is_same(struct csv_cell a, struct csv_cell b)
-{
-    return a.n == b.n && memcmp(a.p, b.p, a.n) == 0;
-}
-
 static bool are_same_sites(const struct csv_cell *a, const struct csv_cell *b)
 {
     for (size_t i = 0; i < SITES; i++)
-        if (!is_same(a[i], b[i]))
+        if (!ceduo_survey_is_same(a[i], b[i]))
             return false;
     return true;
 }
@@ -144,7 +139,7 @@ static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
     if (name->n == 0)
         return ceduo_csv_complain(&r->csv, *name, _("'%s' is missing: give it in each row"), HEAD(PLOT));
     size_t i = r->plots_count;
-    while (i > 0 && !(is_same(r->plots[i - 1].name, *name) && are_same_sites(r->plots[i - 1].sites, sites)))
+    while (i > 0 && !(ceduo_survey_is_same(r->plots[i - 1].name, *name) && are_same_sites(r->plots[i - 1].sites, sites)))
         i--; /* mostly the last */
     if (i == 0 && r->plots_count == PLOTS_MOST)
         return ceduo_csv_complain(&r->csv, *name, _("more than %d plots"), PLOTS_MOST);
@@ -195,6 +190,14 @@ static bool read_plot(struct survey_reader *r, struct survey_plot *plot)
         good = good && read && !differs;
         *known = read && isnan(*known) ? now : *known;
     }
+    const struct csv_cell year = r->fields[YEAR];
+    plot->year = plot->year.n == 0 ? year : plot->year;
+    if (year.n > 0 && !ceduo_survey_is_same(year, plot->year))
+        return ceduo_csv_complain(
+            &r->csv, year,
+            _("this plot was surveyed in the years %.*s and %.*s: keep the rows of one year, or rename the "
+              "column if it is no year of a survey"),
+            plot->year.n < 20 ? (int)plot->year.n : 20, plot->year.p, year.n < 20 ? (int)year.n : 20, year.p);
     if (r->fields[AREA].n > 0 && r->fields[RADIUS].n > 0)
         return ceduo_csv_complain(&r->csv, r->fields[RADIUS], _("%s already says this; keep one of the two"), HEAD(AREA));
     return good;

@@ -3,17 +3,24 @@
 #ifndef CEDUO_SURVEY_READER_H
 #define CEDUO_SURVEY_READER_H
 
+#include <string.h>
+
 #include "survey_columns.h"
 #include "survey_file.h"
 
 struct survey_plot {
-    struct csv_cell name, sites[SITES];
+    struct csv_cell name, sites[SITES], year;
     size_t line;               /* of its first row */
     size_t returned;           /* line of a row after rows of other plots; 0: none */
     double values[STOOLS + 1]; /* AREA, RADIUS, SLOPE, STOOLS; NaN: not given */
     struct csv_place loose;    /* first row of a shoot without a stool */
     bool has_loose;
 };
+
+static inline bool ceduo_survey_is_same(struct csv_cell a, struct csv_cell b)
+{
+    return a.n == b.n && memcmp(a.p, b.p, a.n) == 0;
+}
 
 /* Shoot on a stool. The stools get numbers after all rows are read. */
 struct survey_shoot {

@@ -336,6 +336,18 @@ def test_sites():
         read(f, layers.replace("strato", "piano"), {"trees": 75}, "not used: piano")
         read(f, "".join([layers.splitlines(True)[i] for i in (0, 1, 3, 2)]), {"trees": per_ha((2, 400), (1, 400))}, "told apart by strato")
         refused(survey(f, "site,plot,area_m2,kind,dbh_cm\nA,1,400,tree,20\nB,,,tree,20\n"), "plots.csv:3", "'plot' is missing")
+        cases = "site,plot,area_m2,kind,dbh_cm\nA,p1,400,tree,20\n{},{},400,tree,22\n"
+        for site, plot in (("A", "P1"), ("a", "p1"), ("a", "P1")):
+            refused(survey(f, cases.format(site, plot)), "plots.csv:3:1: the names of this plot and of the plot on line 2 differ only in case")
+        read(f, cases.format("A", "p1"), {"trees": 50})
+        read(f, cases.format("A", "p2"), {"trees": 25})
+        years = "year,plot,area_m2,kind,dbh_cm\n2015,1,400,tree,20\n{},1,,tree,22\n2020,2,400,tree,22\n"
+        for head in ("year", "Anno", "INVYR"):
+            refused(survey(f, years.format(2020).replace("year", head)), "plots.csv:3:1: this plot was surveyed in the years 2015 and 2020: keep")
+        read(f, years.format(2015), {"trees": per_ha((2, 400), (1, 400))})
+        read(f, years.format("").replace("2020,1,,tree,22\n", ""), {"trees": per_ha((2, 400), (1, 400))})
+        read(f, years.format(2020).replace("year", "planted"), {"trees": per_ha((2, 400), (1, 400))}, "not used: planted")
+        read(f, "Superficie (m2),Superficie saggio (m2),plot,kind,dbh_cm\n25000,400,1,tree,20\n", {"trees": 25}, "not used: Superficie (m2)")
         twice = "plot,area_m2,kind,{},dbh_cm\n1,400,tree,5,20\n1,,tree,6,20\n2,400,tree,5,21\n1,,tree,5,20\n1,,standard,6,20\n"
         for head in ("id", "n. pianta", "TREE", "id fusto"):
             read(f, twice.format(head), {"trees": 50, "standards": 12.5}, "; 1 stem occurs twice (line 5)")

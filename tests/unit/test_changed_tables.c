@@ -33,6 +33,11 @@ static const char plots[] =
     "B;150;0;carpino nero;pollone;1;8,8;7,9;\nB;;;\"carpino "
     "nero\";pollone;2;6,6;6,7;0,4\nB;;;cerro;albero;;12;9;\nC;200;30;;;;;;\n";
 
+static const char tally[] =
+    "Rilievo 2024;;;;;;;\nSaggio;Area saggio (m2);Classe diam.;N. polloni;N. matricine;N. ceppaie;Stato;Specie\n"
+    "A;400;5;36;;18;vivo;carpino nero\nA;;10;21;2;;vivo;carpino nero\nA;;12;4;;;morto;carpino nero\n"
+    "B;350;5;40;;25;vivo;\"carpino nero\"\nB;;20;;4;;vivo;Q. cerris\nTotale;;;101;6;;;\n";
+
 /* ---- figures ---- */
 
 /* Append the figures of a table; false if it is refused. */
@@ -198,4 +203,9 @@ TEST(a_changed_table_of_stops)
 TEST(a_changed_survey)
 {
     expect_good_or_refused(survey_figures, plots, ';');
+}
+
+TEST(a_changed_tally)
+{
+    expect_good_or_refused(survey_figures, tally, ';');
 }
