@@ -13,8 +13,8 @@
 
 #define PLOTS_MOST      1000
 #define STEMS_MOST      200000
-#define SLOPE_MOST      85 /* degrees */
-#define SLOPE_BARE_MOST 1e4
+#define SLOPE_MOST      85   /* degrees */
+#define SLOPE_BARE_MOST 1e4  /* more is no slope in any unit */
 #define SLOPE_BARE      45   /* degrees or percent: a steeper slope needs a unit (assumed) */
 #define AREA_BARE       10   /* m2: a smaller plot needs a unit (assumed) */
 #define STUMP_MOST      20   /* m of height, as in a stand */
@@ -100,7 +100,7 @@ static bool read_count(struct survey_reader *r, enum column c, size_t *count)
     return true;
 }
 
-/* Read a diameter, which may be the class of it. */
+/* Read a diameter. A class such as 10-15 is refused with its middle. */
 static bool read_diameter(struct survey_reader *r, enum column c, double *value)
 {
     const struct csv_cell cell = r->fields[c];
