@@ -154,7 +154,7 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
     const char *found = standard || sheet ? NULL : ceduo_file_find(&arena, a->survey, NULL, "surveys");
     if (sheet)
         ceduo_survey_template(&yaml);
-    bool good = sheet || (ceduo_survey_read(&file, &arena, found ? found : a->survey, &problems) &&
+    bool good = sheet || (ceduo_survey_read(&file, &arena, found ? found : a->survey, NULL, &problems) &&
                           ceduo_survey_stand(&file, &yaml, &problems));
     ceduo_say_problems(&problems);
     if (good && !sheet && !a->quiet) {

@@ -73,6 +73,13 @@ static bool refuse_column(const struct survey_reader *r, enum column c, const ch
     return ceduo_csv_complain(&r->csv, (struct csv_cell){.at = head.at}, "%s", why);
 }
 
+/* Ask about a column at its head. */
+static bool ask_column(const struct survey_reader *r, enum survey_question question, enum column c, const char *why)
+{
+    r->answers->asked[question] = true;
+    return refuse_column(r, c, why);
+}
+
 static enum column size_column(const struct survey_reader *r)
 {
     return has_column(r, DBH) ? DBH : CIRCUMFERENCE;
@@ -84,7 +91,7 @@ static bool is_altitude(struct csv_cell head)
     return ceduo_csv_among(head.p, head.n, "alt|alt m|alt mt|alt metri");
 }
 
-static bool check_sizes(const struct survey_reader *r, const struct ceduo_survey *survey)
+static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *survey)
 {
     const struct sizes s = measure_sizes(survey);
     const double basal = mean_basal_area(survey);
@@ -92,13 +99,13 @@ static bool check_sizes(const struct survey_reader *r, const struct ceduo_survey
     const bool sized = have_units(r, DBH, CIRCUMFERENCE), laid = have_units(r, AREA, RADIUS);
     LOCAL_TEXT(why);
     const bool may_be_altitude = has_column(r, HEIGHT) && (!r->units[HEIGHT] || is_altitude(r->csv.heads[r->columns[HEIGHT]]));
-    if (may_be_altitude && s.height > HEIGHT_BARE) {
+    if (may_be_altitude && s.height > HEIGHT_BARE && !r->answers->given[SURVEY_HEIGHTS]) {
         ceduo_text_format(
             &why,
             _("a mean height of %.0f m: name the column 'height_m' if it holds heights in metres, 'altitude' if it holds "
               "altitudes"),
             s.height);
-        return refuse_column(r, HEIGHT, ceduo_text_string(&why));
+        return ask_column(r, SURVEY_HEIGHTS, HEIGHT, ceduo_text_string(&why));
     }
     if (!sized && s.dbh > DBH_BARE && s.height < SLENDERNESS_MIN * s.height_of_dbh) {
         ceduo_text_format(&why,
@@ -108,7 +115,7 @@ static bool check_sizes(const struct survey_reader *r, const struct ceduo_survey
                               : _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column "
                                   "'circumference_mm' if it is in millimetres, 'circumference_cm' if it is in centimetres"),
                           s.dbh * 100, s.height);
-        return refuse_column(r, size, ceduo_text_string(&why));
+        return ask_column(r, SURVEY_DIAMETERS, size, ceduo_text_string(&why));
     }
     if (basal > BASAL_MOST) {
         ceduo_text_format(
@@ -124,6 +131,8 @@ static bool check_sizes(const struct survey_reader *r, const struct ceduo_survey
                               : _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'circumference_cm' if it "
                                   "is right, 'circumference_mm' if the circumferences are in millimetres"),
                           basal, _(ceduo_survey_heads[area].names[0]));
+        r->answers->asked[SURVEY_AREAS] = !laid;
+        r->answers->asked[SURVEY_DIAMETERS] = !sized;
         return refuse_column(r, sized ? area : size, ceduo_text_string(&why));
     }
     return true;

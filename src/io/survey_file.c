@@ -51,12 +51,14 @@ static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum surve
     double hi = percent ? 100 * tan(SLOPE_MOST * M_PI / 180) : SLOPE_MOST;
     if (!ceduo_csv_number(&r->csv, cell, 0, unit ? hi : SLOPE_BARE_MOST, percent ? "%" : _("degrees"), value))
         return false;
-    if (!unit && *value > SLOPE_BARE)
+    if (!unit && *value > SLOPE_BARE) {
+        r->answers->asked[SURVEY_SLOPES] = true;
         return ceduo_csv_complain(
             &r->csv, cell,
             _("a slope of %g without a unit: name the column 'slope_deg' if it is in degrees, 'slope (%%)' if "
               "it is in percent"),
             *value);
+    }
     r->marked_slopes |= own != SURVEY_UNIT_NONE;
     r->bare_slopes |= !unit && *value > 0;
     if (r->marked_slopes && r->bare_slopes)
@@ -161,6 +163,7 @@ static bool check_area(struct survey_reader *r, enum column c, double value)
     double area = c == RADIUS ? M_PI * value * value : value;
     if ((c != AREA && c != RADIUS) || !(area < AREA_BARE) || r->units[c])
         return true;
+    r->answers->asked[SURVEY_AREAS] = true;
     return ceduo_csv_complain(&r->csv, r->fields[c], _("a plot of %.3g m2 is very small; name the column '%s' if it is right"),
                               area, HEAD(c));
 }
@@ -618,8 +621,25 @@ static void read_rows(struct survey_reader *r)
         ceduo_problem(r->problems, r->csv.source, 0, 0, _("there is no plot: no row under the first"));
 }
 
-bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct problems *problems)
+/* Take the answers of the user in place of the units that the heads may name. */
+static void take_answers(struct survey_reader *r)
 {
+    const int *given = r->answers->given;
+    memset(r->answers->asked, 0, sizeof r->answers->asked);
+    if (given[SURVEY_SLOPES])
+        r->units[SLOPE] = (enum survey_unit)given[SURVEY_SLOPES];
+    if (given[SURVEY_DIAMETERS])
+        r->units[DBH] = r->units[CIRCUMFERENCE] = (enum survey_unit)given[SURVEY_DIAMETERS];
+    if (given[SURVEY_AREAS])
+        r->units[AREA] = r->units[RADIUS] = SURVEY_UNIT_USUAL;
+    if (given[SURVEY_HEIGHTS] == 2)
+        r->columns[HEIGHT] = CEDUO_CSV_NONE;
+}
+
+bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct survey_answers *answers,
+                       struct problems *problems)
+{
+    struct survey_answers none = {0};
     ceduo_memory_lost(); /* what was lost before is of others */
     struct survey_reader *r = ceduo_arena_take(arena, sizeof *r);
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -629,13 +649,14 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
     *file = (struct survey_file){.name = standard ? "survey" : ceduo_arena_copy(arena, name, length)};
     if (!r)
         return false;
-    *r = (struct survey_reader){.arena = arena, .problems = problems};
+    *r = (struct survey_reader){.arena = arena, .problems = problems, .answers = answers ? answers : &none};
     if (!ceduo_csv_open(&r->csv, arena, path, problems))
         return false;
     r->plots = ceduo_arena_take(arena, PLOTS_MOST * sizeof *r->plots);
     double *areas = ceduo_arena_take(arena, PLOTS_MOST * sizeof *areas);
     if (!r->plots || !areas || !ceduo_survey_find_columns(&r->csv, r->columns, r->units))
         return false;
+    take_answers(r);
     scan_numbers(r);
     if (!check_numbering(r))
         return false;

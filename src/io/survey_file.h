@@ -14,8 +14,26 @@ struct survey_file {
     struct ceduo_survey survey;
 };
 
-/* Read and check a survey. Its memory is the arena's. Report what is wrong and return false. */
-bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct problems *problems);
+/* Questions that a table may leave open, and their answers. */
+enum survey_question {
+    SURVEY_SLOPES,    /* degrees, percent */
+    SURVEY_DIAMETERS, /* of stems: cm, mm */
+    SURVEY_AREAS,     /* in m2 */
+    SURVEY_HEIGHTS,   /* of stems, altitudes */
+    SURVEY_QUESTIONS
+};
+
+/* Which answer, from 1, the user gave to each question; 0: none. The reader sets asked[q] if it refuses the table without the
+ * answer. */
+struct survey_answers {
+    int given[SURVEY_QUESTIONS];
+    bool asked[SURVEY_QUESTIONS];
+};
+
+/* Read and check a survey. Its memory is the arena's. Report what is wrong and return false.
+ * `answers` may be NULL: the heads alone settle what is asked. */
+bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct survey_answers *answers,
+                       struct problems *problems);
 
 /* Adds the stand as a YAML file: what the survey says, with its standard errors as `doubt`, and what had to be assumed. False
  * where there is none: densities that no forest has, which is reported, or no memory. */

@@ -39,6 +39,7 @@ struct survey_reader {
     struct csv csv;
     struct arena *arena;
     struct problems *problems;
+    struct survey_answers *answers; /* never NULL */
     size_t columns[COLUMNS];
     enum survey_unit units[COLUMNS]; /* of the heads */
     struct csv_cell fields[COLUMNS]; /* of the present row; n = 0: no value */

@@ -12,7 +12,6 @@
 #include "ceduo/rotation.h"
 #include "io/emit.h"
 #include "io/file.h"
-#include "io/survey_file.h"
 #include "model/changes.h"
 #include "popup.h"
 #include "popups.h"
@@ -189,34 +188,6 @@ static void preview_stand(struct app *app, struct popup *p)
     ceduo_scene_release(&file);
 }
 
-/* ---- a stand from a survey: a CSV file of sample plots ---- */
-
-static void offer_surveys(struct app *app, struct popup *p)
-{
-    const char *shipped = ceduo_file_find(&p->arena, "surveys/six-plots.csv", NULL, "surveys");
-    ceduo_popup_offer_files(app, p);
-    if (shipped && !ceduo_picker_has(&p->picker, shipped))
-        ceduo_popup_item(p, _("six-plots.csv: an example, made up"), shipped);
-}
-
-/* Read the stand of a survey on one line, as a change takes it, and how its table was understood. */
-static bool read_survey(const char *path, struct text *value, struct text *understood, struct problems *problems)
-{
-    LOCAL_ARENA(arena);
-    struct survey_file file;
-    LOCAL_TEXT(yaml);
-    const struct node *root = NULL;
-    if (ceduo_survey_read(&file, &arena, path, problems) && ceduo_survey_stand(&file, &yaml, problems)) {
-        const struct source source = {.name = path, .bytes = yaml.bytes, .length = yaml.length};
-        root = ceduo_yaml_read(&arena, &source, problems);
-    }
-    if (root) {
-        ceduo_emit_flow(value, root);
-        ceduo_text_put(understood, file.understood);
-    }
-    return root != NULL;
-}
-
 /* ---- what goes with the stand that another one replaces ---- */
 
 /* The entry of a stand that the scene itself has: the file that the stand is read from has not the same. NULL if there is none. */
@@ -233,8 +204,7 @@ static const char *name_of_stand(const struct app *app)
     return app->belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[app->belt].name : "";
 }
 
-/* Replace the stand of the belt shown; say what of its own growth and cutting is dropped, and that the year of its cut stays. */
-static bool replace_stand(struct app *app, const char *path, const char *value)
+bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *value)
 {
     static const char *const keys[2] = {"growth", "cutting"};
     const struct node *old = ceduo_document_node(&app->document, path);
@@ -268,38 +238,6 @@ static bool replace_stand(struct app *app, const char *path, const char *value)
     if (said.length > 0)
         ceduo_app_say(app, "%s", said.bytes);
     return true;
-}
-
-static void chose_survey(struct app *app, struct popup *p)
-{
-    LOCAL_TEXT(value);
-    LOCAL_TEXT(understood);
-    if (!read_survey(p->value, &value, &understood, &app->problems)) {
-        ceduo_app_edited(app, false);
-        return;
-    }
-    app->message[0] = '\0';
-    if (!replace_stand(app, p->path, value.bytes))
-        return;
-    if (app->message[0])
-        ceduo_app_say(app, "%s; %s", ceduo_app_format(app, "%s", app->message), ceduo_text_string(&understood));
-    else
-        ceduo_app_say(app,
-                      ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
-                          ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
-                          : _("the stand of the survey; it has no growth and cutting; %s"),
-                      ceduo_text_string(&understood));
-}
-
-void ceduo_popup_survey(struct app *app)
-{
-    struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem, or for each class"),
-                                       ceduo_app_stand(app), chose_survey);
-    ceduo_text_put(&p->text,
-                   _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, status; "
-                     "see ceduo-stand(5)."));
-    p->fields[0].offer = offer_surveys;
-    p->endings = ".csv .txt";
 }
 
 /* ---- choosing ---- */
@@ -341,7 +279,7 @@ static void chose_stand(struct app *app, struct popup *p)
     else if (strcmp(p->value, STAND_SURVEY) == 0)
         ceduo_popup_survey(app);
     else
-        replace_stand(app, p->path, p->value);
+        ceduo_popup_replace_stand(app, p->path, p->value);
 }
 
 static void offer_measured(struct popup *p)

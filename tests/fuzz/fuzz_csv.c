@@ -42,7 +42,7 @@ static void check_survey(const char *path)
     struct arena arena = {0};
     struct problems problems = {0};
     struct survey_file survey;
-    if (ceduo_survey_read(&survey, &arena, path, &problems))
+    if (ceduo_survey_read(&survey, &arena, path, NULL, &problems))
         check_stand(&arena, &survey, &problems);
     else if (problems.count == 0)
         abort();

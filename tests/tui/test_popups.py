@@ -287,6 +287,30 @@ def test_lines_of_a_profile():
         expect_in("layer: ground", (place.path / "new.yaml").read_text())
 
 
+def test_a_survey_that_asks():
+    """A survey whose slopes have no unit opens a form; the answer gives the stand that its own unit in the head gives"""
+    rows = "1;400;80;albero;20\n2;400;80;albero;22\n"
+    with Place() as place:
+        place.write("bare.csv", "saggio;superficie;pendenza;tipo;diametro\n" + rows)
+        for answer, per_ha in (("degrees", 10000 / 400 / math.cos(math.radians(80))), ("percent", 10000 / 400 / math.cos(math.atan(0.8)))):
+            asked, unanswered, given = place.play(f"""key 2
+                key p
+                type from a survey
+                key Enter
+                key Ctrl-U
+                type bare.csv
+                key Enter
+                dump
+                key Enter
+                dump
+                type {answer}
+                key Enter
+                dump""")
+            asked.whole().has("How is the survey to be read?", "slopes are in", "degrees", "percent")
+            unanswered.whole().has("How is the survey to be read?")
+            given.lacks("How is the survey").has(f"{per_ha:.4g}")
+
+
 def test_starts():
     """p in view 3 takes over the rock of another scene, or how it starts but not where, each as one edit that u takes back"""
     with Place() as place:

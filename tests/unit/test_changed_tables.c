@@ -76,7 +76,7 @@ static bool survey_figures(const char *path, struct text *to)
     LOCAL_PROBLEMS(problems);
     LOCAL_TEXT(yaml);
     struct survey_file file;
-    bool good = ceduo_survey_read(&file, &arena, path, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
+    bool good = ceduo_survey_read(&file, &arena, path, NULL, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
     for (const char *p = ceduo_text_string(&yaml), *end; good && (end = strchr(p, '\n')); p = end + 1)
         if (*p != '#')
             ceduo_text_add(to, p, (size_t)(end - p) + 1);

@@ -269,7 +269,7 @@ static bool read_survey(void)
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     struct survey_file file;
     LOCAL_TEXT(yaml);
-    bool good = ceduo_survey_read(&file, &arena, survey_path, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
+    bool good = ceduo_survey_read(&file, &arena, survey_path, NULL, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
     ceduo_problems_close(&problems);
     assert_true(good || problems.memory);
     if (good)
