@@ -121,7 +121,7 @@ static bool read_coordinate(struct reader *r, enum column c, double *value)
     char text[CSV_NUMERAL_CAPACITY];
     if (c == ELEVATION && ceduo_csv_numeral(&r->csv, cell, text) == CSV_NUMERAL_GOOD &&
         (ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE || is_no_data(*value)))
-        return ceduo_csv_complain(&r->csv, cell, _("'%s' means no data; remove the row, or fill the gap in the terrain model"),
+        return ceduo_csv_complain(&r->csv, cell, _("'%s' stands for no data; remove the row, or fill the gap in the terrain model"),
                                   text);
     return ceduo_csv_number(&r->csv, cell, vertex->lo, vertex->hi, "m", value);
 }
@@ -201,7 +201,7 @@ static bool read_wkt(struct reader *r, const char *p, const char *end, size_t li
                              _("the line has no heights: drape it over the terrain model (in QGIS: Drape), so that it is a "
                                "LINESTRING Z"));
         if (is_no_data(values[2]))
-            return refuse_at(r, &raw, _("a height of the line means no data; fill the gap in the terrain model"));
+            return refuse_at(r, &raw, _("a height of the line stands for no data; fill the gap in the terrain model"));
         raw.x = values[0];
         raw.y = values[1];
         raw.z = values[2];
@@ -507,7 +507,7 @@ static bool check_heights(struct reader *r)
         for (size_t k = i; jumps && k <= last; k++)
             refuse_at(
                 r, &r->raw[k],
-                _("a height of 0 or 9999 among others means no data; remove the row, or fill the gap in the terrain model"));
+                _("a height of 0 or 9999 among others stands for no data; remove the row, or fill the gap in the terrain model"));
         if (i == 0 || last != i || i + 1 == r->n)
             continue;
         double up = r->raw[i].z - r->raw[i - 1].z, down = r->raw[i].z - r->raw[i + 1].z;

@@ -273,7 +273,7 @@ static bool read_status(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
         return true;
     if (status.n > 0 && found < 0)
         return ceduo_csv_complain(&r->csv, status,
-                                  _("'%.*s' is no status: live, dead or cut; rename the column if it means something else"),
+                                  _("'%.*s' is no status: live, dead or cut; rename the column if it is something else"),
                                   status.n < 100 ? (int)status.n : 100, status.p);
     r->unmarked += status.n == 0 ? sum : 0;
     if (found <= SURVEY_LIVE)

@@ -166,8 +166,8 @@ def test_no_data():
     """Heights that stand for no data, and heights that only an error of the terrain model has, are refused by line"""
     with Folder() as f:
         for value in ("-9999", "-32768", "-99999", "-10000", "3.4e38", "-3.40282346638529e+38", "-9999.0", "\u22129999"):
-            expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("371", value), [":4:4: ", "means no data"])
-            expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("326", value), [":7:5: ", "means no data"])
+            expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("371", value), [":4:4: ", "stands for no data"])
+            expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("326", value), [":7:5: ", "stands for no data"])
         for value in ("0", "9999"):
             for place, line in (("412.5", 2), ("371", 4), ("326", 7)):
                 expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace(place, value), [f":{line}:", "0 or 9999 among others"])

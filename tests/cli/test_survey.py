@@ -443,7 +443,7 @@ def test_bad_in_italian():
     english = re.compile(r"area_m2|radius_m|slope_deg|dbh_cm|spacing_m|energy_kJ|\bshoot|\bstandard\b|stump|degrees|ostrya|\d\.\d")
     with Folder() as f:
         for content, _, words in BAD:
-            told = survey(f, content, "--language", "it").err.splitlines()[0]
+            told = survey(f, content, "--language", "it").err.splitlines()[0].split("; ci sono: ")[0]
             expect(not english.search(told.split(":", 1)[1].replace("'1.2e1'", "")), words, told)
         for begin in (b"PK\3\4\x14\0\6\0", b"\xd0\xcf\x11\xe0\xa1\xb1"):
             (f.path / "plots.xlsx").write_bytes(begin + bytes(99))
