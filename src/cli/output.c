@@ -2,7 +2,6 @@
 #include "output.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -46,29 +45,11 @@ bool ceduo_output_check(const struct arguments *a)
 
 /* ---- results of several scenes ---- */
 
-/* Whole lines, or none of them. */
-static enum exit_status append(const struct arguments *a, const struct text *text)
-{
-    int fd = open(a->output, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-    off_t end = fd >= 0 ? lseek(fd, 0, SEEK_END) : -1;
-    bool good = end >= 0 && ceduo_file_fill(fd, text->bytes, text->length, NULL);
-    int why = errno;
-    if (end >= 0 && !good && ftruncate(fd, end) != 0)
-        why = errno;
-    if (fd >= 0 && close(fd) != 0 && good) {
-        good = false;
-        why = errno;
-    }
-    if (!good)
-        ceduo_say_why(a->output, strerror(why));
-    return good ? EXIT_DONE : EXIT_OUTPUT;
-}
-
 enum exit_status ceduo_output_next(const struct arguments *a, struct text *text)
 {
-    if (text->length == 0 || (a->output && !a->resume))
+    if (text->length == 0 || a->output)
         return EXIT_DONE;
-    enum exit_status status = a->output ? append(a, text) : ceduo_output_write(a, text);
+    enum exit_status status = ceduo_output_write(a, text);
     ceduo_text_cut(text, 0);
     return status;
 }

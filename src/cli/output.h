@@ -15,8 +15,7 @@ bool ceduo_output_is(const struct arguments *arguments, const char *path);
 /* Writes to where --output says. EXIT_OUTPUT with the reason on standard error where that fails. */
 enum exit_status ceduo_output_write(const struct arguments *arguments, const struct text *text);
 
-/* Writes a result of several, unless it waits for the last of them: with --output all are written at the end, with --resume each is
- * added to what stands there. What is written is taken out of the text. */
+/* Write a result of several to standard output, and take it out of the text. With --output they are all written at the end. */
 enum exit_status ceduo_output_next(const struct arguments *arguments, struct text *text);
 
 #endif
