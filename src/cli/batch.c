@@ -23,6 +23,7 @@ struct batch {
     struct each each;
     struct columns columns;
     struct resume resume;
+    struct output output;
     struct text header;  /* of the result in CSV */
     struct text printed; /* head of the output in CSV */
     struct text out;     /* not written yet */
@@ -124,7 +125,7 @@ static enum exit_status open_batch(struct batch *b, const struct arguments *give
 static enum exit_status write_next(struct batch *b, uint64_t key, enum exit_status result)
 {
     if (!b->arguments.resume)
-        return b->arguments.profiles->count > 0 ? EXIT_DONE : ceduo_output_next(&b->arguments, &b->out);
+        return b->arguments.profiles->count > 0 ? EXIT_DONE : ceduo_output_next(&b->output, &b->arguments, &b->out);
     enum exit_status status = ceduo_resume_add(&b->resume, key, &b->out, result);
     ceduo_text_cut(&b->out, 0);
     return status;
@@ -142,7 +143,8 @@ static enum exit_status compute(struct batch *b, ceduo_batch_answer *answer, enu
     if (resume && !each->names_files && ceduo_resume_has(&b->resume, key, &result))
         return result;
     result = ceduo_batch_read(&each->arguments, each->path, &file);
-    hash_count(&key, each->names_files ? ceduo_resume_files(&file) : 0);
+    if (each->names_files)
+        hash_count(&key, ceduo_resume_files(&file));
     bool known = resume && result == EXIT_DONE && each->names_files && ceduo_resume_has(&b->resume, key, &result);
     if (result == EXIT_DONE && !known) {
         ceduo_interrupt_catch();
@@ -171,8 +173,10 @@ static enum exit_status compute_all(struct batch *b, ceduo_batch_answer *answer,
         result = compute(b, answer, &written);
         status = worse(status, worse(result, written));
         starts[b->arguments.profiles->count] = b->out.length;
-        if (written == EXIT_DONE)
+        if (written == EXIT_DONE && !b->output.begun)
             ceduo_interrupt_release();
+        if (atomic_load(ceduo_interrupt_flag()))
+            break;
     }
     return status;
 }
@@ -199,13 +203,13 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
     if (profiles.count > (a->mode == MODE_REPORT ? 0u : 1u))
         put_verdicts(&b.out, a, starts);
     free(starts);
-    if (profiles.count > 0)
-        status = worse(status, ceduo_output_next(a, &b.out));
+    if (profiles.count > 0 && !a->output)
+        status = worse(status, ceduo_output_write(a, &b.out));
     bool failed = status == EXIT_OUTPUT;
     if (a->resume)
         status = worse(status, ceduo_resume_close(&b.resume, opened && !failed));
-    else if (a->output && !b.first && !failed)
-        status = worse(status, ceduo_output_write(a, &b.out));
+    else
+        status = worse(status, ceduo_output_end(&b.output, a, &b.out, !b.first && !failed));
     status = worse(status, b.each.bad_rows ? EXIT_INPUT : EXIT_DONE);
     ceduo_each_close(&b.each);
     ceduo_profiles_free(&profiles);

@@ -45,11 +45,46 @@ bool ceduo_output_check(const struct arguments *a)
 
 /* ---- results of several scenes ---- */
 
-enum exit_status ceduo_output_next(const struct arguments *a, struct text *text)
+#define WAITING_MAX ((size_t)1 << 20) /* bytes that wait in memory */
+
+static enum exit_status fail(const struct arguments *a)
 {
-    if (text->length == 0 || a->output)
+    ceduo_say_why(a->output, strerror(errno));
+    return EXIT_OUTPUT;
+}
+
+enum exit_status ceduo_output_next(struct output *o, const struct arguments *a, struct text *text)
+{
+    if (text->length == 0 || (a->output && !o->begun && text->length < WAITING_MAX))
         return EXIT_DONE;
-    enum exit_status status = ceduo_output_write(a, text);
+    if (a->output && !o->begun) {
+        o->file = (struct pending_file){.path = a->output, .wait = true};
+        ceduo_interrupt_catch();
+        o->fd = ceduo_file_begin(&o->file);
+        o->begun = o->fd >= 0;
+        if (!o->begun) {
+            enum exit_status status = fail(a);
+            ceduo_file_drop(&o->file);
+            return status;
+        }
+    }
+    bool good = !a->output || ceduo_file_fill(o->fd, text->bytes, text->length, ceduo_interrupt_flag());
+    enum exit_status status = a->output ? (good || errno == EINTR ? EXIT_DONE : fail(a)) : ceduo_output_write(a, text);
     ceduo_text_cut(text, 0);
+    return status;
+}
+
+enum exit_status ceduo_output_end(struct output *o, const struct arguments *a, struct text *text, bool whole)
+{
+    if (!o->begun)
+        return a->output && whole ? ceduo_output_write(a, text) : EXIT_DONE;
+    enum exit_status status = whole ? ceduo_output_next(o, a, text) : EXIT_DONE;
+    whole = whole && status == EXIT_DONE && !atomic_load(ceduo_interrupt_flag());
+    if (!whole)
+        close(o->fd);
+    else if (!ceduo_file_finish(&o->file, o->fd))
+        status = fail(a);
+    ceduo_file_drop(&o->file);
+    ceduo_interrupt_release();
     return status;
 }

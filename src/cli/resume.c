@@ -192,14 +192,14 @@ static void append_differences(const char *a, const char *b, struct text *names)
         b += *b == '\n';
         size_t n = strcspn(a, "\n");
         if (n != strcspn(b, "\n") || strncmp(a, b, n) != 0)
-            ceduo_text_then(names, ", ", "%s", _(identity_names[i]));
+            ceduo_text_then(names, names->length > 0 ? ", " : "", "%s", _(identity_names[i]));
     }
 }
 
 static enum exit_status refuse_other(const struct resume *r, const char *names)
 {
     LOCAL_TEXT(why);
-    ceduo_text_format(&why, _("it belongs to a run with another %s; write elsewhere, or remove it and %s"), names,
+    ceduo_text_format(&why, _("it belongs to another run (different: %s); write elsewhere, or remove it and %s"), names,
                       r->side_path);
     return refuse(r->arguments->output, ceduo_text_string(&why));
 }
