@@ -56,7 +56,7 @@ static uint64_t hash_scenes(const struct arguments *a)
         ceduo_scene_release(&file);
     }
     for (size_t i = 0; i < a->sets.n; i++)
-        if (a->sets.items[i] != a->seed_set)
+        if (strcmp(a->sets.items[i], a->seed_set) != 0)
             hash_text(&hash, a->sets.items[i]);
     return hash;
 }
