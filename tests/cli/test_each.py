@@ -195,12 +195,12 @@ def test_heads():
             r = run(f, "-f", "csv")
             expect_equal((r.status, r.out), (INPUT, ""), str(r))
             expect_in(f"rows.csv:1:4: '{head}' is no path of --set", r.err)
-        copied = ["id", "name", "note", "wkt", "x", "y", "year", "date", "option", "count", "n", "mean", "age", "plot", "dbh", "species_it", "scene"]
+        copied = ["id", "name", "note", "wkt", "x", "y", "year", "date", "option", "count", "n", "mean", "age", "plot", "dbh", "layer", "base", "scene"]
         f.write("rows.csv", ",".join(copied) + ",rock.density_kg_m3,slope,forest[0].stand.trees[0].per_ha,rock.diameter_m.mean,slope.vertices_m[0][1]\n"
                 + "1," * len(copied) + "2500,,,,\n")
         r = ceduo("-b", "-n", 60, "-f", "csv", "--each", "rows.csv", "s.yaml", cwd=f.path)
         expect_equal((r.status, r.err), (DONE, "rows.csv: columns that are set: rock.density_kg_m3, slope, forest[0].stand.trees[0].per_ha, "
-                                         "rock.diameter_m.mean, slope.vertices_m[0][1]; copied: " + ", ".join(copied[:10]) + " and 7 more\n"))
+                                         "rock.diameter_m.mean, slope.vertices_m[0][1]; copied: " + ", ".join(copied[:10]) + " and 8 more\n"))
         head = r.out.split("\n")[0].split(",")
         expect_equal(len(head), len(set(head)), "names of columns")
         expect_equal((head.count("scene"), head.count("row.scene")), (1, 1))
@@ -280,8 +280,9 @@ def test_large_tables():
         expect_equal(r.out, "c29999,x_m,c0\nc29999,75,c0\n")
         (f.path / "new.csv").unlink()
         f.write("rows.csv", "id,note,rock.diameter_m\n" + "".join(
-            f'r{i},"a ""{i}"" b",{0.5 + i % 100 / 100}\n' if i * good_rows // rows != (i - 1) * good_rows // rows else f"r{i},2\n"
-            for i in range(rows)))
+            f'r{i},"a ""{i}"" b{200 * "."}",{0.5 + i % 100 / 100}\n' if i * good_rows // rows != (i - 1) * good_rows // rows
+            else f"r{i},{200 * '.'}\n" for i in range(rows)))
+        most += (f.path / "rows.csv").stat().st_size // 1024 - 12000
         for words in (["-f", "csv"], ["-f", "json", "-o", "new.json"], ["-f", "csv", "--columns", "id", "-o", "new.csv", "--resume"]):
             status, out, err = limited(f, most, *words, "--each", "rows.csv")
             expect_equal(status, DONE if FULL else INPUT, err)

@@ -92,16 +92,17 @@ def test_kills():
 
 def test_nothing_twice():
     """What is done is not computed again: a second run of a table that takes long takes no time"""
-    with Folder() as f:
-        valley(f, rows_of(range(3)))
-        start = time.monotonic()
-        expect_equal(resume(f, rocks=200000).status, DONE)
-        long = time.monotonic() - start
-        before = (f.path / "part.csv").read_bytes()
-        start = time.monotonic()
-        expect_equal(resume(f, rocks=200000).status, DONE)
-        expect(time.monotonic() - start < long / 2, "it is computed again")
-        expect_equal((f.path / "part.csv").read_bytes(), before)
+    for rows in (rows_of(range(3)), "id,rock.diameter_m\na,0.5\nb,0.6\nc,0.7\n"):
+        with Folder() as f:
+            valley(f, rows)
+            start = time.monotonic()
+            expect_equal(resume(f, rocks=200000).status, DONE)
+            long = time.monotonic() - start
+            before = (f.path / "part.csv").read_bytes()
+            start = time.monotonic()
+            expect_equal(resume(f, rocks=200000).status, DONE)
+            expect(time.monotonic() - start < long / 2, "it is computed again")
+            expect_equal((f.path / "part.csv").read_bytes(), before)
 
 
 def test_two_programs():
@@ -156,6 +157,10 @@ def test_changed_rows():
         for broken in (side[:-1], side[:-30], side[:200], side[:-59] + side[-59:].replace(" 0", " x", 1), side + "0", side + side[-59:]):
             f.write("part.csv.resume", broken)
             expect_resumed(f, changed)
+            expect_equal({len(line) for line in parts_of(f)}, {58})
+            side = (f.path / "part.csv.resume").read_text()
+            expect_resumed(f, changed)
+            expect_equal((f.path / "part.csv.resume").read_text(), side, "all is known")
 
 
 def test_other_runs():
@@ -232,9 +237,12 @@ def test_several_scenes():
         expect_equal(resume(f, *words).status, INPUT)
         expect_equal((f.path / "part.csv").read_bytes(), in_one_go(f, *words))
         f.write("late.csv", profile(130))
-        for _ in range(2):
+        files = set()
+        for _ in range(3):
             expect_equal(resume(f, *words).status, DONE)
             expect_equal((f.path / "part.csv").read_bytes(), in_one_go(f, *words))
+            files.add((f.path / "part.csv").stat().st_ino)
+        expect_equal(len(files), 1, "what is in order is not written again")
 
 
 if __name__ == "__main__":

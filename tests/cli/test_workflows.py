@@ -97,7 +97,12 @@ class Walk:
 
 @functools.cache
 def walked(way):
-    return Walk(way)
+    return Walk(way, names_columns)
+
+
+def names_columns(err):
+    """--each says which columns it sets."""
+    return all(re.match(r"[\w ./]+: columns that are set: slope; copied: wkt, id$", line) for line in err.splitlines())
 
 
 def option_shown(start, screen):
