@@ -95,12 +95,13 @@ enum exit_status ceduo_batch_schema(const struct arguments *a)
     static const struct {
         const char *format;
         const struct ceduo_figure *figures;
-    } outputs[] = {{"ceduo-result-1", ceduo_result_figures}, /* as the words of the option's row */
-                   {"ceduo-find-1", ceduo_find_figures},
-                   {"ceduo-sensitivity-1", ceduo_doubt_figures},
-                   {"ceduo-calibration-1", ceduo_calibration_figures}};
+        bool row;
+    } outputs[] = {{"ceduo-result-1", ceduo_result_figures, true}, /* as the words of the option's row */
+                   {"ceduo-find-1", ceduo_find_figures, true},
+                   {"ceduo-sensitivity-1", ceduo_doubt_figures, true},
+                   {"ceduo-calibration-1", ceduo_calibration_figures, false}};
     LOCAL_TEXT(schema);
-    ceduo_figures_schema(&schema, outputs[a->schema].format, outputs[a->schema].figures);
+    ceduo_figures_schema(&schema, outputs[a->schema].format, outputs[a->schema].figures, outputs[a->schema].row);
     return ceduo_output_write(a, &schema);
 }
 

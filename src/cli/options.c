@@ -248,6 +248,14 @@ static enum exit_status set_report(struct arguments *a, const struct option_row 
     return EXIT_DONE;
 }
 
+/* A file, or - for standard output. */
+static enum exit_status set_output(struct arguments *a, const struct option_row *row, char *value)
+{
+    (void)row;
+    a->output = strcmp(value, "-") == 0 ? NULL : value;
+    return EXIT_DONE;
+}
+
 /* ---- the table ---- */
 
 #define AT(member) offsetof(struct arguments, member)
@@ -271,8 +279,8 @@ static const struct option_row rows[] = {
      .help = N_("format of the output (table)")},
     {"details", 0, NULL, set_flag, AT(details), MODE_BATCH, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY,
      .help = N_("print the whole page, with every figure, not the answer alone")},
-    {"output", 'o', "FILE", set_text, AT(output), MODE_TERMINAL, CHECK | PAGE | SCREEN,
-     .help = N_("write to FILE; a regular file is written completely or not at all")},
+    {"output", 'o', "FILE", set_output, 0, MODE_TERMINAL, CHECK | PAGE | SCREEN,
+     .help = N_("write to FILE, - for standard output; a regular file is written completely or not at all")},
     {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, SURVEY | SCREEN,
      .help = N_("change a parameter of the scene; may be repeated")},
     {"rocks", 'n', "N", set_count, AT(rocks), MODE_TERMINAL, CHECK | SURVEY | SCREEN,
@@ -287,7 +295,8 @@ static const struct option_row rows[] = {
     {"columns", 0, "LIST", set_text, AT(columns), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | SCREEN,
      .help = N_("print these columns of CSV, with commas between their names")},
     {"resume", 0, NULL, set_flag, AT(resume), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | SCREEN,
-     .help = N_("with --each and -o: rows that stand in FILE are not computed again; FILE grows row by row")},
+     .help = N_("with --each and -o: rows that stand in FILE are not computed again; FILE grows row by row, with FILE.resume "
+                "beside it")},
     {"seed", 0, "N", set_seed, AT(seed), MODE_TERMINAL, SURVEY | SCREEN, .help = N_("seed of the random numbers, 0 to 2^53"), 0,
      0x1p53},
     {"threads", 'j', "N", set_count, AT(threads), MODE_TERMINAL, SURVEY,
@@ -473,6 +482,9 @@ static enum exit_status check_arguments(const struct arguments *a)
         return ceduo_usage(NULL, _("--%s takes no scene: '%s'"), mode, a->scenes[0]);
     if (screen && a->scenes_count > 1)
         return ceduo_usage(NULL, _("the terminal program opens one scene; --batch takes several"));
+    for (size_t i = 0; a->each && i < a->scenes_count; i++)
+        if (strcmp(a->scenes[i], "-") == 0)
+            return ceduo_usage("each", _("standard input can be read only once; name a file for the scene"));
     return standard > 1 ? ceduo_usage(NULL, _("standard input can be read only once")) : EXIT_DONE;
 }
 

@@ -2,7 +2,6 @@
 #include "output.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -46,29 +45,46 @@ bool ceduo_output_check(const struct arguments *a)
 
 /* ---- results of several scenes ---- */
 
-/* Whole lines, or none of them. */
-static enum exit_status append(const struct arguments *a, const struct text *text)
+#define WAITING_MAX ((size_t)1 << 20) /* bytes that wait in memory */
+
+static enum exit_status fail(const struct arguments *a)
 {
-    int fd = open(a->output, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-    off_t end = fd >= 0 ? lseek(fd, 0, SEEK_END) : -1;
-    bool good = end >= 0 && ceduo_file_fill(fd, text->bytes, text->length, NULL);
-    int why = errno;
-    if (end >= 0 && !good && ftruncate(fd, end) != 0)
-        why = errno;
-    if (fd >= 0 && close(fd) != 0 && good) {
-        good = false;
-        why = errno;
-    }
-    if (!good)
-        ceduo_say_why(a->output, strerror(why));
-    return good ? EXIT_DONE : EXIT_OUTPUT;
+    ceduo_say_why(a->output, strerror(errno));
+    return EXIT_OUTPUT;
 }
 
-enum exit_status ceduo_output_next(const struct arguments *a, struct text *text)
+enum exit_status ceduo_output_next(struct output *o, const struct arguments *a, struct text *text)
 {
-    if (text->length == 0 || (a->output && !a->resume))
+    if (text->length == 0 || (a->output && !o->begun && text->length < WAITING_MAX))
         return EXIT_DONE;
-    enum exit_status status = a->output ? append(a, text) : ceduo_output_write(a, text);
+    if (a->output && !o->begun) {
+        o->file = (struct pending_file){.path = a->output, .wait = true};
+        ceduo_interrupt_catch();
+        o->fd = ceduo_file_begin(&o->file);
+        o->begun = o->fd >= 0;
+        if (!o->begun) {
+            enum exit_status status = fail(a);
+            ceduo_file_drop(&o->file);
+            return status;
+        }
+    }
+    bool good = !a->output || ceduo_file_fill(o->fd, text->bytes, text->length, ceduo_interrupt_flag());
+    enum exit_status status = a->output ? (good || errno == EINTR ? EXIT_DONE : fail(a)) : ceduo_output_write(a, text);
     ceduo_text_cut(text, 0);
+    return status;
+}
+
+enum exit_status ceduo_output_end(struct output *o, const struct arguments *a, struct text *text, bool whole)
+{
+    if (!o->begun)
+        return a->output && whole ? ceduo_output_write(a, text) : EXIT_DONE;
+    enum exit_status status = whole ? ceduo_output_next(o, a, text) : EXIT_DONE;
+    whole = whole && status == EXIT_DONE && !atomic_load(ceduo_interrupt_flag());
+    if (!whole)
+        close(o->fd);
+    else if (!ceduo_file_finish(&o->file, o->fd))
+        status = fail(a);
+    ceduo_file_drop(&o->file);
+    ceduo_interrupt_release();
     return status;
 }

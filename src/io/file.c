@@ -268,14 +268,10 @@ static bool find_target(struct pending_file *file, mode_t *mode)
     return file->target;
 }
 
-bool ceduo_file_prepare(struct pending_file *file)
+/* Create the temporary file beside the target, with a part of its name if that is too long. Returns its descriptor; -1 with errno
+ * set. */
+static int open_temporary(struct pending_file *file, mode_t mode)
 {
-    mode_t mode;
-    if (!find_target(file, &mode))
-        return false;
-    if (!file->target)
-        return true;
-    /* beside the target; of a name as long as a file system takes them, a part is used, cut between two characters */
     static const char mark[] = ".ceduo-tmp-XXXXXX";
     const char *slash = strrchr(file->target, '/'), *name = slash ? slash + 1 : file->target;
     size_t n = strlen(name);
@@ -288,19 +284,53 @@ bool ceduo_file_prepare(struct pending_file *file)
     int fd = path.bytes ? mkostemp(path.bytes, O_CLOEXEC) : -1;
     if (fd < 0) {
         ceduo_text_free(&path);
-        return false;
+        return -1;
     }
     file->temporary = path.bytes;
-    bool good = fchmod(fd, mode) == 0;
-    return write_and_close(fd, file) && good;
+    if (fchmod(fd, mode) == 0)
+        return fd;
+    int why = errno;
+    close(fd);
+    errno = why;
+    return -1;
+}
+
+bool ceduo_file_prepare(struct pending_file *file)
+{
+    mode_t mode;
+    if (!find_target(file, &mode))
+        return false;
+    if (!file->target)
+        return true;
+    int fd = open_temporary(file, mode);
+    return fd >= 0 && write_and_close(fd, file);
+}
+
+/* Open what is no regular file, also through a link that leads to nothing yet. */
+static int open_straight(const char *path)
+{
+    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    return fd < 0 && errno == ENOENT ? open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666) : fd;
+}
+
+int ceduo_file_begin(struct pending_file *file)
+{
+    mode_t mode;
+    if (!find_target(file, &mode))
+        return -1;
+    return file->target ? open_temporary(file, mode) : open_straight(file->path);
+}
+
+bool ceduo_file_finish(struct pending_file *file, int fd)
+{
+    file->n = 0;
+    return write_and_close(fd, file) && (!file->target || ceduo_file_place(file));
 }
 
 bool ceduo_file_place(struct pending_file *file)
 {
     if (!file->target) {
-        int fd = open(file->path, O_WRONLY | O_CLOEXEC);
-        if (fd < 0 && errno == ENOENT) /* through a link that leads to nothing yet */
-            fd = open(file->path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+        int fd = open_straight(file->path);
         return fd >= 0 && write_and_close(fd, file);
     }
     if (rename(file->temporary, file->target) != 0)

@@ -52,6 +52,10 @@ struct pending_file {
 bool ceduo_file_prepare(struct pending_file *file);
 /* False with errno set. */
 bool ceduo_file_place(struct pending_file *file);
+/* Begin a file that is written piece by piece to the descriptor that is returned; -1 with errno set. To be dropped even then. */
+int ceduo_file_begin(struct pending_file *file);
+/* Close it, and put it in its place. False with errno set. */
+bool ceduo_file_finish(struct pending_file *file, int fd);
 /* Takes away what has not taken its place. */
 void ceduo_file_drop(struct pending_file *file);
 

@@ -77,22 +77,24 @@ static bool set_one(struct scene_file *file, struct source set, struct problems 
     if (!source)
         return false;
     const char *equals = equals_of(source->bytes);
-    if (!equals || equals == source->bytes)
+    if (!equals || strspn(source->bytes, " ") == (size_t)(equals - source->bytes))
         return ceduo_problem(problems, source, 1, 1, _("expected %s"), "PATH=VALUE");
-    size_t length = (size_t)(equals - source->bytes);
+    size_t length = (size_t)(equals - source->bytes), value_at = length + 1;
+    while (length > 0 && source->bytes[length - 1] == ' ')
+        length--;
     /* what a shell passes on without quotes, and YAML cuts or takes apart */
     LOCAL_TEXT(path);
     ceduo_text_add(&path, source->bytes, length);
     const struct field *field = ceduo_schema_at(ceduo_text_string(&path));
     const char *given = equals + 1 + strspn(equals + 1, " ");
     bool all = *given == '#'; /* nothing is left of it */
-    const struct node *value = all ? NULL : ceduo_yaml_read_value(&file->arena, source, length + 1, problems);
+    const struct node *value = all ? NULL : ceduo_yaml_read_value(&file->arena, source, value_at, problems);
     if (!value && !all)
         return false;
     bool text = field ? field->type <= FIELD_FILE : all || value->kind == NODE_SCALAR;
     bool cut = all || (value->kind == NODE_SCALAR && !value->quoted && strstr(given, " #"));
     if (all || (text && (cut || (value->kind == NODE_MAP && !value->flow))))
-        return ceduo_problem(problems, source, 1, length + 2,
+        return ceduo_problem(problems, source, 1, value_at + 1,
                              cut ? _("'#' begins a comment; between quotes it is text: %s=\"%s\"")
                                  : _("': ' makes a mapping; between quotes it is text: %s=\"%s\""),
                              ceduo_text_string(&path), given);

@@ -194,7 +194,10 @@ static void change(struct edit *e, const char *set)
         return;
     }
     bool keeps = equals > set && equals[-1] == ':';
-    const char *path = ceduo_arena_copy(e->arena, set, (size_t)(equals - set) - keeps);
+    size_t length = (size_t)(equals - set) - keeps;
+    while (length > 0 && set[length - 1] == ' ')
+        length--;
+    const char *path = ceduo_arena_copy(e->arena, set, length);
     const struct node *value = ceduo_document_parse(e->d, path, equals + 1, e->problems);
     const struct node *old = value && keeps ? ceduo_resolve_at(e->root, path) : NULL;
     put(e, path, old ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);

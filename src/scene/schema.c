@@ -81,6 +81,71 @@ bool ceduo_schema_is_settled(const char *path)
     return row_at(path, strlen(path), &flags) && flags & FIELD_SETTLED;
 }
 
+/* ---- what --set can change ---- */
+
+static enum path_value value_of(const struct field *f)
+{
+    switch (f->type) {
+    case FIELD_TEXT:
+        return PATH_TEXT;
+    case FIELD_FILE:
+        return PATH_FILE;
+    case FIELD_NUMBER:
+    case FIELD_SPREAD:
+    case FIELD_COUNT:
+        return PATH_NUMBER;
+    case FIELD_CHOICE:
+    case FIELD_FLAG:
+        return PATH_WORD;
+    default:
+        return f->flags & FIELD_FOLLOWS ? PATH_FILE : PATH_OTHER;
+    }
+}
+
+/* Kind of what stands at `rest` below a mapping or list item: its source, or a part of that. */
+static enum path_value source_part(const char *rest)
+{
+    size_t n = strlen("source");
+    if (strncmp(rest, "source", n) != 0 || (rest[n] && rest[n] != '.'))
+        return PATH_UNKNOWN;
+    return strcmp(rest, "source.text") == 0 ? PATH_TEXT : PATH_OTHER;
+}
+
+/* Kind of what stands at `rest` below a value: a number of a list or point, a part of a spread. */
+static enum path_value value_part(const struct field *f, const char *rest)
+{
+    size_t at = 0, n = strlen(rest), item;
+    struct path_step step;
+    bool spread = f->type == FIELD_SPREAD || f->type == FIELD_SPREADS;
+    size_t depth = f->type == FIELD_POINTS ? 2 : f->type >= FIELD_NUMBERS || f->type == FIELD_SPREADS ? 1 : 0, steps = 0;
+    while (steps < depth && rest[at] == '[' && ceduo_path_next(rest, n, &at, &step) && ceduo_path_index(&step, &item))
+        steps++;
+    if (at == n)
+        return steps < depth ? PATH_OTHER : f->type == FIELD_WORDS ? PATH_TEXT : PATH_NUMBER;
+    if (!spread || steps < depth)
+        return PATH_UNKNOWN;
+    if (strcmp(rest + at, ".mean") == 0 || strcmp(rest + at, ".spread") == 0)
+        return PATH_NUMBER;
+    return strcmp(rest + at, ".kind") == 0 ? PATH_WORD : PATH_UNKNOWN;
+}
+
+enum path_value ceduo_schema_value(const char *path)
+{
+    unsigned flags = 0;
+    size_t n = strlen(path);
+    const struct field *f = row_at(path, n, &flags);
+    if (f)
+        return f->type == FIELD_LIST && path[n - 1] == ']' ? PATH_OTHER : value_of(f);
+    for (; n > 0 && !f; n -= n > 0 && !f) /* the longest part that is a row */
+        f = path[n] == '.' || path[n] == '[' ? row_at(path, n, &flags) : NULL;
+    if (!f)
+        return source_part(path);
+    if (f->type != FIELD_GROUP && f->type != FIELD_LIST)
+        return value_part(f, path + n);
+    bool list = f->type == FIELD_LIST && path[n - 1] != ']' && !(f->flags & FIELD_OR_ONE);
+    return path[n] == '.' && !list ? source_part(path + n + 1) : PATH_UNKNOWN;
+}
+
 /* ---- defaults ---- */
 
 double ceduo_schema_default(const struct field *f)

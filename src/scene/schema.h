@@ -159,6 +159,18 @@ const struct field *ceduo_schema_fitted(const char *path);
 /* The same, also where it is a group or a list. */
 const struct field *ceduo_schema_row(const char *path);
 
+/* Kind of what --set can change at a path: a value, a part of one such as rock.diameter_m.mean or slope.vertices_m[0][1], a mapping,
+ * a list, or one of its items. */
+enum path_value {
+    PATH_UNKNOWN, /* --set knows no such path */
+    PATH_TEXT,
+    PATH_FILE, /* the name of a file, or the mapping that it holds */
+    PATH_NUMBER,
+    PATH_WORD, /* one of several words, or a flag */
+    PATH_OTHER
+};
+enum path_value ceduo_schema_value(const char *path);
+
 /* Whether the row of that value, or one around it, has FIELD_SETTLED. */
 bool ceduo_schema_is_settled(const char *path);
 

@@ -85,8 +85,9 @@ struct ceduo_csv {
 void ceduo_csv_head(struct text *text, const struct ceduo_csv *csv);
 void ceduo_csv_rows(struct text *text, const struct ceduo_csv *csv, const void *object);
 
-/* JSON Schema (draft 2020-12) of what ceduo_figures_json() writes, on one line; its $id ends in the format's name. */
-void ceduo_figures_schema(struct text *text, const char *format, const struct ceduo_figure *figures);
+/* JSON Schema (draft 2020-12) of what ceduo_figures_json() writes, on one line; its $id ends in the format's name. `row`: with
+ * --each the output also has the object "row". */
+void ceduo_figures_schema(struct text *text, const char *format, const struct ceduo_figure *figures, bool row);
 
 /* A line for each column of CSV: path, type, unit, when it is empty, meaning, with tabs between them; or their `heads`, the paths
  * alone, with a comma behind each. */

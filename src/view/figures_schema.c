@@ -48,10 +48,26 @@ static void write_container(struct json *j, const char *type, bool null)
     ceduo_json_close(j, ']');
 }
 
-static void write_object(struct json *j, const struct ceduo_figure *of, bool null)
+/* The cells that --each copies: no other output has this object. */
+static void write_row(struct json *j)
+{
+    ceduo_json_open(j, "row", '{');
+    ceduo_json_string(j, "description",
+                      "with --each: the copied cells of the row, by the heads of their columns; null if empty");
+    ceduo_json_string(j, "type", "object");
+    ceduo_json_open(j, "additionalProperties", '{');
+    write_type(j, CEDUO_VALUE_ANY, true);
+    ceduo_json_close(j, '}');
+    ceduo_json_close(j, '}');
+}
+
+/* `row`: the object also has the cells that --each copies. */
+static void write_object(struct json *j, const struct ceduo_figure *of, bool null, bool row)
 {
     write_container(j, "object", null);
     ceduo_json_open(j, "properties", '{');
+    if (row)
+        write_row(j);
     write_properties(j, of);
     ceduo_json_close(j, '}');
     ceduo_json_open(j, "required", '[');
@@ -66,7 +82,7 @@ static void write_items(struct json *j, const struct ceduo_figure *f)
     if (f->say)
         ceduo_json_string(j, "type", "string");
     else if (!f->plain)
-        write_object(j, f->of, false);
+        write_object(j, f->of, false, false);
     else if (f->of->value)
         write_type(j, f->of->value->kind, f->of->null != NULL);
     else
@@ -92,12 +108,12 @@ static void write_properties(struct json *j, const struct ceduo_figure *f)
         else if (f->say)
             write_type(j, CEDUO_VALUE_TEXT, f->null != NULL);
         else
-            write_object(j, f->of, f->null != NULL);
+            write_object(j, f->of, f->null != NULL, false);
         ceduo_json_close(j, '}');
     }
 }
 
-void ceduo_figures_schema(struct text *text, const char *format, const struct ceduo_figure *figures)
+void ceduo_figures_schema(struct text *text, const char *format, const struct ceduo_figure *figures, bool row)
 {
     struct json j = {.text = text};
     LOCAL_TEXT(id);
@@ -105,7 +121,7 @@ void ceduo_figures_schema(struct text *text, const char *format, const struct ce
     ceduo_json_open(&j, NULL, '{');
     ceduo_json_string(&j, "$schema", "https://json-schema.org/draft/2020-12/schema");
     ceduo_json_string(&j, "$id", ceduo_text_string(&id));
-    write_object(&j, figures, false);
+    write_object(&j, figures, false, row);
     ceduo_json_close(&j, '}');
     ceduo_text_char(text, '\n');
 }

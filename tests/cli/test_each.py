@@ -1,20 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--each: one scene changed by each row of a table; --columns; --resume."""
+"""--each: one scene changed by each row of a table; --columns. --resume: test_resume.py."""
 import csv
 import io
 import json
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import CEDUO, DONE, INPUT, OUTPUT, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good, run_all, wooded_scene
+from harness import (CEDUO, DONE, FULL, INPUT, SANITIZED, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, good,
+                     run_all, scene, wooded_scene)
 
 SCENE = wooded_scene(controls=[{"x_m": "end-60", "accepted_kJ": 20}])
-COLUMNS = "id,option,x_m,wooded.reach_probability"
 
 
 def profile(length):
@@ -40,14 +38,14 @@ def test_rows():
     """Each row gives what --set with its cells gives; other columns are copied, quoted where they must be; empty cells change nothing"""
     with Folder() as f:
         valley(f, 'name,slope,rock.density_kg_m3,title,note\n"a, b",100.csv,2400,it\'s,"say ""x"""\nc,120.csv,,"=1",\n')
-        rows = table(good("-b", "-n", 60, "-f", "csv", "--each", "rows.csv", "s.yaml", cwd=f.path).out)
+        rows = table(good("-b", "-q", "-n", 60, "-f", "csv", "--each", "rows.csv", "s.yaml", cwd=f.path).out)
         expect_equal([(r["row.name"], r["note"], r["title"]) for r in rows], [("a, b", 'say "x"', "it's"), ("c", "", "'=1")])
         expect("slope" not in rows[0] and "rock.density_kg_m3" not in rows[0], rows[0])
         for row, sets in zip(rows, (["slope=100.csv", "rock.density_kg_m3=2400", "title=\"it's\""], ["slope=120.csv", "title='=1'"])):
             words = [w for s in sets for w in ("-s", s)]
             alone = table(good("-b", "-n", 60, "-f", "csv", *words, "s.yaml", cwd=f.path).out)[0]
             expect_equal({k: row[k] for k in alone}, alone)
-        lines = good("-b", "-n", 60, "-f", "json", "--each", "rows.csv", "s.yaml", cwd=f.path).out.splitlines()
+        lines = good("-b", "-q", "-n", 60, "-f", "json", "--each", "rows.csv", "s.yaml", cwd=f.path).out.splitlines()
         expect_equal([json.loads(line)["row"] for line in lines], [{"name": "a, b", "note": 'say "x"'}, {"name": "c", "note": None}])
         expect_equal(json.loads(lines[0])["options"][0]["controls"][0]["x_m"], 40)
 
@@ -66,20 +64,25 @@ def test_foreign_tables():
 def test_bad_rows():
     """A bad row is named with its line, the others are computed, and at the end it is said how many failed"""
     with Folder() as f:
-        valley(f, "name,slope,controls[0].accepted_kJ\na,100.csv,20\nb,none.csv,20\nc,110.csv,x\nd,110.csv,20,9\ne,120.csv\n")
+        valley(f, "name,slope,controls[0].accepted_kJ\na,100.csv,20\nb,none.csv,20\nc,110.csv,x\nd,110.csv,20,9\ne,120.csv\nf,120.csv,\n")
         r = run(f, "-f", "csv", "--columns", "row.name")
-        expect_equal((r.status, r.out), (INPUT, "row.name\na\ne\n"), str(r))
-        for words in ("rows.csv:3: ", "none.csv", "rows.csv:4: ", "'x' is not a number", "rows.csv:5:", "3 of 5 failed: ",
-                      "rows.csv:3 (b), rows.csv:4 (c), rows.csv:5"):
+        expect_equal((r.status, r.out), (INPUT, "row.name\na\nf\n"), str(r))
+        for words in ("rows.csv:3: ", "none.csv", "rows.csv:4: ", "'x' is not a number", "rows.csv:5:14: more columns",
+                      "rows.csv:6:3: too few columns: 2, the head has 3", "4 of 6 failed: ",
+                      "rows.csv:3 (b), rows.csv:4 (c), rows.csv:5 (d), rows.csv:6 (e)"):
             expect_in(words, r.err)
         expect("end" not in r.err and "--set" not in r.err, r.err)
         r = ceduo("--check", "--each", "rows.csv", "s.yaml", cwd=f.path)
-        expect_equal((r.status, "3 of 5 failed" in r.err), (INPUT, True), str(r))
-        for text, words in (("", "empty"), ("a,a\n1,2\n", "'a' is given twice")):
+        expect_equal((r.status, "4 of 6 failed" in r.err), (INPUT, True), str(r))
+        for text, words in (("", "empty"), ("a,a,rock.diameter_m\n1,2,1\n", "'a' is given twice"), ("slope,slope\n,\n", "'slope' is given twice"),
+                            ("id,rock.diameter_m\n", "no row below the head"), ("id,rock.diameter_m\n,\n\n", "no row below the head"),
+                            ("id,wkt\n1,2\n", "no column changes the scene"), ("id;x;y\n1;2;3\n", "no column changes the scene"),
+                            ("'=a,=a,rock.diameter_m\n1,2,1\n", "given twice")):
             f.write("rows.csv", text)
             r = run(f, "-f", "csv")
             expect_equal((r.status, r.out), (INPUT, ""), str(r))
             expect_in(words, r.err)
+        expect_equal(ceduo("--check", "--each", "rows.csv", "-", cwd=f.path).status, USAGE)
 
 
 def test_messages():
@@ -112,37 +115,180 @@ def test_columns():
             expect_equal(run(f, *words).status, USAGE, words)
 
 
-def test_resume():
-    """After a kill --resume computes what is missing, and the file is as that of one run, to the byte"""
+def alone(f, *sets):
+    """The row of CSV of a scene that is changed by -s."""
+    return table(good("-b", "-n", 60, "-f", "csv", *[w for s in sets for w in ("-s", s)], "s.yaml", cwd=f.path).out)[0]
+
+
+def expect_rows(f, text, wanted):
+    """A table is read as rows of (copied cells, changes): each gives what -s gives."""
+    f.write("rows.csv", text)
+    r = run(f, "-f", "csv")
+    expect_equal(r.status, DONE, str(r))
+    rows = table(r.out)
+    expect_equal(len(rows), len(wanted), str(r))
+    for row, (cells, sets) in zip(rows, wanted):
+        expect_equal({k: row[k] for k in cells}, cells, text)
+        single = alone(f, *sets)
+        expect_equal({k: row[k] for k in single}, single, text)
+
+
+def test_quotes():
+    """Quotes as RFC 4180: line breaks within them, doubled ones; a quote inside a cell is a character; lines are counted right"""
     with Folder() as f:
-        rows = "".join(f"r{i},{100 + i % 3 * 10}.csv\n" for i in range(40))
-        valley(f, "id,slope\n" + rows)
-        words = ["-f", "csv", "--columns", COLUMNS, "-o"]
-        expect_equal(run(f, *words, "whole.csv").status, DONE)
-        whole = (f.path / "whole.csv").read_bytes()
-        program = subprocess.Popen([CEDUO, "-b", "-q", "-n", "60", "--each", "rows.csv", *words, "part.csv", "--resume", "s.yaml"],
-                                   cwd=f.path)
-        while program.poll() is None and (not (f.path / "part.csv").exists() or (f.path / "part.csv").stat().st_size < 200):
-            time.sleep(0.001)
-        program.send_signal(signal.SIGKILL)
-        program.wait()
-        for cut in (0, 5, 60):  # bytes that never came to the disk
-            part = (f.path / "part.csv").read_bytes()
-            (f.path / "part.csv").write_bytes(part[:len(part) - cut])
-            r = run(f, *words, "part.csv", "--resume")
-            expect_equal((r.status, (f.path / "part.csv").read_bytes()), (DONE, whole), str(r))
-        for rows, output, more, status, words_of in (
-                ("name,slope\na,100.csv\na,110.csv\n", "new.csv", [], INPUT, "cannot tell them apart"),
-                ("slope\n100.csv\n", "new.csv", [], USAGE, "which row"),
-                ("name,slope\na,100.csv\n", "s.yaml", [], OUTPUT, "read in this run"),
-                ("name,slope\na,100.csv\n", "other.csv", [], OUTPUT, "other columns")):
-            f.write("rows.csv", rows)
-            f.write("other.csv", "name,option\na,b\n")
-            r = run(f, "-f", "csv", "-o", output, "--resume", *more)
-            expect_equal(r.status, status, str(r))
-            expect_in(words_of, r.err)
-        expect_equal((f.path / "other.csv").read_text(), "name,option\na,b\n")
-        expect_equal(run(f, "--resume", "-f", "csv").status, USAGE)
+        valley(f, "")
+        two, one = ["rock.diameter_m=2"], ["rock.diameter_m=1.2"]
+        for text, notes in (('id,note,rock.diameter_m\na,"one\ntwo",2\nb,x,1.2\n', ["one\\x0atwo", "x"]),
+                            ('id,note,rock.diameter_m\na,6" step,2\nb,x,1.2\n', ['6" step', "x"]),
+                            ('id,note,rock.diameter_m\na,"6"" step",2\nb,"",1.2\n', ['6" step', ""]),
+                            ('id,note,rock.diameter_m\r\n"a","x, y; z",2\r\nb,"""",1.2\r\n', ["x, y; z", '"']),
+                            ('id,"note","rock.diameter_m"\na,"\n\n",2\nb,a"b"c,"1.2"', ["\\x0a\\x0a", 'a"b"c']),
+                            ('note,id,rock.diameter_m\n"1\n2\n3",a,2\n"",b,1.2\n', ["1\\x0a2\\x0a3", ""])):
+            expect_rows(f, text, [({"id": "a", "note": notes[0]}, two), ({"id": "b", "note": notes[1]}, one)])
+        f.write("rows.csv", 'id,note,rock.diameter_m\na,"one\ntwo",2\nb,"\n\n",x\nc,,\nd,"x"y,1\ne,"open,1\n')
+        r = run(f, "-f", "csv", "--columns", "id")
+        expect_equal((r.status, r.out), (INPUT, "id\na\nc\n"), str(r))
+        for words in ("rows.csv:4: rock.diameter_m: 'x' is not", "rows.csv:8:6: text after a closing quote", "rows.csv:9:3: this quote is not closed",
+                      "3 of 5 failed"):
+            expect_in(words, r.err)
+
+
+def test_identifiers():
+    """In JSON a copied cell is a number only if that prints as the same text; the answer is as --schema says"""
+    numbers = {"1": 1, "0": 0, "-3": -3, "0.5": 0.5, "1.25": 1.25, "100": 100, "9007199254740992": 2**53, "1e-09": 1e-9, "-0.1": -0.1}
+    texts = ["007", "1.10", "12345678901234567890", "0123", "1e5", "9007199254740993", "+5", "2E3", "0.1000000000000000055", "1e400", ".5",
+             "1_000", "0x10", "NaN", "Infinity", "true", "null", "false", "1.0", "1.", "-0.50", "1,5", "1e-9", "--1", "1 000", "\u0661"]
+    with Folder() as f:
+        valley(f, "")
+        cells = [*numbers, *texts, ""]
+        f.write("rows.csv", "code;rock.diameter_m\n" + "".join(f"{c};0.9\n" for c in cells))
+        rows = run(f, "-f", "json").json()
+        expect_equal([(r["row"]["code"], type(r["row"]["code"])) for r in rows],
+                     [(w, type(w)) for w in [*numbers.values(), *texts, None]])
+        f.write("rows.csv", 'code,rock.diameter_m\n"say ""x"" \t",0.9\n')
+        for words in (["--find", "forest[0].stand.stools.per_ha=500:3000", "--goal", "adc=9"], ["--sensitivity=2"], []):
+            row = ceduo("-b", "-q", "-n", 60, *words, "-f", "json", "--each", "rows.csv", "s.yaml", cwd=f.path).json()[0]["row"]
+            expect_equal(row, {"code": 'say "x"'})
+    for name, has in (("result", True), ("find", True), ("sensitivity", True), ("calibration", False)):
+        properties = json.loads(good("--schema", name).out)["properties"]
+        expect_equal("row" in properties, has, name)
+        expect(not has or properties["row"]["additionalProperties"]["type"] == ["number", "string", "null"], properties.get("row"))
+
+
+def test_heads():
+    """A head that is a slip of a path is refused with the path that was meant; names of other columns are copied; both are announced"""
+    with Folder() as f:
+        valley(f, "")
+        for head, meant in (("rock.diametr_m", "rock.diameter_m"), ("diameter_m", "rock.diameter_m"), ("Diameter_M", "rock.diameter_m"),
+                            ("rock_diameter_m", "rock.diameter_m"), ("slop", "slope"), ("Slope", "slope"), ("titel", "title"),
+                            ("per_ha", "forest[0].stand.stools.per_ha"), ("density_kg_m3", "rock.density_kg_m3"), ("rn", "slope.segments[0].rn"),
+                            ("forest[A].stand.trees[oak].dbm_m", "forest[A].stand.trees[oak].dbh_m"), ("rocks", "simulation.rocks"),
+                            ("controls[0].acepted_kJ", "controls[0].accepted_kJ"), ("controls[0]accepted_kJ", "controls[0].accepted_kJ"),
+                            ("stand", "forest[0].stand"), ("slope.segmnts[2].rt", "slope.segments[2].rt"), ("controls_n", "controls_m")):
+            f.write("rows.csv", f"id,{head},rock.mass_kg\n1,2,3\n")
+            for words in (["-f", "csv"], ["-f", "json"], ["--plot", "energy"]):
+                r = run(f, *words)
+                expect_equal((r.status, r.out), (INPUT, ""), str(r))
+                expect(r.err.startswith(f"rows.csv:1:4: '{head}' is no path of --set; write '{meant}' to set it"), r.err)
+        for head in ("len [m]", "Nr.", "row.scene", "rock.diameter_m.sd", "rock[0].diameter_m", "controls.x_m", "a.b", "rock.", ".rock", "rock[0"):
+            f.write("rows.csv", f"id,{head},rock.mass_kg\n1,2,3\n")
+            r = run(f, "-f", "csv")
+            expect_equal((r.status, r.out), (INPUT, ""), str(r))
+            expect_in(f"rows.csv:1:4: '{head}' is no path of --set", r.err)
+        copied = ["id", "name", "note", "wkt", "x", "y", "year", "date", "option", "count", "n", "mean", "age", "plot", "dbh", "layer", "base", "scene"]
+        f.write("rows.csv", ",".join(copied) + ",rock.density_kg_m3,slope,forest[0].stand.trees[0].per_ha,rock.diameter_m.mean,slope.vertices_m[0][1]\n"
+                + "1," * len(copied) + "2500,,,,\n")
+        r = ceduo("-b", "-n", 60, "-f", "csv", "--each", "rows.csv", "s.yaml", cwd=f.path)
+        expect_equal((r.status, r.err), (DONE, "rows.csv: columns that are set: rock.density_kg_m3, slope, forest[0].stand.trees[0].per_ha, "
+                                         "rock.diameter_m.mean, slope.vertices_m[0][1]; copied: " + ", ".join(copied[:10]) + " and 8 more\n"))
+        head = r.out.split("\n")[0].split(",")
+        expect_equal(len(head), len(set(head)), "names of columns")
+        expect_equal((head.count("scene"), head.count("row.scene")), (1, 1))
+        expect_equal(run(f, "-f", "csv").err, "", "-q")
+        f.write("rows.csv", "rock.density_kg_m3\n2500\n")
+        r = ceduo("--check", "--each", "-", "s.yaml", cwd=f.path, stdin=(f.path / "rows.csv").read_bytes())
+        expect_equal((r.status, r.err), (DONE, "standard input: columns that are set: rock.density_kg_m3; copied: none\n"))
+
+
+def test_text_of_files():
+    """sep=, CR, tabs, UTF-16 and Windows-1252 are read; NUL, broken UTF-8 and UTF-16 are refused, and nothing is computed"""
+    with Folder() as f:
+        valley(f, "")
+        wanted = [({"id": "a", "note": "Höhe"}, ["rock.diameter_m=1.5"]), ({"id": "b", "note": "–"}, ["rock.diameter_m=2"])]
+        plain = "id;note;rock.diameter_m\na;Höhe;1,5\nb;–;2\n"
+        for text in (plain.encode(), ("sep=;\n" + plain).encode(), plain.replace("\n", "\r").encode(), plain.replace(";", "\t").encode(),
+                     plain.replace("\n", "\r\n").encode("utf-16"), plain.encode("utf-16-le"), plain.encode("cp1252"),
+                     b"\xef\xbb\xbfsep=\t\r\n" + plain.replace(";", "\t").replace("\n", "\r\n").encode()):
+            expect_rows(f, text, wanted)
+        for text, words in ((plain.encode().replace(b"a;", b"a\0;"), "rows.csv:2:1: a NUL byte"), (plain.encode() + b"\xc3;;1\n", "broken UTF-8"),
+                            (plain.encode("utf-16")[:-1], "broken UTF-16"), (plain.encode("utf-16") + b"\x00\xd8;\0", "broken UTF-16")):
+            f.write("rows.csv", text)
+            r = run(f, "-f", "csv")
+            expect_equal((r.status, r.out), (INPUT, ""), str(r))
+            expect_in(words, r.err)
+
+
+def test_numbers():
+    """Numbers follow the one convention of the table: what can be read in two ways is refused by line; empty words set nothing;
+    YAML stays"""
+    with Folder() as f:
+        valley(f, "")
+        for text, wanted in (("id;rock.density_kg_m3;controls[0].accepted_kJ\na;2.600;12,5\nb;1.800,5;NA\nc;-;n.d.\n",
+                              [["rock.density_kg_m3=2600", "controls[0].accepted_kJ=12.5"], ["rock.density_kg_m3=1800.5"], []]),
+                             ("id,rock.density_kg_m3,controls[0].x_m\na,2.600e3,end-60\nb,NULL,40.5\n",
+                              [["rock.density_kg_m3=2600", "controls[0].x_m=end-60"], ["controls[0].x_m=40.5"]]),
+                             ('id,rock.diameter_m,simulation.rocks\na,"{mean: 1, spread: .2}",77\nb,.75,\n',
+                              [["rock.diameter_m={mean: 1, spread: .2}", "simulation.rocks=77"], ["rock.diameter_m=.75"]]),
+                             ('id;rock;controls\na;{shape: sphere, diameter_m: 1.5};[{x_m: 30}]\n',
+                              [["rock={shape: sphere, diameter_m: 1.5}", "controls=[{x_m: 30}]"]]),
+                             ('id|slope|title\na|{csv: 110.csv}|{x}\nb|120.csv|it\'s: #1\n',
+                              [["slope={csv: 110.csv}", "title='{x}'"], ["slope=120.csv", "title='it''s: #1'"]])):
+            expect_rows(f, text, [({"id": "abc"[i]}, sets) for i, sets in enumerate(wanted)])
+        for text, words, left in (("id;rock.density_kg_m3\na;2.600\nb;2600\n", "rows.csv:2:3: '2.600' can be read in two ways", "id\nb\n"),
+                                  ("id;rock.density_kg_m3\na;2600,5\nb;1800.5\n", "rows.csv:3:3: '1800.5'", "id\na\n"),
+                                  ("id,rock.density_kg_m3\na,2600\nb,26 00\n", "rows.csv:3:3: '26 00': two numbers", "id\na\n")):
+            f.write("rows.csv", text)
+            r = run(f, "-f", "csv", "--columns", "id")
+            expect_equal((r.status, r.out), (INPUT, left), str(r))
+            expect_in(words, r.err)
+
+
+def limited(f, kilobytes, *words):
+    """A run that may have so much memory: status, output, standard error."""
+    limit = "" if SANITIZED else f"ulimit -v {kilobytes}; "
+    done = subprocess.run(["sh", "-c", limit + 'exec "$0" "$@"', CEDUO, "-b", "-q", "-j", "1", "-n", "1", *words, "s.yaml"], cwd=f.path,
+                          env=environment(), capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_large_tables():
+    """30 000 heads and 100 000 rows are read in a memory that does not grow with them, also to a file"""
+    rows, good_rows = 100000, 100000 if FULL else 4000
+    with Folder() as f:
+        f.write("s.yaml", scene())
+        f.write("few.csv", "id,rock.diameter_m\n" + "r,1\n" * 10)
+        most = next(m for m in range(16000, 512000, 4000) if limited(f, m, "-f", "csv", "--each", "few.csv")[0] == DONE) + 24000
+        heads = [f"c{i}" for i in range(30000)]
+        f.write("wide.csv", ",".join([*heads, "rock.diameter_m"]) + "\n" + ",".join([*heads, "1"]) + "\n")
+        for words in (["-f", "csv"], ["-f", "json"], ["-f", "csv", "-o", "new.csv"]):
+            status, out, err = limited(f, most, *words, "--each", "wide.csv")
+            expect_equal((status, err), (DONE, ""))
+            out = out or (f.path / "new.csv").read_text()
+            found = json.loads(out)["row"] if "json" in words else table(out)[0]
+            expect_equal([found[h] for h in heads], heads)
+        r = ceduo("-b", "-q", "-n", 1, "-f", "csv", "--columns", "c29999,x_m,c0", "--each", "wide.csv", "s.yaml", cwd=f.path)
+        expect_equal(r.out, "c29999,x_m,c0\nc29999,75,c0\n")
+        (f.path / "new.csv").unlink()
+        f.write("rows.csv", "id,note,rock.diameter_m\n" + "".join(
+            f'r{i},"a ""{i}"" b{200 * "."}",{0.5 + i % 100 / 100}\n' if i * good_rows // rows != (i - 1) * good_rows // rows
+            else f"r{i},{200 * '.'}\n" for i in range(rows)))
+        most += (f.path / "rows.csv").stat().st_size // 1024 - 12000
+        for words in (["-f", "csv"], ["-f", "json", "-o", "new.json"], ["-f", "csv", "--columns", "id", "-o", "new.csv", "--resume"]):
+            status, out, err = limited(f, most, *words, "--each", "rows.csv")
+            expect_equal(status, DONE if FULL else INPUT, err)
+            out = out or (f.path / words[words.index("-o") + 1]).read_text()
+            expect_equal(len(out.splitlines()), good_rows + ("csv" in words))
+            expect(FULL or f"{rows - good_rows} of {rows} failed: " in err, err)
 
 
 def test_other_answers():

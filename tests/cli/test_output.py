@@ -6,6 +6,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -98,6 +99,63 @@ def test_output_file():
         for mode in ("--help", "--version", "--list-parameters", "--list-profiles"):
             done = good(mode, "-o", f.path / "list")
             expect(done.out == "" and (f.path / "list").read_text() == good(mode).out, mode)
+
+
+def test_output_dash():
+    """-o - is standard output in every mode, and no file is called so"""
+    talus = {"vertices_m": [[0, 64], [100, 0]], "segments": [{"rn": 0.35, "rt": 0.875, "roughness_rad": 0.125}]}
+    with Folder() as f:
+        f.write("small.yaml", scene(forest=[{"from_m": 10, "to_m": 70, "stand": stand()}]))
+        f.write("seen.yaml", scene(slope=talus, observed=[{"passed": {"x_m": 60, "count": 4, "of": 4}}]))
+        f.write("rows.csv", "id,rock.diameter_m\na,1\n")
+        names = f.names()
+        for words in (["--batch", "-n", 50, PAPER], ["-b", "-f", "csv", "-n", 50, PAPER, FOUR], ["-b", "-f", "csv", "-n", 50, "-q", "--each", "rows.csv", PAPER],
+                      ["--plot", "energy", "-n", 50, PAPER], ["--find", "forest[0].stand.stools.per_ha=500:3000", "--goal", "adc=9", "small.yaml"],
+                      ["--sensitivity=2", "-f", "csv", "-n", 20, "small.yaml"],
+                      ["-n", 60, "-f", "csv", "--calibrate", "slope.segments[0].rt=0.7:0.98", "seen.yaml"], ["--survey", "six-plots"],
+                      ["--survey", "--template"], ["--list-parameters"], ["--list-profiles"], ["--list-columns"], ["--schema", "result"],
+                      ["--help"], ["--version"]):
+            plain, dash = ceduo(*words, cwd=f.path), ceduo("-o", "-", *words, cwd=f.path)
+            expect_equal((dash.status, dash.out, dash.err), (plain.status, plain.out, plain.err), words)
+            expect(plain.status == DONE and plain.out, plain)
+            expect_equal(f.names(), names, words)
+        good("--batch", "-n", 5, "-o", "-", "-o", "last.txt", PAPER, cwd=f.path)
+        good("--batch", "-n", 5, "-o", "./-", PAPER, cwd=f.path)
+        expect_equal(sorted({*f.names()} - {*names}), ["-", "last.txt"])
+        expect_equal(ceduo("--report", "x.html", "-o", "-", PAPER, cwd=f.path).status, USAGE)
+        expect("<html" in good("--report", "-", "-n", 50, PAPER, cwd=f.path).out, "a report")
+        expect_equal(ceduo("-b", "-f", "csv", "--each", "rows.csv", "--resume", "-o", "-", PAPER, cwd=f.path).status, USAGE)
+
+
+def test_large_output():
+    """What is more than a megabyte is written whole or not at all, too: a signal leaves neither it nor its beginning"""
+    with Folder() as f:
+        rows = f.write("rows.csv", "id,rock.diameter_m\n" + "".join(f"r{i},{0.5 + i / 10000}\n" for i in range(2000)))
+        words = ["--batch", "-q", "-f", "csv", "-n", "1", "-j", "1", "--each", str(rows), f.write("s.yaml", scene())]
+        for old in (None, "old"):
+            if old:
+                f.write("out.csv", old)
+            with subprocess.Popen([CEDUO, *map(str, words), "-o", "out.csv"], cwd=f.path, env=environment()) as p:
+                while p.poll() is None and not any("tmp" in n for n in f.names()):
+                    time.sleep(0.001)
+                p.send_signal(signal.SIGTERM)
+            expect_equal(p.returncode, -signal.SIGTERM)
+            expect_equal(f.names(), (["out.csv"] if old else []) + ["rows.csv", "s.yaml"])
+            expect(not old or (f.path / "out.csv").read_text() == old, "the old file")
+        wanted = good(*words).out
+        expect(len(wanted) > 2000000, len(wanted))
+        good(*words, "-o", f.path / "out.csv")
+        expect_equal((f.path / "out.csv").read_text(), wanted)
+        expect_equal(f.names(), ["out.csv", "rows.csv", "s.yaml"])
+        expect_equal(ceduo(*words, "-o", "/dev/full").status, OUTPUT)
+        os.mkfifo(f.path / "fifo")
+        with open(f.path / "read", "wb") as read, subprocess.Popen(["cat", str(f.path / "fifo")], stdout=read) as cat:
+            try:
+                good(*words, "-o", f.path / "fifo")
+                cat.wait(timeout=PATIENCE)
+            finally:
+                cat.kill()
+        expect_equal((f.path / "read").read_text(), wanted, "FIFO")
 
 
 def umask():

@@ -24,6 +24,21 @@ def test_set_rock_and_order():
     expect_equal([c["x_m"] for c in controls], [100, 20], "controls in the order given")
 
 
+def test_set_blanks():
+    """Blanks around the = are ignored; others, and a path without a name, are not"""
+    plain = result(PAPER, "-n", 5, "-s", "rock.diameter_m=1", "-s", "title=a b")
+    for sets in (["rock.diameter_m = 1", "title = a b"], ["rock.diameter_m =1", "title=  a b "], ["rock.diameter_m   =   1", "title ='a b'"]):
+        expect_equal(differ(result(PAPER, "-n", 5, *[w for s in sets for w in ("-s", s)]), plain), [], sets)
+    for value, words in ((" = 1", "expected PATH=VALUE"), ("rock. diameter_m = 1", "' diameter_m'"), ("rock.diameter_m = -1", "--set:1:19: "),
+                         ("rock .diameter_m = 1", "'rock '"), ("rock.diametr_m = 1", "'diametr_m': unknown key")):
+        done = ceduo("--check", "-s", value, PAPER)
+        expect(done.status == USAGE and words in done.err, done)
+
+
+def differ(a, b):
+    return [key for key in a if key != "work" and a[key] != b[key]]
+
+
 def test_set_through_files():
     """-s goes through file references, by [i] and by [name], and changes that place only"""
     def stools(*arguments):

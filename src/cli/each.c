@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rows of --each: a column whose head is a path of --set changes the scene, all others are copied in front of the output. The table
+ * is read twice. The first pass finds the rows and reports all that is wrong with them; their cells are read when it is their turn. */
+#include "each.h"
+
+#include <string.h>
+
+#include "base/hash.h"
+#include "base/language.h"
+#include "io/file.h"
+#include "say.h"
+
+#define NAMES_MAX 10 /* scenes that failed, and columns, that are named */
+#define LABEL_MAX 20 /* bytes */
+
+/* ---- the table ---- */
+
+static bool is_wanted(const struct each_head *head, bool set)
+{
+    return head->name[0] && ceduo_each_is_copied(head) != set;
+}
+
+/* Append the names of the columns that are set, or of those that are copied. */
+static void append_names(const struct each *e, bool set, struct text *text)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < e->heads_count; i++)
+        if (is_wanted(&e->heads[i], set) && n++ < NAMES_MAX) {
+            ceduo_text_put(text, n > 1 ? ", " : "");
+            ceduo_text_safe(text, e->heads[i].name);
+        }
+    if (n > NAMES_MAX)
+        ceduo_text_format(text, _(" and %zu more"), n - NAMES_MAX);
+    if (n == 0)
+        ceduo_text_put(text, _("none"));
+}
+
+/* Print which columns are set and which are copied. */
+static void announce(const struct each *e)
+{
+    LOCAL_TEXT(set);
+    LOCAL_TEXT(copied);
+    LOCAL_TEXT(line);
+    append_names(e, true, &set);
+    append_names(e, false, &copied);
+    ceduo_text_format(&line, _("columns that are set: %s; copied: %s"), ceduo_text_string(&set), ceduo_text_string(&copied));
+    if (!e->given->quiet)
+        ceduo_say_why(e->table.source->name, ceduo_text_string(&line));
+}
+
+static bool read_heads(struct each *e)
+{
+    const struct csv *t = &e->table;
+    e->heads_count = t->heads_count;
+    e->heads = ceduo_arena_take(&e->arena, (t->heads_count + 1) * sizeof *e->heads);
+    e->cells = ceduo_arena_take(&e->arena, (t->heads_count + 1) * sizeof *e->cells);
+    if (!ceduo_each_heads(t, &e->arena, e->heads))
+        return false;
+    size_t set = 0;
+    for (size_t i = 0; i < e->heads_count; i++) {
+        set += is_wanted(&e->heads[i], true);
+        e->names_files |= e->heads[i].sets == PATH_FILE || e->heads[i].sets == PATH_OTHER;
+    }
+    return set > 0 || ceduo_problem(t->problems, t->source, t->head_place.line, 1,
+                                    _("no column changes the scene: none of the heads is a path of --set"));
+}
+
+/* True if a cell of a number is YAML that is no number: {mean: 1, spread: 0.2}. */
+static bool is_yaml(struct csv_cell cell)
+{
+    return cell.n > 0 && (cell.p[0] == '{' || cell.p[0] == '[');
+}
+
+/* Report cells of the present record that can be read in two ways. What is no number at all is for the scene to judge: a place may be
+ * end-10. */
+static bool check_numbers(const struct each *e)
+{
+    bool good = true;
+    char number[CSV_NUMERAL_CAPACITY];
+    for (size_t i = 0; i < e->heads_count; i++) {
+        struct csv_cell cell = ceduo_csv_cell(&e->table, i);
+        if (e->heads[i].sets != PATH_NUMBER || is_yaml(cell) || ceduo_csv_is_empty(cell))
+            continue;
+        enum csv_numeral how = ceduo_csv_numeral(&e->table, cell, number);
+        if (how != CSV_NUMERAL_GOOD && how != CSV_NUMERAL_NONE)
+            good = ceduo_csv_no_number(&e->table, cell, how);
+    }
+    return good;
+}
+
+/* Find the rows, and report those that are bad. */
+static bool read_rows(struct each *e)
+{
+    struct csv *t = &e->table;
+    bool *numeric = ceduo_arena_take(&e->arena, (e->heads_count + 1) * sizeof *numeric);
+    for (size_t i = 0; i < e->heads_count; i++)
+        numeric[i] = e->heads[i].sets == PATH_NUMBER;
+    ceduo_csv_scan(t, numeric);
+    if (t->rows == 0)
+        return ceduo_problem(t->problems, t->source, 0, 0, _("no row below the head"));
+    e->rows = ceduo_arena_take(&e->arena, t->rows * sizeof *e->rows);
+    t->arena = &e->row_arena; /* the scan has made the list of cells long enough */
+    while (ceduo_csv_next(t)) {
+        bool bad = t->bad || !check_numbers(e);
+        e->bad_rows |= bad;
+        e->rows[e->rows_count++] = (struct each_row){t->place, bad};
+        ceduo_arena_free(&e->row_arena);
+    }
+    return true;
+}
+
+static enum exit_status read_table(struct each *e)
+{
+    struct problems problems = {0};
+    bool good = ceduo_csv_open(&e->table, &e->arena, e->given->each, &problems);
+    if (good) {
+        e->table.source->foreign = false; /* its name was given for this */
+        good = ceduo_csv_first(&e->table) && read_heads(e);
+    }
+    if (good)
+        announce(e);
+    good = good && read_rows(e);
+    ceduo_say_problems(&problems);
+    e->table.problems = NULL;
+    return good ? EXIT_DONE : EXIT_INPUT;
+}
+
+enum exit_status ceduo_each_open(struct each *e, const struct arguments *a)
+{
+    *e = (struct each){.arguments = *a, .given = a};
+    enum exit_status status = a->each ? read_table(e) : EXIT_DONE;
+    e->count = a->scenes_count * (a->each ? e->rows_count : 1);
+    e->arguments.sets.items = ceduo_arena_take(&e->arena, (a->sets.n + e->heads_count + 1) * sizeof *a->sets.items);
+    memcpy(e->arguments.sets.items, a->sets.items, a->sets.n * sizeof *a->sets.items);
+    return status;
+}
+
+/* ---- scene by scene ---- */
+
+/* Append a text as YAML in quotes. */
+static void append_quoted(struct text *change, const char *cell)
+{
+    ceduo_text_char(change, '\'');
+    for (const char *p = cell; *p; p++)
+        ceduo_text_put(change, *p == '\'' ? "''" : (char[]){*p, '\0'});
+    ceduo_text_char(change, '\'');
+}
+
+/* Change that a cell of the present record asks for, PATH=VALUE; NULL: none. */
+static const char *make_change(struct each *e, size_t column)
+{
+    const struct each_head *head = &e->heads[column];
+    struct csv_cell cell = ceduo_csv_cell(&e->table, column);
+    char number[CSV_NUMERAL_CAPACITY];
+    if (cell.n == 0 || (head->sets == PATH_NUMBER && ceduo_csv_is_empty(cell)))
+        return NULL;
+    LOCAL_TEXT(change);
+    ceduo_text_format(&change, "%s=", head->name);
+    if (head->sets == PATH_TEXT || (head->sets == PATH_FILE && !is_yaml(cell)))
+        append_quoted(&change, e->cells[column]);
+    else if (head->sets == PATH_NUMBER && !is_yaml(cell) && ceduo_csv_numeral(&e->table, cell, number) == CSV_NUMERAL_GOOD)
+        ceduo_text_put(&change, number);
+    else
+        ceduo_text_put(&change, e->cells[column]);
+    return ceduo_arena_string(&e->row_arena, ceduo_text_string(&change));
+}
+
+/* Read the cells of a row, and the changes that they ask for. */
+static void read_row(struct each *e, const struct each_row *row)
+{
+    struct word_list *sets = &e->arguments.sets;
+    ceduo_csv_return(&e->table, row->place);
+    e->arguments.label = e->name;
+    for (size_t i = e->heads_count; i-- > 0;) {
+        struct csv_cell cell = ceduo_csv_cell(&e->table, i);
+        e->cells[i] = ceduo_arena_copy(&e->row_arena, cell.p, cell.n);
+        if (ceduo_each_is_copied(&e->heads[i]) && cell.n > 0 && cell.n <= LABEL_MAX) /* the first short one: no geometry */
+            e->arguments.label = e->cells[i];
+    }
+    for (size_t i = 0; i < e->heads_count && !row->bad; i++) {
+        const char *change = is_wanted(&e->heads[i], true) ? make_change(e, i) : NULL;
+        if (change)
+            sets->items[sets->n++] = change;
+    }
+}
+
+bool ceduo_each_next(struct each *e)
+{
+    const struct arguments *given = e->given;
+    const struct each_row *row = NULL;
+    do {
+        if (e->at == e->count)
+            return false;
+        size_t scenes = given->scenes_count;
+        ceduo_arena_free(&e->row_arena);
+        row = e->rows ? &e->rows[e->at / scenes] : NULL;
+        e->path = given->scenes[e->at++ % scenes];
+        e->name = row ? ceduo_arena_format(&e->row_arena, "%s:%zu", given->each, row->place.line) : e->path;
+        e->arguments.label = NULL;
+        e->arguments.called = row || e->count > 1 ? e->name : NULL;
+        e->arguments.sets.n = given->sets.n;
+        if (row)
+            read_row(e, row);
+        e->arguments.cells = e->arguments.sets.n - given->sets.n;
+        if (row && row->bad)
+            ceduo_each_note_failed(e);
+    } while (row && row->bad);
+    return true;
+}
+
+uint64_t ceduo_each_hash(const struct each *e)
+{
+    uint64_t hash = hash_bytes(e->path, strlen(e->path));
+    for (size_t i = 0; i < e->heads_count; i++)
+        if (e->heads[i].name[0])
+            hash_count(&hash, hash_bytes(e->cells[i], strlen(e->cells[i])));
+    return hash;
+}
+
+/* ---- answers and failures ---- */
+
+void ceduo_each_json(const struct each *e, struct json *json)
+{
+    ceduo_json_open(json, "row", '{');
+    for (size_t i = 0; i < e->heads_count; i++) {
+        const char *name = e->heads[i].name, *cell = e->cells[i];
+        double number;
+        if (!ceduo_each_is_copied(&e->heads[i]))
+            continue;
+        if (ceduo_number_read(cell, &number) == CEDUO_NUMBER_GOOD && strcmp(NUMERAL(number), cell) == 0)
+            ceduo_json_number(json, name, number);
+        else
+            ceduo_json_string(json, name, cell[0] ? cell : NULL);
+    }
+    ceduo_json_close(json, '}');
+}
+
+void ceduo_each_page(const struct each *e, struct text *page)
+{
+    ceduo_text_safe(page, e->name);
+    for (size_t i = 0; i < e->heads_count; i++)
+        if (ceduo_each_is_copied(&e->heads[i]) && e->cells[i][0]) {
+            ceduo_text_put(page, " \xc2\xb7 ");
+            ceduo_text_safe(page, e->cells[i]);
+        }
+    ceduo_text_char(page, '\n');
+}
+
+void ceduo_each_note_failed(struct each *e)
+{
+    const char *label = e->arguments.label;
+    if (e->failures++ < NAMES_MAX) {
+        ceduo_text_format(&e->failed, e->failures > 1 ? ", %s" : "%s", e->name);
+        if (label && label != e->name)
+            ceduo_text_format(&e->failed, " (%s)", label);
+    } else if (e->failures == NAMES_MAX + 1) {
+        ceduo_text_put(&e->failed, ", \xe2\x80\xa6");
+    }
+}
+
+void ceduo_each_close(struct each *e)
+{
+    if (e->count > 1 && e->failures > 0) {
+        LOCAL_TEXT(line);
+        ceduo_text_format(&line, ngettext("%zu of %zu failed: %s", "%zu of %zu failed: %s", e->failures), e->failures, e->count,
+                          ceduo_text_string(&e->failed));
+        ceduo_say_why("ceduo", ceduo_text_string(&line));
+    }
+    ceduo_text_free(&e->failed);
+    ceduo_arena_free(&e->row_arena);
+    ceduo_arena_free(&e->arena);
+}

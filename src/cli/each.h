@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_EACH_H
+#define CEDUO_EACH_H
+
+#include "arguments.h"
+#include "base/arena.h"
+#include "base/json.h"
+#include "io/csv.h"
+#include "io/scene_file.h"
+#include "scene/schema.h"
+
+/* A column of --each. */
+struct each_head {
+    const char *name;     /* "": the column is ignored */
+    const char *printed;  /* name of a copied column in CSV */
+    enum path_value sets; /* kind of the value that it sets; PATH_UNKNOWN: it is copied */
+};
+
+static inline bool ceduo_each_is_copied(const struct each_head *head)
+{
+    return head->sets == PATH_UNKNOWN && head->name[0];
+}
+
+/* Decide which columns are set and which are copied. Reports heads that occur twice or look like a wrong path, and returns false if
+ * there is one. `heads` has an element for each head of the table. */
+bool ceduo_each_heads(const struct csv *table, struct arena *arena, struct each_head *heads);
+
+struct each_row {
+    struct csv_place place;
+    bool bad;
+};
+
+/* The scenes that are computed one after the other: all of the command line, with --each once for each row of a table. */
+struct each {
+    const struct arguments *given;
+    struct arguments arguments; /* of the present scene, with the changes of its row */
+    const char *path;           /* of the present scene */
+    const char *name;           /* of the present scene in messages: its path, or "slopes.csv:17" */
+    size_t at, count;           /* number of the present scene, from 1; number of all scenes */
+    struct arena arena, row_arena;
+    struct csv table;
+    size_t heads_count, rows_count;
+    struct each_head *heads;
+    struct each_row *rows; /* NULL: no --each */
+    const char **cells;    /* of the present row, one for each head */
+    bool names_files;      /* cells may name files that the scene reads */
+    bool bad_rows;         /* at least one row cannot be read */
+    struct text failed;    /* names of the scenes that failed */
+    size_t failures;
+};
+
+/* Read the table if there is one. Returns another status than EXIT_DONE if nothing can be computed, which is reported. */
+enum exit_status ceduo_each_open(struct each *each, const struct arguments *arguments);
+
+/* Go to the next scene; false after the last. Scenes of bad rows are skipped and noted as failed. */
+bool ceduo_each_next(struct each *each);
+
+/* Note that the present scene failed. */
+void ceduo_each_note_failed(struct each *each);
+
+/* Add the object "row": the copied cells. A cell is a number only if the number prints as the same text. */
+void ceduo_each_json(const struct each *each, struct json *json);
+
+/* Add a line that names the present row in front of its page. */
+void ceduo_each_page(const struct each *each, struct text *page);
+
+/* Hash of the present scene's path and the cells of its row. */
+uint64_t ceduo_each_hash(const struct each *each);
+
+/* Report how many scenes failed, and which, and free all. */
+void ceduo_each_close(struct each *each);
+
+#endif

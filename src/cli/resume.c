@@ -1,0 +1,445 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* --resume: the output grows scene by scene, and a side file has a line for each scene: hash of its input, number of its lines in the
+ * output, their hash, exit status. A scene is added to the output first and to the side file then. After a kill the lines that the
+ * side file does not know, or that are not as it says, are computed again. They are added at the end; the last step of a run that
+ * needs it is to put all lines into the order of the rows. */
+#include "resume.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/grow.h"
+#include "base/hash.h"
+#include "base/language.h"
+#include "base/must.h"
+#include "ceduo/version.h"
+#include "io/file.h"
+#include "say.h"
+
+#define FORMAT      "ceduo-resume-1"
+#define PART_LENGTH 59 /* bytes of a line of the side file, its end included */
+#define PART_FORMAT "%016" PRIx64 " %016" PRIx64 " %020zu %03d\n"
+
+/* ---- what the run is ---- */
+
+uint64_t ceduo_resume_files(const struct scene_file *file)
+{
+    uint64_t hash = HASH_START;
+    for (const struct source *s = file->arena.sources; s; s = s->before)
+        hash_count(&hash, hash_bytes(s->bytes, s->length));
+    return hash;
+}
+
+static void hash_text(uint64_t *hash, const char *text)
+{
+    hash_count(hash, text ? hash_bytes(text, strlen(text)) : 0);
+}
+
+/* Hash of all files of the scenes and of all changes but the seed. A scene may be wrong until a row changes it. */
+static uint64_t hash_scenes(const struct arguments *a)
+{
+    uint64_t hash = HASH_START;
+    for (size_t i = 0; i < a->scenes_count; i++) {
+        LOCAL_PROBLEMS(problems);
+        struct scene_file file;
+        hash_text(&hash, a->scenes[i]);
+        ceduo_scene_load(&file, a->scenes[i], a->sets.items, a->sets.n, &problems);
+        hash_count(&hash, ceduo_resume_files(&file));
+        ceduo_scene_release(&file);
+    }
+    for (size_t i = 0; i < a->sets.n; i++)
+        if (strcmp(a->sets.items[i], a->seed_set) != 0)
+            hash_text(&hash, a->sets.items[i]);
+    return hash;
+}
+
+/* Hash of the options that change figures, without those that have a line of their own. */
+static uint64_t hash_options(const struct arguments *a)
+{
+    uint64_t hash = HASH_START;
+    hash_count(&hash, (uint64_t)a->mode);
+    hash_count(&hash, (uint64_t)a->stands);
+    hash_count(&hash, a->years);
+    hash_count(&hash, a->window.first);
+    hash_count(&hash, a->window.last);
+    hash_count(&hash, a->window.step);
+    hash_count(&hash, a->points);
+    hash_count(&hash, (uint64_t)a->goal);
+    hash_text(&hash, a->find.path);
+    const double numbers[] = {a->tolerance, a->find.lo, a->find.hi, a->goal_value, a->sure};
+    hash_doubles(&hash, numbers, sizeof numbers / sizeof numbers[0]);
+    for (size_t i = 0; i < a->options.n; i++)
+        hash_text(&hash, a->options.items[i]);
+    return hash;
+}
+
+/* Hash of the head of the output and of the columns that are set. */
+static uint64_t hash_columns(const struct each *e, const struct text *head)
+{
+    uint64_t hash = hash_bytes(head->bytes, head->length);
+    for (size_t i = 0; i < e->heads_count; i++)
+        hash_text(&hash, ceduo_each_is_copied(&e->heads[i]) ? "" : e->heads[i].name);
+    return hash;
+}
+
+/* Names of the lines of the identity, in their order, and what they are called. */
+static const char *const identity_keys[] = {"version", "scene", "options", "seed", "rocks", "columns"};
+static const char *const identity_names[] = {N_("version"), N_("scene"), N_("options"), N_("seed"), N_("rocks"), N_("columns")};
+enum { IDENTITY = sizeof identity_keys / sizeof identity_keys[0] };
+
+static void make_identity(struct resume *r, const struct each *e)
+{
+    const struct arguments *a = r->arguments;
+    ceduo_text_put(&r->identity, FORMAT "\n");
+    ceduo_text_format(&r->identity, "%s %s\n", identity_keys[0], CEDUO_VERSION);
+    ceduo_text_format(&r->identity, "%s %016" PRIx64 "\n", identity_keys[1], hash_scenes(a));
+    ceduo_text_format(&r->identity, "%s %016" PRIx64 "\n", identity_keys[2], hash_options(a));
+    ceduo_text_format(&r->identity, "%s %s\n", identity_keys[3], a->seed_set[0] ? a->seed_set : "-");
+    ceduo_text_format(&r->identity, "%s %" PRIu64 "\n", identity_keys[4], a->rocks);
+    ceduo_text_format(&r->identity, "%s %016" PRIx64 "\n", identity_keys[5], hash_columns(e, r->head));
+}
+
+/* ---- files ---- */
+
+static enum exit_status refuse(const char *path, const char *why)
+{
+    ceduo_say_why(path, why);
+    return EXIT_OUTPUT;
+}
+
+/* Open a regular file; -1 with a reason in `*why` if it is none. */
+static int open_regular(const char *path, const char **why)
+{
+    struct stat st;
+    *why = NULL;
+    if (stat(path, &st) == 0 && !S_ISREG(st.st_mode)) {
+        *why =
+            S_ISDIR(st.st_mode) ? strerror(EISDIR) : _("--resume needs a file that can be read again, not a device or a pipe");
+        return -1;
+    }
+    int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
+    if (fd < 0)
+        *why = strerror(errno);
+    return fd;
+}
+
+/* Open and lock the output. Another program may have put a new file in its place meanwhile: then the new file is opened. */
+static enum exit_status open_locked(struct resume *r)
+{
+    const char *path = r->arguments->output, *why;
+    for (;;) {
+        struct stat own, now;
+        r->file = open_regular(path, &why);
+        if (r->file < 0)
+            return refuse(path, why);
+        if (flock(r->file, LOCK_EX | LOCK_NB) != 0)
+            return refuse(path, errno == EWOULDBLOCK ? _("another ceduo is writing to it; wait for its end, or write elsewhere")
+                                                     : strerror(errno));
+        if (fstat(r->file, &own) == 0 && stat(path, &now) == 0 && own.st_ino == now.st_ino && own.st_dev == now.st_dev)
+            return EXIT_DONE;
+        close(r->file);
+    }
+}
+
+/* All of a file; "" if it is empty, NULL with errno set on failure. */
+static const char *map_file(int fd, size_t *n)
+{
+    struct stat st;
+    if (fstat(fd, &st) != 0)
+        return NULL;
+    *n = (size_t)st.st_size;
+    if (*n == 0)
+        return "";
+    void *bytes = mmap(NULL, *n, PROT_READ, MAP_PRIVATE, fd, 0);
+    return bytes == MAP_FAILED ? NULL : bytes;
+}
+
+static void unmap_file(const char *bytes, size_t n)
+{
+    if (bytes && n > 0)
+        munmap((void *)(uintptr_t)bytes, n);
+}
+
+/* Write bytes at the end of a file that has `end` bytes, all or none of them. False with errno set. */
+static bool append(int fd, size_t end, const char *bytes, size_t n)
+{
+    if (lseek(fd, (off_t)end, SEEK_SET) >= 0 && ceduo_file_fill(fd, bytes, n, NULL))
+        return true;
+    int why = errno;
+    if (ftruncate(fd, (off_t)end) != 0)
+        why = errno;
+    errno = why;
+    return false;
+}
+
+/* ---- what the output holds ---- */
+
+/* Append the names of the lines in which two identities differ. */
+static void append_differences(const char *a, const char *b, struct text *names)
+{
+    for (size_t i = 0; i < IDENTITY; i++) {
+        a += strcspn(a, "\n");
+        b += strcspn(b, "\n");
+        a += *a == '\n';
+        b += *b == '\n';
+        size_t n = strcspn(a, "\n");
+        if (n != strcspn(b, "\n") || strncmp(a, b, n) != 0)
+            ceduo_text_then(names, names->length > 0 ? ", " : "", "%s", _(identity_names[i]));
+    }
+}
+
+static enum exit_status refuse_other(const struct resume *r, const char *names)
+{
+    LOCAL_TEXT(why);
+    ceduo_text_format(&why, _("it belongs to another run (different: %s); write elsewhere, or remove it and %s"), names,
+                      r->side_path);
+    return refuse(r->arguments->output, ceduo_text_string(&why));
+}
+
+/* Read a line of the side file. */
+static bool read_part(const char *line, size_t n, struct resume_part *part)
+{
+    char text[PART_LENGTH + 1] = "";
+    int status;
+    if (n < PART_LENGTH || line[PART_LENGTH - 1] != '\n')
+        return false;
+    memcpy(text, line, PART_LENGTH);
+    *part = (struct resume_part){0};
+    if (sscanf(text, "%16" SCNx64 " %16" SCNx64 " %20zu %3d", &part->key, &part->hash, &part->lines, &status) != 4 ||
+        status < 0)
+        return false;
+    part->status = (enum exit_status)status;
+    return true;
+}
+
+/* Find the lines of a part, which begin at `from`. Returns the byte after them, and whether they are as the side file says. */
+static size_t find_lines(const char *bytes, size_t n, size_t from, struct resume_part *part, bool *whole)
+{
+    size_t end = from;
+    for (size_t i = 0; i < part->lines && end < n; i++) {
+        const char *line = memchr(bytes + end, '\n', n - end);
+        end = line ? (size_t)(line - bytes) + 1 : n;
+    }
+    part->from = from;
+    part->n = end - from;
+    *whole = hash_bytes(bytes + from, part->n) == part->hash;
+    return end;
+}
+
+static int compare_parts(const void *a, const void *b)
+{
+    const struct resume_part *x = a, *y = b;
+    int order = (x->key > y->key) - (x->key < y->key);
+    return order != 0 ? order : (x->from > y->from) - (x->from < y->from);
+}
+
+/* Find the parts of the output that are whole, and cut off both files after the last of them. */
+static bool find_parts(struct resume *r, const char *output, size_t output_n, const char *side, size_t side_n)
+{
+    size_t at = r->identity.length, side_end = at, from = r->head->length, most = (side_n - at) / PART_LENGTH;
+    struct resume_part part;
+    r->known = ceduo_must(calloc(most + 1, sizeof *r->known));
+    r->end = from;
+    for (; read_part(side + at, side_n - at, &part); at += PART_LENGTH) {
+        bool whole;
+        from = find_lines(output, output_n, from, &part, &whole);
+        if (!whole)
+            continue;
+        r->known[r->known_count++] = part;
+        r->end = from;
+        side_end = at + PART_LENGTH;
+    }
+    if (r->known_count > 0)
+        qsort(r->known, r->known_count, sizeof *r->known, compare_parts);
+    return ftruncate(r->file, (off_t)r->end) == 0 && ftruncate(r->side, (off_t)side_end) == 0;
+}
+
+/* Compare the files with this run. `*again`: nothing in them is of use. */
+static enum exit_status compare_run(const struct resume *r, const char *output, size_t output_n, const char *side,
+                                    size_t side_n, bool *again)
+{
+    size_t format = strlen(FORMAT), head = r->head->length;
+    *again = output_n < head && memcmp(output, r->head->bytes, output_n) == 0;
+    if (side_n > 0 && (side_n < format ? memcmp(side, FORMAT, side_n) : memcmp(side, FORMAT, format)) != 0)
+        return refuse(r->side_path, _("this is no file of --resume; move it away"));
+    if (output_n == 0)
+        return EXIT_DONE;
+    if (side_n == 0) {
+        LOCAL_TEXT(why);
+        ceduo_text_format(&why, _("there is no %s that says which run it belongs to; write elsewhere, or remove it"),
+                          r->side_path);
+        return refuse(r->arguments->output, ceduo_text_string(&why));
+    }
+    LOCAL_TEXT(found);
+    LOCAL_TEXT(names);
+    ceduo_text_add(&found, side, side_n < 2 * r->identity.length ? side_n : 2 * r->identity.length);
+    append_differences(ceduo_text_string(&r->identity), ceduo_text_string(&found), &names);
+    if (names.length == 0 && !*again && (output_n < head || memcmp(output, r->head->bytes, head) != 0))
+        ceduo_text_put(&names, _("columns")); /* its head was changed */
+    *again |= side_n < r->identity.length;
+    return names.length > 0 ? refuse_other(r, ceduo_text_string(&names)) : EXIT_DONE;
+}
+
+static enum exit_status read_files(struct resume *r)
+{
+    size_t output_n = 0, side_n = 0;
+    const char *output = map_file(r->file, &output_n), *side = map_file(r->side, &side_n);
+    bool again = false, good = output && side;
+    enum exit_status status = good ? compare_run(r, output, output_n, side, side_n, &again) : EXIT_DONE;
+    if (good && status == EXIT_DONE && !again)
+        good = find_parts(r, output, output_n, side, side_n);
+    else if (good && status == EXIT_DONE)
+        good = ftruncate(r->file, 0) == 0 && ftruncate(r->side, 0) == 0 &&
+               append(r->side, 0, r->identity.bytes, r->identity.length);
+    int why = errno;
+    unmap_file(output, output_n);
+    unmap_file(side, side_n);
+    return good ? status : refuse(r->arguments->output, strerror(why));
+}
+
+enum exit_status ceduo_resume_open(struct resume *r, struct each *e, const struct text *head)
+{
+    *r = (struct resume){.arguments = e->given, .head = head, .file = -1, .side = -1};
+    LOCAL_TEXT(side);
+    const char *why;
+    ceduo_text_format(&side, "%s.resume", e->given->output);
+    r->side_path = ceduo_must(strdup(ceduo_text_string(&side)));
+    enum exit_status status = open_locked(r);
+    if (status != EXIT_DONE)
+        return status;
+    r->side = open_regular(r->side_path, &why);
+    if (r->side < 0)
+        return refuse(r->side_path, why);
+    make_identity(r, e);
+    return read_files(r);
+}
+
+/* ---- scene by scene ---- */
+
+static void add_to_order(struct resume *r, struct resume_part part)
+{
+    r->order = ceduo_must(ceduo_grow(r->order, r->order_count, &r->order_capacity, sizeof *r->order));
+    r->order[r->order_count++] = part;
+}
+
+bool ceduo_resume_has(struct resume *r, uint64_t key, enum exit_status *status)
+{
+    size_t lo = 0, hi = r->known_count; /* the first part of this key */
+    while (lo < hi) {
+        size_t middle = lo + (hi - lo) / 2;
+        if (r->known[middle].key < key)
+            lo = middle + 1;
+        else
+            hi = middle;
+    }
+    struct resume_part *first = r->known + lo;
+    if (lo == r->known_count || first->key != key || lo + first->used == r->known_count || first[first->used].key != key)
+        return false;
+    struct resume_part part = first[first->used++];
+    add_to_order(r, part);
+    *status = part.status;
+    return true;
+}
+
+/* Append the line of a part to the text of a side file. */
+static void append_part(const struct resume_part *part, struct text *side)
+{
+    ceduo_text_format(side, PART_FORMAT, part->key, part->hash, part->lines, (int)part->status);
+}
+
+enum exit_status ceduo_resume_add(struct resume *r, uint64_t key, const struct text *lines, enum exit_status status)
+{
+    LOCAL_TEXT(side);
+    struct stat st;
+    struct resume_part part = {
+        .key = key, .hash = hash_bytes(lines->bytes, lines->length), .n = lines->length, .status = status};
+    for (size_t i = 0; i < lines->length; i++)
+        part.lines += lines->bytes[i] == '\n';
+    append_part(&part, &side);
+    if (r->end == 0) {
+        if (!append(r->file, 0, r->head->bytes, r->head->length))
+            return refuse(r->arguments->output, strerror(errno));
+        r->end = r->head->length;
+    }
+    part.from = r->end;
+    if (!append(r->file, r->end, lines->bytes, lines->length))
+        return refuse(r->arguments->output, strerror(errno));
+    r->end += part.n;
+    if (fstat(r->side, &st) != 0 || !append(r->side, (size_t)st.st_size, side.bytes, side.length))
+        return refuse(r->side_path, strerror(errno));
+    add_to_order(r, part);
+    return EXIT_DONE;
+}
+
+/* ---- the end ---- */
+
+static bool is_in_order(const struct resume *r)
+{
+    size_t from = r->order_count > 0 ? r->head->length : 0;
+    for (size_t i = 0; i < r->order_count; i++) {
+        if (r->order[i].from != from)
+            return false;
+        from += r->order[i].n;
+    }
+    return from == r->end || r->order_count == 0;
+}
+
+/* Put a locked file with these bytes in the place of another. False with errno set. */
+static bool replace_file(const char *path, const struct text *text)
+{
+    struct pending_file file = {.path = path, .bytes = text->bytes, .n = text->length, .wait = true};
+    bool good = ceduo_file_prepare(&file);
+    int fd = good && file.temporary ? open(file.temporary, O_RDWR | O_CLOEXEC) : -1;
+    good = good && fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) == 0 && ceduo_file_place(&file);
+    int why = errno;
+    ceduo_file_drop(&file);
+    errno = why;
+    return good; /* the lock is held until the program ends */
+}
+
+static enum exit_status put_in_order(const struct resume *r)
+{
+    LOCAL_TEXT(output);
+    LOCAL_TEXT(side);
+    size_t n;
+    const char *bytes = map_file(r->file, &n);
+    if (!bytes)
+        return refuse(r->arguments->output, strerror(errno));
+    ceduo_text_add(&output, r->head->bytes, r->head->length);
+    ceduo_text_add(&side, r->identity.bytes, r->identity.length);
+    for (size_t i = 0; i < r->order_count; i++) {
+        ceduo_text_add(&output, bytes + r->order[i].from, r->order[i].n);
+        append_part(&r->order[i], &side);
+    }
+    unmap_file(bytes, n);
+    if (!replace_file(r->arguments->output, &output))
+        return refuse(r->arguments->output, strerror(errno));
+    return replace_file(r->side_path, &side) ? EXIT_DONE : refuse(r->side_path, strerror(errno));
+}
+
+enum exit_status ceduo_resume_close(struct resume *r, bool whole)
+{
+    enum exit_status status = EXIT_DONE;
+    if (whole && !is_in_order(r)) {
+        ceduo_interrupt_catch();
+        status = put_in_order(r);
+        ceduo_interrupt_release();
+    }
+    if (r->side >= 0)
+        close(r->side);
+    if (r->file >= 0)
+        close(r->file);
+    ceduo_text_free(&r->identity);
+    free(r->side_path);
+    free(r->known);
+    free(r->order);
+    return status;
+}
