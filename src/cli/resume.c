@@ -392,37 +392,46 @@ static bool is_in_order(const struct resume *r)
     return from == r->end || r->order_count == 0;
 }
 
-/* Put a locked file with these bytes in the place of another. False with errno set. */
-static bool replace_file(const char *path, const struct text *text)
+/* Write the parts of the output in the order of the rows, neighbours at once. False with errno set. */
+static bool write_parts(const struct resume *r, const char *bytes, int fd)
 {
-    struct pending_file file = {.path = path, .bytes = text->bytes, .n = text->length, .wait = true};
-    bool good = ceduo_file_prepare(&file);
-    int fd = good && file.temporary ? open(file.temporary, O_RDWR | O_CLOEXEC) : -1;
-    good = good && fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) == 0 && ceduo_file_place(&file);
-    int why = errno;
+    bool good = ceduo_file_fill(fd, r->head->bytes, r->head->length, NULL);
+    for (size_t i = 0, n; good && i < r->order_count; i += n) {
+        const struct resume_part *part = &r->order[i];
+        size_t length = part->n;
+        for (n = 1; i + n < r->order_count && part[n].from == part->from + length; n++)
+            length += part[n].n;
+        good = ceduo_file_fill(fd, bytes + part->from, length, NULL);
+    }
+    return good;
+}
+
+/* Put a new output in the place of the old one. It is locked before it is there, until the program ends. False with errno set. */
+static bool replace_output(const struct resume *r)
+{
+    struct pending_file file = {.path = r->arguments->output, .wait = true};
+    size_t n;
+    const char *bytes = map_file(r->file, &n);
+    int fd = bytes ? ceduo_file_begin(&file) : -1;
+    bool locked = fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) == 0 && fcntl(fd, F_DUPFD_CLOEXEC, 0) >= 0;
+    bool good = locked && write_parts(r, bytes, fd);
+    if (fd >= 0 && !good)
+        close(fd);
+    good = good && ceduo_file_finish(&file, fd);
+    unmap_file(bytes, n);
     ceduo_file_drop(&file);
-    errno = why;
-    return good; /* the lock is held until the program ends */
+    return good;
 }
 
 static enum exit_status put_in_order(const struct resume *r)
 {
-    LOCAL_TEXT(output);
     LOCAL_TEXT(side);
-    size_t n;
-    const char *bytes = map_file(r->file, &n);
-    if (!bytes)
+    if (!replace_output(r))
         return refuse(r->arguments->output, strerror(errno));
-    ceduo_text_add(&output, r->head->bytes, r->head->length);
     ceduo_text_add(&side, r->identity.bytes, r->identity.length);
-    for (size_t i = 0; i < r->order_count; i++) {
-        ceduo_text_add(&output, bytes + r->order[i].from, r->order[i].n);
+    for (size_t i = 0; i < r->order_count; i++)
         append_part(&r->order[i], &side);
-    }
-    unmap_file(bytes, n);
-    if (!replace_file(r->arguments->output, &output))
-        return refuse(r->arguments->output, strerror(errno));
-    return replace_file(r->side_path, &side) ? EXIT_DONE : refuse(r->side_path, strerror(errno));
+    return ceduo_file_write(r->side_path, side.bytes, side.length) ? EXIT_DONE : refuse(r->side_path, strerror(errno));
 }
 
 enum exit_status ceduo_resume_close(struct resume *r, bool whole)
