@@ -220,7 +220,7 @@ def test_text_of_files():
                      plain.replace("\n", "\r\n").encode("utf-16"), plain.encode("utf-16-le"), plain.encode("cp1252"),
                      b"\xef\xbb\xbfsep=\t\r\n" + plain.replace(";", "\t").replace("\n", "\r\n").encode()):
             expect_rows(f, text, wanted)
-        for text, words in ((plain.encode().replace(b"a;", b"a\0;"), "rows.csv:2:1: a NUL byte"), (plain.encode() + b"\xc3;;1\n", "broken UTF-8"),
+        for text, words in ((plain.encode().replace(b"a;", b"a\0;"), "rows.csv: a NUL byte (U+0000) on line 2"), (plain.encode() + b"\xc3;;1\n", "broken UTF-8"),
                             (plain.encode("utf-16")[:-1], "broken UTF-16"), (plain.encode("utf-16") + b"\x00\xd8;\0", "broken UTF-16")):
             f.write("rows.csv", text)
             r = run(f, "-f", "csv")
