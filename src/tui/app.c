@@ -277,8 +277,7 @@ static void took_document(struct app *app, const struct problems *problems)
     app->kept.cells = NULL;
     if (app->no_recovery) {
         ceduo_document_forget(&app->document);
-        free(app->document.recovery);
-        app->document.recovery = NULL;
+        ceduo_recovery_end(&app->document.recovery);
     }
     app->option = app->belt = app->year = 0;
     app->place = (struct place){0};
