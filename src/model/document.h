@@ -55,8 +55,8 @@ bool ceduo_document_duplicate(struct document *document, const char *list, size_
 bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
                            struct problems *problems);
 bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to, struct problems *problems);
-/* The belts of the first option and the years of their cuts, with `stand` in each, as YAML; without belts one down to the first
- * control. */
+/* Append the belts of the first option and the years of their cuts as YAML, each with the stand named `stand`, which is quoted
+ * here. Without belts: one belt down to the first control. */
 void ceduo_document_belts(const struct document *document, const char *stand, struct text *yaml);
 /* A new option after the last, with those belts. A scene that has only a forest gets options first, "current" the first of
  * them. */
