@@ -135,11 +135,11 @@ def test_known():
             t.text("\x1b[3~")
             t.sees("deleted: belt 2")
             t.keys("3")
-            t.sees("diameter, m: diameter of a sphere")
+            t.sees("shape: shape of the rock")
             ends = [arrow, "\x1b[", "\x1bO"]
             for end, home in [(f"{a}F", f"{a}H") for a in ends] + [("\x1b[4~", "\x1b[1~"), ("\x1b[8~", "\x1b[7~")]:
                 t.text(end)
-                t.sees("title: ")
+                t.sees("note: anything else")
                 t.text(home)
                 t.sees("shape: shape of the rock")
 
