@@ -111,8 +111,7 @@ static bool fill_scene(const struct job *j, const struct ceduo_calibration_repor
     ceduo_calibration_sources(&source, r);
     const struct fit_values fit = {r->answer, r->inputs, ceduo_text_string(&source), draws->temporary};
     bool good = ceduo_document_open(&document, a->scenes[0], &problems);
-    free(document.recovery); /* what the terminal program keeps of the scene is not ours */
-    document.recovery = NULL;
+    ceduo_recovery_end(&document.recovery); /* a batch run keeps no copy of unsaved work */
     if (good && a->sets.n > 0)
         good = ceduo_document_set_all(&document, (const char *const *)a->sets.items, a->sets.n, "", &problems);
     good = good && ceduo_keep_fit(&document, &fit, &problems);

@@ -287,7 +287,7 @@ static const struct option_row rows[] = {
      .help = N_("number of rocks; with --tolerance the maximum"), .lo = 1, .hi = CEDUO_ROCKS_MOST},
     {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
      .help = N_("simulate until the 95 % error of each mean energy is below REL of it")},
-    {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | DOUBT | FIT | PAGE | SURVEY | SCREEN,
+    {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY | SCREEN,
      .help = N_("what each row of CSV describes (controls)")},
     {"each", 0, "ROWS.csv", set_text, AT(each), MODE_TERMINAL, FIT | PAGE | SURVEY | SCREEN,
      .help = N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "

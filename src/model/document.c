@@ -122,7 +122,7 @@ bool ceduo_document_open(struct document *d, const char *path, struct problems *
     d->path = strcmp(path, "-") == 0 ? NULL : ceduo_must(strdup(d->file.path));
     d->shipped = d->path && ceduo_document_is_shipped(d->path);
     ceduo_document_note_disk(d);
-    d->recovery = ceduo_recovery_path(d->path);
+    d->recovery = ceduo_recovery_begin(d->path);
     return first_state(d, true);
 }
 
@@ -131,7 +131,7 @@ bool ceduo_document_new(struct document *d, const char *text, struct problems *p
     *d = (struct document){.saved = SIZE_MAX};
     if (!first_state(d, ceduo_scene_load_text(&d->file, _("new scene"), text, problems)))
         return false;
-    d->recovery = ceduo_recovery_path(NULL);
+    d->recovery = ceduo_recovery_begin(NULL);
     ceduo_document_keep(d);
     return true;
 }
@@ -141,6 +141,6 @@ void ceduo_document_close(struct document *d)
     ceduo_scene_release(&d->file);
     free(d->states);
     free(d->path);
-    free(d->recovery);
+    ceduo_recovery_end(&d->recovery);
     *d = (struct document){0};
 }

@@ -7,6 +7,12 @@
 
 #include "io/scene_file.h"
 
+/* A copy of unsaved work, which survives a crash. */
+struct recovery_copy {
+    char *path; /* NULL: no copy can be kept */
+    int file;   /* open and locked as long as the copy exists; -1: there is none */
+};
+
 /* The document that a person edits: a scene, every state that it was in, and what is on disk. */
 
 #define DOCUMENT_HISTORY_BYTES ((size_t)64 * 1024 * 1024)
@@ -28,7 +34,7 @@ struct document {
     bool shipped;             /* the file belongs to the program: never written */
     struct timespec modified; /* of the file when it was read */
     off_t size;
-    char *recovery; /* path of the copy that survives a crash; NULL: none can be kept */
+    struct recovery_copy recovery;
 };
 
 /* Opens a scene (as ceduo_scene_load()). False with the reason in `problems`. */
@@ -49,8 +55,8 @@ bool ceduo_document_duplicate(struct document *document, const char *list, size_
 bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
                            struct problems *problems);
 bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to, struct problems *problems);
-/* The belts of the first option and the years of their cuts, with `stand` in each, as YAML; without belts one down to the first
- * control. */
+/* Append the belts of the first option and the years of their cuts as YAML, each with the stand named `stand`, which is quoted
+ * here. Without belts: one belt down to the first control. */
 void ceduo_document_belts(const struct document *document, const char *stand, struct text *yaml);
 /* A new option after the last, with those belts. A scene that has only a forest gets options first, "current" the first of
  * them. */
@@ -108,15 +114,23 @@ double ceduo_document_place(const struct document *document, const char *written
 
 /* ---- recovery ---- */
 
-/* Copies of unsaved work in the user's state folder ($XDG_STATE_HOME/ceduo, ~/.local/state/ceduo): one for each process
- * and scene, the process in the name, so that one left behind by a program that is gone is known. */
+/* Copies of unsaved work lie in the user's state folder ($XDG_STATE_HOME/ceduo, ~/.local/state/ceduo), one for each scene and
+ * program. The program locks its copy with flock() and keeps it open. If a copy is not locked, its program has ended; this also
+ * holds if two machines share the folder. */
 
-/* Where this process keeps its copy for a scene; path NULL: a scene without a file. NULL where there is no folder. To
- * be freed. */
-char *ceduo_recovery_path(const char *path);
+/* Name the copy that this program would write of a scene; nothing is written yet. `path` NULL: a scene without a file. The path
+ * in the result is NULL if there is no folder. */
+struct recovery_copy ceduo_recovery_begin(const char *path);
 
-/* Writes it, the scene's path in a first comment line. */
-bool ceduo_recovery_write(const char *recovery, const char *path, const char *bytes, size_t n);
+/* Write and lock the copy, readable by its owner alone. The scene's path stands in a first comment line. False on failure: the
+ * copy of before stays. */
+bool ceduo_recovery_write(struct recovery_copy *copy, const char *path, const char *bytes, size_t n);
+
+/* Delete the copy; it may be written again. */
+void ceduo_recovery_delete(struct recovery_copy *copy);
+
+/* Free the memory and unlock the copy. A copy that was written stays in the folder, left behind. */
+void ceduo_recovery_end(struct recovery_copy *copy);
 
 /* A copy that was left behind. */
 struct recovery {
@@ -126,7 +140,7 @@ struct recovery {
     time_t when;       /* of the last edit */
 };
 
-/* All copies whose processes have ended, the newest first; `*n` of them, in the arena. */
+/* All copies that no program locks, the newest first; `*n` of them, in the arena. */
 struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n);
 
 /* The text of a copy; NULL where it cannot be read. To be freed. */

@@ -306,7 +306,11 @@ static const struct node *need_options(struct edit *e)
     if (options)
         return options;
     const char *name = _("current");
-    options = ceduo_document_parse(e->d, "options", ceduo_arena_format(e->arena, "[{name: \"%s\"}]", name), e->problems);
+    LOCAL_TEXT(yaml);
+    ceduo_text_put(&yaml, "[{name: ");
+    ceduo_emit_scalar(&yaml, name, true);
+    ceduo_text_put(&yaml, "}]");
+    options = ceduo_document_parse(e->d, "options", yaml.bytes, e->problems);
     if (forest)
         options = ceduo_node_replaced(e->arena, options, 0, ceduo_node_with(e->arena, options->items[0], "forest", forest));
     e->root = ceduo_node_without(e->arena, e->root, "forest");
@@ -327,7 +331,9 @@ void ceduo_document_belts(const struct document *d, const char *stand, struct te
         ceduo_text_format(yaml, "%s{from_m: %.10g, to_m: %.10g, ", i ? ", " : "[", belts[i].from_given, belts[i].to_given);
         if (!isnan(belts[i].cut_year))
             ceduo_text_format(yaml, "cut_year: %.10g, ", belts[i].cut_year);
-        ceduo_text_format(yaml, "stand: %s}", stand);
+        ceduo_text_put(yaml, "stand: ");
+        ceduo_emit_scalar(yaml, stand, true);
+        ceduo_text_char(yaml, '}');
     }
     ceduo_text_char(yaml, ']');
 }

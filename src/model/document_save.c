@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/language.h"
 #include "base/must.h"
@@ -125,7 +124,7 @@ static bool fill_text(struct document *d, const char *to, struct text *text)
 
 void ceduo_document_text(struct document *d, const char *path, struct text *text)
 {
-    fill_text(d, path ? path : d->path ? d->path : d->recovery, text);
+    fill_text(d, path ? path : d->path ? d->path : d->recovery.path, text);
 }
 
 bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_anew)
@@ -148,9 +147,9 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
     d->saved = d->at;
     ceduo_document_note_disk(d);
     ceduo_document_forget(d);
-    if (d->recovery && !same) { /* what is unsaved from now on is this file's */
-        free(d->recovery);
-        d->recovery = ceduo_recovery_path(d->path);
+    if (d->recovery.path && !same) { /* what is unsaved from now on is this file's */
+        ceduo_recovery_end(&d->recovery);
+        d->recovery = ceduo_recovery_begin(d->path);
     }
     return true;
 }
@@ -160,16 +159,15 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
 void ceduo_document_keep(struct document *d)
 {
     LOCAL_TEXT(text);
-    if (!d->recovery)
+    if (!d->recovery.path)
         return;
     ceduo_document_text(d, NULL, &text);
-    ceduo_recovery_write(d->recovery, d->path, ceduo_text_string(&text), text.length);
+    ceduo_recovery_write(&d->recovery, d->path, ceduo_text_string(&text), text.length);
 }
 
 void ceduo_document_forget(struct document *d)
 {
-    if (d->recovery)
-        unlink(d->recovery);
+    ceduo_recovery_delete(&d->recovery);
 }
 
 bool ceduo_document_recover(struct document *d, const char *text, struct problems *problems)

@@ -3,16 +3,20 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "base/language.h"
 #include "base/must.h"
+#include "io/emit.h"
 #include "io/file.h"
 
 #define UNSAVED "# unsaved work on " /* begins the first line of a copy */
@@ -42,31 +46,92 @@ static bool state_folder(struct text *folder)
     return folder->bytes && make_folders(folder->bytes);
 }
 
-char *ceduo_recovery_path(const char *path)
+/* Number that no other program has, here or on another machine that shares the folder. */
+static uint64_t random_number(void)
+{
+    uint64_t number;
+    if (getrandom(&number, sizeof number, GRND_NONBLOCK) == sizeof number)
+        return number;
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    number = hash_bytes(&now, sizeof now);
+    hash_count(&number, (uint64_t)getpid());
+    return number;
+}
+
+struct recovery_copy ceduo_recovery_begin(const char *path)
 {
     struct text name = {0};
     if (!state_folder(&name)) {
         ceduo_text_free(&name);
-        return NULL;
+        return (struct recovery_copy){.file = -1};
     }
     char *real = path ? realpath(path, NULL) : NULL;
     const char *place = real ? real : path ? path : "";
-    ceduo_text_format(&name, "/%016" PRIx64 "-%ld.yaml", hash_bytes(place, strlen(place)), (long)getpid());
+    ceduo_text_format(&name, "/%016" PRIx64 "-%016" PRIx64 ".yaml", hash_bytes(place, strlen(place)), random_number());
     free(real);
-    return name.bytes;
+    return (struct recovery_copy){.path = name.bytes, .file = -1};
 }
 
-bool ceduo_recovery_write(const char *recovery, const char *path, const char *bytes, size_t n)
+/* Put a text in the place of the copy. The new file is locked before it has the copy's name. Return its descriptor; -1 on
+ * failure. */
+static int replace_copy(const char *path, const struct text *text)
+{
+    LOCAL_TEXT(temporary);
+    ceduo_text_format(&temporary, "%s.ceduo-tmp-XXXXXX", path);
+    int file = mkostemp(temporary.bytes, O_CLOEXEC); /* mode 0600 */
+    if (file < 0)
+        return -1;
+    bool locked = flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; /* some file systems have no locks */
+    if (locked && ceduo_file_fill(file, text->bytes, text->length, NULL) && rename(temporary.bytes, path) == 0)
+        return file;
+    unlink(temporary.bytes);
+    close(file);
+    return -1;
+}
+
+#define TRIES 3 /* another program may delete the new file before it is locked: it looks left behind */
+
+bool ceduo_recovery_write(struct recovery_copy *copy, const char *path, const char *bytes, size_t n)
 {
     LOCAL_TEXT(text);
     char *real = path ? realpath(path, NULL) : NULL;
     ceduo_text_put(&text, UNSAVED);
-    ceduo_text_safe(&text, real ? real : "a new scene");
+    ceduo_emit_scalar(&text, real ? real : "a new scene", true);
     ceduo_text_char(&text, '\n');
     ceduo_text_add(&text, bytes, n);
-    bool good = ceduo_file_save((struct pending_file){.path = recovery, .bytes = text.bytes, .n = text.length});
     free(real);
-    return good;
+    int file = -1;
+    for (int i = 0; i < TRIES && file < 0; i++)
+        file = replace_copy(copy->path, &text);
+    if (file < 0)
+        return false;
+    if (copy->file >= 0)
+        close(copy->file);
+    copy->file = file;
+    return true;
+}
+
+/* Close the copy, which unlocks it. */
+static void close_copy(struct recovery_copy *copy)
+{
+    if (copy->path && copy->file >= 0)
+        close(copy->file);
+    copy->file = -1;
+}
+
+void ceduo_recovery_delete(struct recovery_copy *copy)
+{
+    if (copy->path && copy->file >= 0)
+        unlink(copy->path);
+    close_copy(copy);
+}
+
+void ceduo_recovery_end(struct recovery_copy *copy)
+{
+    close_copy(copy);
+    free(copy->path);
+    copy->path = NULL;
 }
 
 char *ceduo_recovery_text(const char *path)
@@ -77,22 +142,34 @@ char *ceduo_recovery_text(const char *path)
     return source ? ceduo_must(strdup(source->bytes)) : NULL;
 }
 
-/* The next copy in the folder whose process has ended: its name is put. */
+/* True if no program locks the file, and it still has this name: its owner may have put a newer one in its place. */
+static bool is_left(const char *path)
+{
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    struct stat own, named;
+    bool locked = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    bool left = file >= 0 && !locked && fstat(file, &own) == 0 && S_ISREG(own.st_mode) && stat(path, &named) == 0 &&
+                own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+    if (file >= 0)
+        close(file);
+    return left;
+}
+
+/* Put the path of the next copy in the folder that was left behind; false if there is none. */
 static bool next_left(DIR *dir, const struct text *folder, struct text *name)
 {
     for (struct dirent *e; (e = readdir(dir));) {
-        unsigned long long place;
-        long process;
         int used = 0;
-        if (sscanf(e->d_name, "%16llx-%ld.yaml%n", &place, &process, &used) != 2 || used == 0)
+        sscanf(e->d_name, "%*16[0-9a-f]-%*16[0-9a-f].yaml%n", &used);
+        if (used == 0)
             continue;
-        if (process == (long)getpid() || kill((pid_t)process, 0) == 0 || errno == EPERM)
-            continue; /* its program still runs */
         name->length = 0;
         ceduo_text_format(name, "%s/%s", folder->bytes, e->d_name);
+        if (!is_left(name->bytes))
+            continue;
         if (e->d_name[used] == '\0')
             return true;
-        unlink(name->bytes); /* its writer was killed, and it may be half of one */
+        unlink(name->bytes); /* its program was killed while it wrote the file: it may be half of a copy */
     }
     return false;
 }
@@ -105,18 +182,29 @@ static int newest_first(const void *a, const void *b)
     return x < y ? 1 : x > y ? -1 : 0;
 }
 
-/* What follows a word to the end of its line, without quotes; NULL where the word is not there. */
-static const char *rest_of_line(struct arena *arena, const char *text, const char *word)
+/* Path of the scene, from the first line of a copy; NULL if the scene had no file. */
+static const char *read_scene(struct arena *arena, const char *text)
 {
-    const char *at = strstr(text, word);
-    if (!at)
+    LOCAL_PROBLEMS(problems);
+    LOCAL_TEXT(line);
+    size_t n = strlen(UNSAVED);
+    if (strncmp(text, UNSAVED, n) != 0)
         return NULL;
-    at += strlen(word);
-    at += strspn(at, " \"");
-    size_t n = strcspn(at, "\n");
-    while (n > 0 && (at[n - 1] == '"' || at[n - 1] == ' '))
-        n--;
-    return ceduo_arena_copy(arena, at, n);
+    ceduo_text_format(&line, "scene: %.*s", (int)strcspn(text + n, "\n"), text + n);
+    const struct source source = {.name = "", .bytes = line.bytes, .length = line.length};
+    const char *scene = ceduo_node_text(ceduo_yaml_read(arena, &source, &problems), "scene");
+    return scene && scene[0] == '/' ? scene : NULL;
+}
+
+/* Title of the scene in a copy; "" if there is none. */
+static const char *read_title(struct arena *arena, const char *text)
+{
+    LOCAL_PROBLEMS(problems);
+    LOCAL_ARENA(own);
+    const struct source source = {.name = "", .bytes = text, .length = strlen(text)};
+    const struct node *root = ceduo_yaml_read(&own, &source, &problems);
+    const char *title = ceduo_node_text(root, "title");
+    return ceduo_arena_string(arena, ceduo_in_language(title ? title : "", ceduo_node_text(root, "title_it")));
 }
 
 struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
@@ -131,10 +219,9 @@ struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
         char *text = stat(name.bytes, &st) == 0 ? ceduo_recovery_text(name.bytes) : NULL;
         if (!text)
             continue;
-        const char *scene = rest_of_line(arena, text, UNSAVED), *title = rest_of_line(arena, text, "\ntitle:");
         list[(*n)++] = (struct recovery){.file = ceduo_arena_string(arena, name.bytes),
-                                         .scene = scene && scene[0] == '/' ? scene : NULL,
-                                         .title = title ? title : "",
+                                         .scene = read_scene(arena, text),
+                                         .title = read_title(arena, text),
                                          .when = st.st_mtime};
         free(text);
     }

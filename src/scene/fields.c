@@ -41,6 +41,7 @@ static const struct field block_fields[] = {
               "many in every range of equal ratio")),
 };
 static const struct object block_object = OBJECT(ceduo_block_class, block_fields, NULL);
+ASKED_AT_ONCE(block_fields);
 
 /* ---- release ---- */
 
@@ -471,6 +472,7 @@ static const struct field page_fields[] = {
     HEAD(note, N_("note"), N_("anything else, such as the number of the file")),
 };
 static const struct object page_object = OBJECT(ceduo_report_head, page_fields, NULL);
+ASKED_AT_ONCE(page_fields);
 
 /* ---- years ---- */
 

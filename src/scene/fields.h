@@ -56,8 +56,11 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
 #define USUAL(label, least, most)              SHOWN(label, NULL, least, most)
 #define CENTIMETRES(label, brief, least, most) ROW(label, brief, N_("cm"), 100, least, most)
 #define OBJECT(type, fields, folder)           ROW(fields, sizeof fields / sizeof fields[0], sizeof(struct type), folder)
-#define STRING(macro)                          TEXT_OF(macro)
-#define TEXT_OF(text)                          #text
+/* Fails at build if a popup cannot hold the fields of a mapping that it asks for. */
+#define ASKED_AT_ONCE(fields)                                                                                                  \
+    _Static_assert(sizeof fields / sizeof fields[0] <= CEDUO_ASKED_FIELDS_MAX, #fields ": more than a popup can ask for")
+#define STRING(macro) TEXT_OF(macro)
+#define TEXT_OF(text) #text
 
 enum { REQUIRED = FIELD_REQUIRED, ABOVE = FIELD_ABOVE, ZERO = FIELD_ZERO, YEARS = FIELD_YEARS, NO_RUN = FIELD_NO_RUN };
 

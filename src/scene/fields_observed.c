@@ -33,6 +33,7 @@ static const struct field stops_fields[] = {
              N_("stops before it were not looked for; without it all were")),
 };
 static const struct object stops_object = OBJECT(observed_values, stops_fields, NULL);
+ASKED_AT_ONCE(stops_fields);
 
 static const struct field passed_fields[] = {
     POSITION("x_m", N_("counted at, m"), x, REQUIRED, N_("where they were counted")),
@@ -40,6 +41,7 @@ static const struct field passed_fields[] = {
     COUNT("of", N_("rocks released"), of, 1, REQUIRED, N_("rocks released")),
 };
 static const struct object passed_object = OBJECT(observed_values, passed_fields, NULL);
+ASKED_AT_ONCE(passed_fields);
 
 static const struct field crossing_fields[] = {
     POSITION("x_m", N_("seen at, m"), x, REQUIRED, N_("where they were seen")),
@@ -48,6 +50,7 @@ static const struct field crossing_fields[] = {
     MEAN,
 };
 static const struct object crossing_object = OBJECT(observed_values, crossing_fields, NULL);
+ASKED_AT_ONCE(crossing_fields);
 
 static const struct field sample_fields[] = {
     VALUES("values", N_("values"), N_("values, one for each rock: m/s, m above the ground, kJ")),
@@ -87,6 +90,7 @@ static const struct field scars_fields[] = {
            N_("share of the scars that a survey finds; bark hides 16 to 49 % of them (Stoffel 2005)")),
 };
 static const struct object scars_object = OBJECT(observed_values, scars_fields, NULL);
+ASKED_AT_ONCE(scars_fields);
 
 static const struct field observed_fields[] = {
     TEXT("name", NAMED(N_("name")), AT(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
@@ -110,3 +114,7 @@ static const struct field observed_fields[] = {
     GROUP("scars", NAMED(N_("scars")), OF_KIND(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
 };
 const struct object ceduo_observed_object = OBJECT(observed, observed_fields, NULL);
+
+#define OTHER_FIELDS 8 /* are no kind that is asked for: name, name_it, use, option, rock, release, largest, on_the_way */
+_Static_assert(sizeof observed_fields / sizeof observed_fields[0] - OTHER_FIELDS <= CEDUO_ASKED_KINDS_MAX,
+               "observed: more kinds than there are digits");

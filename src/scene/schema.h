@@ -12,6 +12,10 @@
  * that knows keys reads it here: the files' reader, --set, --list-parameters, the manual, the forms, typed get and put
  * (value.h), the keys of runs. The rows are in fields.c. */
 
+/* The terminal program asks for all fields of some mappings in one popup, and for one of the kinds of observations by a digit. */
+#define CEDUO_ASKED_FIELDS_MAX 16
+#define CEDUO_ASKED_KINDS_MAX  9
+
 #define CEDUO_ITEMS_MOST 1000 /* controls; options; belts: each is computed and printed by itself */
 
 enum field_type {

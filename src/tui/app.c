@@ -277,8 +277,7 @@ static void took_document(struct app *app, const struct problems *problems)
     app->kept.cells = NULL;
     if (app->no_recovery) {
         ceduo_document_forget(&app->document);
-        free(app->document.recovery);
-        app->document.recovery = NULL;
+        ceduo_recovery_end(&app->document.recovery);
     }
     app->option = app->belt = app->year = 0;
     app->place = (struct place){0};
@@ -432,18 +431,34 @@ void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role
     ceduo_text_free(text);
 }
 
+int ceduo_scroll_by(int scroll, int by)
+{
+    if (by >= ALL_LINES)
+        return -1;
+    if (by <= -ALL_LINES)
+        return 0;
+    int moved = scroll + by;
+    return (scroll < 0) == (moved < 0) ? moved : scroll < 0 ? -1 : 0;
+}
+
+int ceduo_scroll_clamp(int scroll, int max)
+{
+    scroll = scroll < 0 ? max + 1 + scroll : scroll;
+    scroll = scroll > max ? max : scroll;
+    return scroll > 0 ? scroll : 0;
+}
+
 void ceduo_app_read_on(struct app *app, int by)
 {
     int *scroll = &ceduo_app_state(app)->scroll;
-    *scroll = *scroll + by > 0 ? *scroll + by : 0;
+    *scroll = ceduo_scroll_by(*scroll, by);
 }
 
 void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;
     int most = ceduo_page_draw(page, canvas, (struct ceduo_area){0}, 0) - area.height;
-    *scroll = *scroll > most ? most : *scroll;
-    *scroll = *scroll > 0 ? *scroll : 0;
+    *scroll = ceduo_scroll_clamp(*scroll, most);
     ceduo_page_draw(page, canvas, area, *scroll);
     if (*scroll < most)
         ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");

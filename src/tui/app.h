@@ -66,7 +66,7 @@ extern const struct view *const ceduo_views[VIEW_COUNT];
 struct view_state {
     struct form form;
     int pane;
-    int scroll; /* of text that is longer than its pane */
+    int scroll; /* of text that is longer than its pane, see ceduo_scroll_by() */
 };
 
 /* A cursor along the slope of view 1. */
@@ -218,6 +218,15 @@ void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
 
 /* Says what keys do in a pane, until something else is said; not below a popup. */
 void ceduo_app_hint(struct app *app, const char *text);
+
+#define ALL_LINES 100000 /* a step of so many lines goes to the first or the last one */
+
+/* Number of lines above a viewport after a step of `by` lines. The number of all lines is known only when the text is drawn, and
+ * several keys may come before that: lines from the end are counted as -1, -2, … until ceduo_scroll_clamp(). */
+int ceduo_scroll_by(int scroll, int by);
+
+/* The same from 0 to `max`. */
+int ceduo_scroll_clamp(int scroll, int max);
 
 /* Scrolls the view by so many lines. */
 void ceduo_app_read_on(struct app *app, int by);

@@ -18,7 +18,7 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
     LOCAL_TEXT(written);
     if (value[0] == '\0') /* nothing: back to the default */
         return ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems));
-    if (field->type == FIELD_TEXT)
+    if (field->type == FIELD_TEXT || field->type == FIELD_FILE)
         ceduo_emit_scalar(&written, value, true);
     else
         ceduo_typed_value(field, value, &written);

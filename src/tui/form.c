@@ -371,13 +371,19 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
     form->area = area;
     if (area.height <= 0 || area.width < 8)
         return;
-    size_t lines = (size_t)area.height, above = form->row;
+    size_t lines = (size_t)area.height, above = form->row, below = form->row;
     while (above > 0 && !can_hold(&form->rows[above - 1])) /* headings belong to what follows */
         above--;
+    while (below + 1 < form->n && !can_hold(&form->rows[below + 1]))
+        below++;
+    if (below + 1 < form->n || below + 1 - form->row > lines) /* notes after the last field are shown with it */
+        below = form->row;
     if (above < form->top)
         form->top = above;
-    if (form->row >= form->top + lines)
-        form->top = form->row + 1 - lines;
+    if (below >= form->top + lines)
+        form->top = below + 1 - lines;
+    if (form->row < form->top) /* a low area */
+        form->top = form->row;
     if (form->top + lines > form->n)
         form->top = form->n > lines ? form->n - lines : 0;
     for (size_t i = 0; i < lines && form->top + i < form->n; i++)

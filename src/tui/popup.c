@@ -3,6 +3,7 @@
  * callback runs, because that may open another. */
 #include "popup.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -68,6 +69,7 @@ void ceduo_popup_item(struct popup *p, const char *text, const char *value)
 void ceduo_popup_answer(struct popup *p, char key, const char *text, const char *value)
 {
     char line[256];
+    assert((key >= '1' && key <= '9') || (key >= 'a' && key <= 'z')); /* no digit follows 9 */
     snprintf(line, sizeof line, "%c  %s", key, text);
     p->asks = true;
     ceduo_popup_item(p, line, value);
@@ -75,7 +77,8 @@ void ceduo_popup_answer(struct popup *p, char key, const char *text, const char 
 
 struct popup_field *ceduo_popup_field(struct popup *p, const char *label, const char *value)
 {
-    struct popup_field *field = &p->fields[p->fields_count < POPUP_FIELDS_MAX ? p->fields_count++ : POPUP_FIELDS_MAX - 1];
+    assert(p->fields_count < POPUP_FIELDS_MAX);
+    struct popup_field *field = &p->fields[p->fields_count++];
     snprintf(field->label, sizeof field->label, "%s", label);
     ceduo_line_set(&field->line, value);
     return field;
@@ -186,8 +189,8 @@ static void go_to_field(struct app *app, struct popup *p, size_t field)
 /* Returns how many lines a key moves by, letters only where nothing is typed; 0 if it does not move. */
 static int lines_of(int key, bool letters)
 {
-    static const int lines[ACTION_COUNT] = {[ACTION_UP] = -1,        [ACTION_DOWN] = 1,      [ACTION_PAGE_UP] = -10,
-                                            [ACTION_PAGE_DOWN] = 10, [ACTION_TOP] = -100000, [ACTION_BOTTOM] = 100000};
+    static const int lines[ACTION_COUNT] = {[ACTION_UP] = -1,        [ACTION_DOWN] = 1,         [ACTION_PAGE_UP] = -10,
+                                            [ACTION_PAGE_DOWN] = 10, [ACTION_TOP] = -ALL_LINES, [ACTION_BOTTOM] = ALL_LINES};
     enum action action = ceduo_action_of(key);
     return action != ACTION_NONE && (letters || ceduo_actions[action].key == key) ? lines[action] : 0;
 }
@@ -195,7 +198,7 @@ static int lines_of(int key, bool letters)
 static void text_key(struct app *app, struct popup *p, int key)
 {
     int by = lines_of(key, true);
-    p->top = p->top + by > 0 ? p->top + by : 0;
+    p->top = ceduo_scroll_by(p->top, by);
     if (by == 0)
         ceduo_popup_close(app);
 }
@@ -336,7 +339,7 @@ static void draw_text(struct app *app, struct popup *p)
 {
     struct ceduo_area in = draw_frame(app, p, app->height, 0);
     int last = ceduo_app_text_lines(app, ceduo_text_string(&p->text), in.width) - in.height;
-    p->top = p->top < last ? p->top : last > 0 ? last : 0;
+    p->top = ceduo_scroll_clamp(p->top, last);
     ceduo_app_text(app, in, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), p->top);
     draw_more(app, p, p->top > 0, p->top < last);
 }

@@ -6,10 +6,16 @@
 
 #include "app.h"
 #include "picker.h"
+#include "scene/schema.h"
 
 enum popup_kind { POPUP_TEXT, POPUP_LIST, POPUP_FIELDS };
 
 #define POPUP_FIELDS_MAX 16
+#define POPUP_DIGITS_MAX 9 /* answers that a digit chooses, 1 to 9 */
+
+/* Callers whose number of fields or answers comes from a table assert at build that it fits. */
+_Static_assert(CEDUO_ASKED_FIELDS_MAX <= POPUP_FIELDS_MAX, "a popup asks for all fields of a mapping");
+_Static_assert(CEDUO_ASKED_KINDS_MAX <= POPUP_DIGITS_MAX, "a digit chooses a kind of observation");
 
 /* What a popup calls. */
 typedef void popup_call(struct app *app, struct popup *popup);

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/language.h"
+#include "io/emit.h"
 #include "model/changes.h"
 #include "popup.h"
 #include "popups.h"
@@ -19,6 +20,7 @@ enum {
     COUNT_TREE_HEIGHT,
     COUNTS
 };
+_Static_assert(COUNTS <= POPUP_FIELDS_MAX, "one popup asks for all counts");
 
 static const struct {
     const char *label;
@@ -89,7 +91,9 @@ static bool filled_counts(struct app *app, struct popup *p)
     }
     if (now->system == CEDUO_BARE)
         ceduo_changes_remove(c, ceduo_app_format(app, "%s.system", p->path));
-    ceduo_changes_add(c, "%s.name=%s", p->path, _("sample plot"));
+    LOCAL_TEXT(name);
+    ceduo_emit_scalar(&name, _("sample plot"), true);
+    ceduo_changes_add(c, "%s.name=%s", p->path, name.bytes);
     bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot"), &app->problems));
     if (good)
         ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);

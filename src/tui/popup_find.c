@@ -242,19 +242,17 @@ static void ask(struct app *app, const char *path, const char *written)
     }
 }
 
-#define NUMBERS_MOST 9 /* of a list that are asked for: one for each digit */
-
 static void chose_number(struct app *app, struct popup *p)
 {
     const struct node *node = ceduo_document_node(&app->document, p->value);
     ask(app, p->value, node && node->kind == NODE_SCALAR ? node->text : "");
 }
 
-/* Which number of a list? */
+/* Ask which number of a list is looked for, one of the first nine. */
 static void ask_which(struct app *app, const char *path, const struct node *list)
 {
     struct popup *p = ceduo_popup_list(app, _("Which of its numbers is looked for?"), "", chose_number);
-    for (size_t i = 0; i < list->n && i < NUMBERS_MOST; i++)
+    for (size_t i = 0; i < list->n && i < POPUP_DIGITS_MAX; i++)
         ceduo_popup_answer(p, (char)('1' + i), list->items[i]->kind == NODE_SCALAR ? list->items[i]->text : "",
                            ceduo_app_format(app, "%s[%zu]", path, i));
 }

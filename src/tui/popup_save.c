@@ -11,6 +11,8 @@
 #include "popup.h"
 #include "popups.h"
 
+#define ENDING ".yaml"
+
 /* ---- saving ---- */
 
 /* False with errno set, and said. */
@@ -43,8 +45,20 @@ static bool save_to(struct app *app, const char *path)
     return true;
 }
 
+/* Append .yaml to a name without an ending. The name of an existing file stays as it is. */
+static void append_ending(struct line *line)
+{
+    const char *slash = strrchr(line->text, '/'), *name = slash ? slash + 1 : line->text;
+    size_t n = strlen(line->text);
+    if (name[0] == '\0' || strchr(name + 1, '.') || access(line->text, F_OK) == 0 || n + sizeof ENDING > sizeof line->text)
+        return;
+    memcpy(line->text + n, ENDING, sizeof ENDING);
+    line->at = strlen(line->text);
+}
+
 static bool filled_save(struct app *app, struct popup *p)
 {
+    append_ending(&p->fields[0].line);
     const char *path = p->fields[0].line.text;
     bool own = app->document.path && strcmp(app->document.path, path) == 0 && !ceduo_document_changed_on_disk(&app->document);
     if (path[0] == '\0') {
@@ -110,7 +124,7 @@ static void ask_for_name(struct app *app, const char *why)
     else if (d->shipped)
         ceduo_text_put(&p->text, _("This scene belongs to the program and is never written over; save your own copy."));
     const char *slash = d->path && d->shipped ? strrchr(d->path, '/') : NULL;
-    p->endings = ".yaml";
+    p->endings = ENDING;
     p->typed_wins = true;
     ceduo_popup_choice(p, _("file"), slash ? slash + 1 : d->path ? d->path : "scene.yaml", ceduo_popup_offer_files);
 }

@@ -34,15 +34,11 @@ static void next_pane(struct app *app, int by)
     ceduo_app_state(app)->pane = (ceduo_app_state(app)->pane + panes + by) % panes;
 }
 
-#define ALL_LINES 100000
-
 static void move_lines(struct app *app, int lines)
 {
     struct view_state *state = ceduo_app_state(app);
     if (state->pane == 0 && state->form.n > 0)
         ceduo_form_move(&state->form, lines, 0);
-    else if (lines == ALL_LINES && state->pane > 0)
-        state->scroll += 50;
     else
         ceduo_app_read_on(app, lines);
 }
@@ -129,7 +125,7 @@ static void act(struct app *app, enum action action)
         a->plain(app);
 }
 
-/* What a key or a choice has led to. */
+/* Update what depends on an input: offers of unsaved work, the popup's preview, the belt under the cursor. */
 static void follow_up(struct app *app)
 {
     if (app->opened && !app->no_recovery)
@@ -141,40 +137,42 @@ static void follow_up(struct app *app)
         ceduo_views[app->view]->follow(app);
 }
 
-void ceduo_program_key(struct app *app, int key)
+/* ---- inputs ---- */
+
+/* An input of the user. */
+struct input {
+    enum { INPUT_KEY, INPUT_PASTE, INPUT_CLICK, INPUT_WHEEL } kind;
+    int key;
+    const char *text; /* of a paste */
+    int x, y;         /* cell of a click */
+    int lines;        /* of the wheel; < 0: up */
+};
+
+static void press(struct app *app, int key)
 {
     enum action action = ceduo_action_of(key);
-    ceduo_arena_free(app->scratch);
-    if (!app->popup)
-        app->message[0] = '\0';
-    if (app->popup) {
+    if (app->popup)
         ceduo_popup_key(app, key);
-    } else if (app->editing) {
+    else if (app->editing)
         ceduo_edit_key(app, key);
-    } else {
-        app->once_saved = NULL;
-        if (action != ACTION_NONE)
-            act(app, action);
-    }
-    follow_up(app);
+    else if (action != ACTION_NONE)
+        act(app, action);
 }
 
-void ceduo_program_paste(struct app *app, const char *text)
+static void paste(struct app *app, const char *text)
 {
-    app->message[0] = '\0';
+    app->message[0] = '\0'; /* that of a popup, too */
     if (app->popup ? !ceduo_popup_paste(app, text) : !app->editing)
         ceduo_app_say(app, "%s", _("what was pasted goes nowhere: no field is open"));
     else if (!app->popup && !ceduo_line_paste(&app->line, text))
         ceduo_app_warn(app, "%s", _(CEDUO_LINE_FULL));
-    follow_up(app);
 }
 
-void ceduo_program_click(struct app *app, int x, int y)
+/* Show the view whose title is clicked, or move the cursor to a field; edit the field if the cursor is there already. */
+static void click(struct app *app, int x, int y)
 {
     struct view_state *state = ceduo_app_state(app);
     size_t row = state->form.row, column = state->form.column;
-    if (app->popup || app->editing)
-        return;
     if (y == 0) {
         enum view_number view = ceduo_screen_view_at(app, x);
         if (view < VIEW_COUNT)
@@ -186,13 +184,53 @@ void ceduo_program_click(struct app *app, int x, int y)
     }
 }
 
+static void turn_wheel(struct app *app, int lines)
+{
+    if (app->popup)
+        ceduo_popup_key(app, lines < 0 ? K_UP : K_DOWN);
+    else
+        move_lines(app, lines);
+}
+
+/* Handle an input. Every input takes this path: it ends the message of the input before, and what depends on it is updated. */
+static void handle(struct app *app, const struct input *input)
+{
+    ceduo_arena_free(app->scratch);
+    if (!app->popup)
+        app->message[0] = '\0';
+    if (!app->popup && !app->editing)
+        app->once_saved = NULL;
+    if (input->kind == INPUT_KEY)
+        press(app, input->key);
+    else if (input->kind == INPUT_PASTE)
+        paste(app, input->text);
+    else if (input->kind == INPUT_CLICK)
+        click(app, input->x, input->y);
+    else
+        turn_wheel(app, input->lines);
+    follow_up(app);
+}
+
+void ceduo_program_key(struct app *app, int key)
+{
+    handle(app, &(struct input){.kind = INPUT_KEY, .key = key});
+}
+
+void ceduo_program_paste(struct app *app, const char *text)
+{
+    handle(app, &(struct input){.kind = INPUT_PASTE, .text = text});
+}
+
+void ceduo_program_click(struct app *app, int x, int y)
+{
+    if (!app->popup && !app->editing) /* otherwise it does nothing, and a question stays */
+        handle(app, &(struct input){.kind = INPUT_CLICK, .x = x, .y = y});
+}
+
 void ceduo_program_wheel(struct app *app, int lines)
 {
-    if (app->popup) {
-        ceduo_popup_key(app, lines < 0 ? K_UP : K_DOWN);
-        follow_up(app);
-    } else if (!app->editing)
-        move_lines(app, lines);
+    if (app->popup || !app->editing)
+        handle(app, &(struct input){.kind = INPUT_WHEEL, .lines = lines});
 }
 
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,

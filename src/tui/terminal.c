@@ -231,6 +231,8 @@ static struct {
 
 /* What waits longer for its end was no sequence, but Alt with '[', 'O' or ']'. */
 #define SEQUENCE_SECONDS 1
+#define C1_FIRST         0x80
+#define C1_LAST          0x9f
 #define STRINGS          "]PX^_" /* OSC, DCS, SOS, PM and APC begin a string that ST ends */
 
 static bool is_unfinished(void)
@@ -282,7 +284,10 @@ static void take_character(struct app *app, wint_t c)
 {
     bool lost = input.pasting && c == CTRL('C') && is_quiet(); /* the end of the paste */
     input.last = ceduo_clock();
-    if (lost) {
+    if (!input.pasting && c >= C1_FIRST && c <= C1_LAST) { /* the same as Esc and a character; a paste cannot end so */
+        take_character(app, K_ESCAPE);
+        take_character(app, c - C1_FIRST + '@');
+    } else if (lost) {
         input.pasting = false;
         input.state = PLAIN;
     } else if (input.state == PLAIN && c != K_ESCAPE) {
@@ -300,6 +305,8 @@ static void take_character(struct app *app, wint_t c)
         swallow(1);
     } else if (input.state == ESCAPED && !input.pasting && c < 128 && c > ' ' && strchr(STRINGS, (int)c)) {
         input.state = STRING;
+    } else if (input.state == ESCAPED && !input.pasting && c >= ' ' && c != 127) {
+        input.state = PLAIN; /* Alt with a character: no key of this program */
     } else if (input.state == ESCAPED) {
         input.state = PLAIN;
         press(app, K_ESCAPE);
@@ -446,6 +453,11 @@ const char *ceduo_terminal_missing(void)
 
 enum terminal_end ceduo_terminal_run(struct app *app)
 {
+    static const struct {
+        const char *sequence;
+        int key;
+    } sent[] = {{"\033[1~", KEY_HOME}, {"\033[7~", KEY_HOME}, {"\033[H", KEY_HOME}, {"\033OH", KEY_HOME}, {"\033[4~", KEY_END},
+                {"\033[8~", KEY_END},  {"\033[F", KEY_END},   {"\033OF", KEY_END}}; /* whatever TERM says */
     if (pipe2(wake, O_NONBLOCK | O_CLOEXEC) != 0)
         return TERMINAL_FAILED;
     if (!getenv("ESCDELAY"))
@@ -480,8 +492,8 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     noecho();
     nonl();
     keypad(stdscr, TRUE);
-    define_key("\033[1~", KEY_HOME); /* as tmux sends them, whatever TERM says */
-    define_key("\033[4~", KEY_END);
+    for (size_t i = 0; i < sizeof sent / sizeof sent[0]; i++)
+        define_key(sent[i].sequence, sent[i].key);
     nodelay(stdscr, TRUE);
     curs_set(0);
     mouseinterval(0);

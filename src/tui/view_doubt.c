@@ -5,6 +5,7 @@
 
 #include "app.h"
 #include "base/language.h"
+#include "io/emit.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -85,7 +86,9 @@ static void add(struct app *app)
         if (input->kind == CEDUO_INPUT_WORDS || input->places_count != 1 || is_named(rows, input->places[0]))
             continue;
         LOCAL_TEXT(row);
-        ceduo_text_format(&row, "{path: '%s', lo: ", input->places[0]);
+        ceduo_text_put(&row, "{path: ");
+        ceduo_emit_scalar(&row, input->places[0], true);
+        ceduo_text_put(&row, ", lo: ");
         ceduo_doubt_input_end(&row, &r, f->order[i], 0);
         ceduo_text_put(&row, ", hi: ");
         ceduo_doubt_input_end(&row, &r, f->order[i], 1);

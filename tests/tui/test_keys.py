@@ -24,6 +24,9 @@ ON, OFF = b"\x1b[?2004h", b"\x1b[?2004l"
 UNKNOWN = {"CSI": "\x1b[99;99s", "CSI with a private mark": "\x1b[?1;2c", "CSI with an intermediate": "\x1b[1;2 q",
            "CSI of one letter": "\x1b[s", "a function key of Linux": "\x1b[[s", "SS3": "\x1bOs",
            "OSC to BEL": "\x1b]11;rgb:qsno\a", "OSC to ST": "\x1b]52;c;qsno\x1b\\", "DCS": "\x1bP1+qsno=qs\x1b\\",
+           "Alt with s": "\x1bs", "Alt with q": "\x1bq", "Alt with a letter of another alphabet": "\x1b\u0436",
+           "C1 CSI": "\x9b99;99s", "C1 CSI of one letter": "\x9bs", "C1 SS3": "\x8fs", "C1 OSC to ST": "\x9d52;c;qsno\x9c",
+           "C1 DCS": "\x90qsno\x1b\\", "C1 that begins nothing": "\x85",
            "APC": "\x1b_qsno\x1b\\", "PM": "\x1b^qsno\x1b\\", "SOS": "\x1bXqsno\x1b\\",
            "one after the other": "\x1b[9s\x1b[9s\x1bOs\x1b]s\x1b[9s"}
 PAUSE = 0.1  # longer than Esc waits, shorter than what makes a key of the beginning of a sequence
@@ -63,6 +66,8 @@ def test_in_pieces():
     with Place() as place, Tmux(place) as t:
         changed(t)
         for what, sequence in UNKNOWN.items():
+            if len(sequence) < 3 - (sequence[0] > "\x80"):
+                continue  # Esc alone is a key
             for cut in (2 - (sequence[0] > "\x80"), len(sequence) - 1):
                 t.text(sequence[:cut])
                 time.sleep(PAUSE)
@@ -84,14 +89,21 @@ def test_string_in_the_help():
 
 
 def test_escape_goes_on():
-    """Esc is Esc, at once and before any other key; Alt with a bracket holds the keys up for a second only."""
+    """Esc is Esc, at once and before a key of its own; with a character at once it is Alt, which does nothing; Alt with a bracket
+    holds the keys up for a second only."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
-        for after in ("", "2", "\x1b", "\x1b[B", "\x1b[M ,!"):
+        for after in ("", "\x1b", "\x1b[B", "\x1b[M ,!"):
             t.keys("1", "w")
             t.sees("Export", "search:")
             t.text("\x1b" + after)
-            t.sees("stools per ha" if after in ("2", "\x1b[M ,!") else "Belts of forest", lacks=("search:",))
+            t.sees("stools per ha" if after == "\x1b[M ,!" else "Belts of forest", lacks=("search:",))
+        t.keys("1", "w")
+        t.sees("Export", "search:")
+        t.text("\x1b2j")
+        t.sees("Export", "search: j")
+        t.keys("Escape")
+        t.sees("Belts of forest", lacks=("search:",))
         for held in ("\x1b[", "\x1bO", "\x1b]"):
             t.keys("1")
             t.sees("Belts of forest")
@@ -122,6 +134,14 @@ def test_known():
             t.sees("from, m: where the belt begins")
             t.text("\x1b[3~")
             t.sees("deleted: belt 2")
+            t.keys("3")
+            t.sees("shape: shape of the rock")
+            ends = [arrow, "\x1b[", "\x1bO"]
+            for end, home in [(f"{a}F", f"{a}H") for a in ends] + [("\x1b[4~", "\x1b[1~"), ("\x1b[8~", "\x1b[7~")]:
+                t.text(end)
+                t.sees("note: anything else")
+                t.text(home)
+                t.sees("shape: shape of the rock")
 
 
 # ---- pastes ----
@@ -180,13 +200,17 @@ def test_paste_list():
         t.sees("Export", "search:")
         paste(t, "json\n")
         t.sees("search: json", "JSON", lacks=("CSV",))
-        t.keys("Escape", "/")
+        t.keys("Escape")
+        t.sees("Belts of forest", lacks=("search:",))
+        t.keys("/")
         t.sees("Search in this view")
         paste(t, "accepted_kJ\n")
         t.sees("Search in this view", "accepted_kJ")
         paste(t, "x" * 1100)
         t.sees("too long for this line")
-        t.keys("Escape", "?")
+        t.keys("Escape")
+        t.sees("Belts of forest", lacks=("Search in this view",))
+        t.keys("?")
         t.sees("Every edit is live")
         paste(t, "q")
         time.sleep(PAUSE)

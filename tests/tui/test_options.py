@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import play  # noqa: E402
-from play import CUTS, FAST, OPTIONS, Place, fast  # noqa: E402
+from play import CUTS, FAST, OPTIONS, Place, check_good, fast  # noqa: E402
 from harness import expect, expect_equal, expect_in, results, run_all  # noqa: E402
 from test_editing import FIGURE_NAMES  # noqa: E402
 from test_screens import BY_INDEX, SIGNS, SIZES, compared, compared_lights, lights, views_of  # noqa: E402
@@ -61,6 +61,23 @@ def test_names_of_copies():
         place.write("named.yaml", OPTIONS.replace("name: thick", "name: cut (2031)").replace("name: none left", "name: a (x)"))
         found = option_names(place.play("resize 120 40\nkey 5\nwait idle\nkey y G y\nwait idle\ndump", "named.yaml")[0])
     expect_equal(found, ["cut (2031)", "cut (2031) (2)", "thin", "a (x)", "a (x) (2)"], "numbers that are none of copies")
+
+
+ODD = "\"l'alto\", #1: [vecchio]"
+
+
+def test_odd_names():
+    """A stand whose file and name have quotes, commas and brackets becomes an option, is copied, renamed, saved and read again."""
+    with Place() as place:
+        place.write(f"{ODD}.yaml", f"ceduo: stand/1\nname: '{ODD.replace(chr(39), 2 * chr(39))}'\nspecies: ostrya-carpinifolia\n"
+                                   "stools: {per_ha: 2000, spacing_m: 0.4}\nshoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\n")
+        made, saved = place.play("resize 140 40\nkey 5\nwait idle\nkey a\ntype alto\nkey Enter\nwait idle\ndump\nkey y Enter Ctrl-U\n"
+                                 f"type {ODD} 2\nkey Enter s\ndump")
+        made.has(f"added '{ODD}.yaml'; Enter renames it")
+        expect(saved.note.startswith("saved fast.yaml"), saved)
+        check_good(place.path, "fast.yaml")
+        (read,) = place.play("resize 140 40\nkey 5 G 2\ndump")
+        read.has(f"Stand of belt 1: {ODD}", f"{ODD} 2")
 
 
 def test_contact_reason():

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from play import Place, actions, check_good, fast  # noqa: E402
+from play import FAST, Place, actions, check_good, fast  # noqa: E402
 from harness import expect, expect_equal, expect_in, expect_near, run_all  # noqa: E402
 from test_screens import lights  # noqa: E402
 
@@ -440,6 +440,33 @@ def test_help():
         for name, word, word2, shown, text in rows:
             if shown == 2:
                 expect_in(f"{word} {text}", bar, f"{name} in the bar of view {view} at 80 columns")
+
+
+def test_end():
+    """End goes to the last line of texts, forms and lists, and to the end of a line that is typed; the key after it moves from
+    there, also if nothing was drawn between."""
+    with Place() as place:
+        place.write("many.yaml", FAST + "observed:\n" + "".join(
+            f"  - {{name: nr {i}, passed: {{x_m: 60, count: {i}, of: 100}}}}\n" for i in range(1, 90)))
+        for keys, scene in (("?", "fast.yaml"), ("4", "paper-site"), ("8 Tab", "many.yaml"), (":", "fast.yaml"), ("3", "fast.yaml")):
+            start = f"wait idle\nkey {keys}\nwait idle\n"
+            last, before, after = (place.play(f"{start}key {more}\ndump", scene)[0].text for more in ("End", "End Up", "End Up Down"))
+            read = place.play(start + "key PgDn\n" * 40 + "dump", scene)[0].text
+            expect_equal(last, read, f"End after {keys}, and PgDn to the end")
+            expect_equal(after, last, f"End, Up and Down after {keys}")
+            expect(before != last, f"Up after End in {keys} does nothing:", before)
+        (line,) = place.play("key / Ctrl-U\ntype rock\nkey Home End\ntype s\ndump")
+        line.has("word rocks_")
+
+
+def test_notes_after_the_last_field():
+    """At the end of a form the notes after its last field are seen."""
+    many = ", ".join(f"[{x / 10}, {100 - x / 20}]" for x in range(1500))
+    with Place() as place:
+        place.write("long.yaml", re.sub(r"vertices_m:.*?(?=controls:)", f"vertices_m: [{many}]\n  segments: [{{rn: 0.3, rt: 0.9}}]\n",
+                                        FAST, flags=re.S))
+        (screen,) = place.play("key 1 End\ndump", "long.yaml")
+        screen.has("too many vertices to list")
 
 
 def test_help_field():

@@ -35,6 +35,24 @@ def test_save_as():
         expect_equal(place.text("other.yaml"), stools(999), "the other file")
 
 
+def test_ending():
+    """A name without an ending gets .yaml; one with an ending, and that of a file that is there, stay as they are."""
+    with Place() as place:
+        for typed, name in (("bosco", "bosco.yaml"), ("b.2026/bosco", "b.2026/bosco.yaml"), (".bosco", ".bosco.yaml"),
+                            ("bosco.yml", "bosco.yml"), ("bosco.txt", "bosco.txt")):
+            (place.path / "b.2026").mkdir(exist_ok=True)
+            saved, again = place.play(EDIT + f"key S Ctrl-U\ntype {typed}\nkey Enter\ndump\nkey S Ctrl-U\ntype {typed}\nkey Enter\ndump")
+            expect_equal(saved.note, f"saved {name}")
+            expect_equal(again.note, f"saved {name}")
+            expect_equal(place.text(name), stools(1234), name)
+        expect(not (place.path / "bosco").exists(), "a file without an ending was written")
+        (asked,) = place.play("key S Ctrl-U\ntype bosco\nkey Enter\ndump")
+        asked.has("bosco.yaml", "there is such a file already")
+        place.write("taken", "")
+        (asked,) = place.play("key S Ctrl-U\ntype taken\nkey Enter\ndump")
+        asked.has("there is such a file already").lacks("taken.yaml")
+
+
 def test_save_as_same():
     """S with the scene's own name saves as s does, but not over a file that has changed since."""
     with Place() as place:

@@ -716,6 +716,34 @@ def test_themes():
         expect(colours_of(first) and second, first)
 
 
+def press_mouse(t, button, x, y):
+    """Presses a button at a cell, counted from 1, and releases it; 64 and 65 are the wheel, up and down."""
+    if t.tmux("display-message", "-p", "#{mouse_sgr_flag}").strip() == "1":
+        t.text(f"\x1b[<{button};{x};{y}M" + (f"\x1b[<{button};{x};{y}m" if button < 3 else ""))
+    else:
+        for code in (button, 3) if button < 3 else (button,):
+            t.text("\x1b[M" + "".join(chr(32 + n) for n in (code, x, y)))
+
+
+def test_mouse_like_keys():
+    """A click and the wheel take the message away, and what follows the cursor follows them: view 2 has the form of the belt
+    under the cursor."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        t.keys("2")
+        upper, lower = ("Stand of belt 1: upper", "stools per ha         3000"), ("Stand of belt 2: lower", "stools per ha         1000")
+        t.sees(*upper)
+        press_mouse(t, 0, 8, 5)
+        t.sees(*lower)
+        press_mouse(t, 64, 10, 10)
+        t.sees(*upper)
+        for button, y in ((0, 5), (64, 10), (0, 20), (0, 1)):
+            t.keys("u")
+            t.sees("nothing to undo")
+            press_mouse(t, button, 8, y)
+            t.sees("1 slope", lacks=("nothing to undo",))
+
+
 def test_mouse():
     """A click on a view's name opens it, the wheel moves."""
     with Place() as place, Tmux(place) as t:
@@ -724,11 +752,7 @@ def test_mouse():
         expect("1" in flags, f"the program does not ask for the mouse: {flags}")
 
         def press(button, x, y):
-            if flags[1] == "1":
-                t.text(f"\x1b[<{button};{x};{y}M" + (f"\x1b[<{button};{x};{y}m" if button < 3 else ""))
-            else:
-                for code in (button, 3) if button < 3 else (button,):
-                    t.text("\x1b[M" + "".join(chr(32 + n) for n in (code, x, y)))
+            press_mouse(t, button, x, y)
 
         press(0, 12, 1)
         t.sees("stools per ha")

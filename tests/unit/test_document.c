@@ -4,6 +4,7 @@
 #include "table.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -128,7 +129,7 @@ static void save(const char *to)
 static const char *copy_of(void)
 {
     static char text[4096];
-    FILE *f = fopen(d.recovery, "r");
+    FILE *f = fopen(d.recovery.path, "r");
     if (!f)
         return NULL;
     text[fread(text, 1, sizeof text - 1, f)] = '\0';
@@ -413,11 +414,12 @@ TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
 /* What is left of a copy whose writer was killed is not offered as work: it may be half of it. */
 TEST_WITH(half_a_copy_is_taken_away, set_up, tear_down)
 {
-    char *own = ceduo_recovery_path(path), file[400], names[2][400];
-    assert_non_null(own);
-    int n = (int)(strrchr(own, '-') - own); /* what stands before the process */
-    snprintf(names[0], sizeof names[0], "%.*s-999999999.yaml.ceduo-tmp-999999999-0", n, own);
-    snprintf(names[1], sizeof names[1], "%.*s-999999999.yam", n, own);
+    struct recovery_copy own = ceduo_recovery_begin(path);
+    char file[400], names[2][400];
+    assert_non_null(own.path);
+    int n = (int)(strrchr(own.path, '-') - own.path); /* what stands before the program's number */
+    snprintf(names[0], sizeof names[0], "%.*s-999999999.yaml.ceduo-tmp-999999999-0", n, own.path);
+    snprintf(names[1], sizeof names[1], "%.*s-999999999.yam", n, own.path);
     for (int i = 0; i < 2; i++) {
         FILE *f = fopen(names[i], "w");
         assert_non_null(f);
@@ -427,19 +429,94 @@ TEST_WITH(half_a_copy_is_taken_away, set_up, tear_down)
     assert_null(left_of(path, file));
     assert_int_equal(access(names[0], F_OK), -1);
     assert_int_equal(access(names[1], F_OK), 0); /* somebody else's */
-    free(own);
+    ceduo_recovery_end(&own);
+}
+
+/* The lock decides if a copy was left behind, not a process number in its name: two machines may share the folder. */
+TEST_WITH(a_locked_copy_is_not_left_behind, set_up, tear_down)
+{
+    char file[400], copy[400], renamed[400], ready;
+    int to_parent[2], to_child[2];
+    assert_int_equal(pipe(to_parent) + pipe(to_child), 0);
+    pid_t child = fork();
+    if (child == 0) { /* a program that runs on another machine: here its number is that of no process */
+        open_scene();
+        for (int mm = 1; mm < 4; mm++) /* each edit is a new file */
+            set_millimetres(mm);
+        snprintf(copy, sizeof copy, "%s", d.recovery.path);
+        snprintf(renamed, sizeof renamed, "%.*s-999999999.yaml", (int)(strrchr(copy, '-') - copy), copy);
+        bool good = rename(copy, renamed) == 0 && write(to_parent[1], "r", 1) == 1;
+        close(to_child[1]);
+        good &= read(to_child[0], &ready, 1) == 0; /* until the test ends */
+        _exit(!good);
+    }
+    assert_int_equal(read(to_parent[0], &ready, 1), 1);
+    assert_null(left_of(path, file));
+    int status;
+    assert_int_equal(kill(child, SIGKILL), 0);
+    assert_true(waitpid(child, &status, 0) == child);
+    char *text = left_of(path, file);
+    assert_non_null(text);
+    free(text);
+    /* its number is that of a process of this machine */
+    snprintf(renamed, sizeof renamed, "%.*s-%ld.yaml", (int)(strrchr(file, '-') - file), file, (long)getppid());
+    assert_int_equal(rename(file, renamed), 0);
+    text = left_of(path, file);
+    assert_non_null(text);
+    free(text);
+    for (int i = 0; i < 2; i++) {
+        close(to_parent[i]);
+        close(to_child[i]);
+    }
+}
+
+TEST_WITH(a_copy_is_its_owners_alone, set_up, tear_down)
+{
+    struct stat st;
+    mode_t mask = umask(0);
+    open_scene();
+    set("rock.diameter_m", "0.2");
+    umask(mask);
+    assert_int_equal(stat(d.recovery.path, &st), 0);
+    assert_int_equal(st.st_mode & 07777, 0600);
+}
+
+/* A name and a title with quotes and blanks at their ends come back as they were. */
+TEST_WITH(a_copy_has_name_and_title_whole, set_up, tear_down)
+{
+    char other[400];
+    struct arena arena = {0};
+    size_t n;
+    snprintf(other, sizeof other, "%.240s \"b\" ", path);
+    pid_t child = fork();
+    if (child == 0) {
+        bool anew;
+        open_scene();
+        bool saved = ceduo_document_save(&d, other, &anew);
+        set("title", "'\"bosco\" d''alto'");
+        _exit(!saved);
+    }
+    int status;
+    assert_true(waitpid(child, &status, 0) == child && status == 0);
+    const struct recovery *list = ceduo_recovery_list(&arena, &n);
+    assert_int_equal(n, 1);
+    assert_string_equal(list[0].scene, other);
+    assert_string_equal(list[0].title, "\"bosco\" d'alto");
+    unlink(list[0].file);
+    unlink(other);
+    ceduo_arena_free(&arena);
 }
 
 /* In whatever order the folder has them. */
 TEST_WITH(the_newest_copies_come_first, set_up, tear_down)
 {
     static const time_t when[] = {3000, 1000, 5000, 2000, 4000};
-    char *own = ceduo_recovery_path(path);
+    struct recovery_copy own = ceduo_recovery_begin(path);
     struct arena arena = {0};
     size_t n;
     for (int i = 0; i < 5; i++) {
         char name[400];
-        snprintf(name, sizeof name, "%.*s-%d.yaml", (int)(strrchr(own, '-') - own), own, 999999990 + i);
+        snprintf(name, sizeof name, "%.*s-%d.yaml", (int)(strrchr(own.path, '-') - own.path), own.path, 999999990 + i);
         FILE *f = fopen(name, "w");
         assert_non_null(f);
         fputs("# unsaved work on /a/scene\ntitle: t\n", f);
@@ -451,7 +528,7 @@ TEST_WITH(the_newest_copies_come_first, set_up, tear_down)
     for (int i = 0; i < 5; i++)
         assert_int_equal(list[i].when, 5000 - 1000 * i);
     ceduo_arena_free(&arena);
-    free(own);
+    ceduo_recovery_end(&own);
 }
 
 TEST_WITH(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down)

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The manual against the program: the forms of ceduo(1) have the options that go with them, and no others."""
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import INPUT, ROOT, USAGE, Folder, ceduo, expect, expect_equal, run_all  # noqa: E402
+
+# What each option is given here; and what it needs besides.
+VALUES = {"format": "csv", "output": "out.csv", "set": "rock.diameter_m=1", "rocks": "10", "tolerance": "0.1", "rows": "controls",
+          "each": "none.csv", "columns": "scene", "seed": "1", "threads": "1", "option": "a", "charset": "ascii", "language": "en",
+          "size": "80x24", "sure": "0.9", "script": "none.txt", "find": "rock.diameter_m=1:2", "goal": "adc", "report": "page.html",
+          "calibrate": "rock.diameter_m=1:2", "plot": "rotation", "survey": "none.csv", "schema": "result"}
+NEEDS = {"rows": ["--format=csv"], "columns": ["--format=csv"], "resume": ["--format=csv", "--each=none.csv", "--output=out.csv"]}
+MODES = ("batch", "find", "goal", "calibrate", "sensitivity", "report", "plot", "check", "survey", "list-parameters",
+         "list-profiles", "list-columns", "schema", "help", "version")
+
+
+def options():
+    """The options of --help: {'rows': '', 'seed': '', 'rocks': 'n', …}, their letters."""
+    found = re.findall(r"^  (?:-(.),|   ) --([a-z-]+)", ceduo("--help").out, re.M)
+    expect(len(found) > 30, found)
+    return {name: letter for letter, name in found}
+
+
+def forms():
+    """The forms of the SYNOPSIS: ([[modes], …], {options})."""
+    letters = {letter: name for name, letter in options().items() if letter}
+    page = (ROOT / "man/ceduo.1").read_text()
+    text = page[page.index(".Sh SYNOPSIS"):page.index(".Sh DESCRIPTION")]
+    for form in text.split("\n.Nm\n")[1:]:
+        alternatives, others = [[]], set()
+        for line in form.split("\n"):
+            for part in re.split(r" (?=\| Fl)", line):
+                for word in re.findall(r"\bFl (-?[\w-]+)", part)[:1]:
+                    name = word[1:] if word.startswith("-") else letters[word]
+                    if line.startswith(".Op"):
+                        others.add(name)
+                    elif part.startswith("|"):
+                        alternatives.append([name])
+                    else:
+                        alternatives[0].append(name)
+        yield alternatives, others
+
+
+def given(name):
+    return f"--{name}={VALUES[name]}" if name in VALUES else f"--{name}"
+
+
+def goes(modes, option):
+    """Whether the program takes an option with a mode: it then looks for a scene, which is not there."""
+    words = {f"--{m}" if m in ("batch", "check") else given(m) for m in modes} | {given(option), *NEEDS.get(option, [])}
+    done = ceduo(*sorted(words), *([] if "survey" in modes else ["none.yaml"]))
+    expect(done.status in (USAGE, INPUT), words, done)
+    return done.status == INPUT
+
+
+def test_all_options():
+    """Every option of --help stands in the SYNOPSIS, and no other does"""
+    named = {name for alternatives, others in forms() for name in {*others, *sum(alternatives, [])}}
+    expect_equal(sorted(named - {"template"}), sorted(options()))
+
+
+def test_forms():
+    """Each form has just the options that the program takes with it"""
+    with Folder():
+        seen = 0
+        for alternatives, others in forms():
+            modes = alternatives[0]
+            if not modes or modes[0].startswith("list-") or modes[0] == "help":
+                continue
+            seen += 1
+            wanted = {o for o in options() if o not in MODES and o != "script" and goes(modes, o)}
+            expect_equal(sorted(others - {"sensitivity"}), sorted(wanted), f"options of {modes}")
+        expect_equal(seen, 8, "forms")
+
+
+if __name__ == "__main__":
+    run_all(__name__)
