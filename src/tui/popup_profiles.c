@@ -25,10 +25,10 @@ bool ceduo_popup_read_stand(const struct app *app, const char *value, struct sce
 {
     LOCAL_PROBLEMS(problems);
     LOCAL_TEXT(yaml);
-    ceduo_text_format(&yaml,
-                      "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
-                      "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: %s}]}",
-                      value);
+    ceduo_text_put(&yaml, "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
+                          "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: ");
+    ceduo_emit_scalar(&yaml, value, true);
+    ceduo_text_put(&yaml, "}]}");
     const char *name = app->document.path ? app->document.path : "preset";
     *file = (struct scene_file){0};
     bool good = ceduo_scene_load_text(file, name, yaml.bytes, &problems);
@@ -148,8 +148,10 @@ static void append_change(struct app *app, struct popup *p)
     }
     ceduo_text_put(&p->text, _("the lights: computing …\n"));
     bool all = p->chosen == chose_new_option; /* the stand in every belt */
-    ceduo_text_format(&set, "%s=%s", all ? ceduo_app_forest(app) : p->path, all ? "" : p->value);
-    if (all)
+    ceduo_text_format(&set, "%s=", all ? ceduo_app_forest(app) : p->path);
+    if (!all)
+        ceduo_emit_scalar(&set, p->value, true);
+    else
         ceduo_document_belts(&app->document, p->value, &set);
     if (set.length < JOB_TEXT)
         ceduo_jobs_preview(app->live.jobs, &app->document.file, set.bytes, app->option);
@@ -278,8 +280,11 @@ static void chose_stand(struct app *app, struct popup *p)
         ceduo_popup_counts(app);
     else if (strcmp(p->value, STAND_SURVEY) == 0)
         ceduo_popup_survey(app);
-    else
-        ceduo_popup_replace_stand(app, p->path, p->value);
+    else {
+        LOCAL_TEXT(value);
+        ceduo_emit_scalar(&value, p->value, true);
+        ceduo_popup_replace_stand(app, p->path, ceduo_text_string(&value));
+    }
 }
 
 static void offer_measured(struct popup *p)

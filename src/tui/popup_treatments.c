@@ -62,10 +62,8 @@ static void find_lender(struct app *app, int species, enum ceduo_system system, 
         const char *const *names = ceduo_file_list(app->scratch, folders[i], "stands", &n);
         for (size_t k = 0; k < n; k++) {
             struct scene_file file = {0};
-            LOCAL_TEXT(value);
             const char *path = ceduo_app_format(app, "%s/stands/%s.yaml", folders[i], names[k]);
-            ceduo_emit_scalar(&value, path, true);
-            bool good = ceduo_document_is_shipped(path) && ceduo_popup_read_stand(app, value.bytes, &file);
+            bool good = ceduo_document_is_shipped(path) && ceduo_popup_read_stand(app, path, &file);
             const struct ceduo_stand *s = good ? &file.scene.options[0].belts[0].stand : NULL;
             bool lends = s && ceduo_stand_grows(s) && s->cutting.rotation > 0;
             int fit = !lends ? 0 : 1 + 4 * (s->species == species) + 2 * (s->species == usual) + (s->system == system);

@@ -78,6 +78,8 @@ def test_odd_names():
         check_good(place.path, "fast.yaml")
         (read,) = place.play("resize 140 40\nkey 5 G 2\ndump")
         read.has(f"Stand of belt 1: {ODD}", f"{ODD} 2")
+        (replaced,) = place.play("resize 140 40\nkey 2 p\ntype alto\nkey Enter\nwait idle\ndump")
+        replaced.has(f"Stand of belt 1: {ODD}")
 
 
 def test_contact_reason():
