@@ -13,15 +13,28 @@ double ceduo_share_of(const struct ceduo_arrivals *arrivals)
     return isnan(arrivals->exceed_probability) ? arrivals->reach_probability : arrivals->exceed_probability;
 }
 
+/* Half the interval lo to hi if rocks have weights, otherwise by the number of rocks. */
+static struct ceduo_portion portion_between(const struct ceduo_arrivals *a, double share, double lo, double hi)
+{
+    double half = isnan(a->hazard.per_year)
+                      ? ceduo_half_width_of_share(share, ceduo_share_se(share, (double)a->released), a->released)
+                      : (hi - lo) / 2;
+    return (struct ceduo_portion){share, half};
+}
+
+struct ceduo_portion ceduo_share_arriving(const struct ceduo_arrivals *a)
+{
+    return a ? portion_between(a, a->reach_probability, a->reach_lo, a->reach_hi) : (struct ceduo_portion){NAN, NAN};
+}
+
+struct ceduo_portion ceduo_share_exceeding(const struct ceduo_arrivals *a)
+{
+    return a ? portion_between(a, a->exceed_probability, a->exceed_lo, a->exceed_hi) : (struct ceduo_portion){NAN, NAN};
+}
+
 struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *a)
 {
-    if (!a)
-        return (struct ceduo_portion){NAN, NAN};
-    double share = ceduo_share_of(a);
-    double half = ceduo_half_width_of_share(share, ceduo_share_se(share, (double)a->released), a->released);
-    if (!isnan(a->hazard.per_year)) /* rocks have weights */
-        half = (isnan(a->exceed_probability) ? a->reach_hi - a->reach_lo : a->exceed_hi - a->exceed_lo) / 2;
-    return (struct ceduo_portion){share, half};
+    return a && isnan(a->exceed_probability) ? ceduo_share_arriving(a) : ceduo_share_exceeding(a);
 }
 
 /* The difference of what is compared. */
