@@ -120,6 +120,48 @@ TEST(an_edit_asks_for_its_years_alone)
     close_scene();
 }
 
+static void follow_to_the_end(void)
+{
+    ceduo_live_follow(&live, &file, 0);
+    ceduo_jobs_wait(live.jobs);
+    ceduo_live_news(&live, &file.scene);
+}
+
+/* An edit of the energy law: what was known by the other law is now known by the scene's own, and no longer stands for the other. */
+TEST(an_edit_of_the_law_leaves_no_figures_of_the_other)
+{
+    open_scene("profiles/scenes/paper-site.yaml");
+    follow_to_the_end();
+    const struct ceduo_other_energy *other = &live.result->options[0].others[0];
+    assert_true(other->known);
+    EXPECT(other->model, ==, CEDUO_DORREN);
+    for (size_t i = 0; i < file.scene.options[0].belts_count; i++)
+        file.scene.options[0].belts[i].stand.energy = CEDUO_DORREN;
+    ceduo_live_follow(&live, &file, 0);
+    assert_false(live.result->options[0].others[0].known);
+    follow_to_the_end();
+    other = &live.result->options[0].others[0];
+    assert_true(other->known);
+    EXPECT(other->model, ==, CEDUO_BRAUNER);
+    close_scene();
+}
+
+/* An edit of the contact model: years of rocks among stems are no years of the index. */
+TEST(an_edit_of_the_contact_model_leaves_no_years)
+{
+    open_scene("profiles/scenes/paper-site.yaml");
+    follow_to_the_end();
+    EXPECT(live.verdict.choices[0].mean.mean, >, 0);
+    file.scene.simulation.contact_model = CEDUO_INDEX;
+    ceduo_live_follow(&live, &file, 0);
+    EXPECT(live.verdict.choices[0].over.years, ==, 0);
+    follow_to_the_end();
+    EXPECT(live.verdict.choices[0].over.years, >, 0);
+    EXPECT(live.verdict.choices[0].over.simulated, ==, 0);
+    EXPECT_NAN(live.verdict.choices[0].mean.mean);
+    close_scene();
+}
+
 /* ---- made by hand ---- */
 
 #define OPTIONS 3
