@@ -59,6 +59,9 @@ def test_foreign_tables():
         wanted = run(f, "-f", "csv").out
         f.write("rows.csv", "\ufeffname;slope;release.x_m\r\na;100.csv;1,5\r\n\r\nb;110.csv;2\r\n")
         expect_equal(run(f, "-f", "csv").out, wanted)
+        note = "l\u2019et\u00e0 \u2013 5 \u20ac \u201csicuri\u201d"  # of Windows-1252 alone: Latin-1 has none of these but the letter
+        f.write("rows.csv", f"name;slope;note\r\na;100.csv;{note}\r\n".encode("cp1252"))
+        expect_equal(run(f, "-f", "json").json()[0]["row"], {"name": "a", "note": note})
         text = "name\tslope\trelease.x_m\na\t100.csv\t1.5\nb\t110.csv\t2\n"
         expect_equal(ceduo("-b", "-q", "-n", 60, "-f", "csv", "--each", "-", "s.yaml", cwd=f.path, stdin=text.encode()).out, wanted)
 
@@ -131,6 +134,13 @@ def test_resume():
             (f.path / "part.csv").write_bytes(part[:len(part) - cut])
             r = run(f, *words, "part.csv", "--resume")
             expect_equal((r.status, (f.path / "part.csv").read_bytes()), (DONE, whole), str(r))
+        f.write("rows.csv", "id,slope\na,100.csv\nb,110.csv\nc,120.csv\n")
+        words = ["-f", "csv", "--columns", "option,x_m,id", "-o"]  # what says which row a line is of stands last
+        expect_equal(run(f, *words, "last.csv").status, DONE)
+        last = (f.path / "last.csv").read_text()
+        (f.path / "last.csv").write_text("".join(last.splitlines(keepends=True)[:2]) + "current,50,b\n")
+        r = run(f, *words, "last.csv", "--resume")
+        expect_equal((r.status, (f.path / "last.csv").read_text()), (DONE, last), str(r))
         for rows, output, more, status, words_of in (
                 ("name,slope\na,100.csv\na,110.csv\n", "new.csv", [], INPUT, "cannot tell them apart"),
                 ("slope\n100.csv\n", "new.csv", [], USAGE, "which row"),

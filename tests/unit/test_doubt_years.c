@@ -235,6 +235,23 @@ TEST(one_option_alone_over_a_rotation)
     ceduo_scene_release(&file);
 }
 
+/* By the rocks the second option has as many years above the limit more than the first as its own least are above the most of the
+ * first, at least, and as its own most are above the least of the first, at most. */
+TEST(failing_years_differ_by_both_intervals)
+{
+    open_scene();
+    file.scene.controls[0].accepted = 150e3;
+    ask(2, 4, &answer);
+    const struct ceduo_doubt_figure *first = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_FAILING, false),
+                                    *second = ceduo_doubt_figure_of(&answer, 1, CEDUO_DOUBT_FAILING, false),
+                                    *difference = ceduo_doubt_figure_of(&answer, 1, CEDUO_DOUBT_FAILING, true);
+    EXPECT(first->sampling_lo, <, first->sampling_hi); /* some years are near the limit */
+    EXPECT_NEAR(difference->sampling_lo, second->sampling_lo - first->sampling_hi, 1e-12);
+    EXPECT_NEAR(difference->sampling_hi, second->sampling_hi - first->sampling_lo, 1e-12);
+    ceduo_doubt_free(&answer);
+    ceduo_scene_release(&file);
+}
+
 /* Without an accepted energy the share that arrives is looked at, and no year is said to fail; by the index no rock is simulated,
  * and there is nothing over a rotation. */
 TEST(what_there_is_over_a_rotation)
