@@ -344,6 +344,5 @@ TEST(p_of_lists_is_a_half_on_the_mean)
     EXPECT(ceduo_calibration_as_it_is(&of, 20000, NULL, p), ==, CEDUO_OK);
     for (size_t i = 0; i < LISTS; i++)
         mean += p[i].p_value / LISTS;
-    printf("mean %g\n", mean);
     EXPECT_NEAR(mean, .5, 4 * sqrt(1. / 12 / LISTS));
 }
