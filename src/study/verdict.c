@@ -103,7 +103,7 @@ static struct ceduo_paired difference_over_years(const void *context, size_t opt
 
 /* ---- one option ---- */
 
-static struct ceduo_portion mean_of(const struct ceduo_years *years, const struct ceduo_years_summary *s)
+struct ceduo_portion ceduo_share_over_years(const struct ceduo_years *years, const struct ceduo_years_summary *s)
 {
     struct ceduo_paired mean = isnan(s->exceed.mean) ? s->reach : s->exceed;
     return (struct ceduo_portion){mean.mean, ceduo_half_width_of_share(mean.mean, mean.se, years->rocks)};
@@ -124,7 +124,7 @@ static bool read_years(const struct ceduo_years *years, struct ceduo_choice *c)
     for (size_t i = 0; i < years->count; i++)
         if (years->years[i].year == s.worst_year && years->years[i].wooded.rocks > 0)
             c->worst = ceduo_share_at(&years->years[i].wooded.arrivals[years->last_control]);
-    c->mean = mean_of(years, &s);
+    c->mean = ceduo_share_over_years(years, &s);
     return true;
 }
 
@@ -155,7 +155,7 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
             return CEDUO_NO_MEMORY;
         if (whole) {
             const struct ceduo_years_summary s = ceduo_years_sum(whole, whole->last_control);
-            c->rotation = mean_of(whole, &s);
+            c->rotation = ceduo_share_over_years(whole, &s);
         }
     }
     unsigned end = rotation.last + 1, most = end + CEDUO_PERIOD_MOST;

@@ -479,6 +479,15 @@ def test_page_figures():
     expect_in(f"Felled: {rotation['felled_m']:g} m", flat)
 
 
+def test_page_of_none():
+    """Where no rock has too much energy the mean of none has the error of none: Wilson's interval of 0 of 1000, up to 3.8"""
+    with Folder() as f:
+        path = f.write("s.yaml", site(belt(0, 135, coppice(12)), rocks=1000, controls=[{"x_m": 135, "accepted_kJ": 1e6}]))
+        flat = " ".join(good(*WHOLE, "--years", "0:2", path).out.split())
+    z = 1.959963984540054
+    expect_in(f"Years 0 to 2: mean 0 ±{math.ceil(1000 * z * z / (1000 + z * z))} of 1000, worst 0 ", flat)
+
+
 def test_page_gaps():
     """The page's columns do not run into each other where all rocks arrive"""
     with Folder() as f:
