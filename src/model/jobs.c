@@ -523,6 +523,7 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
         if (!ceduo_other_scene(&file->scene, &other))
             ceduo_no_memory();
         others.key = figures.key;
+        hash_count(&others.key, JOB_OTHERS); /* without it two laws have the same key as when they change places */
         hash_count(&others.key, ceduo_jobs_key(&other));
         ceduo_other_scene_release(&other);
     }

@@ -291,5 +291,5 @@ void ceduo_chains_diagnose(const struct chains *c, size_t i, double *rhat, doubl
             break;
         sum += pair;
     }
-    *effective_size = fmin(total / (1 + 2 * sum), total);
+    *effective_size = total / (1 + 2 * sum); /* at most the number of draws: only sums above 0 are added */
 }

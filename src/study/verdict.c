@@ -13,15 +13,28 @@ double ceduo_share_of(const struct ceduo_arrivals *arrivals)
     return isnan(arrivals->exceed_probability) ? arrivals->reach_probability : arrivals->exceed_probability;
 }
 
+/* Half the interval lo to hi if rocks have weights, otherwise by the number of rocks. */
+static struct ceduo_portion portion_between(const struct ceduo_arrivals *a, double share, double lo, double hi)
+{
+    double half = isnan(a->hazard.per_year)
+                      ? ceduo_half_width_of_share(share, ceduo_share_se(share, (double)a->released), a->released)
+                      : (hi - lo) / 2;
+    return (struct ceduo_portion){share, half};
+}
+
+struct ceduo_portion ceduo_share_arriving(const struct ceduo_arrivals *a)
+{
+    return a ? portion_between(a, a->reach_probability, a->reach_lo, a->reach_hi) : (struct ceduo_portion){NAN, NAN};
+}
+
+struct ceduo_portion ceduo_share_exceeding(const struct ceduo_arrivals *a)
+{
+    return a ? portion_between(a, a->exceed_probability, a->exceed_lo, a->exceed_hi) : (struct ceduo_portion){NAN, NAN};
+}
+
 struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *a)
 {
-    if (!a)
-        return (struct ceduo_portion){NAN, NAN};
-    double share = ceduo_share_of(a);
-    double half = ceduo_half_width_of_share(share, ceduo_share_se(share, (double)a->released), a->released);
-    if (!isnan(a->hazard.per_year)) /* rocks have weights */
-        half = (isnan(a->exceed_probability) ? a->reach_hi - a->reach_lo : a->exceed_hi - a->exceed_lo) / 2;
-    return (struct ceduo_portion){share, half};
+    return a && isnan(a->exceed_probability) ? ceduo_share_arriving(a) : ceduo_share_exceeding(a);
 }
 
 /* The difference of what is compared. */
@@ -90,7 +103,7 @@ static struct ceduo_paired difference_over_years(const void *context, size_t opt
 
 /* ---- one option ---- */
 
-static struct ceduo_portion mean_of(const struct ceduo_years *years, const struct ceduo_years_summary *s)
+struct ceduo_portion ceduo_share_over_years(const struct ceduo_years *years, const struct ceduo_years_summary *s)
 {
     struct ceduo_paired mean = isnan(s->exceed.mean) ? s->reach : s->exceed;
     return (struct ceduo_portion){mean.mean, ceduo_half_width_of_share(mean.mean, mean.se, years->rocks)};
@@ -111,7 +124,7 @@ static bool read_years(const struct ceduo_years *years, struct ceduo_choice *c)
     for (size_t i = 0; i < years->count; i++)
         if (years->years[i].year == s.worst_year && years->years[i].wooded.rocks > 0)
             c->worst = ceduo_share_at(&years->years[i].wooded.arrivals[years->last_control]);
-    c->mean = mean_of(years, &s);
+    c->mean = ceduo_share_over_years(years, &s);
     return true;
 }
 
@@ -142,7 +155,7 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
             return CEDUO_NO_MEMORY;
         if (whole) {
             const struct ceduo_years_summary s = ceduo_years_sum(whole, whole->last_control);
-            c->rotation = mean_of(whole, &s);
+            c->rotation = ceduo_share_over_years(whole, &s);
         }
     }
     unsigned end = rotation.last + 1, most = end + CEDUO_PERIOD_MOST;

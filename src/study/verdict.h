@@ -22,7 +22,14 @@ double ceduo_share_of(const struct ceduo_arrivals *arrivals);
 struct ceduo_portion {
     double mean, half;
 };
-struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *arrivals); /* NULL is allowed */
+struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *arrivals); /* may be NULL */
+
+/* Share that arrives, and share that arrives with more than the accepted energy. `arrivals` may be NULL. */
+struct ceduo_portion ceduo_share_arriving(const struct ceduo_arrivals *arrivals);
+struct ceduo_portion ceduo_share_exceeding(const struct ceduo_arrivals *arrivals);
+
+/* Mean over the years at the last control of the share that is compared, from its summary. */
+struct ceduo_portion ceduo_share_over_years(const struct ceduo_years *years, const struct ceduo_years_summary *summary);
 
 /* The same of an option less that of the first option; NaN also where the two have not as many rocks. */
 struct ceduo_paired ceduo_share_to_first(const struct ceduo_result *result, size_t option);

@@ -8,12 +8,12 @@
 #include "report_doubt.h"
 #include "words.h"
 
-static struct ceduo_measure of_1000(double p, double lo, double hi, uint64_t released)
+static struct ceduo_measure of_1000(struct ceduo_portion share, double lo, double hi)
 {
-    return (struct ceduo_measure){.value = 1000 * p,
+    return (struct ceduo_measure){.value = 1000 * share.mean,
                                   .lo = floor(1000 * lo),
                                   .hi = ceil(1000 * hi),
-                                  .half = 1000 * ceduo_half_width_of_share(p, ceduo_share_se(p, (double)released), released),
+                                  .half = 1000 * share.half,
                                   .may_lo = NAN,
                                   .may_hi = NAN,
                                   .names = {N_("of 1000 arrive"), N_("arrive"), N_("arrive"), N_("arrive")}};
@@ -21,22 +21,19 @@ static struct ceduo_measure of_1000(double p, double lo, double hi, uint64_t rel
 
 struct ceduo_measure ceduo_share(struct ceduo_portion share)
 {
-    struct ceduo_measure m = of_1000(share.mean, fmax(0, share.mean - share.half), fmin(1, share.mean + share.half), 1);
-    m.half = 1000 * share.half;
-    return m;
+    return of_1000(share, fmax(0, share.mean - share.half), fmin(1, share.mean + share.half));
 }
 
 struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *a)
 {
-    return a ? of_1000(a->reach_probability, a->reach_lo, a->reach_hi, a->released) : of_1000(NAN, NAN, NAN, 1);
+    return of_1000(ceduo_share_arriving(a), a ? a->reach_lo : NAN, a ? a->reach_hi : NAN);
 }
 
 struct ceduo_measure ceduo_judged(const struct ceduo_control *c, const struct ceduo_arrivals *a)
 {
     if (isnan(c->accepted))
         return ceduo_arriving(a);
-    struct ceduo_measure m =
-        a ? of_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi, a->released) : of_1000(NAN, NAN, NAN, 1);
+    struct ceduo_measure m = of_1000(ceduo_share_exceeding(a), a ? a->exceed_lo : NAN, a ? a->exceed_hi : NAN);
     m.limit = ceduo_words_accepted(c);
     m.names[CEDUO_HEAD] = N_("of 1000 > %s kJ");
     m.names[CEDUO_SHORT_HEAD] = N_("> %s kJ");
@@ -106,8 +103,7 @@ struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *a, enum ceduo_end
                                                   [CEDUO_AT_REST] = N_("at rest"),
                                                   [CEDUO_LEFT_SLOPE] = N_("left the slope"),
                                                   [CEDUO_UNFINISHED] = N_("unfinished")};
-    struct ceduo_measure m = of_1000(a && a->released > 0 ? a->missed[end] : NAN, NAN, NAN, 1);
-    m.half = NAN;
+    struct ceduo_measure m = of_1000((struct ceduo_portion){a && a->released > 0 ? a->missed[end] : NAN, NAN}, NAN, NAN);
     for (int i = 0; i < CEDUO_MEASURE_NAMES; i++)
         m.names[i] = names[end];
     return m;

@@ -217,7 +217,7 @@ static void say_doubt(struct text *text, const struct ceduo_report *report)
     }
     if (r->scene->options_count == 1 && r->wooded && !isnan(m.may_lo)) {
         ceduo_text_put(text, "; ");
-        ceduo_measure_span(text, &m, fmin(m.value, m.may_lo), fmax(m.value, m.may_hi));
+        ceduo_measure_span(text, &m, m.may_lo, m.may_hi);
         ceduo_text_put(text, _(" by what is not known"));
     }
     ceduo_text_char(text, '.');

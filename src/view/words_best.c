@@ -52,8 +52,7 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, cons
     const struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
     const struct ceduo_window *w = &years->window;
     bool says = !isnan(s.exceed.mean);
-    struct ceduo_paired mean = says ? s.exceed : s.reach;
-    const struct ceduo_measure of_1000 = ceduo_share((struct ceduo_portion){mean.mean, mean.se * CEDUO_Z95});
+    const struct ceduo_measure of_1000 = ceduo_share(ceduo_share_over_years(years, &s));
     if (w->kind == CEDUO_WINDOW_ALIKE)
         ceduo_text_put(text, _("Each:"));
     else

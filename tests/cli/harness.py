@@ -3,6 +3,7 @@
 
 The program is the one that the environment's CEDUO names, or ./ceduo of this source tree.
 """
+import difflib
 import json
 import os
 import re
@@ -55,6 +56,8 @@ def expect(condition, *details):
 
 
 def expect_equal(found, wanted, what=""):
+    if found != wanted and all(isinstance(text, str) and text.count("\n") > 1 for text in (found, wanted)):
+        raise Failure("\n".join([f"{what}:", *difflib.unified_diff(wanted.splitlines(), found.splitlines(), "wanted", "found", "", "", 2, "")]))
     expect(found == wanted, f"{what}: found {found!r}, wanted {wanted!r}")
 
 

@@ -231,6 +231,25 @@ def test_written():
                 expect_in("draws", [i["path"] for i in r.json()[0]["figures"][0]["inputs"]])
 
 
+def test_written_where_it_lies():
+    """A profile that begins at 100 m is written there: the points are those of the scene, and its controls stay on them"""
+    points = [[100, 60], [140, 20], [160, 8], [300, 0]]
+    slope = {"vertices_m": points, "materials": [{"from_m": 100, "to_m": 150, "material": "talus"},
+                                                 {"from_m": 150, "to_m": 300, "material": "colluvium"}]}
+    what = quarry({"passed": {"x_m": 160, "count": 30, "of": 40}}, slope=slope, release={"x_m": 100, "height_m": 2, "vx_m_s": 0.5},
+                  controls=[{"x_m": 160}])
+    with Folder() as f:
+        out = f.path / "fitted.yaml"
+        r = ceduo("-n", 50, "--calibrate", "slope.materials[talus].rt=0.7:0.98", "-o", out, f.write("s.yaml", what))
+        expect_equal(r.status, DONE, r)
+        written = re.search(r"vertices_m: *(\[\[.*\]\])", out.read_text())
+        expect(written, out.read_text())
+        x = [float(n) for n, _ in re.findall(r"\[([\d.]+), ([\d.]+)\]", written[1])]
+        expect_equal([n for n in x if n in (100, 140, 160, 300)], [100, 140, 160, 300], written[1])
+        expect_equal((x[0], x[-1]), (100, 300))
+        expect_equal(good("-b", "-n", 20, "-f", "json", out).json()[0]["options"][0]["controls"][0]["x_m"], 160)
+
+
 def test_written_as_yml():
     """A scene may end in .yml as well"""
     with Folder() as f:

@@ -111,6 +111,16 @@ def test_power_law():
         check_power_law(classes, hazard_of(result, "wooded"))
 
 
+def test_effective_rocks():
+    """Of volumes whose logarithms are even, with weights v^-b: (mean of the weights)² / mean of their squares, and no forest changes it"""
+    (lo, hi), b = POWER["volume_m3"], POWER["exponent"]
+    length = math.log(hi / lo)
+    mean, square = ((lo ** -k - hi ** -k) / (k * length) for k in (b, 2 * b))
+    result = run(falls(POWER), "-n", 20000)
+    for side in ("bare", "wooded"):
+        expect_near(hazard_of(result, side)["effective_rocks"] / 20000, mean * mean / square, 1e-3 * mean * mean / square, side)
+
+
 def test_accepted_return():
     """Without a return period 100 years are assumed, where an energy is accepted and blocks come down"""
     assumed = "a rock above the accepted energy may come once in 100 years"

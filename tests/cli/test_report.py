@@ -253,6 +253,12 @@ def test_trajectories():
             expect(float(width[1]) >= 0.8, "too thin", line[:120])
 
 
+def test_other_sizes():
+    """Blocks of other sizes are shown of a scene with one option; of several it would be a table of the first alone"""
+    expect_in("Blocks of other sizes", report("paper-site")[0])
+    expect("Blocks of other sizes" not in report("four-systems")[0], "sizes of one option among four")
+
+
 def test_whole_tables():
     """What is through the forest and what is without stands in one piece of paper, heads come again where a table is longer than a
     sheet"""

@@ -494,6 +494,21 @@ def test_over_a_rotation():
     expect(not any("rotation" in f["figure"] for f in none["figures"]) and none["ranking"][0]["over"] == "today", none["ranking"])
 
 
+def test_failing_years_outwards():
+    """The page rounds the range of failing years outwards: 7.9 to 19.1 years are 7 to 20"""
+    what = rotating()
+    what["doubt"] = [DENSITY | {"lo": 2450}]
+    result, seen = answer(what, "--years", "-n", 32), 0
+    with Folder() as f:
+        page = good(f"--sensitivity={POINTS}", "--years", "-n", 32, f.write("s.yaml", what)).out
+    for i, name in enumerate(("few", "many")):
+        years = figure(result, "rotation.unprotected_energy", i)
+        lo, hi = years["doubt_p5"], years["doubt_p95"]
+        seen += math.floor(lo) != round(lo) or math.ceil(hi) != round(hi)
+        expect(re.search(rf"^  {name} .* {years['value']:.0f}, {math.floor(lo)}–{math.ceil(hi)}$", page, re.M), name, lo, hi, page)
+    expect(seen > 0, "ends that would be rounded inwards", result)
+
+
 def test_a_year_as_today():
     """A forest that neither grows nor is cut has one year, which is today's"""
     result = answer(measured(doubt=[DENSITY]), "--years", "-n", 400)

@@ -110,6 +110,15 @@ def test_nothing_in_doubt():
 BOUNDS = {PER_HA.format(1): (50, 250), "rock.density_kg_m3": (2200, 2900), "forest[0].stand.energy.u_J_m3": (5e4, 1.5e5)}
 
 
+def test_error_on_the_page():
+    """The page shows half the 95 % interval of the share, 1.96 standard errors"""
+    what = wood([{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in BOUNDS.items()])
+    asked = (what, "exceed=0.2", 0.8, "-n", 50)
+    answer, page = find(*asked)["sure"], find(*asked, form="table")
+    expect(answer["probability_se"] > 0.02, "so few rocks leave an error", answer)
+    expect_in(f"reaches it in {100 * answer['probability']:.0f} %, ±{196 * answer['probability_se']:.0f};", page)
+
+
 def test_error_of_the_value():
     """The interval of the value: it holds the value in closed form with 19 of 20 seeds, and without an error of the points that value
     alone"""

@@ -17,7 +17,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (CEDUO, FULL, PATIENCE, PROFILES, USAGE, Failure, Folder, ceduo, environment, expect, expect_equal,
                      expect_in, expect_near, good, of_today, result, results, run_all)
-from pages import WHOLE
+from pages import WHOLE, digits
 
 STANDS = PROFILES / "stands"
 SYSTEMS = [("simple", "simple-coppice.yaml"), ("standards", "coppice-with-standards.yaml"),
@@ -320,6 +320,17 @@ def test_sum():
             expect_sum(option, last)
 
 
+def test_thick_stems():
+    """Years that fail counting only stems from 8 cm on are those of a scene whose stems of contact begin at 8 cm"""
+    with Folder() as f:
+        many = [{"per_ha": 500, "dbh_m": 0.2, "height_m": 12}]  # 20 m apart along the way: contact passes, free run does not
+        path = f.write("s.yaml", site(belt(0, 135, coppice(30, stay=[500], trees=many), cut_year=2), rocks=50))
+        every, thick = (result("--years", "0:29", "-s", f"simulation.contact_dbh_m={dbh}", path)["options"][0]["rotation"] for dbh in (0, 0.08))
+    keys = ("unprotected_contact", "unprotected_free_run")
+    expect_equal([every[f"{k}_8cm"] for k in keys], [thick[k] for k in keys])
+    expect(every["unprotected_free_run_8cm"] != every["unprotected_contact_8cm"], "years that fail by one of the two alone", every)
+
+
 def test_rocks_per_year():
     """rocks_per_year: expected passes a year are the mean share that arrives times the rocks"""
     for rate in (0, 0.25, 3, 1000):
@@ -454,6 +465,7 @@ def test_page_figures():
         figures = line.replace("cut", "").split()
         expect_equal((figures[0], figures[2], figures[5], figures[-1]),
                      (str(year["year"]), *(words[control["lights"][k]] for k in ("contact", "free_run", "energy"))), line)
+        expect_equal(figures[-2], digits(control["wooded"]["energy_kJ"]["mean"], 3), f"mean of those that arrive: {line}")
         adc = max(s["adc"]["adc_m"] for s in year["stands"])
         expect(abs(float(figures[1]) - adc) <= 0.006 * adc, f"ADC {adc}", line)
         expect_in(f" {1000 * control['wooded']['exceed_probability']:.0f} (", line, "of 1000")
@@ -461,8 +473,19 @@ def test_page_figures():
     rotation = option["rotation"]
     expect_in(f"Years that fail: energy {rotation['unprotected_energy']}, contact {rotation['unprotected_contact']}, "
               f"free run {rotation['unprotected_free_run']} of 17.", flat)
+    share = rotation["exceed_probability"]  # with half its 95 % interval
+    expect_in(f"Years 0 to 16: mean {1000 * share['mean']:.0f} ±{math.ceil(1959.963984540054 * share['se'])} of 1000, worst ", flat)
     expect_in(f"(year {rotation['worst_year']}).", flat)
     expect_in(f"Felled: {rotation['felled_m']:g} m", flat)
+
+
+def test_page_of_none():
+    """Where no rock has too much energy the mean of none has the error of none: Wilson's interval of 0 of 1000, up to 3.8"""
+    with Folder() as f:
+        path = f.write("s.yaml", site(belt(0, 135, coppice(12)), rocks=1000, controls=[{"x_m": 135, "accepted_kJ": 1e6}]))
+        flat = " ".join(good(*WHOLE, "--years", "0:2", path).out.split())
+    z = 1.959963984540054
+    expect_in(f"Years 0 to 2: mean 0 ±{math.ceil(1000 * z * z / (1000 + z * z))} of 1000, worst 0 ", flat)
 
 
 def test_page_gaps():

@@ -2,10 +2,13 @@
 /* Blocks of other sizes: how a rock is scaled, which sizes are shown in which order, and that they fly with the mass
  * that is shown. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 
 #include "line_scene.h"
+#include "runs.h"
+#include "unit/ground.h"
 
 #define LIMESTONE    2600.0
 #define BLOCKS_FLOWN 5
@@ -191,4 +194,34 @@ TEST(the_own_block_is_not_simulated_twice)
         for (size_t i = 0; i < CEDUO_BLOCKS; i++)
             EXPECT(blocks[i].arrivals.reached == 77, ==, (blocks[i].own && released == BLOCKS_FLOWN));
     }
+}
+
+/* ---- of all sizes ---- */
+
+/* Rocks of all sizes that come to rest long before the control. */
+static struct ceduo_rate rate_above_100_kj(double fall, double height)
+{
+    static double ends[] = {.05, 1};
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = ends};
+    static struct ground g;
+    ground_make(&g, 400, fall, height, .5, 0);
+    struct ceduo_control road = {.x = 300, .x_given = 300, .accepted = 100e3, .measured_speed = NAN};
+    g.scene.controls = &road;
+    g.scene.controls_count = 1;
+    g.scene.blocks = &blocks;
+    g.scene.blocks_count = 1;
+    const struct ceduo_run_def def = ceduo_run_def_default(&g.scene);
+    LOCAL(ceduo_run, run) = run_of(&def, 1000);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    EXPECT(a.reached, ==, 0);
+    return a.hazard.accepted;
+}
+
+/* A rock that falls 20 m from its release could have as much as one that the ground takes 20 m down. */
+TEST(a_fall_from_the_release_could_bring_energy)
+{
+    struct ceduo_rate released_high = rate_above_100_kj(0, 20), steep = rate_above_100_kj(20, 0);
+    EXPECT(released_high.rate, ==, 0);
+    EXPECT(steep.hi, >, 1e-5);
+    EXPECT_NEAR(released_high.hi, steep.hi, 1e-12);
 }

@@ -263,6 +263,15 @@ TEST(few_rocks_bound_what_they_can)
     assert_true(isnan(h.left) && isnan(h.intensity[0].left));
 }
 
+/* Kish's effective number: 500 rocks of weight 1.9 and 500 of 0.1 are as good as 1000²/(500 (1.9² + 0.1²)) equal ones. */
+TEST(rocks_count_by_their_weights)
+{
+    const struct released all = {.n = N, .w = N, .ww = 500 * (1.9 * 1.9 + .1 * .1), .per_year = 1};
+    struct ceduo_hazard h;
+    assert_true(ceduo_hazard_read(&all, NULL, 0, 5, &h));
+    EXPECT_NEAR(h.effective, 1e6 / 1810, 1e-9);
+}
+
 /* Beyond the last energy of the curve there is no other. */
 TEST(a_curve_ends_where_its_energies_do)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The kernels of lanes give the same bits as the scalar one, in every figure of a run. */
+/* The kernels of lanes give the same bits as the scalar one, in every figure of a run; and speeds as the slow walk. */
 #include "expect.h"
 #include "local.h"
 
@@ -14,6 +14,7 @@
 #include "line_scene.h"
 #include "paper_site.h"
 #include "runs.h"
+#include "slow_walk.h"
 
 #define SCENES        FULL_OR(1200u, 700u) /* in 689 a rock flies back to a stem before the low end, where it would leave */
 #define LASTING_EVERY 600                  /* scenes of which one may go on for ever */
@@ -432,6 +433,83 @@ TEST(rocks_that_roll_among_stems)
         contacts += expect_same(name, &def, 500, 1500);
     }
     EXPECT(contacts, >, 1000000);
+}
+
+/* ---- beside the slow walk ---- */
+
+struct facets {
+    uint64_t seed, rock;
+};
+
+static double slow_draw(void *context, uint64_t contact)
+{
+    const struct facets *f = context;
+    return line_facet_draw(f->seed, f->rock, contact);
+}
+
+/* Speed at the control of a rock on the paper's slope without forest, by the walk that shares no code with the program; NaN: it does
+ * not arrive. */
+static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
+{
+    struct slow_segment segments[PAPER_SEGMENTS];
+    struct facets facets = {scene->simulation.seed, rock};
+    struct ceduo_rock body;
+    const struct ceduo_slope *slope = &scene->slope;
+    const struct ceduo_release *r = &scene->release;
+    assert_int_equal(ceduo_rock_of_means(&scene->rock, &body), CEDUO_OK);
+    for (size_t j = 0; j + 1 < slope->vertices; j++) {
+        const struct ceduo_segment *s = &slope->segments[j];
+        segments[j] = slow_segment_between(slope->x[j], slope->z[j], slope->x[j + 1], slope->z[j + 1]);
+        segments[j].rn = s->rn.mean;
+        segments[j].rt = s->rt.mean;
+        segments[j].friction = s->friction;
+        segments[j].theta_max = s->roughness_rad;
+    }
+    const struct slow_def def = {.count = slope->vertices - 1,
+                                 .segments = segments,
+                                 .law = scene->simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
+                                 .facets = slope->facets == CEDUO_BOTH ? SLOW_BOTH : SLOW_AGAINST,
+                                 .scale_rn = scene->simulation.scale_rn,
+                                 .friction_bound = scene->simulation.friction_bound,
+                                 .gravity = scene->simulation.gravity,
+                                 .radius = body.radius,
+                                 .k = body.k,
+                                 .x0 = r->x.mean,
+                                 .z0 = ceduo_slope_height(slope, r->x.mean) + r->height.mean,
+                                 .vx0 = r->vx.mean,
+                                 .vz0 = r->vz.mean,
+                                 .spin0 = r->spin.mean,
+                                 .uniform = slow_draw,
+                                 .context = &facets,
+                                 .max_contacts = CEDUO_CONTACTS_MOST,
+                                 .control = scene->controls[0].x};
+    const struct slow_way way = slow_walk(&def);
+    return way.crossing.reached ? hypot(way.crossing.vx, way.crossing.vz) : NAN;
+}
+
+/* Ways are chaotic: one of a hundred may be turned into another by the rounding of doubles (test_slow_walk.c). */
+TEST(lanes_fly_as_the_slow_walk)
+{
+    enum { ROCKS = 500 };
+    for (int law = 0; law < 2; law++)
+        for (size_t k = 0; k < LANES; k++) {
+            struct paper_site site;
+            double speeds[ROCKS];
+            int same = 0, arrive = 0;
+            paper_site_init(&site);
+            site.scene.simulation.law = law ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
+            site.scene.release.height = ceduo_number(1);
+            const struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+            LOCAL(ceduo_run, run) = run_with(def, lanes[k], ROCKS, ROCKS);
+            assert_true(ceduo_run_values(run, 0, CEDUO_SAMPLE_SPEED, speeds));
+            for (uint64_t r = 0; r < ROCKS; r++) {
+                double slow = slow_speed(&site.scene, r);
+                arrive += !isnan(slow);
+                same += fabs(speeds[r] - slow) <= 1e-6 * slow || (isnan(speeds[r]) && isnan(slow));
+            }
+            EXPECT(arrive, >, ROCKS / 10);
+            EXPECT(same, >=, .99 * ROCKS);
+        }
 }
 
 /* ---- stopping ---- */

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """View 5: an option is called the best only where more than chance tells it apart."""
+import math
 import re
 import sys
 from pathlib import Path
@@ -43,10 +44,19 @@ def test_clear_differences():
     expect(seen == {"no option", "'one'", "'other'"}, "apart either way, and not apart though not the same", seen)
 
 
+def expect_same_error(narrow, wide, arrivals):
+    """A column without room for the interval shows half of it, by the weights of the blocks."""
+    for row, key in (("arrive", "reach"), ("above 50 kJ", "exceed")):
+        value, lo, hi = (1000 * arrivals[f"{key}_{k}"] for k in ("probability", "lo", "hi"))
+        expect(re.search(rf"^ *{row} +{value:.0f}±{math.ceil((hi - lo) / 2)} ", narrow.now, re.M), row, lo, hi, narrow)
+        expect(re.search(rf"^ *{row} +{value:.0f} \({math.floor(lo)}–{math.ceil(hi)}\) ", wide.now, re.M), row, lo, hi, wide)
+
+
 def test_blocks():
     """Where blocks of all sizes come down column and view 5 say how often a dangerous one does, and no mean of survivors"""
     with Place() as place:
-        screen, wide, over = place.play("resize 130 40\nkey 5\nwait idle\ndump\nresize 200 50\ndump\nkey 6\ndump", "blocks-above-the-road")
+        screen, wide, narrow, over = place.play(
+            "resize 130 40\nkey 5\nwait idle\ndump\nresize 200 50\ndump\nresize 80 24\ndump\nresize 200 50\nkey 6\ndump", "blocks-above-the-road")
         rocks = re.search(r"(\d+) rocks", screen.now, re.M).group(1)
         options = results("-n", rocks, "blocks-above-the-road")[0]["options"]
         ahead = results("--years", "-n", 10240, "blocks-above-the-road")[0]["options"]
@@ -63,6 +73,7 @@ def test_blocks():
                          for y, w in zip(years, (o["window"] for o in ahead), strict=True)], "half a block a year")
     expect("of 1000 released with > 50 kJ (limit 20)" in over.body, over)  # 1000 / (100 years of half a block)
     expect(re.search(r"│ 20 +> 50 kJ +│ 50 +mean kJ", wide.body), wide)
+    expect_same_error(narrow, wide, options[0]["controls"][0]["wooded"])
     words = " ".join(screen.body.split())
     expect(re.search(rf"reaches road \(135 m\) every {bare:.0f}( \(.*\))? years today without forest, every {years[0]:.0f} ", words), words)
     expect(re.search(r"Years are counted from today, with \d+ rocks in each; the worst is the worst of these\.", words), words)

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from play import Place, home  # noqa: E402
+from play import FAST, Place, home  # noqa: E402
 from harness import CEDUO, DONE, PATIENCE, expect, expect_equal, run_all  # noqa: E402
 
 # view, path, of the file's unit in one that is shown
@@ -42,6 +42,21 @@ def test_ranges():
             expect(accepts(place, "fast.yaml", path, hi), f"{path}: the scene refuses {hi}, the upper end")
         words = re.search(r"values from +(\S+) to +(\S+)", screens[10].popup).groups()
         expect_equal(words, ("300", "9500"), "stools per ha: a stool has one shoot at least, 9500 shoots stand there")
+
+
+def test_ranges_of_places():
+    """Where the profile begins at 100 m the range of a place ends where the profile does, at 200 m."""
+    moved = FAST
+    for old, new in (("[[0, 80], [60, 30], [100, 0]]", "[[100, 80], [160, 30], [200, 0]]"), ("x_m: 60", "x_m: 160"), ("x_m: 80", "x_m: 180"),
+                     ("from_m: 5\n", "from_m: 105\n"), ("to_m: 45\n", "to_m: 145\n"), ("from_m: 50\n", "from_m: 150\n"), ("to_m: 80\n", "to_m: 180\n")):
+        expect(old in moved, old)
+        moved = moved.replace(old, new)
+    with Place() as place:
+        place.write("moved.yaml", moved)
+        for path, now in (("controls[1].x_m", 180), ("forest[1].to_m", 180)):
+            screen = place.play(f"key 1\nfind {path}\nkey f\ndump", "moved.yaml")[0]
+            lo, hi = (float(x) for x in re.search(r"values from +(\S+) to +(\S+)", screen.popup).groups())
+            expect(100 <= lo < now and hi == 200, path, lo, hi)
 
 
 if __name__ == "__main__":

@@ -314,3 +314,35 @@ TEST(p_is_uniform_under_the_truth)
         EXPECT(chi2, <, 27.88);
     }
 }
+
+#define LISTS 1500
+#define LONG  50 /* values of each list, in ten classes of five */
+
+/* Bounds of classes that a list makes itself vary with it. The mean of 1500 p is one half, as that of uniform values is, within four
+ * of their standard errors, sqrt(1/12/1500). */
+TEST(p_of_lists_is_a_half_on_the_mean)
+{
+    static struct ceduo_observation seen[LISTS];
+    static struct ceduo_predicted p[LISTS];
+    struct ceduo_scene scene = flight(2), truth = scene;
+    const struct ceduo_observation any = speed(15, 1);
+    LOCAL(ceduo_observer, observer);
+    LOCAL_BYTES double *values;
+    size_t n;
+    double mean = 0;
+    truth.simulation.seed = 99;
+    EXPECT(ceduo_observer_create(&any, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_values(observer, &truth, 0, LISTS * LONG, &values, &n), ==, CEDUO_OK);
+    EXPECT(n, ==, LISTS * LONG);
+    for (size_t i = 0; i < LISTS; i++) {
+        qsort(values + i * LONG, LONG, sizeof *values, rising);
+        seen[i] = speed(15, 2);
+        seen[i].n = LONG;
+        seen[i].values = values + i * LONG;
+    }
+    const struct ceduo_calibration_scene of = {.scene = &scene, .observations_count = LISTS, .observations = seen};
+    EXPECT(ceduo_calibration_as_it_is(&of, 20000, NULL, p), ==, CEDUO_OK);
+    for (size_t i = 0; i < LISTS; i++)
+        mean += p[i].p_value / LISTS;
+    EXPECT_NEAR(mean, .5, 4 * sqrt(1. / 12 / LISTS));
+}

@@ -3,6 +3,7 @@
 #include "expect.h"
 #include "local.h"
 
+#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -400,44 +401,58 @@ TEST(a_look_at_all_chains_is_ended)
     EXPECT(c.effective_size, ==, INFINITY);
 }
 
-/* A density that fails in the first chain; another chain waits until it has. */
+/* A density that fails in the second thread; the first one, in a chain of its own, waits until that thread has ended. */
 struct failure {
-    atomic_int started, failed, after;
+    pthread_t first;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    bool ended;
+    atomic_int started, after;
 };
 
-static void sleep_ms(long ms)
+static pthread_key_t failing; /* its destructor is called as the thread ends */
+
+static void note_end(void *context)
 {
-    nanosleep(&(struct timespec){0, ms * 1000000}, NULL);
+    struct failure *f = context;
+    pthread_mutex_lock(&f->lock);
+    f->ended = true;
+    pthread_cond_broadcast(&f->changed);
+    pthread_mutex_unlock(&f->lock);
 }
 
 static enum ceduo_status fails_in_one(void *context, size_t chain, const double *x, double *log_density)
 {
     struct failure *f = context;
+    (void)chain;
     *log_density = log_normal(x);
     if (f->started++ < 4) /* where the chains start */
         return CEDUO_OK;
-    if (chain == 0) {
-        f->failed = 1;
+    if (!pthread_equal(pthread_self(), f->first)) {
+        pthread_setspecific(failing, f);
         return CEDUO_NO_MEMORY;
     }
-    for (int i = 0; !f->failed && i < 10000; i++)
-        sleep_ms(1);
-    if (f->after++ == 0)
-        sleep_ms(20); /* in which the failure is known */
+    pthread_mutex_lock(&f->lock);
+    while (!f->ended)
+        pthread_cond_wait(&f->changed, &f->lock);
+    pthread_mutex_unlock(&f->lock);
+    f->after++;
     return CEDUO_OK;
 }
 
-/* Where one chain fails the others end: of the round's 50 steps of each few are made then. */
+/* Where one chain fails no other begins: the first thread ends its round of 50 steps at the most, or has none. */
 TEST(one_chain_ends_all)
 {
     LOCAL_BY(ceduo_chains_release) struct chains c;
-    struct failure f = {0};
+    struct failure f = {.first = pthread_self(), .lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
     struct chains_def def = two_dimensions();
+    assert_int_equal(pthread_key_create(&failing, note_end), 0);
     def.density = fails_in_one;
     def.context = &f;
     def.threads = 2;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_NO_MEMORY);
-    EXPECT(f.after, <, CEDUO_CHAINS_ROUND);
+    EXPECT(f.after, <=, CEDUO_CHAINS_ROUND);
+    pthread_key_delete(failing);
 }
 
 static enum ceduo_status one_place(void *context, size_t chain, const double *x, double *log_density)

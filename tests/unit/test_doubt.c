@@ -141,6 +141,71 @@ TEST(too_much_work_is_given_up)
     ceduo_scene_release(&file);
 }
 
+#define LONG 120 /* years, two for each that a point takes */
+
+static struct ceduo_doubt_def over_long_years(const struct ceduo_input *input)
+{
+    return (struct ceduo_doubt_def){.scene = &file.scene,
+                                    .inputs_count = 1,
+                                    .inputs = input,
+                                    .points = 2,
+                                    .points_max = 2,
+                                    .rocks = CEDUO_SURFACE_GROUPS,
+                                    .rotation = true,
+                                    .window = {CEDUO_WINDOW_GIVEN, 1, LONG, 1},
+                                    .threads = 1};
+}
+
+/* All rocks arrive in every year, and each of them has too much energy: 120 years fail, though a point has 60. */
+TEST(a_year_of_a_point_stands_for_several)
+{
+    static const char *const place = "rocks_per_year";
+    const struct ceduo_input input = range_of(&place, 1, 2);
+    struct ceduo_doubt_answer a;
+    open_wood();
+    file.scene.simulation.contact_model = CEDUO_STEMS;
+    file.scene.options[0].belts_count = 0;
+    file.scene.controls[0].accepted = 1;
+    const struct ceduo_doubt_def def = over_long_years(&input);
+    EXPECT(ceduo_doubt_ask(&def, &a), ==, CEDUO_OK);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&a, 0, CEDUO_DOUBT_FAILING, false);
+    EXPECT(f->value, ==, LONG);
+    for (int p = 0; p < 2; p++)
+        EXPECT_NEAR(f->fit.values[p], LONG, 1e-9);
+    ceduo_doubt_free(&a);
+    ceduo_scene_release(&file);
+}
+
+#define TREE_MOST .5 /* m: a tree of 0.2 m becomes as thick by 0.01 a year of what is left */
+
+static void read_year(void *context, const struct point *point, const struct brought *at)
+{
+    double *years = context;
+    (void)at;
+    double left = 1 - point->forest->belts[0].stand.trees[0].dbh / TREE_MOST;
+    years[point->slot] = log((1 - .2 / TREE_MOST) / left) / .01;
+}
+
+/* Year by year the diameter of the trees says how old they are: slot n is of one of the two years 2n - 1 and 2n. */
+TEST(years_of_a_point_are_of_all_its_years)
+{
+    static const char *const place = "rocks_per_year";
+    const struct ceduo_input input = range_of(&place, 1, 2);
+    const double u[2] = {.25, .75};
+    double years[1 + CEDUO_DOUBT_YEARS_MAX] = {0};
+    open_wood();
+    file.scene.simulation.contact_model = CEDUO_STEMS;
+    struct ceduo_stand *stand = &file.scene.options[0].belts[0].stand;
+    stand->growth.trees = (struct ceduo_curve){.dbh_most = TREE_MOST, .dbh_rate = .01, .height_most = 20, .height_rate = .01};
+    const struct ceduo_doubt_def def = over_long_years(&input);
+    const struct points points = {.def = &def, .u = u, .read = read_year, .context = years};
+    EXPECT(ceduo_points_years(&def), ==, CEDUO_DOUBT_YEARS_MAX);
+    EXPECT(ceduo_points_run(&points, 0, 1, 0), ==, CEDUO_OK);
+    for (int slot = 1; slot <= CEDUO_DOUBT_YEARS_MAX; slot++)
+        EXPECT_NEAR(years[slot], 2 * slot - .5, .5 + 1e-6);
+    ceduo_scene_release(&file);
+}
+
 static void read_nothing(void *context, const struct point *point, const struct brought *at)
 {
     (void)context, (void)point, (void)at;

@@ -90,13 +90,16 @@ TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
 /* Where nothing stands rocks do the same by every contact model, but by the index none is simulated. */
 TEST_WITH(a_contact_model_makes_another_key, set_up, tear_down)
 {
-    uint64_t keys[2];
+    static const enum ceduo_contact_model models[] = {CEDUO_INDEX, CEDUO_STEMS};
+    uint64_t keys[2], years[2];
     file.scene.options[0].belts_count = 0;
     for (int i = 0; i < 2; i++) {
-        file.scene.simulation.contact_model = (enum ceduo_contact_model)i;
+        file.scene.simulation.contact_model = models[i];
         keys[i] = ceduo_jobs_key(&file.scene);
+        years[i] = ceduo_runs_years_key(&file.scene, 0);
     }
     assert_true(keys[0] != keys[1]);
+    assert_true(years[0] != years[1]);
 }
 
 /* A search goes before the figures, which go on after it; it finds what it finds alone, and leaves the scene as it is. */

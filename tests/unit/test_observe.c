@@ -396,6 +396,21 @@ TEST(what_is_of_its_own)
     expect_mean(largest, HIGH, 1e-9);
 }
 
+/* What was observed was observed of one rock, also where blocks of all sizes come down. */
+TEST(blocks_are_not_observed)
+{
+    static double volumes[] = {.05, 1};
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    make_ground(0, HIGH, FAST, 0);
+    g.scene.blocks = &blocks;
+    g.scene.blocks_count = 1;
+    struct ceduo_observation o = measured(at(CEDUO_OBSERVED_ENERGY, 10), 2, 1, 1);
+    o.rock = &g.scene.rock;
+    struct ceduo_counterpart c = look(o);
+    EXPECT_NEAR(c.mean, mass() * (FAST * FAST + GRAVITY * GRAVITY) / 2, 1e-6); /* after 1 s of free fall */
+    EXPECT_NEAR(c.sd, 0, 1e-6);
+}
+
 /* Where the scene makes no sense, or nobody waits any longer, nothing is compared. */
 TEST(what_cannot_be_looked_at)
 {

@@ -326,86 +326,126 @@ TEST(years_before_they_are_flown)
     EXPECT(s.unprotected_energy, ==, 0);
 }
 
-TEST(little_is_asked_of_a_run)
+/* 300 rocks without speed, which friction holds where they are released. */
+static struct ceduo_run *held_rocks(void)
 {
     static const double cells[] = {20, 152};
-    double energies[8];
     paper_site_init(&site);
     site.scene.simulation.rocks = 300;
-    site.scene.slope.segments[0].friction = 9; /* holds all that are released without speed */
+    site.scene.slope.segments[0].friction = 9;
     site.scene.release =
         (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.threads = 0; /* as one */
     def.cells = 2;
     def.cell_x = cells;
-    struct ceduo_run *run = run_of(&def, 300);
+    return run_of(&def, 300);
+}
+
+TEST(cells_that_no_rock_reaches)
+{
+    LOCAL(ceduo_run, run) = held_rocks();
     for (size_t i = 0; i < 2; i++) {
         struct ceduo_envelope e;
         ceduo_run_envelope(run, i, &e);
         assert_int_equal(e.passed, 0);
-        assert_true(isnan(e.mean_energy));
-        assert_true(isnan(e.speed.p5));
-        assert_true(isnan(e.energy.max));
+        EXPECT_NAN(e.mean_energy, e.speed.p5, e.energy.max);
     }
+}
+
+TEST(a_control_that_no_rock_reaches)
+{
+    LOCAL(ceduo_run, run) = held_rocks();
     uint64_t reached;
     double mean, se;
     ceduo_run_energy(run, 0, &reached, &mean, &se);
     EXPECT(reached, ==, 0);
-    assert_true(isnan(mean));
-    assert_true(isnan(se));
-    assert_int_equal(ceduo_run_extend(run, 1000), CEDUO_OK); /* as long as it was made for */
-    assert_int_equal(ceduo_run_rocks(run), 300);
-    ceduo_run_free(run);
+    EXPECT_NAN(mean, se);
+}
 
+TEST(a_run_is_no_longer_than_it_was_made_for)
+{
+    LOCAL(ceduo_run, run) = held_rocks();
+    assert_int_equal(ceduo_run_extend(run, 1000), CEDUO_OK);
+    assert_int_equal(ceduo_run_rocks(run), 300);
+}
+
+/* Of the rocks that arrive as many as there is room for; before any is simulated, and where samples are not kept, none. */
+TEST(energies_as_far_as_they_are_kept)
+{
+    double energies[8];
     paper_site_init(&site);
-    def = ceduo_run_def_default(&site.scene);
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.rocks_most = 300;
-    run = run_of(&def, 0);
+    LOCAL(ceduo_run, run) = run_of(&def, 0);
     assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
     assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
     assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 8);
-    ceduo_run_free(run);
     def.exact_bytes = 100;
-    run = run_of(&def, 300);
-    assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
-    ceduo_run_free(run);
-    struct ceduo_arrivals steps, once; /* room is taken twice over, where that fits */
-    const double of_control[] = {site.control.x};
-    def.exact_bytes = 4 * sizeof(double) * 300; /* speed, height, stops, and room to sort */
-    def.cells = 1;
-    def.cell_x = of_control;
-    run = run_of(&def, 200);
-    assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
-    assert_int_equal(ceduo_run_arrivals(run, 0, &steps), CEDUO_OK);
-    struct ceduo_envelope at_control; /* a cell where a control is */
-    ceduo_run_envelope(run, 0, &at_control);
-    assert_int_equal(at_control.passed, steps.reached);
-    EXPECT(at_control.speed.max, ==, steps.speed.max);
-    EXPECT(at_control.energy.max, ==, steps.energy.max);
-    ceduo_run_free(run);
-    def.cells = 0;
-    run = run_of(&def, 300);
-    assert_int_equal(ceduo_run_arrivals(run, 0, &once), CEDUO_OK);
-    assert_true(steps.exact);
-    assert_true(once.exact);
+    LOCAL(ceduo_run, binned) = run_of(&def, 300);
+    assert_int_equal(ceduo_run_energies(binned, 0, energies, 8), 0);
+}
+
+#define ROOM_TWICE (4 * sizeof(double) * 300) /* of 300 rocks: speed, height, stops, and room to sort */
+
+/* A run in two steps takes its room twice over, where that fits, and has the bits of one step. */
+TEST(room_is_taken_twice)
+{
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 300;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.exact_bytes = ROOM_TWICE;
+    struct ceduo_arrivals steps, once;
+    LOCAL(ceduo_run, two) = run_of(&def, 200);
+    assert_int_equal(ceduo_run_extend(two, 300), CEDUO_OK);
+    assert_int_equal(ceduo_run_arrivals(two, 0, &steps), CEDUO_OK);
+    LOCAL(ceduo_run, one) = run_of(&def, 300);
+    assert_int_equal(ceduo_run_arrivals(one, 0, &once), CEDUO_OK);
+    assert_true(steps.exact && once.exact);
     EXPECT(steps.reached, >, 0);
     assert_memory_equal(&steps, &once, offsetof(struct ceduo_arrivals, exact));
-    ceduo_run_free(run);
-    site.scene.controls_count = 0; /* nobody asks what arrives; where they stop is told all the same */
-    def.exact_bytes = 100;
+}
+
+TEST(a_cell_where_a_control_is)
+{
+    paper_site_init(&site);
+    const double of_control[] = {site.control.x};
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.cells = 1;
+    def.cell_x = of_control;
+    LOCAL(ceduo_run, run) = run_of(&def, 300);
+    struct ceduo_arrivals a;
+    struct ceduo_envelope e;
+    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    ceduo_run_envelope(run, 0, &e);
+    EXPECT(a.reached, >, 0);
+    assert_int_equal(e.passed, a.reached);
+    EXPECT(e.speed.max, ==, a.speed.max);
+    EXPECT(e.energy.max, ==, a.energy.max);
+}
+
+/* Without a control, and without samples, it is still counted how rocks end: bins of stops are 3.1e-5 of their value wide. */
+TEST(ends_without_a_control)
+{
+    paper_site_init(&site);
+    site.scene.controls_count = 0;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     struct ceduo_ends binned, exact;
-    run = run_of(&def, 300);
-    assert_int_equal(ceduo_run_ends(run, &binned), CEDUO_OK);
-    ceduo_run_free(run);
-    def.exact_bytes = CEDUO_EXACT_BYTES;
-    run = run_of(&def, 300);
-    assert_int_equal(ceduo_run_ends(run, &exact), CEDUO_OK);
-    ceduo_run_free(run);
+    LOCAL(ceduo_run, all) = run_of(&def, 300);
+    assert_int_equal(ceduo_run_ends(all, &exact), CEDUO_OK);
+    def.exact_bytes = 100;
+    LOCAL(ceduo_run, few) = run_of(&def, 300);
+    assert_int_equal(ceduo_run_ends(few, &binned), CEDUO_OK);
     assert_memory_equal(binned.count, exact.count, sizeof exact.count);
     EXPECT(exact.stop_x.n, >, 0);
     EXPECT_NEAR(binned.stop_p50, exact.stop_p50, 3.1e-5 * exact.stop_p50);
+}
 
+TEST(a_slope_of_one_point_has_no_run)
+{
+    paper_site_init(&site);
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_run *run;
     struct ceduo_pool *pool;
     site.scene.slope.vertices = 1;
     assert_int_equal(ceduo_run_create(&def, &run), CEDUO_BAD_SLOPE);

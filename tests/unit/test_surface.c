@@ -372,6 +372,25 @@ TEST(what_is_no_quadric_is_said)
     }
 }
 
+static double by_chance(const double *u, size_t n)
+{
+    (void)n;
+    double turns = 43758.5453 * (1 + sin(12.9898 * u[0] + 78.233 * u[1] + 37.719 * u[2]));
+    return turns - floor(turns);
+}
+
+/* Values without order, the same of all rocks. The terms of 12 inputs fit a third of 256 of them; a point that is left out is missed
+ * by more than the mean misses it. */
+TEST(chance_explains_nothing)
+{
+    make_inputs(12, 0, 0);
+    struct ceduo_surface_fit f = fit_of(by_chance, 12, 256, 1, 0);
+    assert_true(f.enough && !f.linear);
+    EXPECT_NEAR(f.variance, 1 / 12., 3 * sqrt(1 / 180. / 256)); /* of 256 uniform values */
+    EXPECT(f.explained, <, 0);
+    ceduo_surface_release(&f);
+}
+
 /* Too few points for their terms: a band, and no advice. */
 TEST(few_points_give_a_band)
 {
@@ -413,6 +432,21 @@ TEST(band_and_what_is_left)
     EXPECT_NEAR(f.left[0], .9, .02);
     EXPECT_NEAR(f.left[1], .9, .02);
     EXPECT_NEAR(f.left[2], 2 - 2 * sqrt(.1), .03);
+    ceduo_surface_release(&f);
+}
+
+static double scaled(const double *u, size_t n)
+{
+    (void)n;
+    return u[0] * (2 * u[1] - 1);
+}
+
+/* With U known 1.8 U remains of U(2V - 1), the width of 90 % of it: 0.9 on the mean of U. */
+TEST(what_is_left_is_a_mean_over_the_known)
+{
+    make_inputs(2, 0, 0);
+    struct ceduo_surface_fit f = fit_of(scaled, 2, 1024, 1, 0);
+    EXPECT_NEAR(f.left[0], .9, .01);
     ceduo_surface_release(&f);
 }
 
@@ -500,6 +534,35 @@ TEST(errors_of_the_band_hold_the_truth)
     }
     EXPECT(all / n, <=, 97);
     level = 0, limit = NAN;
+}
+
+/* ---- values alone ---- */
+
+/* Two figures of few rocks. The surface of 256 points has 6 terms: of the noise of a point's mean it keeps 6/256, and little of what
+ * remains. */
+TEST(values_have_no_noise_of_their_rocks)
+{
+    enum { POINTS = 256, FIGURES = 2 };
+    static double u[2 * POINTS], values[FIGURES * POINTS];
+    static struct ceduo_groups y[FIGURES * POINTS], changes[FIGURES * POINTS];
+    const double noise = .4;
+    struct ceduo_surface *surface;
+    struct line_random random = {.state = 1};
+    make_inputs(2, 0, 0);
+    EXPECT(ceduo_surface_points(1, POINTS, 2, u), ==, CEDUO_OK);
+    for (size_t p = 0; p < FIGURES * POINTS; p++)
+        for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
+            y[p].of[g] = two(u + 2 * (p % POINTS), 2) + noise * line_normal(&random);
+    EXPECT(ceduo_surface_open(inputs, 2, u, POINTS, &surface), ==, CEDUO_OK);
+    const struct ceduo_surface_figure figure = {.y = y, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
+    EXPECT(ceduo_surface_values(surface, &figure, FIGURES, values, changes), ==, CEDUO_OK);
+    for (size_t k = 0; k < FIGURES; k++) {
+        double off = 0;
+        for (size_t p = 0; p < POINTS; p++)
+            off += pow(values[k * POINTS + p] - two(u + 2 * p, 2), 2) / POINTS;
+        EXPECT(off, <, .3 * noise * noise / CEDUO_SURFACE_GROUPS);
+    }
+    ceduo_surface_free(surface);
 }
 
 /* ---- many inputs ---- */

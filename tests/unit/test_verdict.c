@@ -8,6 +8,7 @@
 #include <poll.h>
 
 #include "model/live.h"
+#include "view/pane.h"
 
 static struct scene_file file;
 static struct live live;
@@ -117,6 +118,48 @@ TEST(an_edit_asks_for_its_years_alone)
     ceduo_live_news(&live, &file.scene);
     assert_true(live.verdict.rotation.known);
     EXPECT(live.verdict.choices[1].mean.mean, <, before); /* four times as many of the second oldest */
+    close_scene();
+}
+
+static void follow_to_the_end(void)
+{
+    ceduo_live_follow(&live, &file, 0);
+    ceduo_jobs_wait(live.jobs);
+    ceduo_live_news(&live, &file.scene);
+}
+
+/* An edit of the energy law: what was known by the other law is now known by the scene's own, and no longer stands for the other. */
+TEST(an_edit_of_the_law_leaves_no_figures_of_the_other)
+{
+    open_scene("profiles/scenes/paper-site.yaml");
+    follow_to_the_end();
+    const struct ceduo_other_energy *other = &live.result->options[0].others[0];
+    assert_true(other->known);
+    EXPECT(other->model, ==, CEDUO_DORREN);
+    for (size_t i = 0; i < file.scene.options[0].belts_count; i++)
+        file.scene.options[0].belts[i].stand.energy = CEDUO_DORREN;
+    ceduo_live_follow(&live, &file, 0);
+    assert_false(live.result->options[0].others[0].known);
+    follow_to_the_end();
+    other = &live.result->options[0].others[0];
+    assert_true(other->known);
+    EXPECT(other->model, ==, CEDUO_BRAUNER);
+    close_scene();
+}
+
+/* An edit of the contact model: years of rocks among stems are no years of the index. */
+TEST(an_edit_of_the_contact_model_leaves_no_years)
+{
+    open_scene("profiles/scenes/paper-site.yaml");
+    follow_to_the_end();
+    EXPECT(live.verdict.choices[0].mean.mean, >, 0);
+    file.scene.simulation.contact_model = CEDUO_INDEX;
+    ceduo_live_follow(&live, &file, 0);
+    EXPECT(live.verdict.choices[0].over.years, ==, 0);
+    follow_to_the_end();
+    EXPECT(live.verdict.choices[0].over.years, >, 0);
+    EXPECT(live.verdict.choices[0].over.simulated, ==, 0);
+    EXPECT_NAN(live.verdict.choices[0].mean.mean);
     close_scene();
 }
 
@@ -267,5 +310,42 @@ TEST_WITH(beaten_by_one_of_equal_yield, open_made, close_made)
     v = verdict_of_made(made.of);
     assert_true(v.choices[0].beaten);
     assert_false(v.choices[1].beaten || v.choices[2].beaten);
+    ceduo_verdict_release(&v);
+}
+
+/* How often the pane of options says "worst": above the column of the worst year, and beside an option. */
+static int count_worst(const struct ceduo_verdict *v)
+{
+    const struct ceduo_pane pane = {.file = &file, .result = &made.result, .verdict = v, .years = made.of, .height = 40};
+    LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 120};
+    LOCAL_TEXT(text);
+    int n = 0;
+    ceduo_pane_options(&page, &pane, 0, OPTIONS);
+    ceduo_page_print(&text, &page, false);
+    for (const char *p = ceduo_text_string(&text); (p = strstr(p, "worst")); p++)
+        n++;
+    return n;
+}
+
+/* An option is the worst if its interval lies above all others, and not if it is only the largest of two that overlap. */
+TEST_WITH(the_worst_is_apart_from_all_others, open_made, close_made)
+{
+    static const struct {
+        double mean[OPTIONS], half[OPTIONS];
+        int worst;
+    } cases[] = {{{.3, .1, .5}, {.05, .02, .05}, 1},
+                 {{.44, .1, .5}, {.05, .02, .05}, 0},
+                 {{.3, .1, .29}, {.02, .02, .02}, 0},
+                 {{.39, .1, .5}, {.05, .02, .05}, 1},
+                 {{.9, .1, .5}, {.05, .02, .05}, 1}};
+    struct ceduo_verdict v = verdict_of_made(made.of);
+    for (size_t i = 0; i < OPTIONS; i++)
+        made.found[i].controls = &made.index;
+    v.rotation = (struct ceduo_leader){.known = true, .best = 1, .rival = v.rotation.rival};
+    for (size_t c = 0; c < LENGTH(cases); c++) {
+        for (size_t i = 0; i < OPTIONS; i++)
+            v.choices[i].mean = (struct ceduo_portion){cases[c].mean[i], cases[c].half[i]};
+        assert_int_equal(count_worst(&v), 1 + cases[c].worst);
+    }
     ceduo_verdict_release(&v);
 }

@@ -128,6 +128,39 @@ TEST(the_other_law_is_compared_with_what_is_known)
     }
 }
 
+/* A clear yes by one law and a clear no by the other: it depends, whichever of the two is the scene's own. Without that the other
+ * law's answer stands beside the own one. */
+TEST(an_answer_depends_where_the_laws_differ)
+{
+    static const double yes[] = {.01, 0, .02}, no[] = {.2, .15, .25}, open[] = {.05, .03, .07};
+    static const struct {
+        const double *own, *other;
+        enum ceduo_judgement judged;
+    } cases[] = {
+        {yes, yes, CEDUO_YES},  {yes, no, CEDUO_DEPENDS}, {no, yes, CEDUO_DEPENDS},       {no, no, CEDUO_NO},
+        {open, yes, CEDUO_YES}, {open, no, CEDUO_NO},     {yes, open, CEDUO_NOT_DECIDED}, {no, open, CEDUO_NOT_DECIDED}};
+    for (size_t i = 0; i < LENGTH(cases); i++) {
+        struct ceduo_other_energy others[OPTIONS] = {0};
+        struct ceduo_simulated simulated[OPTIONS];
+        const struct ceduo_simulated *wooded[OPTIONS];
+        struct ceduo_result *result;
+        open_scene(50e3);
+        for (int k = 0; k < OPTIONS; k++) {
+            const double *own = cases[i].own, *other = cases[i].other;
+            others[k] = (struct ceduo_other_energy){.known = true, .stems = true, .arrivals = arrivals[k]};
+            arrivals[k].exceed_probability = own[0], arrivals[k].exceed_lo = own[1], arrivals[k].exceed_hi = own[2];
+            others[k].arrivals.exceed_probability = other[0];
+            others[k].arrivals.exceed_lo = other[1], others[k].arrivals.exceed_hi = other[2];
+            simulated[k] = (struct ceduo_simulated){.rocks = 1000, .controls = 1, .arrivals = &arrivals[k]};
+            wooded[k] = &simulated[k];
+        }
+        const struct ceduo_simulated bare = {.rocks = 1000, .controls = 1, .arrivals = &arrivals[0]};
+        assert_int_equal(ceduo_result_assess(&scene.scene, &bare, wooded, differences, others, &result), CEDUO_OK);
+        EXPECT(result->options[1].others[0].judgement, ==, cases[i].judged);
+        ceduo_result_free(result);
+    }
+}
+
 /* ---- intervals ---- */
 
 static void expect_said(double share, double lo, double hi, const char *wanted)

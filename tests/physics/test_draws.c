@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers that are drawn for each rock: no two of them go together, and the roughness is that of the rock's own radius. All are read
+ * from where a rock leaves, and from its speed before and after its first contact with level ground. */
+#include "expect.h"
+#include "local.h"
+
+#include <math.h>
+
+#include "ceduo/ceduo.h"
+#include "unit/ground.h"
+
+#define ROCKS 4000
+
+enum drawn { DIAMETER, DENSITY, X, HEIGHT, VX, VZ, SPIN, RN, RT, NUMBERS };
+static const char *const names[NUMBERS] = {"diameter", "density", "x", "height", "vx", "vz", "spin", "rn", "rt"};
+
+static struct ground g;
+
+static struct ceduo_number uniform(double mean, double spread)
+{
+    return (struct ceduo_number){.mean = mean, .spread = spread, .kind = CEDUO_UNIFORM};
+}
+
+static void level_ground(enum ceduo_law law)
+{
+    ground_make(&g, 400, 0, 0, 0, 0);
+    g.scene.simulation.law = law;
+    g.scene.simulation.scale_rn = 0;
+    g.scene.simulation.friction_bound = false;
+    g.scene.release =
+        (struct ceduo_release){uniform(20, 5), uniform(10, 5), uniform(8, 2), uniform(-2, 1), uniform(3, 1), false};
+}
+
+/* The first two flights of a rock. */
+struct flights {
+    size_t n;
+    struct ceduo_piece of[2];
+};
+
+static void note(void *context, const struct ceduo_piece *piece)
+{
+    struct flights *f = context;
+    if (f->n < 2)
+        f->of[f->n++] = *piece;
+}
+
+static struct ceduo_trajectory follow(struct ceduo_follower *follower, uint64_t rock, struct flights *f)
+{
+    const struct ceduo_watch watch = {.piece = note, .context = f};
+    struct ceduo_trajectory way;
+    f->n = 0;
+    assert_int_equal(ceduo_follower_follow(follower, rock, &watch, &way, NULL), CEDUO_OK);
+    EXPECT(f->n, ==, 2);
+    return way;
+}
+
+static double correlation(const double *a, const double *b)
+{
+    double a_mean = 0, b_mean = 0, aa = 0, bb = 0, ab = 0;
+    for (int i = 0; i < ROCKS; i++) {
+        a_mean += a[i] / ROCKS;
+        b_mean += b[i] / ROCKS;
+    }
+    for (int i = 0; i < ROCKS; i++) {
+        aa += (a[i] - a_mean) * (a[i] - a_mean);
+        bb += (b[i] - b_mean) * (b[i] - b_mean);
+        ab += (a[i] - a_mean) * (b[i] - b_mean);
+    }
+    return ab / sqrt(aa * bb);
+}
+
+/* Correlations of 4000 independent pairs are 0 within 4.5/sqrt(4000): one of 36 is beyond with a chance of 0.0003. The spin is read
+ * under a law that has one, Rn and Rt under the law by which they are what a contact leaves of the speed. */
+TEST(no_two_numbers_of_a_rock_go_together)
+{
+    static double drawn[NUMBERS][ROCKS];
+    for (int spins = 0; spins < 2; spins++) {
+        level_ground(spins ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED);
+        g.scene.rock.diameter = uniform(1, .3);
+        g.scene.rock.density = uniform(2600, 200);
+        g.segment.rn = uniform(.5, .2);
+        g.segment.rt = uniform(.8, .1);
+        LOCAL(ceduo_follower, follower) = ceduo_follower_create(&g.scene, NULL);
+        assert_non_null(follower);
+        for (uint64_t r = 0; r < ROCKS; r++) {
+            struct flights f;
+            struct ceduo_trajectory way = follow(follower, r, &f);
+            if (spins) {
+                drawn[SPIN][r] = way.spin0;
+                continue;
+            }
+            const double of[NUMBERS] = {[DIAMETER] = way.rock.mean_diameter,
+                                        [DENSITY] = way.rock.mass / way.rock.volume,
+                                        [X] = way.x0,
+                                        [HEIGHT] = way.z0,
+                                        [VX] = way.vx0,
+                                        [VZ] = way.vz0,
+                                        [RN] = f.of[1].vz / -f.of[0].vz1,
+                                        [RT] = f.of[1].vx / f.of[0].vx1};
+            for (int i = 0; i < NUMBERS; i++)
+                drawn[i][r] = of[i];
+        }
+    }
+    for (int i = 0; i < NUMBERS; i++)
+        for (int k = 0; k < i; k++) {
+            double together = correlation(drawn[i], drawn[k]);
+            if (!(fabs(together) < 4.5 / sqrt(ROCKS)))
+                fail_msg("%s and %s: correlation %g", names[i], names[k], together);
+        }
+}
+
+/* Ground that turns back all speed turns a rock by twice the angle of the facet: the largest angles of 4000 rocks come close to
+ * atan(height of the roughness / radius of the rock), and none is beyond. With few heights of roughness and with more than are
+ * counted; of two segments the first is met. */
+TEST(a_facet_is_as_steep_as_the_radius_says)
+{
+    enum { MANY = 60 };
+    static struct ceduo_segment segments[MANY];
+    static double x[MANY + 1], z[MANY + 1];
+    for (int many = 0; many < 2; many++) {
+        double largest = 0;
+        level_ground(CEDUO_LAW_LUMPED);
+        g.scene.rock.diameter = uniform(1, .4);
+        g.segment.rn = g.segment.rt = ceduo_number(1);
+        g.segment.roughness_m = .2;
+        g.segment.roughness_rad = NAN;
+        for (int i = 0; i < MANY; i++) {
+            x[i + 1] = 400 + i;
+            segments[i] = g.segment;
+            segments[i].roughness_m = .2 + .01 * i;
+        }
+        g.scene.slope = (struct ceduo_slope){.facets = CEDUO_AGAINST,
+                                             .vertices = many ? MANY + 1 : 3,
+                                             .x = x,
+                                             .z = z,
+                                             .segments = segments,
+                                             .segments_given = many ? MANY : 2};
+        LOCAL(ceduo_follower, follower) = ceduo_follower_create(&g.scene, NULL);
+        assert_non_null(follower);
+        for (uint64_t r = 0; r < ROCKS; r++) {
+            struct flights f;
+            struct ceduo_trajectory way = follow(follower, r, &f);
+            double before = atan2(-f.of[0].vz1, f.of[0].vx1), after = atan2(f.of[1].vz, f.of[1].vx);
+            double share = fabs(after - before) / 2 / atan(.2 / (way.rock.mean_diameter / 2));
+            EXPECT(share, <, 1 + 1e-9);
+            largest = fmax(largest, share);
+        }
+        EXPECT(largest, >, .99);
+    }
+}
