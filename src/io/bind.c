@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "base/language.h"
 #include "ceduo/number.h"
 #include "scene/fields.h"
@@ -170,7 +171,7 @@ static bool read_number(struct binder *b, const struct node *node, double *value
         return report(b, node, _("too large a number"));
     const char *text = node->text, *comma = strchr(text, ',');
     size_t whole = strspn(text, "+-0123456789"), rest = comma ? strspn(comma + 1, "0123456789") : 0;
-    bool thousands = rest == 3 && strtod(text, NULL) != 0;
+    bool thousands = rest == 3 && ceduo_decimal_read(text) != 0;
     LOCAL_TEXT(part);
     ceduo_text_add(&part, text, strcspn(text, "%"));
     if (comma == text + whole && rest > 0 && !comma[1 + rest] && !thousands)

@@ -4,6 +4,7 @@
 #include "expect.h"
 
 #include <gsl/gsl_errno.h>
+#include <locale.h>
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
@@ -13,7 +14,9 @@
 #include <unistd.h>
 
 #include "base/gsl_errors.h"
+#include "base/text.h"
 #include "ceduo/ceduo.h"
+#include "ceduo/key.h"
 #include "folder.h"
 #include "study/guess.h"
 
@@ -264,6 +267,105 @@ TEST_WITH(a_scene_is_read_without_memory, folder_set_up, folder_tear_down)
     put("line.csv", line);
     put("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\nslope: line.csv\ncontrols_m: [90]\n");
     call_without_memory(read_in_folder);
+}
+
+/* ---- the locale of the host program ---- */
+
+/* Sets a locale with a decimal comma; compiles it in the folder of the test unless the machine has it. */
+static bool set_comma(const char *name)
+{
+    char command[256], full[32];
+    snprintf(full, sizeof full, "%s.UTF-8", name);
+    if (!setlocale(LC_ALL, full)) {
+        snprintf(command, sizeof command, "localedef -i %s -f UTF-8 %s/%s >/dev/null 2>&1", name, folder, full);
+        if (system(command) != 0) /* NOLINT(cert-env33-c): a command of the test */
+            return false;
+        setenv("LOCPATH", folder, 1);
+        bool set = setlocale(LC_ALL, full);
+        unsetenv("LOCPATH");
+        if (!set)
+            return false;
+    }
+    return localeconv()->decimal_point[0] == ',';
+}
+
+/* Figures of a scene with numbers from a table, from YAML, from a change and from defaults, of its run, and of what is printed. */
+struct figures {
+    double gravity, friction, rn, rt, diameter, z, control, default_gravity, default_friction;
+    double reach, energy, speed;
+    uint64_t key;
+    char message[512], number[32], text[32];
+};
+
+static struct figures take_figures(void)
+{
+    struct ceduo_reading r;
+    struct ceduo_answer a;
+    char path[256];
+    const char *const sets[] = {"rock.diameter_m=0.75", NULL};
+    in_folder(path, "scene.yaml");
+    EXPECT(ceduo_scene_read(path, sets, &r), ==, CEDUO_OK);
+    const struct ceduo_scene *s = &r.scene;
+    struct figures f = {.gravity = s->simulation.gravity,
+                        .friction = s->slope.segments[0].friction,
+                        .rn = s->slope.segments[0].rn.mean,
+                        .rt = s->slope.segments[0].rt.mean,
+                        .diameter = s->rock.diameter.mean,
+                        .z = s->slope.z[1],
+                        .control = s->controls[0].x,
+                        .default_gravity = ceduo_scene_default().simulation.gravity,
+                        .default_friction = ceduo_segment_default().friction,
+                        .key = ceduo_scene_key(s)};
+    struct ceduo_question q = ceduo_question_default(s);
+    q.rocks = 300;
+    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    f.reach = a.result->bare.arrivals[0].reach_probability;
+    f.energy = a.result->bare.arrivals[0].energy.mean;
+    f.speed = a.result->bare.arrivals[0].speed.p95;
+    ceduo_answer_release(&a);
+    ceduo_reading_release(&r);
+    EXPECT(ceduo_scene_read_text("mill.yaml", "ceduo: scene/1\nrock: {diameter_m: -1.5}\n", &r), ==, CEDUO_BAD_FILE);
+    snprintf(f.message, sizeof f.message, "%s", r.messages);
+    ceduo_reading_release(&r);
+    ceduo_number_shortest(0.1, f.number);
+    LOCAL_TEXT(text);
+    ceduo_text_format(&text, "%.2f %g", 1.5, 2.25);
+    snprintf(f.text, sizeof f.text, "%s", ceduo_text_string(&text));
+    return f;
+}
+
+static void compare_figures(const struct figures *was, const char *locale)
+{
+    if (!set_comma(locale)) {
+        setlocale(LC_ALL, "C");
+        print_message("no locale %s, and localedef cannot make it\n", locale);
+        skip();
+    }
+    struct figures is = take_figures();
+    assert_string_equal(setlocale(LC_NUMERIC, NULL) + 5, ".UTF-8"); /* stays set */
+    double comma = strtod("1,5", NULL);
+    setlocale(LC_ALL, "C");
+    EXPECT(comma, ==, 1.5);
+    EXPECT_SAME(is, *was, gravity, friction, rn, rt, diameter, z, control, default_gravity, default_friction);
+    EXPECT_SAME(is, *was, reach, energy, speed, key);
+    assert_string_equal(is.message, was->message);
+    assert_string_equal(is.number, was->number);
+    assert_string_equal(is.text, was->text);
+}
+
+TEST_WITH(numbers_have_a_dot_in_every_locale, folder_set_up, folder_tear_down)
+{
+    put("line.csv", "x_m,z_m\n0,90.5\n60.25,40.5\n100,0\n");
+    put("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [90.5]\n"
+                      "slope: {csv: line.csv, segments: [{rn: 0.35, rt: 0.85, roughness_rad: 0.1}]}\n");
+    const struct figures was = take_figures();
+    ROWS(EXPECT, (was.gravity, ==, 9.81), (was.rn, ==, .35), (was.diameter, ==, .75), (was.z, ==, -50),
+         (was.control, ==, 90.5));
+    EXPECT(was.default_friction, >, 0);
+    assert_string_equal(was.number, "0.1");
+    assert_string_equal(was.text, "1.50 2.25");
+    compare_figures(&was, "it_IT");
+    compare_figures(&was, "de_DE");
 }
 
 /* ---- defaults and texts ---- */
