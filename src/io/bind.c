@@ -428,9 +428,9 @@ static const struct choices source_words = {.names = source_kinds, .n = 4};
 static const struct field source_fields[] = {
     WORD("kind", UNSAID, AT(source_said, kind), REQUIRED, NULL, N_("measured, literature, assumed or calibrated"),
          &source_words),
-    TEXT("text", UNSAID, AT(source_said, text), 0, ""),
-    TEXT("text_it", UNSAID, AT(source_said, text_it), 0, ""),
-    OTHER(FIELD_WORDS, "except", UNSAID, LIST(source_said, except, except_count), 0, NULL, "", NULL, NULL),
+    TEXT("text", UNSAID, AT(source_said, text), NO_RUN, ""),
+    TEXT("text_it", UNSAID, AT(source_said, text_it), NO_RUN, ""),
+    OTHER(FIELD_WORDS, "except", UNSAID, LIST(source_said, except, except_count), NO_RUN, NULL, "", NULL, NULL),
 };
 static const struct object source_object = OBJECT(source_said, source_fields, NULL);
 
