@@ -37,7 +37,7 @@ struct rows {
     struct ceduo_doubt_ranking *ranking; /* that is made */
     size_t all;                          /* evaluations, for the progress */
     atomic_size_t done;
-    atomic_bool talking;
+    struct talk talk;
 };
 
 static bool is_asked(const struct rows *r, size_t option)
@@ -57,10 +57,10 @@ static void report(void *context)
     struct rows *r = context;
     const struct ceduo_doubt_def *def = r->def;
     size_t done = atomic_fetch_add(&r->done, 1) + 1;
-    if (!def->progress || atomic_exchange(&r->talking, true))
+    if (!def->progress || !ceduo_talk_begin(&r->talk))
         return;
     def->progress(def->context, done, r->all);
-    atomic_store(&r->talking, false);
+    ceduo_talk_end(&r->talk);
 }
 
 /* Of the share that a scene's last control is judged by. */

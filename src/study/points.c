@@ -8,9 +8,8 @@
 
 #include "base/parallel.h"
 #include "ceduo/variants.h"
+#include "core/walk/random.h"
 #include "inputs.h"
-
-#define SEED_BITS 54 /* above those of a scene's seed */
 
 struct work {
     const struct points *points;
@@ -51,7 +50,7 @@ static enum ceduo_status grow(struct item *item, struct point *point)
             return status;
     }
     item->scene = *scene;
-    item->scene.simulation.seed ^= (uint64_t)year << SEED_BITS;
+    item->scene.simulation.seed = random_seed(scene->simulation.seed, VARIANT_POINT_YEAR, year);
     point->scene = &item->scene;
     point->forest = &item->years->years[(2 * year + 1) * item->years->count / (2 * years)].option; /* the middle of each part */
     return CEDUO_OK;

@@ -11,13 +11,13 @@
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/statistics.h"
+#include "core/walk/random.h"
 #include "fitting.h"
 #include "sequence.h"
 
-#define SAMPLES      20     /* for each draw; not more than CEDUO_SOME_VALUES */
-#define SINGLE_LEAST 400    /* values that tell 95 % of them */
-#define SAMPLES_ONE  2000   /* of a scene as it is */
-#define OTHER_ROCKS  0x5eed /* in the seed */
+#define SAMPLES      20   /* for each draw; not more than CEDUO_SOME_VALUES */
+#define SINGLE_LEAST 400  /* values that tell 95 % of them */
+#define SAMPLES_ONE  2000 /* of a scene as it is */
 
 static int look_at_draw(void *context, size_t i, size_t worker)
 {
@@ -206,8 +206,10 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
         }
     f->draws = places;
     for (size_t w = 0; w < f->workers_count; w++)
-        for (size_t s = 0; s < f->def->scenes_count; s++)
-            f->workers[w].copies[s].scene.simulation.seed ^= OTHER_ROCKS;
+        for (size_t s = 0; s < f->def->scenes_count; s++) {
+            uint64_t *seed = &f->workers[w].copies[s].scene.simulation.seed;
+            *seed = random_seed(*seed, VARIANT_PREDICTION, 0);
+        }
     if (status == CEDUO_OK)
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){draws + 1, f->def->threads, look_at_draw, f});
     if (status == CEDUO_OK)

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -366,6 +367,125 @@ TEST_WITH(numbers_have_a_dot_in_every_locale, folder_set_up, folder_tear_down)
     assert_string_equal(was.text, "1.50 2.25");
     compare_figures(&was, "it_IT");
     compare_figures(&was, "de_DE");
+}
+
+/* ---- callbacks and random numbers ---- */
+
+static atomic_int inside, most_inside, calls;
+
+static void enter_callback(void)
+{
+    int now = atomic_fetch_add(&inside, 1) + 1;
+    if (now > atomic_load(&most_inside))
+        atomic_store(&most_inside, now);
+    atomic_fetch_add(&calls, 1);
+    usleep(2000); /* so that another thread would come in */
+    atomic_fetch_sub(&inside, 1);
+}
+
+static void on_rocks(void *unused, uint64_t rocks)
+{
+    (void)unused, (void)rocks;
+    enter_callback();
+}
+
+static void on_points(void *unused, uint64_t done, uint64_t all)
+{
+    (void)unused, (void)done, (void)all;
+    enter_callback();
+}
+
+static void on_fit(void *unused, const struct ceduo_calibration_state *state)
+{
+    (void)unused, (void)state;
+    enter_callback();
+}
+
+static void expect_alone(void)
+{
+    int called = atomic_exchange(&calls, 0), threads = atomic_exchange(&most_inside, 0);
+    EXPECT(called, >, 0);
+    EXPECT(threads, ==, 1);
+}
+
+TEST(one_thread_at_a_time_calls_the_caller)
+{
+    struct ceduo_reading r;
+    struct ceduo_answer a;
+    struct ceduo_doubt_answer doubt;
+    struct ceduo_calibration fit;
+    EXPECT(ceduo_scene_read("profiles/scenes/rotation.yaml", NULL, &r), ==, CEDUO_OK);
+    struct ceduo_question q = ceduo_question_default(&r.scene);
+    q.rocks = 100;
+    q.run.threads = 4;
+    q.run.progress = on_rocks;
+    q.years = q.rotations = q.years_apart = true;
+    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    ceduo_answer_release(&a);
+    expect_alone();
+    struct ceduo_doubt_def def = {.scene = &r.scene,
+                                  .inputs_count = r.inputs_count,
+                                  .inputs = r.inputs,
+                                  .points = 30,
+                                  .points_max = 30,
+                                  .rocks = 20,
+                                  .rotation = true,
+                                  .years_max = 3,
+                                  .threads = 4,
+                                  .progress = on_points};
+    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_OK);
+    ceduo_doubt_free(&doubt);
+    expect_alone();
+    ceduo_reading_release(&r);
+    EXPECT(ceduo_scene_read("profiles/scenes/vaujany.yaml", NULL, &r), ==, CEDUO_OK);
+    const char *const place = "rock.density_kg_m3";
+    struct ceduo_input input = {
+        .path = place, .kind = CEDUO_INPUT_RANGE, .lo = 2300, .hi = 2900, .places_count = 1, .places = &place};
+    struct ceduo_calibration_scene fitted = {&r.scene, &input, r.observations_count, r.observations};
+    struct ceduo_calibration_def how = {.scenes_count = 1,
+                                        .scenes = &fitted,
+                                        .parameters_count = 1,
+                                        .rocks = 20,
+                                        .threads = 4,
+                                        .steps_most = 250,
+                                        .progress = on_fit};
+    EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_OK);
+    ceduo_calibration_free(&fit);
+    expect_alone();
+    ceduo_reading_release(&r);
+}
+
+enum { YEARS = 20 };
+
+/* Set the energies that arrive in the years of the first option, each with rocks of its own. */
+static void take_years(const char *seed, double *energies)
+{
+    struct ceduo_reading r;
+    struct ceduo_answer a;
+    const char *const sets[] = {seed, NULL};
+    EXPECT(ceduo_scene_read("profiles/scenes/rotation.yaml", sets, &r), ==, CEDUO_OK);
+    struct ceduo_question q = ceduo_question_default(&r.scene);
+    q.rocks = 50;
+    q.years = q.years_apart = true;
+    q.window = (struct ceduo_window){CEDUO_WINDOW_GIVEN, 1, YEARS, 1};
+    for (size_t i = 0; i < r.scene.options_count; i++) /* with a forest no two years are equal */
+        r.scene.options[i].belts_count = 0;
+    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    EXPECT(a.years[0]->count, ==, YEARS);
+    for (size_t i = 0; i < YEARS; i++)
+        energies[i] = a.years[0]->years[i].wooded.arrivals[0].energy_per_released;
+    ceduo_answer_release(&a);
+    ceduo_reading_release(&r);
+}
+
+TEST(no_seed_has_the_rocks_of_another_one_in_another_year)
+{
+    double low[YEARS], high[YEARS];
+    take_years("simulation.seed=0", low);
+    take_years("simulation.seed=9007199254740992", high);
+    for (size_t i = 0; i < YEARS; i++)
+        for (size_t k = 0; k < YEARS; k++)
+            EXPECT(low[i], !=, high[k]);
 }
 
 /* ---- defaults and texts ---- */
