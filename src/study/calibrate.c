@@ -19,6 +19,7 @@
 #include "base/parallel.h"
 #include "ceduo/statistics.h"
 #include "chains.h"
+#include "check_study.h"
 #include "fitting.h"
 
 #define POINTS     256
@@ -415,13 +416,22 @@ static void close_fitting(struct fitting *f)
     pthread_mutex_destroy(&f->lock);
 }
 
+struct ceduo_calibration_def ceduo_calibration_def_default(void)
+{
+    return (struct ceduo_calibration_def){.rocks = CEDUO_CALIBRATION_ROCKS, .seed = 1, .threads = 1};
+}
+
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *a)
 {
     GSL_RETURNS_ERRORS;
     struct fitting f;
     struct chains chains = {.rhat = NAN, .effective_size = NAN};
-    *a = (struct ceduo_calibration){.parameters_count = def->parameters_count};
-    enum ceduo_status status = open_fitting(&f, def);
+    *a = (struct ceduo_calibration){0};
+    enum ceduo_status status = ceduo_check_calibration_def(def);
+    if (status != CEDUO_OK)
+        return status;
+    a->parameters_count = def->parameters_count;
+    status = open_fitting(&f, def);
     status = status == CEDUO_OK ? search(&f) : status;
     status = status == CEDUO_OK ? refine(&f) : status;
     status = status == CEDUO_OK ? run_chains(&f, &chains) : status;

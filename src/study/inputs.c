@@ -16,6 +16,11 @@ struct input_place {
     double given; /* in the file's unit */
 };
 
+struct ceduo_input ceduo_input_default(void)
+{
+    return (struct ceduo_input){.kind = CEDUO_INPUT_RANGE, .hi = 1};
+}
+
 /* ---- the copy ---- */
 
 /* Replaces *items by a copy of n of them. */

@@ -153,14 +153,15 @@ static bool list_variants(struct work *w)
 enum ceduo_status ceduo_points_run(const struct points *p, size_t from, size_t to, size_t together)
 {
     struct work w = {.points = p, .from = from, .together = together};
+    unsigned threads = p->def->threads > 0 ? p->def->threads : 1;
     size_t items = to - from - (together > 0 ? together - 1 : 0);
-    w.copies = calloc(p->def->threads, sizeof *w.copies);
+    w.copies = calloc(threads, sizeof *w.copies);
     enum ceduo_status status = w.copies && list_variants(&w) ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < p->def->threads && status == CEDUO_OK; i++)
+    for (size_t i = 0; i < threads && status == CEDUO_OK; i++)
         status = ceduo_inputs_open(&w.copies[i], p->def->scene, p->def->inputs, p->def->inputs_count);
     if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){items, p->def->threads, run_item, &w});
-    for (size_t i = 0; w.copies && i < p->def->threads; i++)
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){items, threads, run_item, &w});
+    for (size_t i = 0; w.copies && i < threads; i++)
         ceduo_inputs_release(&w.copies[i]);
     free(w.copies);
     free(w.variants);

@@ -11,6 +11,8 @@
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/statistics.h"
+#include "check_study.h"
+#include "core/runs/check.h"
 #include "core/walk/random.h"
 #include "fitting.h"
 #include "sequence.h"
@@ -227,12 +229,19 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
 {
     GSL_RETURNS_ERRORS;
     size_t n = scene->observations_count;
+    enum ceduo_status status = ceduo_check_scene(scene->scene);
+    if (status == CEDUO_OK)
+        status = ceduo_check_observations(scene->observations, n, scene->scene->options_count);
+    if (status == CEDUO_OK && (rocks == 0 || rocks > CEDUO_ROCKS_MOST || scene->scene->options_count == 0))
+        status = CEDUO_BAD_ARGUMENT;
+    if (status != CEDUO_OK)
+        return status;
     struct ceduo_observer *observer = NULL;
     struct ceduo_counterpart *found = calloc(n + 1, sizeof *found);
     double *values = calloc(SAMPLES_ONE, sizeof *values);
     struct sequence sequence;
     gsl_rng random = ceduo_sequence(&sequence, scene->scene->simulation.seed, CEDUO_CALIBRATION_CHAINS);
-    enum ceduo_status status = found && values ? CEDUO_OK : CEDUO_NO_MEMORY;
+    status = found && values ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_observer_create(scene->observations, n, &observer);
     if (status == CEDUO_OK)

@@ -174,8 +174,16 @@ def compiles_otherwise():
     return bad
 
 
+def without_default():
+    """Structs of the headers that a caller fills, without a function that returns one."""
+    text = "".join(p.read_text(encoding="utf-8") for p in sorted((ROOT / "include/ceduo").glob("*.h")))
+    structs = re.findall(r"^struct (ceduo_(?:\w+_def|question|input|observation)) {", text, re.M)
+    return [name for name in structs if not re.search(rf"^struct {name} {name}_default\(", text, re.M)]
+
+
 def main():
     tests = [("no hash of a pointer or struct compiles", compiles_otherwise),
+             ("each struct that a caller fills has a default", without_default),
              ("each room knows only those it stands on", who_knows_whom), ("no file includes another that includes it", circles),
              ("no two files of a room have one name", named_twice), ("scene and core reach for nothing outside", reached_for),
              ("a rock's trajectory calls no function that differs between machines", differs_between_machines),

@@ -527,7 +527,7 @@ TEST(defaults_need_no_more_than_what_has_none)
 
 TEST(each_status_has_a_text)
 {
-    for (int s = CEDUO_OK; s <= CEDUO_BAD_FILE; s++)
+    for (int s = CEDUO_OK; s <= CEDUO_BAD_ARGUMENT; s++)
         for (int t = CEDUO_OK; t < s; t++)
             assert_string_not_equal(ceduo_status_text((enum ceduo_status)s), ceduo_status_text((enum ceduo_status)t));
     assert_string_equal(ceduo_status_text((enum ceduo_status)99), "unknown status");

@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "ceduo/variants.h"
+#include "core/runs/check.h"
 #include "core/runs/weighted.h"
 #include "core/walk/random.h"
 
@@ -107,11 +108,16 @@ enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const stru
                                      struct ceduo_window window, struct ceduo_years **out)
 {
     *out = NULL;
+    enum ceduo_status status = ceduo_check_window(window);
+    if (status == CEDUO_OK)
+        status = ceduo_check_stands(option);
+    if (status != CEDUO_OK)
+        return status;
     struct ceduo_years *years = calloc(1, sizeof *years);
     size_t n = (window.last - window.first) / window.step + 1;
     if (years)
         years->years = calloc(n, sizeof *years->years);
-    enum ceduo_status status = years && years->years ? CEDUO_OK : CEDUO_NO_MEMORY;
+    status = years && years->years ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK) {
         years->scene = *scene;
         years->window = window;
@@ -327,6 +333,10 @@ static struct ceduo_paired weighted_difference(const struct ceduo_years *years, 
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
 {
     struct ceduo_years_summary s = {.years = years->count, .worst = NAN};
+    if (control >= years->scene.controls_count) {
+        s.nothing = true;
+        return s;
+    }
     bool simulates = years->scene.simulation.contact_model != CEDUO_INDEX;
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *y = &years->years[i];
