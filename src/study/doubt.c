@@ -480,11 +480,16 @@ static int compare_pair(void *context, size_t item, size_t worker)
         set_range(r, value_of(r, o->better, kind) - value_of(r, o->than, kind), &found);
     o->p5 = found.p5;
     o->p95 = found.p95;
+    size_t better = 0, worse = 0; /* counts: shares added up one by one may come to more than 1 */
     for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
         double whole = kind == CEDUO_DOUBT_ENERGY ? r->released : limit_of(r->def->scene) / CEDUO_EXCEED_MOST;
         double within = CEDUO_DOUBT_EQUAL * whole, value = found.values[p];
-        *(value < -within ? &o->probability : value > within ? &o->worse : &o->equal) += 1 / (double)r->points;
+        better += value < -within;
+        worse += value > within;
     }
+    o->probability = (double)better / (double)r->points;
+    o->worse = (double)worse / (double)r->points;
+    o->equal = (double)(r->points - better - worse) / (double)r->points;
     ceduo_surface_release(&found);
     close_subject(&s);
     return (int)status;

@@ -228,6 +228,40 @@ TEST(a_scene_is_read)
     ceduo_reading_release(&r);
 }
 
+/* JSON writes what lies above U+FFFF as two halves. Places behind them are those of the file. */
+static void expect_title(const char *text, const char *title)
+{
+    struct ceduo_reading r;
+    char whole[600];
+    const char *const rest = "rock: {shape: sphere, diameter_m: 1}\nslope: {vertices_m: [[0, 100], [100, 20]], segments: "
+                             "[{rn: 0.3, rt: 0.8, roughness_rad: 0.1}]}\ncontrols_m: [90]\nforest: []\n";
+    snprintf(whole, sizeof whole, "ceduo: scene/1\ntitle: %s\n%s", text, rest);
+    EXPECT(ceduo_scene_read_text("mill.yaml", whole, &r), ==, title ? CEDUO_OK : CEDUO_BAD_FILE);
+    if (title)
+        assert_string_equal(r.scene.title, title);
+    ceduo_reading_release(&r);
+}
+
+TEST(halves_of_a_character_are_joined)
+{
+    struct ceduo_reading r;
+    expect_title("\"a \\ud83d\\ude00 b\"", "a \xf0\x9f\x98\x80 b");
+    expect_title("\"\\uD83D\\uDE00\\ud83d\\ude01\"", "\xf0\x9f\x98\x80\xf0\x9f\x98\x81");
+    expect_title("\"\\u00e0 \\U0001f600\" # it's \"x", "\xc3\xa0 \xf0\x9f\x98\x80");
+    expect_title("'\\ud83d\\ude00'", "\\ud83d\\ude00");
+    expect_title("'it''s \"\\ud83d\\ude00'", "it's \"\\ud83d\\ude00");
+    expect_title("it's \\ud83d\\ude00", "it's \\ud83d\\ude00");
+    expect_title("\"\\\\ud83d\\\\ude00\"", "\\ud83d\\ude00");
+    expect_title("\"\\ud83d x\"", NULL);
+    expect_title("\"\\ude00\\ud83d\"", NULL);
+    const char json[] = "{\"ceduo\":\"scene/1\",\"title\":\"\\ud83d\\ude00\\ud83d\\ude00\",\"rock\":{\"diameter_m\":-1}}";
+    char place[64];
+    snprintf(place, sizeof place, "mill.json:1:%d: rock.diameter_m: -1", (int)(strstr(json, "-1") - json) + 1);
+    EXPECT(ceduo_scene_read_text("mill.json", json, &r), ==, CEDUO_BAD_FILE);
+    assert_non_null(strstr(r.messages, place));
+    ceduo_reading_release(&r);
+}
+
 TEST(what_is_wrong_is_said)
 {
     struct ceduo_reading r;
@@ -527,7 +561,7 @@ TEST(defaults_need_no_more_than_what_has_none)
 
 TEST(each_status_has_a_text)
 {
-    for (int s = CEDUO_OK; s <= CEDUO_BAD_ARGUMENT; s++)
+    for (int s = CEDUO_OK; s <= CEDUO_BAD_PLACE; s++)
         for (int t = CEDUO_OK; t < s; t++)
             assert_string_not_equal(ceduo_status_text((enum ceduo_status)s), ceduo_status_text((enum ceduo_status)t));
     assert_string_equal(ceduo_status_text((enum ceduo_status)99), "unknown status");

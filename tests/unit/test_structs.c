@@ -374,6 +374,8 @@ TEST(each_bad_argument_is_refused)
     EXPECT(ceduo_doubt_ask(&bad, &doubt), ==, CEDUO_BAD_ARGUMENT);
     bad = def, bad.years_max = 1000;
     EXPECT(ceduo_doubt_ask(&bad, &doubt), ==, CEDUO_BAD_ARGUMENT);
+    place = "controls[3].accepted_kJ";
+    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_BAD_PLACE);
     input.kind = CEDUO_INPUT_WORDS;
     EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_BAD_ARGUMENT);
     input.kind = CEDUO_INPUT_DRAWS;
