@@ -50,7 +50,8 @@ static enum ceduo_status grow(struct item *item, struct point *point)
             return status;
     }
     item->scene = *scene;
-    item->scene.simulation.seed = random_seed(scene->simulation.seed, VARIANT_POINT_YEAR, year);
+    if (item->years->window.kind != CEDUO_WINDOW_ALIKE) /* otherwise the year is today: it has today's rocks */
+        item->scene.simulation.seed = random_seed(scene->simulation.seed, VARIANT_POINT_YEAR, year);
     point->scene = &item->scene;
     point->forest = &item->years->years[(2 * year + 1) * item->years->count / (2 * years)].option; /* the middle of each part */
     return CEDUO_OK;
