@@ -24,11 +24,22 @@ static bool cells_rise(const struct ceduo_run_def *def)
     return good;
 }
 
+/* True if the lists of an option are there, which may be none of the scene's: of a year its numbers may be any. */
+static bool has_lists(const struct ceduo_option *option)
+{
+    bool good = !option || option->belts || option->belts_count == 0;
+    for (size_t i = 0; good && option && i < option->belts_count; i++) {
+        const struct ceduo_stand *s = &option->belts[i].stand;
+        good = (s->shoots || s->shoots_count == 0) && (s->trees || s->trees_count == 0);
+    }
+    return good;
+}
+
 /* True if a run of the scene may be made so. */
 static bool is_run_good(const struct ceduo_run_def *def)
 {
     return def->rocks_most <= CEDUO_ROCKS_MOST && def->threads <= CEDUO_THREADS_MOST && def->kernel <= CEDUO_KERNEL_AVX512 &&
-           cells_rise(def);
+           cells_rise(def) && has_lists(def->option);
 }
 
 enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def)
@@ -52,13 +63,13 @@ enum ceduo_status ceduo_check_blocks_def(const struct ceduo_blocks_def *def)
     enum ceduo_status status = ceduo_check_scene(def->scene);
     bool good = def->option && status == CEDUO_OK && def->control < def->scene->controls_count &&
                 def->rocks <= CEDUO_ROCKS_MOST && def->threads <= CEDUO_THREADS_MOST;
-    return status == CEDUO_OK && !good ? CEDUO_BAD_ARGUMENT : status;
+    return status == CEDUO_OK ? good ? ceduo_check_stands(def->option) : CEDUO_BAD_ARGUMENT : status;
 }
 
 enum ceduo_status ceduo_check_record_def(const struct ceduo_record_def *def)
 {
     enum ceduo_status status = ceduo_check_scene(def->scene);
-    bool good = def->rocks <= CEDUO_ROCKS_MOST && (def->stretches || def->stretches_count == 0);
+    bool good = def->rocks <= CEDUO_ROCKS_MOST && (def->stretches || def->stretches_count == 0) && has_lists(def->option);
     return status == CEDUO_OK && !good ? CEDUO_BAD_ARGUMENT : status;
 }
 
