@@ -31,12 +31,15 @@ struct ceduo_blocks_def {
      * where they meet hundreds of times as many stems as the scene's own, none. */
     double effort;
     const struct ceduo_arrivals *own; /* of the scene's own block, taken if at least as many were simulated; may be NULL */
-    unsigned threads;
-    const ceduo_flag *cancel; /* may be NULL */
+    unsigned threads;                 /* at most CEDUO_THREADS_MOST; 0: one */
+    const ceduo_flag *cancel;         /* may be NULL */
 };
 
+/* The last control, as many rocks as the scene says, whatever they cost; the option is the first. */
+struct ceduo_blocks_def ceduo_blocks_def_default(const struct ceduo_scene *scene);
+
 /* Simulates blocks of each size through the forest to the control; sorted by volume. With the contact model index none is
- * simulated. CEDUO_CANCELLED, CEDUO_NO_MEMORY, or what ceduo_run_create() says. */
+ * simulated. CEDUO_CANCELLED, CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT, or what ceduo_run_create() says. */
 enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_block blocks[CEDUO_BLOCKS]);
 
 #endif

@@ -15,10 +15,11 @@
 #define CEDUO_CALIBRATION_CHAINS 4
 #define CEDUO_CALIBRATION_DRAWS  200 /* that predictions are made from */
 #define CEDUO_CALIBRATION_ROCKS  2000
-#define CEDUO_RHAT_MOST          1.05 /* chains agree (Gelman and Rubin 1992) */
-#define CEDUO_EFFECTIVE_LEAST    200  /* independent draws that theirs are worth */
-#define CEDUO_NOT_DETERMINED     0.8  /* of the bounds: a wider range says nothing */
-#define CEDUO_MISFIT             0.05 /* p below it: the model cannot give what was seen */
+#define CEDUO_CALIBRATION_STEPS  1000000 /* of a chain, at most */
+#define CEDUO_RHAT_MOST          1.05    /* chains agree (Gelman and Rubin 1992) */
+#define CEDUO_EFFECTIVE_LEAST    200     /* independent draws that theirs are worth */
+#define CEDUO_NOT_DETERMINED     0.8     /* of the bounds: a wider range says nothing */
+#define CEDUO_MISFIT             0.05    /* p below it: the model cannot give what was seen */
 
 /* One scene, with the places of the fitted values in it: inputs of kind CEDUO_INPUT_RANGE, the same number in each scene, of
  * the same bounds. One that the scene does not have has no places. */
@@ -45,12 +46,15 @@ struct ceduo_calibration_def {
     size_t parameters_count; /* 1…CEDUO_CALIBRATION_MOST */
     uint64_t rocks;          /* of each evaluation and setting */
     uint64_t seed;
-    unsigned threads;
-    size_t steps_most;                                                            /* of each chain; 0: as many as is usual */
-    const ceduo_flag *cancel;                                                     /* may be NULL */
+    unsigned threads;         /* at most CEDUO_THREADS_MOST; 0: one */
+    size_t steps_most;        /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: as many as is usual */
+    const ceduo_flag *cancel; /* may be NULL */
     void (*progress)(void *context, const struct ceduo_calibration_state *state); /* may be NULL; by one thread at a time */
     void *context;
 };
+
+/* No scenes and no parameters; CEDUO_CALIBRATION_ROCKS, seed 1, one thread. */
+struct ceduo_calibration_def ceduo_calibration_def_default(void);
 
 struct ceduo_fitted {
     double lo, hi, best, p2_5, p50, p97_5; /* in the file's unit; NaN: not known yet */
@@ -98,7 +102,8 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
  * then one of each two that are known only together. One value stays. Returns how many. */
 size_t ceduo_calibration_loose(const struct ceduo_calibration *answer, bool loose[CEDUO_CALIBRATION_MOST]);
 
-/* CEDUO_NO_MEMORY, CEDUO_CANCELLED (at once, of whatever is known), or what ceduo_scene_check() says; then nothing is to be freed. */
+/* CEDUO_NO_MEMORY, CEDUO_CANCELLED (at once, of whatever is known), CEDUO_BAD_ARGUMENT, or what ceduo_scene_check() says; then nothing
+ * is to be freed. */
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *answer);
 void ceduo_calibration_free(struct ceduo_calibration *answer);
 

@@ -87,7 +87,7 @@ struct ceduo_doubt_def {
     /* The scene as it is, computed before; with the years of each option if `rotation` is true. Requires `brief`. NULL: computed
      * here, from own_rocks. */
     const struct ceduo_answer *own;
-    size_t years_max; /* years of each option at a point; 0: CEDUO_DOUBT_YEARS_MAX */
+    size_t years_max; /* years of each option at a point, at most CEDUO_DOUBT_YEARS_MAX; 0: as many */
     /* Neither differences between options nor values at the ends of the inputs; of each option only the figures that pages
      * show. The others have fit.p5 and fit.p95 NaN. */
     bool brief;
@@ -96,11 +96,17 @@ struct ceduo_doubt_def {
     size_t option;              /* alone: this one */
     struct ceduo_window window; /* these years instead; step 0: those of ceduo_window_in() */
     uint64_t effort_max; /* contacts, stems and twice the stems hit, of all points: beyond, CEDUO_CANCELLED; 0: unlimited */
-    unsigned threads;
+    unsigned threads;    /* at most CEDUO_THREADS_MOST; 0: one */
     const ceduo_flag *cancel;                                     /* may be NULL */
     void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */
     void *context;
 };
+
+/* All inputs of `scene` are the caller's to set: inputs_count and inputs. CEDUO_DOUBT_POINTS of CEDUO_DOUBT_ROCKS, one thread. */
+struct ceduo_doubt_def ceduo_doubt_def_default(const struct ceduo_scene *scene);
+
+/* A range from 0 to 1 without places. */
+struct ceduo_input ceduo_input_default(void);
 
 /* A figure of an option, or its difference to that of the first option. Shares are 0…1, energies J per released rock. */
 struct ceduo_doubt_figure {
@@ -144,12 +150,13 @@ struct ceduo_doubt_answer {
     uint64_t evaluations; /* scenes computed; each is of all options, and of their years */
 };
 
-/* Computes all. Bits do not depend on the number of threads. CEDUO_NO_MEMORY, CEDUO_CANCELLED or what
- * ceduo_scene_check() says: then nothing is to be freed. */
+/* Computes all. Bits do not depend on the number of threads. CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT (a number of the
+ * def outside its range, an input without words or draws, a scene without control) or what ceduo_scene_check() says: then nothing
+ * is to be freed. */
 enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer);
 void ceduo_doubt_free(struct ceduo_doubt_answer *answer);
 
-/* The figures over a rotation are there where answer->rotation says so. */
+/* The figures over a rotation are there if answer->rotation is true. NULL: there is no such option or figure. */
 const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
                                                        enum ceduo_doubt_kind kind, bool difference);
 

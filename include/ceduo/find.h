@@ -24,6 +24,9 @@ struct ceduo_find_def {
     const ceduo_flag *cancel; /* may be NULL; raised by another thread: the call returns after the value it is at */
 };
 
+/* From 0 to 1, target 0; the goal is the caller's to set. */
+struct ceduo_find_def ceduo_find_def_default(void);
+
 enum ceduo_side { CEDUO_SMALLEST, CEDUO_LARGEST };
 
 struct ceduo_found {
@@ -48,7 +51,7 @@ struct ceduo_found {
  * goal by less than 1e-12 of it count as rounding. No whole number in [lo, hi]: nothing is found, nothing looked at.
  * Whole values by bisection; others by Brent's method (GSL), by bisection where the goal is not finite or has steps:
  * at most 55 evaluations of whole values up to 10^12 and of others within the default tolerance.
- * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or what the goal returned: then *found tells only what was seen. */
+ * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or what the goal returned: then *found tells only what was seen. */
 enum ceduo_status ceduo_find(const struct ceduo_find_def *def, struct ceduo_found *found);
 
 #endif

@@ -92,6 +92,9 @@ struct ceduo_observation {
     double share_seen; /* of scars; NaN: not known */
 };
 
+/* Places where one rock stopped, to be fitted; all numbers are unknown. */
+struct ceduo_observation ceduo_observation_default(void);
+
 /* A list is compared in classes between its own quantiles: as many as there are times five values, at most ten, at least
  * two. One more is for rocks that have no value: those that did not stop, where it is known how many were released. */
 #define CEDUO_CLASSES_MOST 11
@@ -119,7 +122,7 @@ double ceduo_classes_deviance(const double *seen, const double *simulated, size_
 /* Observations made ready: what differs in nothing but what was seen of it shares its rocks. */
 struct ceduo_observer;
 
-/* What the observations point to must outlive it. CEDUO_NO_MEMORY or CEDUO_OK. */
+/* What the observations point to must outlive it. CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK. */
 enum ceduo_status ceduo_observer_create(const struct ceduo_observation *observations, size_t n,
                                         struct ceduo_observer **observer);
 void ceduo_observer_free(struct ceduo_observer *observer);

@@ -15,7 +15,7 @@
  *     ceduo_answer_release(&answer); */
 struct ceduo_question {
     struct ceduo_run_def run;   /* the scene, and how its rocks are simulated; its option is not looked at */
-    uint64_t rocks;             /* in each run; 0: none, for what stands and index say without */
+    uint64_t rocks;             /* in each run, at most CEDUO_ROCKS_MOST; 0: none, for what stands and index say without */
     double tolerance;           /* > 0: fewer, as soon as ceduo_pool_until() knows the mean energies to this */
     size_t only;                /* the run of this option alone: through its forest, by the index without forest. Of what
                                * was not simulated nothing is known. CEDUO_ALL_OPTIONS: without forest and through each */
@@ -44,7 +44,8 @@ struct ceduo_answer {
 };
 
 /* `pool` (may be NULL) keeps the runs from one question to the next, see ceduo_pool_for(): *pool is NULL at first, and
- * the caller's to free. What the scene points to must outlive answer and pool. CEDUO_CANCELLED, CEDUO_NO_MEMORY or what
+ * the caller's to free. What the scene points to must outlive answer and pool. CEDUO_CANCELLED, CEDUO_NO_MEMORY,
+ * CEDUO_BAD_ARGUMENT (no such option, too many rocks or threads, a window that is none, a scene without options) or what
  * ceduo_scene_check() says: then the answer is empty. Release it in any case. */
 enum ceduo_status ceduo_ask(const struct ceduo_question *question, struct ceduo_pool **pool, struct ceduo_answer *answer);
 void ceduo_answer_release(struct ceduo_answer *answer);

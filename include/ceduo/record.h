@@ -34,6 +34,9 @@ struct ceduo_record_def {
     const ceduo_flag *cancel; /* may be NULL */
 };
 
+/* Without forest, as many rocks as the scene says, no stretches, no blows. */
+struct ceduo_record_def ceduo_record_def_default(const struct ceduo_scene *scene);
+
 struct ceduo_rock_record {
     double mass, moment;
     double stop_x;                        /* NaN: it did not stop on the slope */
@@ -49,7 +52,7 @@ struct ceduo_record {
     struct ceduo_blow *blows; /* in the order of the rocks */
 };
 
-/* CEDUO_NO_MEMORY, CEDUO_CANCELLED, with nothing to release, or CEDUO_OK. */
+/* CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or what ceduo_scene_check() says, with nothing to release, or CEDUO_OK. */
 enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_record *record);
 void ceduo_record_release(struct ceduo_record *record);
 

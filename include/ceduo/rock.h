@@ -30,6 +30,9 @@ struct ceduo_rock_def {
     struct ceduo_number axes[3];  /* m, > 0 */
 };
 
+/* A sphere of limestone, whose size is the caller's to set. */
+struct ceduo_rock_def ceduo_rock_def_default(void);
+
 /* One rock. */
 struct ceduo_rock {
     double mass;          /* M, kg */

@@ -14,8 +14,9 @@
  * and read at any time between. */
 struct ceduo_run;
 
-#define CEDUO_BLOCK_ROCKS 1024                        /* rocks summed as one */
-#define CEDUO_EXACT_BYTES ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
+#define CEDUO_BLOCK_ROCKS  1024 /* rocks summed as one */
+#define CEDUO_THREADS_MOST 1024
+#define CEDUO_EXACT_BYTES  ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
 
 /* How rocks are simulated: one by one, or 32 at once in the lanes of wide registers. All give the same bits.
  * Where the machine lacks such registers, rocks are simulated one by one. */
@@ -24,9 +25,9 @@ enum ceduo_kernel { CEDUO_KERNEL_BEST, CEDUO_KERNEL_SCALAR, CEDUO_KERNEL_AVX2, C
 struct ceduo_run_def {
     const struct ceduo_scene *scene;   /* checked; what it points to must outlive the run */
     const struct ceduo_option *option; /* whose forest the rocks go through; NULL: none. It must outlive the run */
-    unsigned threads;                  /* >= 1; the results do not depend on it */
+    unsigned threads;                  /* at most CEDUO_THREADS_MOST; 0: one; the results do not depend on it */
     enum ceduo_kernel kernel;          /* nor on this */
-    uint64_t rocks_most;               /* no longer than this will it be made */
+    uint64_t rocks_most;               /* no longer than this will it be made; at most CEDUO_ROCKS_MOST */
     size_t cells;                      /* envelopes at this many places, 0: none */
     const double *cell_x;              /* rising, on the slope */
     bool arrivals_only;                /* trajectories stop behind the last control or cell: their ends are not known */
@@ -40,7 +41,7 @@ struct ceduo_run_def {
 /* No forest, one thread, the scene's rocks, no envelopes, CEDUO_EXACT_BYTES. */
 struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene);
 
-/* A run without rocks yet. CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
+/* A run without rocks yet. CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or what ceduo_scene_check() says. */
 enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo_run **run);
 void ceduo_run_free(struct ceduo_run *run);
 
@@ -85,7 +86,7 @@ struct ceduo_arrivals {
 #define CEDUO_EXCEED_MOST 0.05
 double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_control *control);
 
-/* CEDUO_NO_MEMORY or CEDUO_OK. `control` counts in the scene's order. */
+/* CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK. `control` counts in the scene's order. */
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals);
 
 /* Only the moments, without percentiles: cheap. */

@@ -17,7 +17,9 @@
     X(BAD_NUMBER, "a number or word is outside its range, or a list is missing")                                               \
     X(BAD_BELT, "a belt overlaps another, ends before it begins, or lies beyond the slope")                                    \
     X(BAD_STAND, "a number or word of a stand is outside its range, or stems have no size")                                    \
-    X(BAD_FILE, "a scene could not be read; its messages say why")
+    X(BAD_FILE, "a scene could not be read; its messages say why")                                                             \
+    X(BAD_ARGUMENT, "a pointer is missing, or a count, an index or a window of years is outside its range")                    \
+    X(BAD_PLACE, "an input names a place that the scene does not have")
 
 enum ceduo_status {
 #define X(NAME, text) CEDUO_##NAME,

@@ -25,6 +25,8 @@ enum ceduo_survey_kind {
         CEDUO_SURVEY_KINDS_COUNT
 };
 
+#define CEDUO_SURVEY_STOOLS 10000000
+
 struct ceduo_survey_stem {
     size_t plot;
     enum ceduo_survey_kind kind;
@@ -39,7 +41,7 @@ struct ceduo_survey_stem {
 struct ceduo_survey {
     size_t plots_count;  /* >= 1 */
     const double *areas; /* m2, horizontal, > 0 */
-    size_t stools_count;
+    size_t stools_count; /* at most CEDUO_SURVEY_STOOLS */
     size_t stems_count;
     const struct ceduo_survey_stem *stems;
 };
@@ -105,7 +107,7 @@ struct ceduo_survey_answer {
     double stump_energy;                 /* J, the mean; NaN: not said */
 };
 
-/* CEDUO_NO_MEMORY or CEDUO_OK; release it in the latter case. */
+/* CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK; release it in the latter case. */
 enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ceduo_survey_answer *answer);
 void ceduo_survey_free(struct ceduo_survey_answer *answer);
 

@@ -32,10 +32,11 @@ struct ceduo_window {
     unsigned first, last, step;
 };
 
-#define CEDUO_YEARS_MOST  1000 /* computed at a time */
-#define CEDUO_YEARS_AHEAD 20   /* of a window of CEDUO_WINDOW_AHEAD, at least, */
-#define CEDUO_AHEAD_MOST  60   /* and at most */
-#define CEDUO_PERIOD_MOST 120  /* years: beyond it belts of several rotations count as repeating with the longest */
+#define CEDUO_YEARS_MOST  1000   /* computed at a time */
+#define CEDUO_YEAR_MOST   100000 /* the last year of a window */
+#define CEDUO_YEARS_AHEAD 20     /* of a window of CEDUO_WINDOW_AHEAD, at least, */
+#define CEDUO_AHEAD_MOST  60     /* and at most */
+#define CEDUO_PERIOD_MOST 120    /* years: beyond it belts of several rotations count as repeating with the longest */
 
 /* One whole rotation of an option: after its first cut a forest repeats itself, so a rotation has each of its states once. If its
  * belts have several rotations, all of them must have ended together. Without a cut the next CEDUO_YEARS_AHEAD years
@@ -65,7 +66,8 @@ struct ceduo_years {
 };
 
 /* Grows the stands of an option to the years of a window; nothing is simulated and nothing assessed yet. What the
- * option points to must outlive it. CEDUO_NO_MEMORY or CEDUO_OK. */
+ * option points to must outlive it. CEDUO_NO_MEMORY, CEDUO_BAD_STAND, CEDUO_BAD_ARGUMENT (a window without a year, of more than
+ * CEDUO_YEARS_MOST, or beyond CEDUO_YEAR_MOST) or CEDUO_OK. */
 enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option,
                                      struct ceduo_window window, struct ceduo_years **years);
 void ceduo_years_free(struct ceduo_years *years);

@@ -7,41 +7,63 @@
 #include <stdint.h>
 #include <string.h>
 
-/* A hash of numbers: begin with HASH_START, mix in one after the other. Each step maps different values to different
- * hashes, so that a change of one number alone is never missed. */
+/* A hash of numbers: begin with HASH_START, mix in one after the other. Each step maps different values to different hashes, so
+ * that a change of one number alone is never missed. Pointers and structs do not compile: an address differs from one run of
+ * the program to the next, and padding has any value. */
 #define HASH_START 14695981039346656037u
 
-static inline void hash_count(uint64_t *hash, uint64_t value)
+static inline void hash_word(uint64_t *hash, uint64_t value)
 {
     *hash = (*hash ^ value) * 0x9e3779b97f4a7c15u; /* 2^64 over the golden ratio, odd */
     *hash ^= *hash >> 32;
 }
 
-/* n doubles by their bits: -0 and 0 differ, NaN is like NaN. */
-static inline void hash_doubles(uint64_t *hash, const void *doubles, size_t n)
+static inline void hash_numbers(uint64_t *hash, const double *numbers, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         uint64_t bits;
-        memcpy(&bits, (const char *)doubles + i * sizeof bits, sizeof bits);
-        hash_count(hash, bits);
+        memcpy(&bits, &numbers[i], sizeof bits);
+        hash_word(hash, bits);
     }
 }
 
-static inline void hash_double(uint64_t *hash, double value)
-{
-    hash_doubles(hash, &value, 1);
-}
-
 /* The hash of n bytes, the same on every machine: against what gets lost or changed on the way, not against malice. */
-static inline uint64_t hash_bytes(const void *bytes, size_t n)
+static inline uint64_t hash_string(const char *bytes, size_t n)
 {
     uint64_t hash = HASH_START ^ (uint64_t)n;
     for (size_t i = 0; i < n; i += 8) {
         uint64_t word = 0;
-        memcpy(&word, (const char *)bytes + i, n - i < 8 ? n - i : 8);
-        hash_count(&hash, le64toh(word));
+        memcpy(&word, bytes + i, n - i < 8 ? n - i : 8);
+        hash_word(&hash, le64toh(word));
     }
     return hash;
 }
+
+/* A count or word; no pointer can be multiplied. */
+#define hash_count(hash, value) hash_word(hash, 1u * (value))
+
+/* Doubles by their bits: -0 and 0 differ, NaN is like NaN. */
+#define hash_double(hash, value) hash_numbers(hash, &(const double){value}, 1)
+
+/* n doubles at a pointer to double, not at a pointer to anything else. */
+#define hash_doubles(hash, doubles, n)                                                                                         \
+    hash_numbers(hash, _Generic((doubles), double * : (doubles), const double * : (doubles)), n)
+
+/* All doubles of an array, not of a pointer. */
+#define hash_array(hash, array)                                                                                                \
+    do {                                                                                                                       \
+        _Static_assert(!__builtin_types_compatible_p(__typeof__(array), __typeof__(&(array)[0])), "an array, not a pointer");  \
+        hash_doubles(hash, array, sizeof(array) / sizeof(array)[0]);                                                           \
+    } while (0)
+
+/* Doubles one after the other. */
+#define hash_each(hash, ...)                                                                                                   \
+    do {                                                                                                                       \
+        const double hashed_numbers[] = {__VA_ARGS__};                                                                         \
+        hash_array(hash, hashed_numbers);                                                                                      \
+    } while (0)
+
+/* n bytes of a string. */
+#define hash_bytes(bytes, n) hash_string(_Generic((bytes), char * : (bytes), const char * : (bytes)), n)
 
 #endif

@@ -3,6 +3,7 @@
 #define CEDUO_PARALLEL_H
 
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Items 0…n - 1 on several threads, of which the caller's is one; each thread takes the next item as soon as it is free. Where
@@ -17,5 +18,19 @@ struct parallel {
 
 /* 0 once all items are done; otherwise the first status that is not 0: no item was begun after it was known. */
 int ceduo_parallel(const struct parallel *work);
+
+/* Calls a callback of the caller from one thread at a time. A thread that finds another one in it goes on without, so that none
+ * waits: progress that is missed is soon reported again. Starts zeroed. */
+struct talk {
+    atomic_flag busy;
+};
+static inline bool ceduo_talk_begin(struct talk *talk)
+{
+    return !atomic_flag_test_and_set(&talk->busy);
+}
+static inline void ceduo_talk_end(struct talk *talk)
+{
+    atomic_flag_clear(&talk->busy);
+}
 
 #endif

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "decimal.h"
 #include "language.h"
 #include "must.h"
 #include "utf8.h"
@@ -76,23 +77,45 @@ char *ceduo_number_spoken(char *number)
     return number;
 }
 
+__attribute__((format(printf, 2, 0))) static void format_plain(struct text *text, const char *format, va_list args)
+{
+    va_list again;
+    va_copy(again, args);
+    int n = ceduo_decimal_vformat(NULL, 0, format, args);
+    if (n >= 0 && reserve(text, (size_t)n)) { /* untaken: system */
+        ceduo_decimal_vformat(text->bytes + text->length, (size_t)n + 1, format, again);
+        text->length += (size_t)n;
+    }
+    va_end(again);
+}
+
+/* Return the length of %'.1f and its like without the %, 0 if a format does not begin with one. Only translations have them: ISO C
+ * knows no such flag. */
+static size_t spoken_length(const char *format)
+{
+    size_t n = strncmp(format, "%'", 2) == 0 ? 2 + strspn(format + 2, "-+ #.*0123456789") : 0;
+    return n > 0 && format[n] && strchr("efg", format[n]) ? n : 0;
+}
+
 /* Numbers that begin with %' stand between two marks while they are printed, by which their dots are found. */
 static void format_spoken(struct text *text, const char *format, va_list args)
 {
     LOCAL_TEXT(marked);
     LOCAL_TEXT(printed);
     for (const char *c = format; *c; c++) {
-        bool spoken = c[0] == '%' && c[1] == '\''; /* as only translations have it: ISO C knows no such flag */
-        size_t n = spoken ? 2 + strcspn(c + 2, "efg") : 0;
-        if (spoken)
+        size_t n = spoken_length(c);
+        if (n > 0) {
             ceduo_text_format(&marked, "\1%%%.*s\2", (int)n - 1, c + 2);
-        else
+            c += n;
+        } else {
             ceduo_text_char(&marked, *c);
-        c += n;
+            if (c[0] == '%' && c[1] == '%')
+                ceduo_text_char(&marked, *c++);
+        }
     }
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral" /* what is printed is that of the format */
-    ceduo_text_vformat(&printed, ceduo_text_string(&marked), args);
+    format_plain(&printed, ceduo_text_string(&marked), args);
 #pragma GCC diagnostic pop
     bool number = false;
     for (const char *c = ceduo_text_string(&printed); *c; c++)
@@ -104,18 +127,10 @@ static void format_spoken(struct text *text, const char *format, va_list args)
 
 void ceduo_text_vformat(struct text *text, const char *format, va_list args)
 {
-    if (strstr(format, "%'")) {
+    if (strstr(format, "%'"))
         format_spoken(text, format, args);
-        return;
-    }
-    va_list again;
-    va_copy(again, args);
-    int n = vsnprintf(NULL, 0, format, args);
-    if (n >= 0 && reserve(text, (size_t)n)) { /* untaken: system */
-        vsnprintf(text->bytes + text->length, (size_t)n + 1, format, again);
-        text->length += (size_t)n;
-    }
-    va_end(again);
+    else
+        format_plain(text, format, args);
 }
 
 void ceduo_text_format(struct text *text, const char *format, ...)
@@ -176,7 +191,7 @@ char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
     /* A number that has a decimal of 15 digits or fewer is printed by 15 digits as just that; below the smallest normal number
      * each has to be tried. 17 always read back. */
     int digits = fabs(value) < DBL_MIN ? 1 : 15;
-    while (snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value), strtod(room, NULL) != value)
+    while (ceduo_decimal_format(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value), ceduo_decimal_read(room) != value)
         digits++;
     return room;
 }
@@ -203,7 +218,7 @@ enum ceduo_number_reading ceduo_number_read(const char *string, double *value)
     }
     if (digits == 0 || *p)
         return CEDUO_NUMBER_NONE;
-    *value = strtod(string, NULL);
+    *value = ceduo_decimal_read(string);
     return isfinite(*value) ? CEDUO_NUMBER_GOOD : CEDUO_NUMBER_TOO_LARGE;
 }
 

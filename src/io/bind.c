@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "base/language.h"
 #include "ceduo/number.h"
 #include "scene/fields.h"
@@ -170,7 +171,7 @@ static bool read_number(struct binder *b, const struct node *node, double *value
         return report(b, node, _("too large a number"));
     const char *text = node->text, *comma = strchr(text, ',');
     size_t whole = strspn(text, "+-0123456789"), rest = comma ? strspn(comma + 1, "0123456789") : 0;
-    bool thousands = rest == 3 && strtod(text, NULL) != 0;
+    bool thousands = rest == 3 && ceduo_decimal_read(text) != 0;
     LOCAL_TEXT(part);
     ceduo_text_add(&part, text, strcspn(text, "%"));
     if (comma == text + whole && rest > 0 && !comma[1 + rest] && !thousands)
@@ -427,9 +428,9 @@ static const struct choices source_words = {.names = source_kinds, .n = 4};
 static const struct field source_fields[] = {
     WORD("kind", UNSAID, AT(source_said, kind), REQUIRED, NULL, N_("measured, literature, assumed or calibrated"),
          &source_words),
-    TEXT("text", UNSAID, AT(source_said, text), 0, ""),
-    TEXT("text_it", UNSAID, AT(source_said, text_it), 0, ""),
-    OTHER(FIELD_WORDS, "except", UNSAID, LIST(source_said, except, except_count), 0, NULL, "", NULL, NULL),
+    TEXT("text", UNSAID, AT(source_said, text), NO_RUN, ""),
+    TEXT("text_it", UNSAID, AT(source_said, text_it), NO_RUN, ""),
+    OTHER(FIELD_WORDS, "except", UNSAID, LIST(source_said, except, except_count), NO_RUN, NULL, "", NULL, NULL),
 };
 static const struct object source_object = OBJECT(source_said, source_fields, NULL);
 

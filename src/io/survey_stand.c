@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "base/language.h"
 #include "emit.h"
 #include "resolve.h"
@@ -27,8 +28,8 @@ static const char *const kinds[] = {N_("shoots"), N_("standards"), N_("trees"), 
 static double rounded(double value)
 {
     char room[32];
-    snprintf(room, sizeof room, "%.6g", value);
-    return strtod(room, NULL);
+    ceduo_decimal_format(room, sizeof room, "%.6g", value);
+    return ceduo_decimal_read(room);
 }
 
 static void print_number(struct text *out, const char *before, double value)

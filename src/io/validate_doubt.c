@@ -192,6 +192,9 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
             return ceduo_complain(v, at, "", "%s", _(instead));
         if (words[i] < 0)
             return ceduo_complain(v, at, "", _("'%s' is unknown; one of: %s"), word, ceduo_words(v, field->choices));
+        for (size_t k = 0; k < i; k++)
+            if (words[k] == words[i])
+                return ceduo_complain(v, at, "", _("'%s' is given twice"), word);
     }
     return words && n >= 2;
 }

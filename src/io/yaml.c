@@ -2,6 +2,7 @@
 /* Reads the events of libyaml into nodes, by recursion, and refuses what a scene does not need: aliases, tags, deep
  * nesting. Entries are collected on the heap and copied into the arena once their number is known. The first problem
  * stops. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
@@ -16,12 +17,23 @@
 #define VALUES_MOST 250000 /* of one file: 80000 vertices. Each takes some 160 bytes, whatever it says. */
 #define TEXT_MOST   65536  /* bytes of one value */
 
+/* An escape of two halves that became one of fewer characters: from this column of its line on, as libyaml counts, all stands
+ * JOINED_SHORTER columns further in the file. */
+struct joined {
+    size_t line, column;
+};
+#define JOINED_SHORTER 2 /* \ud83d\ude00 becomes \U0001f600 */
+
 struct reader {
     struct arena *arena;
     const struct source *source;
     struct problems *problems;
     yaml_parser_t parser;
+    const char *bytes; /* what libyaml sees: the part of the source behind `skip`, with halves joined */
+    size_t length;
     size_t skip, skip_column; /* bytes before the part that libyaml sees; characters of them in its first line */
+    struct joined *joined;    /* in their order */
+    size_t joined_count, joined_capacity;
     size_t values;
     bool stopped;
 };
@@ -33,7 +45,17 @@ static size_t line_of(yaml_mark_t mark)
 
 static size_t column_of(const struct reader *r, yaml_mark_t mark)
 {
-    return mark.column + 1 + (mark.line == 0 ? r->skip_column : 0);
+    size_t column = mark.column + 1 + (mark.line == 0 ? r->skip_column : 0), lo = 0, hi = r->joined_count;
+    while (lo < hi) { /* the first of the line */
+        size_t mid = (lo + hi) / 2;
+        if (r->joined[mid].line < mark.line)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    for (; lo < r->joined_count && r->joined[lo].line == mark.line && r->joined[lo].column <= mark.column; lo++)
+        column += JOINED_SHORTER;
+    return column;
 }
 
 static void *stop(struct reader *r)
@@ -66,8 +88,8 @@ static yaml_mark_t mark_of_byte(const char *bytes, size_t offset)
 static void *syntax_problem(struct reader *r)
 {
     const yaml_parser_t *p = &r->parser;
-    const char *bytes = r->source->bytes + r->skip, *what = p->problem;
-    size_t length = r->source->length - r->skip, from = 0, n;
+    const char *bytes = r->bytes, *what = p->problem;
+    size_t length = r->length, from = 0, n;
     if (p->error == YAML_MEMORY_ERROR) {
         ceduo_no_memory();
         return stop(r);
@@ -87,7 +109,7 @@ static void *syntax_problem(struct reader *r)
     yaml_mark_t at = p->problem_mark, end = mark_of_byte(bytes, length); /* of the last line that has something */
     at = at.line > end.line ? end : at;
     size_t byte = ceduo_source_byte(r->source, line_of(at), column_of(r, at));
-    if (strstr(what, "tab") || (byte < r->skip + length && r->source->bytes[byte] == '\t'))
+    if (strstr(what, "tab") || (byte < r->source->length && r->source->bytes[byte] == '\t'))
         return STOP(r, at, _("a tab; indent with spaces"));
     if (strstr(what, "cannot start any token"))
         return STOP(r, at, _("malformed YAML: no value can start with this character; put the text in quotes"));
@@ -220,6 +242,85 @@ static struct node *read_value(struct reader *r, const yaml_event_t *event, int 
     return event->type == YAML_SCALAR_EVENT ? read_scalar(r, event) : read_entries(r, event, depth + 1);
 }
 
+/* ---- escapes of JSON ---- */
+
+/* The half of a character that a JSON escape at `p` stands for, if it lies from `lo` to `lo` + 0x3ff; otherwise 0. */
+static unsigned half_at(const char *p, size_t n, unsigned lo)
+{
+    char digits[5] = {0};
+    if (n < 6 || p[0] != '\\' || p[1] != 'u')
+        return 0;
+    memcpy(digits, p + 2, 4);
+    unsigned long code = digits[strspn(digits, "0123456789abcdefABCDEF")] ? 0 : strtoul(digits, NULL, 16);
+    return code >= lo && code <= lo + 0x3ff ? (unsigned)code : 0;
+}
+
+static void note_joined(struct reader *r, size_t line, size_t column)
+{
+    struct joined *all = ceduo_grow(r->joined, r->joined_count, &r->joined_capacity, sizeof *all);
+    if (!all) {
+        stop(r);
+        return;
+    }
+    r->joined = all;
+    r->joined[r->joined_count++] = (struct joined){line, column};
+}
+
+/* JSON writes a character above U+FFFF as two escapes, the halves of UTF-16, which libyaml refuses: joins them to the escape that
+ * YAML has. Only between double quotes, where an escape is one; a quote begins a value where a value may begin. */
+static void join_halves(struct reader *r)
+{
+    const char *from = r->bytes;
+    size_t n = r->length, line = 0, column = 0, length = 0;
+    char quote = 0, before = 0; /* before: the last character that is no blank; 0 at the start of a line */
+    char *to = NULL;
+    for (size_t i = 0, used; i < n && !r->stopped; i += used) {
+        unsigned high = quote == '"' ? half_at(from + i, n - i, 0xd800) : 0;
+        unsigned low = high ? half_at(from + i + 6, n - i - 6, 0xdc00) : 0;
+        char c = from[i], escape[16];
+        used = low ? 12 : quote == '"' && c == '\\' && i + 1 < n && from[i + 1] != '\n' ? 2 : 1;
+        if (low && !to) {
+            to = ceduo_arena_take(r->arena, n + 1);
+            if (!to) {
+                stop(r);
+                return;
+            }
+            memcpy(to, from, i);
+        }
+        size_t put = used;
+        if (low) {
+            put = (size_t)snprintf(escape, sizeof escape, "\\U%08x", 0x10000 + ((high - 0xd800) << 10) + (low - 0xdc00));
+            note_joined(r, line, column + put);
+        }
+        if (to)
+            memcpy(to + length, low ? escape : from + i, put);
+        length += put;
+        for (size_t k = 0; k < (low ? 0 : used); k++)
+            column += !ceduo_utf8_inside(from[i + k]);
+        column += low ? put : 0;
+        bool may_begin = !before || strchr("[{,:-?", before);
+        if (used > 1)
+            continue;
+        if (quote)
+            quote = c != quote ? quote : c == '\'' && i + 1 < n && from[i + 1] == '\'' ? quote : 0;
+        else if ((c == '"' || c == '\'') && may_begin)
+            quote = c;
+        else if (c == '#' && (i == 0 || strchr(" \t\n", from[i - 1])))
+            while (i + used < n && from[i + used] != '\n') { /* a comment; it has no marks */
+                if (to)
+                    to[length] = from[i + used];
+                length++;
+                used++;
+            }
+        if (c == '\n')
+            line++, column = 0, before = 0;
+        else if (c != ' ' && c != '\t' && c != '\r')
+            before = c;
+    }
+    if (to)
+        r->bytes = to, r->length = length;
+}
+
 /* The one document of the stream. */
 static struct node *read_document(struct reader *r)
 {
@@ -254,9 +355,13 @@ const struct node *ceduo_yaml_read_value(struct arena *arena, const struct sourc
         return NULL;
     }
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
-    yaml_parser_set_input_string(&r.parser, (const unsigned char *)source->bytes + skip, source->length - skip);
+    r.bytes = source->bytes + skip;
+    r.length = source->length - skip;
+    join_halves(&r);
+    yaml_parser_set_input_string(&r.parser, (const unsigned char *)r.bytes, r.length);
     const struct node *root = read_document(&r);
     yaml_parser_delete(&r.parser);
+    free(r.joined);
     return root;
 }
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define NAME_IT(at, more)                                                                                                      \
-    ROW("name_it", FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, NO_RUN | (more), NULL,                                          \
+    ROW("name_it", FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(FIELD_TEXT, NO_RUN | (more)), NULL,                  \
         N_("its name in Italian pages, screens and lists; without it the name"), NULL, NULL, NAMED(N_("name, in Italian")))
 
 /* ---- rock ---- */

@@ -23,6 +23,17 @@
 #define OF_SLOPE(items, count) IN_SLOPE(items), sizeof((struct scene_draft *)0)->items, IN_SLOPE(count)
 _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x) + sizeof(double *), "points are x, z");
 
+/* The flags of a row whose member is a pointer to text, which the key of a run must not hold: its address says nothing. Such a row
+ * compiles only with a flag that keeps it out of the keys. */
+#define KEYLESS (FIELD_NOWHERE | FIELD_DRAFT | FIELD_NO_RUN)
+#define TEXT_FLAGS(kind, flags)                                                                                                \
+    ((flags) + 0 * sizeof(struct {                                                                                             \
+                   _Static_assert(((kind) != FIELD_TEXT && (kind) != FIELD_FILE && (kind) != FIELD_WORDS) ||                   \
+                                      ((flags)&KEYLESS),                                                                       \
+                                  "text needs FIELD_NO_RUN: the key of a run would hold its address");                         \
+                   int unused;                                                                                                 \
+               }))
+
 /* Rows by their kind; `at` is three members. */
 #define ROW(...)                                                                                                               \
     {                                                                                                                          \
@@ -35,7 +46,7 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
 #define SPREAD(key, says, at, unit, lo, hi, flags, value, meaning)                                                             \
     ROW(key, FIELD_SPREAD, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says)
 #define OTHER(kind, key, says, at, flags, value, meaning, choices, object)                                                     \
-    ROW(key, kind, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, object, says)
+    ROW(key, kind, at, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(kind, flags), value, meaning, choices, object, says)
 #define WORD(key, says, at, flags, value, meaning, choices)                                                                    \
     ROW(key, FIELD_CHOICE, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, NULL, says)
 #define GROUP(key, says, at, flags, meaning, object)                                                                           \
@@ -43,7 +54,7 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
 #define ITEMS(key, says, at, flags, meaning, object)                                                                           \
     ROW(key, FIELD_LIST, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says)
 #define TEXT(key, says, at, flags, meaning)                                                                                    \
-    ROW(key, FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, NULL, says)
+    ROW(key, FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(FIELD_TEXT, flags), NULL, meaning, NULL, NULL, says)
 #define TAG(value)                                                                                                             \
     ROW("ceduo", FIELD_TAG, NOWHERE, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value, N_("what kind of file this is"), NULL,      \
         NULL, NAMED(N_("kind of file")))

@@ -237,6 +237,7 @@ DEFAULT(segment, ceduo_schema_segment())
 DEFAULT(belt, ceduo_schema_belt())
 DEFAULT(stand, ceduo_schema_stand())
 DEFAULT(stems, ceduo_schema_field(ceduo_schema_stand(), "trees")->object)
+DEFAULT(rock_def, ceduo_schema_field(ceduo_schema_scene(), "rock")->object)
 DEFAULT(control, ceduo_schema_field(ceduo_schema_scene(), "controls")->object)
 
 /* ---- ranges ---- */
@@ -261,11 +262,13 @@ bool ceduo_schema_spread_fits(const struct field *f, struct ceduo_number n)
     return cut || isnan(n.mean) || !(below || highest > f->hi);
 }
 
+#define OTHER_MOST 1e4 /* times the largest number of a file */
+
 static bool holds_number(const struct field *f, double si)
 {
     bool zero = f->flags & FIELD_ZERO, optional = f->flags & FIELD_ONE_OF || (!zero && !f->value);
-    bool other =
-        f->flags & FIELD_ONE_OF && si >= f->lo * f->scale && isfinite(si); /* made of another key: 10 shoots on 10^6 stools */
+    /* made of another key: 10^4 shoots on each of 10^6 stools */
+    bool other = f->flags & FIELD_ONE_OF && si >= f->lo * f->scale && si <= OTHER_MOST * f->hi * f->scale;
     return other || (optional && isnan(si)) || ((optional || zero) && si == 0) || ceduo_schema_in_range(f, si / f->scale);
 }
 

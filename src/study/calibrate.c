@@ -19,6 +19,7 @@
 #include "base/parallel.h"
 #include "ceduo/statistics.h"
 #include "chains.h"
+#include "check_study.h"
 #include "fitting.h"
 
 #define POINTS     256
@@ -65,7 +66,7 @@ static double value_of(const struct fitting *f, size_t parameter, double u)
 
 static void tell(struct fitting *f, enum ceduo_calibration_stage stage, double rhat, double effective_size)
 {
-    if (!f->def->progress || pthread_mutex_trylock(&f->talking) != 0)
+    if (!f->def->progress || !ceduo_talk_begin(&f->talk))
         return;
     struct ceduo_calibration_state state = {.stage = stage, .rhat = rhat, .effective_size = effective_size};
     pthread_mutex_lock(&f->lock);
@@ -75,7 +76,7 @@ static void tell(struct fitting *f, enum ceduo_calibration_stage stage, double r
         state.best[i] = value_of(f, i, f->best[i]);
     pthread_mutex_unlock(&f->lock);
     f->def->progress(f->def->context, &state);
-    pthread_mutex_unlock(&f->talking);
+    ceduo_talk_end(&f->talk);
 }
 
 /* ---- one evaluation ---- */
@@ -374,7 +375,6 @@ static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_cali
     *f = (struct fitting){.def = def, .most = -INFINITY, .guess = ceduo_guess_begin(n)};
     f->workers_count = def->threads > CHAINS ? def->threads : CHAINS;
     pthread_mutex_init(&f->lock, NULL);
-    pthread_mutex_init(&f->talking, NULL);
     f->known = ceduo_arena_take(&f->memory, POINTS * n * sizeof *f->known);
     f->known_values = ceduo_arena_take(&f->memory, POINTS * sizeof *f->known_values);
     f->known_count = f->known_room = POINTS;
@@ -414,7 +414,11 @@ static void close_fitting(struct fitting *f)
     ceduo_guess_release(&f->guess);
     ceduo_arena_free(&f->memory);
     pthread_mutex_destroy(&f->lock);
-    pthread_mutex_destroy(&f->talking);
+}
+
+struct ceduo_calibration_def ceduo_calibration_def_default(void)
+{
+    return (struct ceduo_calibration_def){.rocks = CEDUO_CALIBRATION_ROCKS, .seed = 1, .threads = 1};
 }
 
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *a)
@@ -422,8 +426,12 @@ enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struc
     GSL_RETURNS_ERRORS;
     struct fitting f;
     struct chains chains = {.rhat = NAN, .effective_size = NAN};
-    *a = (struct ceduo_calibration){.parameters_count = def->parameters_count};
-    enum ceduo_status status = open_fitting(&f, def);
+    *a = (struct ceduo_calibration){0};
+    enum ceduo_status status = ceduo_check_calibration_def(def);
+    if (status != CEDUO_OK)
+        return status;
+    a->parameters_count = def->parameters_count;
+    status = open_fitting(&f, def);
     status = status == CEDUO_OK ? search(&f) : status;
     status = status == CEDUO_OK ? refine(&f) : status;
     status = status == CEDUO_OK ? run_chains(&f, &chains) : status;

@@ -14,6 +14,7 @@
 #include "base/parallel.h"
 #include "ceduo/assess.h"
 #include "ceduo/question.h"
+#include "check_study.h"
 #include "inputs.h"
 #include "points.h"
 
@@ -37,7 +38,7 @@ struct rows {
     struct ceduo_doubt_ranking *ranking; /* that is made */
     size_t all;                          /* evaluations, for the progress */
     atomic_size_t done;
-    atomic_bool talking;
+    struct talk talk;
 };
 
 static bool is_asked(const struct rows *r, size_t option)
@@ -57,10 +58,10 @@ static void report(void *context)
     struct rows *r = context;
     const struct ceduo_doubt_def *def = r->def;
     size_t done = atomic_fetch_add(&r->done, 1) + 1;
-    if (!def->progress || atomic_exchange(&r->talking, true))
+    if (!def->progress || !ceduo_talk_begin(&r->talk))
         return;
     def->progress(def->context, done, r->all);
-    atomic_store(&r->talking, false);
+    ceduo_talk_end(&r->talk);
 }
 
 /* Of the share that a scene's last control is judged by. */
@@ -147,6 +148,8 @@ const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_
                                                        enum ceduo_doubt_kind kind, bool difference)
 {
     size_t options = (answer->figures_count / CEDUO_DOUBT_KINDS + 1) / 2;
+    if (option >= options || kind >= CEDUO_DOUBT_KINDS || (difference && option == 0))
+        return NULL;
     return &answer->figures[figure_at(options, option, kind, difference)];
 }
 
@@ -477,11 +480,16 @@ static int compare_pair(void *context, size_t item, size_t worker)
         set_range(r, value_of(r, o->better, kind) - value_of(r, o->than, kind), &found);
     o->p5 = found.p5;
     o->p95 = found.p95;
+    size_t better = 0, worse = 0; /* counts: shares added up one by one may come to more than 1 */
     for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
         double whole = kind == CEDUO_DOUBT_ENERGY ? r->released : limit_of(r->def->scene) / CEDUO_EXCEED_MOST;
         double within = CEDUO_DOUBT_EQUAL * whole, value = found.values[p];
-        *(value < -within ? &o->probability : value > within ? &o->worse : &o->equal) += 1 / (double)r->points;
+        better += value < -within;
+        worse += value > within;
     }
+    o->probability = (double)better / (double)r->points;
+    o->worse = (double)worse / (double)r->points;
+    o->equal = (double)(r->points - better - worse) / (double)r->points;
     ceduo_surface_release(&found);
     close_subject(&s);
     return (int)status;
@@ -535,15 +543,24 @@ static enum ceduo_status open_answer(struct rows *r)
     return read_sampling(r);
 }
 
+struct ceduo_doubt_def ceduo_doubt_def_default(const struct ceduo_scene *scene)
+{
+    return (struct ceduo_doubt_def){.scene = scene, .points = CEDUO_DOUBT_POINTS, .rocks = CEDUO_DOUBT_ROCKS, .threads = 1};
+}
+
 enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
 {
     GSL_RETURNS_ERRORS;
     struct rows rows;
     struct ceduo_doubt_def enough = *def;
+    *answer = (struct ceduo_doubt_answer){0};
+    enum ceduo_status status = ceduo_check_doubt_def(def);
+    if (status != CEDUO_OK)
+        return status;
+    enough.threads = def->threads > 0 ? def->threads : 1;
     enough.rocks = def->rocks > GROUPS ? def->rocks : GROUPS;
     enough.rotation = def->rotation && def->scene->simulation.contact_model != CEDUO_INDEX;
-    *answer = (struct ceduo_doubt_answer){0};
-    enum ceduo_status status = open_rows(&rows, &enough, answer);
+    status = open_rows(&rows, &enough, answer);
     if (status == CEDUO_OK)
         status = open_answer(&rows);
     for (size_t points = def->points; status == CEDUO_OK; points *= 2) {
@@ -587,6 +604,8 @@ size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_d
                            enum ceduo_doubt_kind light, size_t inputs[2])
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, option, light, false);
+    if (!f)
+        return 0;
     double limit = light == CEDUO_DOUBT_EXCEED    ? limit_of(scene)
                    : light == CEDUO_DOUBT_CONTACT ? 1 / scene->simulation.threshold
                                                   : CEDUO_FREE_RUN_MOST;

@@ -13,6 +13,7 @@
 
 #include "base/cancel.h"
 #include "base/gsl_errors.h"
+#include "check_study.h"
 
 #define SAMPLES_MAX 128   /* bisection alone needs at most 54, the ends and the scan 10 */
 #define BRENT_MAX   12    /* values for Brent's method, then bisection has to do the rest */
@@ -204,12 +205,18 @@ static void read_samples(const struct search *h, struct ceduo_found *found)
     found->monotone = found->monotone && !(rises && falls);
 }
 
+struct ceduo_find_def ceduo_find_def_default(void)
+{
+    return (struct ceduo_find_def){.hi = 1};
+}
+
 enum ceduo_status ceduo_find(const struct ceduo_find_def *def, struct ceduo_found *found)
 {
     GSL_RETURNS_ERRORS;
     *found = (struct ceduo_found){.value = NAN, .goal_at_value = NAN, .monotone = true, .nearest = NAN, .goal_at_nearest = NAN};
     struct search h = {.def = def, .lo = def->whole ? ceil(def->lo) : def->lo, .hi = def->whole ? floor(def->hi) : def->hi};
-    if (h.lo <= h.hi)
+    h.status = ceduo_check_find_def(def);
+    if (h.lo <= h.hi && h.status == CEDUO_OK)
         find_crossing(&h, found);
     read_samples(&h, found);
     return h.status;

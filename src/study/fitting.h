@@ -4,6 +4,7 @@
 
 #include <pthread.h>
 
+#include "base/parallel.h"
 #include "ceduo/calibrate.h"
 #include "guess.h"
 #include "inputs.h"
@@ -32,7 +33,8 @@ struct fitting {
     double *known, *known_values; /* what it learns from: Sobol' points, then what the chains have tried; log-likelihoods */
     size_t known_count, known_room;
     double starts[CEDUO_CALIBRATION_CHAINS * CEDUO_CALIBRATION_MOST];
-    pthread_mutex_t lock, talking;
+    pthread_mutex_t lock;
+    struct talk talk;
     double best[CEDUO_CALIBRATION_MOST], most; /* under `lock`, as are: */
     uint64_t evaluations;
     const double *draws;             /* that predictions are made from: [draw][parameter] in 0…1; the last is the best */

@@ -16,6 +16,11 @@ struct input_place {
     double given; /* in the file's unit */
 };
 
+struct ceduo_input ceduo_input_default(void)
+{
+    return (struct ceduo_input){.kind = CEDUO_INPUT_RANGE, .hi = 1};
+}
+
 /* ---- the copy ---- */
 
 /* Replaces *items by a copy of n of them. */
@@ -84,7 +89,7 @@ enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < inputs[i].places_count; k++, p++) {
             if (!ceduo_value_find(&copy->scene, inputs[i].places[k], &p->value))
-                return CEDUO_BAD_SLOPE;
+                return CEDUO_BAD_PLACE;
             p->given = ceduo_value_get(&p->value);
             drop_per_stool(copy, inputs[i].places[k]);
         }

@@ -13,6 +13,7 @@
 #include "base/cancel.h"
 #include "ceduo/record.h"
 #include "ceduo/run.h"
+#include "check_study.h"
 
 #define IMPOSSIBLE (-1e4) /* log-likelihood of what no simulated rock does at all */
 
@@ -147,9 +148,18 @@ static bool make_plan(struct ceduo_observer *o, const struct ceduo_observation *
     return true;
 }
 
+struct ceduo_observation ceduo_observation_default(void)
+{
+    return (struct ceduo_observation){.x = NAN, .from = NAN, .to = NAN, .n = 1, .mean = NAN, .sd = NAN, .share_seen = NAN};
+}
+
 enum ceduo_status ceduo_observer_create(const struct ceduo_observation *observations, size_t n,
                                         struct ceduo_observer **observer)
 {
+    *observer = NULL;
+    enum ceduo_status status = ceduo_check_observations(observations, n, 0);
+    if (status != CEDUO_OK)
+        return status;
     struct ceduo_observer *o = *observer = calloc(1, sizeof *o);
     if (!o)
         return CEDUO_NO_MEMORY;
@@ -194,6 +204,8 @@ static enum ceduo_status fly(const struct setting *s, const struct ceduo_scene *
     f->scene.release = s->release ? *s->release : scene->release;
     f->scene.controls_count = s->controls_count;
     f->scene.controls = s->controls;
+    if (s->option >= scene->options_count || rocks == 0 || rocks > CEDUO_ROCKS_MOST)
+        return CEDUO_BAD_ARGUMENT;
     const struct ceduo_option *option = &f->scene.options[s->option];
     bool bare = scene->simulation.contact_model == CEDUO_INDEX;
     enum ceduo_status status = ceduo_scene_check(&f->scene, NULL);
@@ -396,10 +408,12 @@ enum ceduo_status ceduo_observer_look(const struct ceduo_observer *o, const stru
 enum ceduo_status ceduo_observer_values(const struct ceduo_observer *o, const struct ceduo_scene *scene, size_t which,
                                         uint64_t rocks, double **values, size_t *n)
 {
-    const struct plan *p = &o->plans[which];
-    struct flown f;
     *values = NULL;
     *n = 0;
+    if (which >= o->n)
+        return CEDUO_BAD_ARGUMENT;
+    const struct plan *p = &o->plans[which];
+    struct flown f;
     enum ceduo_status status = fly(&o->settings[p->setting], scene, rocks, NULL, &f);
     if (status == CEDUO_OK)
         *values = values_of(&f, p, n);

@@ -8,9 +8,8 @@
 
 #include "base/parallel.h"
 #include "ceduo/variants.h"
+#include "core/walk/random.h"
 #include "inputs.h"
-
-#define SEED_BITS 54 /* above those of a scene's seed */
 
 struct work {
     const struct points *points;
@@ -51,7 +50,8 @@ static enum ceduo_status grow(struct item *item, struct point *point)
             return status;
     }
     item->scene = *scene;
-    item->scene.simulation.seed ^= (uint64_t)year << SEED_BITS;
+    if (item->years->window.kind != CEDUO_WINDOW_ALIKE) /* otherwise the year is today: it has today's rocks */
+        item->scene.simulation.seed = random_seed(scene->simulation.seed, VARIANT_POINT_YEAR, year);
     point->scene = &item->scene;
     point->forest = &item->years->years[(2 * year + 1) * item->years->count / (2 * years)].option; /* the middle of each part */
     return CEDUO_OK;
@@ -154,14 +154,15 @@ static bool list_variants(struct work *w)
 enum ceduo_status ceduo_points_run(const struct points *p, size_t from, size_t to, size_t together)
 {
     struct work w = {.points = p, .from = from, .together = together};
+    unsigned threads = p->def->threads > 0 ? p->def->threads : 1;
     size_t items = to - from - (together > 0 ? together - 1 : 0);
-    w.copies = calloc(p->def->threads, sizeof *w.copies);
+    w.copies = calloc(threads, sizeof *w.copies);
     enum ceduo_status status = w.copies && list_variants(&w) ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < p->def->threads && status == CEDUO_OK; i++)
+    for (size_t i = 0; i < threads && status == CEDUO_OK; i++)
         status = ceduo_inputs_open(&w.copies[i], p->def->scene, p->def->inputs, p->def->inputs_count);
     if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){items, p->def->threads, run_item, &w});
-    for (size_t i = 0; w.copies && i < p->def->threads; i++)
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){items, threads, run_item, &w});
+    for (size_t i = 0; w.copies && i < threads; i++)
         ceduo_inputs_release(&w.copies[i]);
     free(w.copies);
     free(w.variants);

@@ -11,13 +11,15 @@
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/statistics.h"
+#include "check_study.h"
+#include "core/runs/check.h"
+#include "core/walk/random.h"
 #include "fitting.h"
 #include "sequence.h"
 
-#define SAMPLES      20     /* for each draw; not more than CEDUO_SOME_VALUES */
-#define SINGLE_LEAST 400    /* values that tell 95 % of them */
-#define SAMPLES_ONE  2000   /* of a scene as it is */
-#define OTHER_ROCKS  0x5eed /* in the seed */
+#define SAMPLES      20   /* for each draw; not more than CEDUO_SOME_VALUES */
+#define SINGLE_LEAST 400  /* values that tell 95 % of them */
+#define SAMPLES_ONE  2000 /* of a scene as it is */
 
 static int look_at_draw(void *context, size_t i, size_t worker)
 {
@@ -206,8 +208,10 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
         }
     f->draws = places;
     for (size_t w = 0; w < f->workers_count; w++)
-        for (size_t s = 0; s < f->def->scenes_count; s++)
-            f->workers[w].copies[s].scene.simulation.seed ^= OTHER_ROCKS;
+        for (size_t s = 0; s < f->def->scenes_count; s++) {
+            uint64_t *seed = &f->workers[w].copies[s].scene.simulation.seed;
+            *seed = random_seed(*seed, VARIANT_PREDICTION, 0);
+        }
     if (status == CEDUO_OK)
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){draws + 1, f->def->threads, look_at_draw, f});
     if (status == CEDUO_OK)
@@ -225,12 +229,19 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
 {
     GSL_RETURNS_ERRORS;
     size_t n = scene->observations_count;
+    enum ceduo_status status = ceduo_check_scene(scene->scene);
+    if (status == CEDUO_OK)
+        status = ceduo_check_observations(scene->observations, n, scene->scene->options_count);
+    if (status == CEDUO_OK && (rocks == 0 || rocks > CEDUO_ROCKS_MOST || scene->scene->options_count == 0))
+        status = CEDUO_BAD_ARGUMENT;
+    if (status != CEDUO_OK)
+        return status;
     struct ceduo_observer *observer = NULL;
     struct ceduo_counterpart *found = calloc(n + 1, sizeof *found);
     double *values = calloc(SAMPLES_ONE, sizeof *values);
     struct sequence sequence;
     gsl_rng random = ceduo_sequence(&sequence, scene->scene->simulation.seed, CEDUO_CALIBRATION_CHAINS);
-    enum ceduo_status status = found && values ? CEDUO_OK : CEDUO_NO_MEMORY;
+    status = found && values ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_observer_create(scene->observations, n, &observer);
     if (status == CEDUO_OK)

@@ -26,6 +26,7 @@
 #include "base/gsl_errors.h"
 #include "ceduo/doubt.h"
 #include "ceduo/statistics.h"
+#include "check_study.h"
 #include "core/walk/random.h"
 
 #define GROUPS      CEDUO_SURFACE_GROUPS
@@ -233,6 +234,9 @@ enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n,
                                      struct ceduo_surface **made)
 {
     GSL_RETURNS_ERRORS;
+    *made = NULL;
+    if (ceduo_check_inputs(inputs, n, false) != CEDUO_OK)
+        return CEDUO_BAD_ARGUMENT;
     struct ceduo_surface *s = *made = calloc(1, sizeof *s);
     if (!s)
         return CEDUO_NO_MEMORY;

@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/gsl_errors.h"
+#include "check_study.h"
 
 #define HECTARE      10000
 #define CLASSES_MOST 1000 /* of dbh; thicker stems share the last */
@@ -254,6 +255,8 @@ enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ced
     GSL_RETURNS_ERRORS;
     struct surveyor s = {.survey = survey, .answer = a};
     *a = (struct ceduo_survey_answer){0};
+    if (ceduo_check_survey(survey) != CEDUO_OK)
+        return CEDUO_BAD_ARGUMENT;
     s.counts = ceduo_arena_take(&s.memory, (survey->plots_count + 1) * sizeof *s.counts);
     s.heights = ceduo_arena_take(&s.memory, (survey->stems_count + 1) * sizeof *s.heights);
     s.pairs = ceduo_arena_take(&s.memory, (2 * survey->stems_count + 1) * sizeof *s.pairs);

@@ -444,7 +444,7 @@ const char *ceduo_terminal_missing(void)
                      : _("standard input and output are no terminal");
     const char *name = getenv("TERM");
     if (!name || !name[0] || setupterm(NULL, STDOUT_FILENO, &error) != OK)
-        return _("TERM names no terminal that is known");
+        return _("TERM names a terminal that is not known here; try 'TERM=xterm-256color ceduo'");
     const char *move = tigetstr("cup");
     bool moves = move && move != (char *)-1;
     del_curterm(cur_term); /* curses opens it again */

@@ -449,7 +449,7 @@ CASES = {
     "standard input and output are no terminal; use 'ceduo --batch SCENE.yaml', ...": Words("@"),
     "standard input is no terminal; ...": lambda row: on_terminal(row, "xterm", stdin=subprocess.DEVNULL),
     "standard output is no terminal; ...": lambda row: on_terminal(row, "xterm", stdout=subprocess.DEVNULL),
-    "TERM names no terminal that is known; ...": lambda row: on_terminal(row, "no-such-terminal"),
+    "TERM names a terminal that is not known here; try 'TERM=xterm-256color ceduo'; ...": lambda row: on_terminal(row, "no-such-terminal"),
     "this terminal cannot place the cursor; ...": lambda row: on_terminal(row, "dumb"),
     "this terminal cannot be used; ...": impossible,
     "no scene given; name a file, ...": Words("--batch"),

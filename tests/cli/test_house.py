@@ -24,6 +24,7 @@ TRAJECTORY = ("base/elementary", "scene/number", "scene/rock", "scene/slope", "s
               "core/walk", "core/lanes", "core/kernel", "core/kernel_avx2", "core/kernel_avx512", "core/wood")
 DIFFERS = re.compile(r"(a?(sin|cos|tan)h?|atan2|sincos|exp(2|10|m1)?|log(2|10|1p)?|pow|[lt]?gamma|cbrt|hypot|erfc?|"
                      r"gsl_(cdf|ran|sf)_.*)[fl]?$")
+CC = os.environ.get("CC", "cc")
 SANITIZERS = re.compile(r"__(asan|odr|tsan|ubsan)")
 
 
@@ -132,8 +133,58 @@ def stands_otherwise():
     return [f"{name}: {old}" for name, old, _, _ in changes() if (ROOT / name).read_text(encoding="utf-8").count(old) != 1]
 
 
+# Lines of a function that hash or list something, and whether they may compile. The key of a run must not hold an address.
+COMPILES = """hash_count(&h, n);
+hash_count(&h, p);
+hash_count(&h, (void *)0);
+hash_double(&h, 2.5);
+hash_double(&h, p);
+hash_doubles(&h, p, n);
+hash_doubles(&h, (const double *)p, n);
+hash_doubles(&h, &s, n);
+hash_doubles(&h, (void *)p, n);
+hash_doubles(&h, &p, n);
+hash_array(&h, s.row);
+hash_array(&h, s.pointer);
+hash_array(&h, s.pointers);
+hash_each(&h, s.row[0], 1, 2);
+hash_each(&h, s.row[0], s.pointer);
+h = hash_bytes("abc", 3);
+h = hash_bytes(&s, sizeof s);
+h = hash_bytes(&p, sizeof p);
+static const struct field f[] = {TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), NO_RUN, "")};
+static const struct field f[] = {TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), REQUIRED, "")};
+static const struct field f[] = {OTHER(FIELD_WORDS, "one_of", NAMED(""), LIST(doubt, one_of, one_of_count), 0, NULL, "", NULL, NULL)};
+static const struct field f[] = {OTHER(FIELD_FLAG, "x", NAMED(""), AT(ceduo_belt, felled), 0, NULL, "", NULL, NULL)};
+"""
+GOOD = (0, 3, 5, 6, 10, 13, 15, 18, 21)
+
+
+def compiles_otherwise():
+    bad = []
+    for number, line in enumerate(COMPILES.splitlines()):
+        unit = ('#include "base/hash.h"\n#include "scene/fields.h"\n'
+                "struct some { double row[3], *pointer, *pointers[2]; };\n"
+                f"void f(void); void f(void) {{ uint64_t h = HASH_START; size_t n = 3; struct some s = {{0}}; double *p = s.row;\n{line}\n"
+                "(void)h, (void)n, (void)s, (void)p; }\n")
+        done = subprocess.run([*CC.split(), "-std=c17", "-D_GNU_SOURCE", "-fsyntax-only", "-Wno-unused-variable", "-Iinclude",
+                               "-Isrc", "-xc", "-"], input=unit, capture_output=True, text=True, cwd=ROOT, check=False)
+        if (done.returncode == 0) != (number in GOOD):
+            bad.append(f"{line} {'compiles' if done.returncode == 0 else done.stderr.splitlines()[0]}")
+    return bad
+
+
+def without_default():
+    """Structs of the headers that a caller fills, without a function that returns one."""
+    text = "".join(p.read_text(encoding="utf-8") for p in sorted((ROOT / "include/ceduo").glob("*.h")))
+    structs = re.findall(r"^struct (ceduo_(?:\w+_def|question|input|observation)) {", text, re.M)
+    return [name for name in structs if not re.search(rf"^struct {name} {name}_default\(", text, re.M)]
+
+
 def main():
-    tests = [("each room knows only those it stands on", who_knows_whom), ("no file includes another that includes it", circles),
+    tests = [("no hash of a pointer or struct compiles", compiles_otherwise),
+             ("each struct that a caller fills has a default", without_default),
+             ("each room knows only those it stands on", who_knows_whom), ("no file includes another that includes it", circles),
              ("no two files of a room have one name", named_twice), ("scene and core reach for nothing outside", reached_for),
              ("a rock's trajectory calls no function that differs between machines", differs_between_machines),
              ("every exported symbol begins with ceduo_", exported), ("one file alone knows curses", knows_curses),

@@ -728,6 +728,7 @@ REFUSED = {
     "doubt[0].sd: sd is more than 2 times the mean; give lo and hi": {"path": "slope.segments[0].rn", "mean": 0.1, "sd": 0.25},
     "doubt[0].one_of[1]: 'dorian' is unknown; one of: brauner, dorren": {**LAW, "one_of": ["brauner", "dorian"]},
     "doubt[0].one_of: name at least two words": {**LAW, "one_of": ["brauner"]},
+    "doubt[0].one_of[1]: 'brauner' is given twice": {**LAW, "one_of": ["brauner", "brauner"]},
     "doubt[0]: 'density_kg_m3' is a number; give lo and hi, or mean": {"path": "rock.density_kg_m3", "lo": 2500},
     "doubt[0]: 'density_kg_m3' is a number; give lo and hi": {"path": "rock.density_kg_m3", "one_of": ["a", "b"]},
     "doubt[0]: 'model' is a word; give one_of": {"path": LAW["path"], "lo": 0, "hi": 1},

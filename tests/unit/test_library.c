@@ -4,16 +4,20 @@
 #include "expect.h"
 
 #include <gsl/gsl_errno.h>
+#include <locale.h>
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/gsl_errors.h"
+#include "base/text.h"
 #include "ceduo/ceduo.h"
+#include "ceduo/key.h"
 #include "folder.h"
 #include "study/guess.h"
 
@@ -224,6 +228,40 @@ TEST(a_scene_is_read)
     ceduo_reading_release(&r);
 }
 
+/* JSON writes what lies above U+FFFF as two halves. Places behind them are those of the file. */
+static void expect_title(const char *text, const char *title)
+{
+    struct ceduo_reading r;
+    char whole[600];
+    const char *const rest = "rock: {shape: sphere, diameter_m: 1}\nslope: {vertices_m: [[0, 100], [100, 20]], segments: "
+                             "[{rn: 0.3, rt: 0.8, roughness_rad: 0.1}]}\ncontrols_m: [90]\nforest: []\n";
+    snprintf(whole, sizeof whole, "ceduo: scene/1\ntitle: %s\n%s", text, rest);
+    EXPECT(ceduo_scene_read_text("mill.yaml", whole, &r), ==, title ? CEDUO_OK : CEDUO_BAD_FILE);
+    if (title)
+        assert_string_equal(r.scene.title, title);
+    ceduo_reading_release(&r);
+}
+
+TEST(halves_of_a_character_are_joined)
+{
+    struct ceduo_reading r;
+    expect_title("\"a \\ud83d\\ude00 b\"", "a \xf0\x9f\x98\x80 b");
+    expect_title("\"\\uD83D\\uDE00\\ud83d\\ude01\"", "\xf0\x9f\x98\x80\xf0\x9f\x98\x81");
+    expect_title("\"\\u00e0 \\U0001f600\" # it's \"x", "\xc3\xa0 \xf0\x9f\x98\x80");
+    expect_title("'\\ud83d\\ude00'", "\\ud83d\\ude00");
+    expect_title("'it''s \"\\ud83d\\ude00'", "it's \"\\ud83d\\ude00");
+    expect_title("it's \\ud83d\\ude00", "it's \\ud83d\\ude00");
+    expect_title("\"\\\\ud83d\\\\ude00\"", "\\ud83d\\ude00");
+    expect_title("\"\\ud83d x\"", NULL);
+    expect_title("\"\\ude00\\ud83d\"", NULL);
+    const char json[] = "{\"ceduo\":\"scene/1\",\"title\":\"\\ud83d\\ude00\\ud83d\\ude00\",\"rock\":{\"diameter_m\":-1}}";
+    char place[64];
+    snprintf(place, sizeof place, "mill.json:1:%d: rock.diameter_m: -1", (int)(strstr(json, "-1") - json) + 1);
+    EXPECT(ceduo_scene_read_text("mill.json", json, &r), ==, CEDUO_BAD_FILE);
+    assert_non_null(strstr(r.messages, place));
+    ceduo_reading_release(&r);
+}
+
 TEST(what_is_wrong_is_said)
 {
     struct ceduo_reading r;
@@ -266,6 +304,224 @@ TEST_WITH(a_scene_is_read_without_memory, folder_set_up, folder_tear_down)
     call_without_memory(read_in_folder);
 }
 
+/* ---- the locale of the host program ---- */
+
+/* Sets a locale with a decimal comma; compiles it in the folder of the test unless the machine has it. */
+static bool set_comma(const char *name)
+{
+    char command[256], full[32];
+    snprintf(full, sizeof full, "%s.UTF-8", name);
+    if (!setlocale(LC_ALL, full)) {
+        snprintf(command, sizeof command, "localedef -i %s -f UTF-8 %s/%s >/dev/null 2>&1", name, folder, full);
+        if (system(command) != 0) /* NOLINT(cert-env33-c): a command of the test */
+            return false;
+        setenv("LOCPATH", folder, 1);
+        bool set = setlocale(LC_ALL, full);
+        unsetenv("LOCPATH");
+        if (!set)
+            return false;
+    }
+    return localeconv()->decimal_point[0] == ',';
+}
+
+/* Figures of a scene with numbers from a table, from YAML, from a change and from defaults, of its run, and of what is printed. */
+struct figures {
+    double gravity, friction, rn, rt, diameter, z, control, default_gravity, default_friction;
+    double reach, energy, speed;
+    uint64_t key;
+    char message[512], number[32], text[32];
+};
+
+static struct figures take_figures(void)
+{
+    struct ceduo_reading r;
+    struct ceduo_answer a;
+    char path[256];
+    const char *const sets[] = {"rock.diameter_m=0.75", NULL};
+    in_folder(path, "scene.yaml");
+    EXPECT(ceduo_scene_read(path, sets, &r), ==, CEDUO_OK);
+    const struct ceduo_scene *s = &r.scene;
+    struct figures f = {.gravity = s->simulation.gravity,
+                        .friction = s->slope.segments[0].friction,
+                        .rn = s->slope.segments[0].rn.mean,
+                        .rt = s->slope.segments[0].rt.mean,
+                        .diameter = s->rock.diameter.mean,
+                        .z = s->slope.z[1],
+                        .control = s->controls[0].x,
+                        .default_gravity = ceduo_scene_default().simulation.gravity,
+                        .default_friction = ceduo_segment_default().friction,
+                        .key = ceduo_scene_key(s)};
+    struct ceduo_question q = ceduo_question_default(s);
+    q.rocks = 300;
+    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    f.reach = a.result->bare.arrivals[0].reach_probability;
+    f.energy = a.result->bare.arrivals[0].energy.mean;
+    f.speed = a.result->bare.arrivals[0].speed.p95;
+    ceduo_answer_release(&a);
+    ceduo_reading_release(&r);
+    EXPECT(ceduo_scene_read_text("mill.yaml", "ceduo: scene/1\nrock: {diameter_m: -1.5}\n", &r), ==, CEDUO_BAD_FILE);
+    snprintf(f.message, sizeof f.message, "%s", r.messages);
+    ceduo_reading_release(&r);
+    ceduo_number_shortest(0.1, f.number);
+    LOCAL_TEXT(text);
+    ceduo_text_format(&text, "%.2f %g", 1.5, 2.25);
+    snprintf(f.text, sizeof f.text, "%s", ceduo_text_string(&text));
+    return f;
+}
+
+static void compare_figures(const struct figures *was, const char *locale)
+{
+    if (!set_comma(locale)) {
+        setlocale(LC_ALL, "C");
+        print_message("no locale %s, and localedef cannot make it\n", locale);
+        skip();
+    }
+    struct figures is = take_figures();
+    assert_string_equal(setlocale(LC_NUMERIC, NULL) + 5, ".UTF-8"); /* stays set */
+    double comma = strtod("1,5", NULL);
+    setlocale(LC_ALL, "C");
+    EXPECT(comma, ==, 1.5);
+    EXPECT_SAME(is, *was, gravity, friction, rn, rt, diameter, z, control, default_gravity, default_friction);
+    EXPECT_SAME(is, *was, reach, energy, speed, key);
+    assert_string_equal(is.message, was->message);
+    assert_string_equal(is.number, was->number);
+    assert_string_equal(is.text, was->text);
+}
+
+TEST_WITH(numbers_have_a_dot_in_every_locale, folder_set_up, folder_tear_down)
+{
+    put("line.csv", "x_m,z_m\n0,90.5\n60.25,40.5\n100,0\n");
+    put("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [90.5]\n"
+                      "slope: {csv: line.csv, segments: [{rn: 0.35, rt: 0.85, roughness_rad: 0.1}]}\n");
+    const struct figures was = take_figures();
+    ROWS(EXPECT, (was.gravity, ==, 9.81), (was.rn, ==, .35), (was.diameter, ==, .75), (was.z, ==, -50),
+         (was.control, ==, 90.5));
+    EXPECT(was.default_friction, >, 0);
+    assert_string_equal(was.number, "0.1");
+    assert_string_equal(was.text, "1.50 2.25");
+    compare_figures(&was, "it_IT");
+    compare_figures(&was, "de_DE");
+}
+
+/* ---- callbacks and random numbers ---- */
+
+static atomic_int inside, most_inside, calls;
+
+static void enter_callback(void)
+{
+    int now = atomic_fetch_add(&inside, 1) + 1;
+    if (now > atomic_load(&most_inside))
+        atomic_store(&most_inside, now);
+    atomic_fetch_add(&calls, 1);
+    usleep(2000); /* so that another thread would come in */
+    atomic_fetch_sub(&inside, 1);
+}
+
+static void on_rocks(void *unused, uint64_t rocks)
+{
+    (void)unused, (void)rocks;
+    enter_callback();
+}
+
+static void on_points(void *unused, uint64_t done, uint64_t all)
+{
+    (void)unused, (void)done, (void)all;
+    enter_callback();
+}
+
+static void on_fit(void *unused, const struct ceduo_calibration_state *state)
+{
+    (void)unused, (void)state;
+    enter_callback();
+}
+
+static void expect_alone(void)
+{
+    int called = atomic_exchange(&calls, 0), threads = atomic_exchange(&most_inside, 0);
+    EXPECT(called, >, 0);
+    EXPECT(threads, ==, 1);
+}
+
+TEST(one_thread_at_a_time_calls_the_caller)
+{
+    struct ceduo_reading r;
+    struct ceduo_answer a;
+    struct ceduo_doubt_answer doubt;
+    struct ceduo_calibration fit;
+    EXPECT(ceduo_scene_read("profiles/scenes/rotation.yaml", NULL, &r), ==, CEDUO_OK);
+    struct ceduo_question q = ceduo_question_default(&r.scene);
+    q.rocks = 100;
+    q.run.threads = 4;
+    q.run.progress = on_rocks;
+    q.years = q.rotations = q.years_apart = true;
+    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    ceduo_answer_release(&a);
+    expect_alone();
+    struct ceduo_doubt_def def = {.scene = &r.scene,
+                                  .inputs_count = r.inputs_count,
+                                  .inputs = r.inputs,
+                                  .points = 30,
+                                  .points_max = 30,
+                                  .rocks = 20,
+                                  .rotation = true,
+                                  .years_max = 3,
+                                  .threads = 4,
+                                  .progress = on_points};
+    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_OK);
+    ceduo_doubt_free(&doubt);
+    expect_alone();
+    ceduo_reading_release(&r);
+    EXPECT(ceduo_scene_read("profiles/scenes/vaujany.yaml", NULL, &r), ==, CEDUO_OK);
+    const char *const place = "rock.density_kg_m3";
+    struct ceduo_input input = {
+        .path = place, .kind = CEDUO_INPUT_RANGE, .lo = 2300, .hi = 2900, .places_count = 1, .places = &place};
+    struct ceduo_calibration_scene fitted = {&r.scene, &input, r.observations_count, r.observations};
+    struct ceduo_calibration_def how = {.scenes_count = 1,
+                                        .scenes = &fitted,
+                                        .parameters_count = 1,
+                                        .rocks = 20,
+                                        .threads = 4,
+                                        .steps_most = 250,
+                                        .progress = on_fit};
+    EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_OK);
+    ceduo_calibration_free(&fit);
+    expect_alone();
+    ceduo_reading_release(&r);
+}
+
+enum { YEARS = 20 };
+
+/* Set the energies that arrive in the years of the first option, each with rocks of its own. */
+static void take_years(const char *seed, double *energies)
+{
+    struct ceduo_reading r;
+    struct ceduo_answer a;
+    const char *const sets[] = {seed, NULL};
+    EXPECT(ceduo_scene_read("profiles/scenes/rotation.yaml", sets, &r), ==, CEDUO_OK);
+    struct ceduo_question q = ceduo_question_default(&r.scene);
+    q.rocks = 50;
+    q.years = q.years_apart = true;
+    q.window = (struct ceduo_window){CEDUO_WINDOW_GIVEN, 1, YEARS, 1};
+    for (size_t i = 0; i < r.scene.options_count; i++) /* with a forest no two years are equal */
+        r.scene.options[i].belts_count = 0;
+    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    EXPECT(a.years[0]->count, ==, YEARS);
+    for (size_t i = 0; i < YEARS; i++)
+        energies[i] = a.years[0]->years[i].wooded.arrivals[0].energy_per_released;
+    ceduo_answer_release(&a);
+    ceduo_reading_release(&r);
+}
+
+TEST(no_seed_has_the_rocks_of_another_one_in_another_year)
+{
+    double low[YEARS], high[YEARS];
+    take_years("simulation.seed=0", low);
+    take_years("simulation.seed=9007199254740992", high);
+    for (size_t i = 0; i < YEARS; i++)
+        for (size_t k = 0; k < YEARS; k++)
+            EXPECT(low[i], !=, high[k]);
+}
+
 /* ---- defaults and texts ---- */
 
 TEST(defaults_need_no_more_than_what_has_none)
@@ -305,7 +561,7 @@ TEST(defaults_need_no_more_than_what_has_none)
 
 TEST(each_status_has_a_text)
 {
-    for (int s = CEDUO_OK; s <= CEDUO_BAD_FILE; s++)
+    for (int s = CEDUO_OK; s <= CEDUO_BAD_PLACE; s++)
         for (int t = CEDUO_OK; t < s; t++)
             assert_string_not_equal(ceduo_status_text((enum ceduo_status)s), ceduo_status_text((enum ceduo_status)t));
     assert_string_equal(ceduo_status_text((enum ceduo_status)99), "unknown status");

@@ -5,6 +5,7 @@
 #include "full.h"
 #include "local.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -125,6 +126,277 @@ TEST(any_struct_is_refused_or_computed)
     }
     EXPECT(computed, >, asked / 4); /* and not all is refused */
     EXPECT(computed, <, asked * 9 / 10);
+}
+
+/* ---- numbers that say how much is asked ---- */
+
+#define PICK(...) ((const uint64_t[]){__VA_ARGS__})[draw(sizeof((const uint64_t[]){__VA_ARGS__}) / sizeof(uint64_t))]
+
+static const uint64_t beyond[] = {0, 1, 2, 3, 7, 1025, CEDUO_ROCKS_MOST + 1, 2000000000, UINT32_MAX, SIZE_MAX - 1, UINT64_MAX};
+
+/* A small number, in one of eight calls any of those beyond. */
+static uint64_t any_count(uint64_t small)
+{
+    return draw(8) ? draw(small + 1) : beyond[draw(LENGTH(beyond))];
+}
+
+static unsigned any_threads(void)
+{
+    return draw(8) ? (unsigned)draw(4) : (unsigned)PICK(CEDUO_THREADS_MOST + 1, UINT32_MAX);
+}
+
+static struct ceduo_window any_window(void)
+{
+    struct ceduo_window w = {CEDUO_WINDOW_GIVEN, 1, 1, (unsigned)draw(3)};
+    w.first = (unsigned)any_count(9);
+    w.last = draw(8) ? w.first + (unsigned)draw(4) : (unsigned)any_count(9);
+    return w;
+}
+
+/* Lists that are shorter, or said to be there and are not. */
+static void change_counts(void)
+{
+    struct ceduo_scene *s = &site.scene;
+    struct ceduo_stand *stand = &site.belts[draw(2)].stand;
+    void *const lists[] = {&s->controls,   &s->options,   &s->options->belts,
+                           &stand->shoots, &stand->trees, &stand->cutting.stay_per_ha};
+    size_t *const counts[] = {&s->controls_count,  &s->options_count,          &s->options->belts_count, &stand->shoots_count,
+                              &stand->trees_count, &stand->cutting.stay_count, &s->blocks_count};
+    size_t *count = counts[draw(LENGTH(counts))];
+    void *none = NULL;
+    *count = *count > 0 && draw(2) ? draw(*count) : *count;
+    if (draw(8) == 0)
+        memcpy(lists[draw(LENGTH(lists))], &none, sizeof none);
+    if (stand->trees && draw(8) == 0)
+        stand->trees->per_ha = draw(2) ? DBL_MAX : 1e11;
+}
+
+static const char *places[] = {"rock.diameter_m", "simulation.threshold_m", "no.such",
+                               "options[0].forest[0].stand.stools.per_ha"};
+
+static struct ceduo_input any_input(void)
+{
+    static const int words[] = {0, 1};
+    static const double row[] = {.5, .6, .7};
+    static const double *const draws[] = {row, NULL};
+    const double numbers[] = {.5, 1, 2, 0, -1, NAN, INFINITY, DBL_MAX};
+    struct ceduo_input in = ceduo_input_default();
+    in.kind = (enum ceduo_input_kind)(draw(12) ? draw(CEDUO_INPUT_DRAWS + 1) : 77);
+    in.lo = numbers[draw(draw(4) ? 3 : LENGTH(numbers))];
+    in.hi = numbers[draw(draw(4) ? 3 : LENGTH(numbers))];
+    in.mean = numbers[draw(draw(4) ? 3 : LENGTH(numbers))];
+    in.sd = numbers[draw(draw(4) ? 3 : LENGTH(numbers))];
+    in.words_count = draw(4) ? 2 : 0;
+    in.words = draw(8) ? words : NULL;
+    in.draws_count = draw(4) ? 3 : 0;
+    in.draws = draw(8) ? draws : NULL;
+    in.places_count = draw(8) ? 1 : draw(2) ? 2 : 0;
+    in.places = draw(16) ? &places[draw(16) ? 0 : draw(2) ? 1 : 2] : NULL;
+    return in;
+}
+
+static enum ceduo_status ask_any(void)
+{
+    struct ceduo_question q = ceduo_question_default(&site.scene);
+    struct ceduo_answer a;
+    q.run.scene = draw(64) ? &site.scene : NULL;
+    q.rocks = any_count(8);
+    q.run.rocks_most = any_count(8);
+    q.run.threads = any_threads();
+    q.run.kernel = (enum ceduo_kernel)any_count(3);
+    q.run.cells = draw(8) ? 0 : any_count(2);
+    q.run.exact_bytes = any_count(100000);
+    q.only = draw(2) ? CEDUO_ALL_OPTIONS : any_count(1);
+    q.window = any_window();
+    q.years = draw(3) == 0;
+    q.rotations = draw(6) == 0;
+    q.years_apart = draw(2);
+    q.years_most = draw(2) ? 3 : (unsigned)any_count(4);
+    q.year_rocks = 1 + draw(2);
+    q.block_rocks = draw(4) ? 0 : any_count(5);
+    q.tolerance = draw(4) ? 0 : .5;
+    enum ceduo_status status = ceduo_ask(&q, NULL, &a);
+    for (size_t i = 0; status == CEDUO_OK && i < 2; i++) /* indices beyond what there is */
+        ceduo_result_wooded(a.result, any_count(1), any_count(1));
+    ceduo_answer_release(&a);
+    return status;
+}
+
+static enum ceduo_status ask_any_doubt(void)
+{
+    struct ceduo_input inputs[2] = {any_input(), any_input()};
+    struct ceduo_doubt_def def =
+        draw(8) ? ceduo_doubt_def_default(&site.scene) : (struct ceduo_doubt_def){.scene = &site.scene};
+    struct ceduo_doubt_answer a;
+    def.inputs = draw(32) ? inputs : NULL;
+    def.inputs_count = draw(16) ? 1 + draw(2) : 0;
+    def.points = draw(8) ? 2 + draw(4) : any_count(4);
+    def.points_max = draw(8) ? def.points : any_count(4);
+    def.rocks = any_count(20);
+    def.own_rocks = any_count(20);
+    def.threads = any_threads();
+    def.rotation = draw(4) == 0;
+    def.years_max = draw(4) ? 2 : any_count(3);
+    def.window = any_window();
+    def.brief = draw(2);
+    def.alone = draw(3) == 0;
+    def.option = any_count(1);
+    enum ceduo_status status = ceduo_doubt_ask(&def, &a);
+    if (status == CEDUO_OK)
+        ceduo_doubt_free(&a);
+    return status;
+}
+
+static enum ceduo_status ask_any_other(void)
+{
+    struct ceduo_block blocks[CEDUO_BLOCKS];
+    struct ceduo_record record;
+    struct ceduo_yield yield;
+    struct ceduo_years *years = NULL;
+    struct ceduo_survey survey = {.plots_count = any_count(1), .areas = draw(8) ? (const double[]){100, NAN} : NULL};
+    struct ceduo_survey_stem stem = {.plot = any_count(1),
+                                     .species = (int)draw(4) - 2,
+                                     .stool = any_count(1),
+                                     .dbh = .2,
+                                     .height = NAN,
+                                     .spacing = NAN,
+                                     .energy = NAN,
+                                     .kind = (enum ceduo_survey_kind)any_count(3)};
+    struct ceduo_survey_answer answer;
+    enum ceduo_status status = CEDUO_OK;
+    struct ceduo_blocks_def sizes = ceduo_blocks_def_default(&site.scene);
+    struct ceduo_record_def followed = ceduo_record_def_default(&site.scene);
+    switch (draw(5)) {
+    case 0:
+        sizes.control = any_count(1);
+        sizes.rocks = any_count(8);
+        sizes.threads = any_threads();
+        return ceduo_blocks(&sizes, blocks);
+    case 1:
+        followed.rocks = any_count(8);
+        followed.stretches_count = draw(4) ? 0 : any_count(2);
+        status = ceduo_record(&followed, &record);
+        ceduo_record_release(&record);
+        return status;
+    case 2:
+        status = ceduo_yield_of(&site.option, (unsigned)any_count(50), &yield);
+        ceduo_yield_release(&yield);
+        return status;
+    case 3:
+        status = ceduo_years_create(&site.scene, &site.option, any_window(), &years);
+        if (status == CEDUO_OK)
+            ceduo_years_sum(years, any_count(1));
+        ceduo_years_free(years);
+        return status;
+    default:
+        survey.stools_count = any_count(1);
+        survey.stems_count = draw(4) ? 1 : 0;
+        survey.stems = draw(8) ? &stem : NULL;
+        status = ceduo_survey_ask(&survey, &answer);
+        if (status == CEDUO_OK)
+            ceduo_survey_free(&answer);
+        return status;
+    }
+}
+
+/* A small number of them by default; 10^5 with FULL. */
+TEST(any_question_is_refused_or_computed)
+{
+    uint64_t asked = (uint64_t)FULL_OR(100000, 4000), computed = 0, refused = 0;
+    for (uint64_t i = 0; i < asked; i++) {
+        open_site();
+        if (draw(3) == 0)
+            change(ceduo_schema_scene(), (char *)&site.scene);
+        if (draw(2))
+            change_counts();
+        alarm(SECONDS);
+        enum ceduo_status status = draw(8) == 0 ? ask_any_doubt() : draw(3) == 0 ? ask_any_other() : ask_any();
+        alarm(0);
+        EXPECT(status, !=, CEDUO_NO_MEMORY);
+        EXPECT(status, !=, CEDUO_CANCELLED);
+        computed += status == CEDUO_OK;
+        refused += status == CEDUO_BAD_ARGUMENT;
+    }
+    EXPECT(computed, >, asked / 10);
+    EXPECT(refused, >, asked / 10);
+}
+
+/* One number of a good question at a time. */
+TEST(each_bad_argument_is_refused)
+{
+    open_site();
+    struct ceduo_question q = ceduo_question_default(&site.scene);
+    q.rocks = q.run.rocks_most = 10;
+    struct ceduo_answer a;
+#define REFUSED(member, value)                                                                                                 \
+    do {                                                                                                                       \
+        struct ceduo_question bad = q;                                                                                         \
+        bad.member = value;                                                                                                    \
+        EXPECT(ceduo_ask(&bad, NULL, &a), ==, CEDUO_BAD_ARGUMENT);                                                             \
+    } while (0)
+    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    ceduo_answer_release(&a);
+    REFUSED(only, site.scene.options_count);
+    REFUSED(rocks, CEDUO_ROCKS_MOST + 1);
+    REFUSED(run.rocks_most, UINT64_MAX);
+    REFUSED(run.scene, NULL);
+    REFUSED(run.threads, UINT32_MAX);
+    REFUSED(run.kernel, (enum ceduo_kernel)9);
+    REFUSED(run.cells, 3);
+    REFUSED(window, ((struct ceduo_window){CEDUO_WINDOW_GIVEN, 1, 2000000000, 1}));
+    REFUSED(window, ((struct ceduo_window){CEDUO_WINDOW_GIVEN, 2, 1, 1}));
+    site.belts[0].stand.trees->per_ha = DBL_MAX;
+    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_BAD_STAND);
+    open_site();
+    site.belts[0].stand.cutting.stay_per_ha = NULL;
+    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_BAD_STAND);
+    struct ceduo_years *years;
+    EXPECT(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 5, .step = 1}, &years), ==,
+           CEDUO_BAD_STAND);
+    open_site();
+    EXPECT(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 5}, &years), ==, CEDUO_BAD_ARGUMENT);
+    struct ceduo_input input = ceduo_input_default();
+    const char *place = "rock.diameter_m";
+    input.lo = .5;
+    input.places = &place;
+    input.places_count = 1;
+    struct ceduo_doubt_def def = ceduo_doubt_def_default(&site.scene), bad;
+    struct ceduo_doubt_answer doubt;
+    def.inputs = &input;
+    def.inputs_count = 1;
+    def.points = def.points_max = 4;
+    def.rocks = 20;
+    def.threads = 0; /* one */
+    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_OK);
+    EXPECT(doubt.points, ==, 4);
+    ceduo_doubt_free(&doubt);
+    bad = def, bad.alone = true, bad.option = 9;
+    EXPECT(ceduo_doubt_ask(&bad, &doubt), ==, CEDUO_BAD_ARGUMENT);
+    bad = def, bad.years_max = 1000;
+    EXPECT(ceduo_doubt_ask(&bad, &doubt), ==, CEDUO_BAD_ARGUMENT);
+    place = "controls[3].accepted_kJ";
+    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_BAD_PLACE);
+    input.kind = CEDUO_INPUT_WORDS;
+    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_BAD_ARGUMENT);
+    input.kind = CEDUO_INPUT_DRAWS;
+    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_BAD_ARGUMENT);
+    struct ceduo_calibration fit;
+    struct ceduo_calibration_def how = ceduo_calibration_def_default();
+    struct ceduo_calibration_scene fitted = {.scene = &site.scene, .inputs = &input};
+    EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_BAD_ARGUMENT);
+    how.scenes = &fitted;
+    how.scenes_count = 1;
+    how.parameters_count = CEDUO_CALIBRATION_MOST + 1;
+    EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_BAD_ARGUMENT);
+    struct ceduo_blocks_def sizes = ceduo_blocks_def_default(&site.scene);
+    struct ceduo_block blocks[CEDUO_BLOCKS];
+    sizes.control = 7;
+    EXPECT(ceduo_blocks(&sizes, blocks), ==, CEDUO_BAD_ARGUMENT);
+    struct ceduo_found found;
+    const struct ceduo_find_def search = ceduo_find_def_default(); /* without a goal */
+    EXPECT(ceduo_find(&search, &found), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_rock_def_default().density.mean, >, 0);
+    assert_true(isnan(ceduo_observation_default().x) && isnan(ceduo_rock_def_default().diameter.mean));
 }
 
 /* A list that is said to be there and is not. */

@@ -102,6 +102,37 @@ TEST(numbers_are_read)
     }
 }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral" /* a flag that no compiler knows */
+static void format_any(struct text *text, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(text, format, args);
+    va_end(args);
+}
+#pragma GCC diagnostic pop
+
+/* Only %'e, %'f and %'g are numbers of the language. What follows the end of a format is not read: it would be printed. */
+static void expect_spoken(const char *format, double value, const char *wanted)
+{
+    LOCAL_BY(ceduo_text_free) struct text text = {0};
+    char more[64] = {0};
+    memcpy(more, format, strlen(format));
+    memcpy(more + strlen(format) + 1, "beyond", sizeof "beyond");
+    format_any(&text, more, value);
+    assert_string_equal(text.bytes, wanted);
+}
+
+TEST(numbers_of_the_language)
+{
+    expect_spoken("%'.1f m", 1.25, "1.2 m");
+    expect_spoken("%'+8.3g|", 2.5, "    +2.5|");
+    expect_spoken("%%' of %.1f", 2, "%' of 2.0");
+    expect_spoken("%%'", 2, "%'");
+    expect_spoken("%.1f %%'!", 2, "2.0 %'!");
+}
+
 TEST(no_word_is_near_a_long_one)
 {
     char word[65] = {0};

@@ -6,6 +6,7 @@
 #include "base/elementary.h"
 #include "ceduo/assess.h"
 #include "ceduo/variants.h"
+#include "check.h"
 
 static struct ceduo_number scaled(struct ceduo_number n, double factor)
 {
@@ -90,12 +91,24 @@ static enum ceduo_status read_size(void *context, size_t i, struct ceduo_run *ru
     return ceduo_run_arrivals(run, def->control, &r->blocks[i].arrivals);
 }
 
+struct ceduo_blocks_def ceduo_blocks_def_default(const struct ceduo_scene *scene)
+{
+    return (struct ceduo_blocks_def){.scene = scene,
+                                     .option = scene->options,
+                                     .control = ceduo_scene_last_control(scene),
+                                     .rocks = scene->simulation.rocks,
+                                     .effort = INFINITY,
+                                     .threads = 1};
+}
+
 enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_block blocks[CEDUO_BLOCKS])
 {
     static const double volumes[CEDUO_BLOCKS - 1] = {0.05, 0.2, 1, 5};
     struct ceduo_rock mean;
     size_t own = 0; /* its place among them, which rise */
-    enum ceduo_status status = ceduo_rock_of_means(&def->scene->rock, &mean);
+    enum ceduo_status status = ceduo_check_blocks_def(def);
+    if (status == CEDUO_OK)
+        status = ceduo_rock_of_means(&def->scene->rock, &mean);
     if (status != CEDUO_OK)
         return status;
     while (own < CEDUO_BLOCKS - 1 && !(mean.volume <= volumes[own]))

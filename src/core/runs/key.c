@@ -22,6 +22,7 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
         uint64_t word = 0;
         size_t n;
         char *items;
+        double *doubles, number;
         memcpy(&n, item + f->beside, sizeof n);
         switch (f->type) {
         case FIELD_GROUP:
@@ -36,13 +37,14 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
         case FIELD_NUMBERS:
         case FIELD_POINTS:
             hash_count(key, n);
-            for (size_t k = 0; k < f->size; k += sizeof items) {
-                memcpy(&items, at + k, sizeof items);
-                hash_doubles(key, items, n);
+            for (size_t k = 0; k < f->size; k += sizeof doubles) {
+                memcpy(&doubles, at + k, sizeof doubles);
+                hash_doubles(key, doubles, n);
             }
             break;
         case FIELD_NUMBER:
-            hash_doubles(key, at, 1);
+            memcpy(&number, at, sizeof number);
+            hash_double(key, number);
             break;
         case FIELD_SPREAD:
         case FIELD_SPREADS:
@@ -52,9 +54,17 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
                 hash_count(key, numbers[i].spread > 0 ? (uint64_t)numbers[i].kind : 0);
             }
             break;
-        default:
+        case FIELD_COUNT:
+        case FIELD_CHOICE:
+        case FIELD_FLAG:
             memcpy(&word, at, f->size);
             hash_count(key, word);
+            break;
+        case FIELD_TAG: /* pointers: fields.h lets no such row come here */
+        case FIELD_TEXT:
+        case FIELD_FILE:
+        case FIELD_WORDS:
+            break;
         }
     }
 }

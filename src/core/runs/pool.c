@@ -8,6 +8,7 @@
 #include "base/grow.h"
 #include "ceduo/key.h"
 #include "ceduo/other.h"
+#include "check.h"
 
 struct pooled {
     uint64_t key;
@@ -31,7 +32,7 @@ struct ceduo_pool {
 enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct ceduo_pool **out)
 {
     *out = NULL;
-    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
+    enum ceduo_status status = ceduo_check_run_def(def);
     if (status != CEDUO_OK)
         return status;
     struct ceduo_pool *pool = calloc(1, sizeof *pool);

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "check.h"
+
 struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene)
 {
     return (struct ceduo_question){
@@ -73,13 +75,16 @@ static enum ceduo_status simulate_sizes(const struct ceduo_question *q, const st
 
 enum ceduo_status ceduo_ask(const struct ceduo_question *q, struct ceduo_pool **kept, struct ceduo_answer *a)
 {
+    *a = (struct ceduo_answer){0};
+    enum ceduo_status status = ceduo_check_question(q);
+    if (status != CEDUO_OK)
+        return status;
     const struct ceduo_scene *scene = q->run.scene;
     struct ceduo_pool *own = NULL, **pool = kept ? kept : &own;
     struct ceduo_run *run;
     struct ceduo_run_def def = q->run;
-    *a = (struct ceduo_answer){0};
     def.rocks_most = def.rocks_most < q->rocks ? q->rocks : def.rocks_most;
-    enum ceduo_status status = ceduo_pool_for(&def, pool);
+    status = ceduo_pool_for(&def, pool);
     if (status == CEDUO_OK && q->only != CEDUO_ALL_OPTIONS) {
         if (q->rocks > 0)
             status = ceduo_pool_simulate(*pool, &scene->options[q->only], q->rocks, &run);

@@ -212,6 +212,8 @@ void ceduo_result_free(struct ceduo_result *result)
 
 const struct ceduo_arrivals *ceduo_result_wooded(const struct ceduo_result *result, size_t option, size_t control)
 {
+    if (option >= result->options_count || control >= result->bare.controls)
+        return NULL;
     const struct ceduo_simulated *f = &result->options[option].wooded;
     return result->wooded && f->rocks > 0 ? &f->arrivals[control] : NULL;
 }

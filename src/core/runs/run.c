@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "check.h"
 #include "core/walk/kernel.h"
 #include "core/walk/walk.h"
 #include "run_state.h"
@@ -49,7 +50,7 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
 enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo_run **out)
 {
     *out = NULL;
-    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
+    enum ceduo_status status = ceduo_check_run_def(def);
     if (status != CEDUO_OK)
         return status;
     struct ceduo_run *run = calloc(1, sizeof *run);

@@ -202,6 +202,9 @@ double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_co
 
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
 {
+    *a = (struct ceduo_arrivals){0};
+    if (control >= run->controls)
+        return CEDUO_BAD_ARGUMENT;
     struct sums s = ceduo_run_sums_at(run, control);
     *a = (struct ceduo_arrivals){.released = run->rocks,
                                  .reached = s.of[SPEED].n,
@@ -260,8 +263,13 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
 
 void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_brief *briefs)
 {
-    double accepted = run->ready.scene.controls[control].accepted;
+    bool known = control < run->controls;
+    double accepted = known ? run->ready.scene.controls[control].accepted : NAN;
     for (size_t g = 0; g < groups; g++) {
+        if (!known) {
+            briefs[g] = (struct ceduo_brief){NAN, NAN, NAN, NAN};
+            continue;
+        }
         double all = 0, reached = 0, exceeded = 0, sum = 0;
         for (uint64_t r = run->rocks * g / groups; r < run->rocks * (g + 1) / groups; r++) {
             double energy = ceduo_run_sample_energy(run, control, r), w = run->sized ? run->weights[r] : 1;
@@ -279,6 +287,10 @@ void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups
 
 void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se)
 {
+    *reached = 0;
+    *mean = *se = NAN;
+    if (control >= run->controls)
+        return;
     const struct sums s = ceduo_run_sums_at(run, control);
     *reached = s.of[ENERGY].n;
     *mean = *reached > 0 ? s.of[ENERGY].mean : NAN;
@@ -322,7 +334,8 @@ struct ceduo_difference ceduo_no_difference(double accepted)
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control)
 {
     bool alike = run && baseline && run->rocks == baseline->rocks;
-    if (!run || !baseline || run->rocks == 0 || baseline->rocks == 0 || (!alike && !(run->exact && baseline->exact)))
+    if (!run || !baseline || run->rocks == 0 || baseline->rocks == 0 || control >= run->controls ||
+        control >= baseline->controls || (!alike && !(run->exact && baseline->exact)))
         return (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
     const struct ceduo_control *at = &run->ready.scene.controls[control];
     if (alike && (run == baseline || (run->stems_from >= at->x && baseline->stems_from >= at->x)))
@@ -355,6 +368,8 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
 
 uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t max)
 {
+    if (control >= run->controls)
+        return 0;
     double accepted = run->ready.scene.controls[control].accepted;
     uint64_t rocks = paired_rocks(run);
     rocks = rocks < max ? rocks : max;
@@ -414,7 +429,9 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
 
 void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_envelope *envelope)
 {
-    ceduo_envelope_read(&run->cells[cell], envelope);
+    *envelope = (struct ceduo_envelope){0};
+    if (cell < run->def.cells)
+        ceduo_envelope_read(&run->cells[cell], envelope);
 }
 
 const double *ceduo_run_weights(const struct ceduo_run *run)
@@ -426,7 +443,7 @@ size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *t
 {
     double all = 0, before = 0;
     size_t reached = 0, n = 0;
-    uint64_t rocks = run->room > 0 ? run->rocks : 0;
+    uint64_t rocks = run->room > 0 && control < run->controls ? run->rocks : 0;
     for (uint64_t r = 0; r < rocks; r++)
         if (!isnan(ceduo_run_sample_energy(run, control, r))) {
             all += run->sized ? run->weights[r] : 1;
@@ -448,6 +465,8 @@ size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *t
 
 bool ceduo_run_values(const struct ceduo_run *run, size_t control, enum ceduo_sample what, double *to)
 {
+    if (what != CEDUO_SAMPLE_STOP && control >= run->controls)
+        return false;
     const double *kept =
         what == CEDUO_SAMPLE_STOP ? stops_of(run) : samples_of(run, control, what == CEDUO_SAMPLE_HEIGHT ? HEIGHT : SPEED);
     for (uint64_t r = 0; run->exact && r < run->rocks; r++)

@@ -7,7 +7,9 @@
 
 #include "base/parallel.h"
 #include "ceduo/variants.h"
+#include "core/runs/check.h"
 #include "core/runs/weighted.h"
+#include "core/walk/random.h"
 
 /* ---- windows ---- */
 
@@ -106,11 +108,16 @@ enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const stru
                                      struct ceduo_window window, struct ceduo_years **out)
 {
     *out = NULL;
+    enum ceduo_status status = ceduo_check_window(window);
+    if (status == CEDUO_OK)
+        status = ceduo_check_stands(option);
+    if (status != CEDUO_OK)
+        return status;
     struct ceduo_years *years = calloc(1, sizeof *years);
     size_t n = (window.last - window.first) / window.step + 1;
     if (years)
         years->years = calloc(n, sizeof *years->years);
-    enum ceduo_status status = years && years->years ? CEDUO_OK : CEDUO_NO_MEMORY;
+    status = years && years->years ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK) {
         years->scene = *scene;
         years->window = window;
@@ -244,19 +251,32 @@ struct apart {
     uint64_t rocks;
     struct ceduo_scene *scenes;
     struct ceduo_run **runs;
+    struct talk talk;
 };
+
+/* The years are simulated at the same time. */
+static void report_year(void *context, uint64_t rocks)
+{
+    struct apart *a = context;
+    if (!ceduo_talk_begin(&a->talk))
+        return;
+    a->def.progress(a->def.context, rocks);
+    ceduo_talk_end(&a->talk);
+}
 
 /* Options have the same rocks in years that are as far into their rotations: what differs between them is their forests. */
 static int simulate_apart(void *context, size_t i, size_t worker)
 {
-    const struct apart *a = context;
+    struct apart *a = context;
     struct ceduo_scene *scene = &a->scenes[i];
     struct ceduo_run_def def = a->def;
     (void)worker;
     *scene = a->years->scene;
     def.scene = scene;
     def.option = &a->years->years[i].option;
-    scene->simulation.seed += ((uint64_t)i + 1) << 53; /* which no seed of a scene reaches */
+    scene->simulation.seed = random_seed(scene->simulation.seed, VARIANT_YEAR, i);
+    def.progress = a->def.progress ? report_year : NULL;
+    def.context = a;
     enum ceduo_status status = ceduo_run_create(&def, &a->runs[i]);
     if (status == CEDUO_OK)
         status = ceduo_run_extend(a->runs[i], a->rocks);
@@ -266,7 +286,11 @@ static int simulate_apart(void *context, size_t i, size_t worker)
 enum ceduo_status ceduo_years_simulate_apart(struct ceduo_years *years, const struct ceduo_run_def *def,
                                              const struct ceduo_simulated *bare, uint64_t rocks)
 {
-    struct apart a = {years, *def, rocks, calloc(years->count, sizeof *a.scenes), calloc(years->count, sizeof *a.runs)};
+    struct apart a = {.years = years,
+                      .def = *def,
+                      .rocks = rocks,
+                      .scenes = calloc(years->count, sizeof *a.scenes),
+                      .runs = calloc(years->count, sizeof *a.runs)};
     struct years_run r = {.years = years, .bare = bare, .rocks = rocks};
     a.def.threads = 1;
     a.def.rocks_most = rocks;
@@ -309,6 +333,10 @@ static struct ceduo_paired weighted_difference(const struct ceduo_years *years, 
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
 {
     struct ceduo_years_summary s = {.years = years->count, .worst = NAN};
+    if (control >= years->scene.controls_count) {
+        s.nothing = true;
+        return s;
+    }
     bool simulates = years->scene.simulation.contact_model != CEDUO_INDEX;
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *y = &years->years[i];

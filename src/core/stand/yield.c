@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/runs/check.h"
+
 /* ---- one stand ---- */
 
 double ceduo_stand_volume(const struct ceduo_stand *stand)
@@ -106,8 +108,10 @@ static enum ceduo_status list_fellings(const struct ceduo_option *option, unsign
 enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield)
 {
     double length = 0, felled = 0, died = 0, standing = 0, today = 0;
-    enum ceduo_status status = CEDUO_OK;
+    enum ceduo_status status = last <= CEDUO_YEAR_MOST ? ceduo_check_stands(option) : CEDUO_BAD_ARGUMENT;
     *yield = (struct ceduo_yield){0};
+    if (status != CEDUO_OK)
+        return status;
     for (size_t i = 0; i < option->belts_count && status == CEDUO_OK; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         double metres = belt->to - belt->from, rotation = belt->stand.cutting.rotation;

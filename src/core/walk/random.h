@@ -7,19 +7,27 @@
 /* What a random number is for. A number depends on seed, rock, event and kind, on nothing else. */
 enum random_kind {
     RANDOM_FACET,
-    RANDOM_RELEASE, /* events: x, height, vx, vz, spin */
-    RANDOM_ROCK,    /* events: diameter, height, volume, mass, density, axes */
-    RANDOM_GROUND,  /* events: Rn, Rt */
-    RANDOM_STEM,    /* of a stool or tree: its gap, offset, mark and turn; events: stream, side, number */
-    RANDOM_SHOOT,   /* cohorts of four shoots of a stool; which four from bit 8 on */
-    RANDOM_DBH,     /* a stem's diameter; the shoot's number from bit 8 on, and from bit 32 on how many were used */
-    RANDOM_SECTION, /* which section of a rock meets the ground, of law arm */
-    RANDOM_TURN,    /* how it is turned at a contact */
-    RANDOM_SIZE,    /* where the sequence of sizes starts, of no rock */
-    RANDOM_GROUP,   /* where a tree of a group stands; its number from bit 8 on */
-    RANDOM_POINT,   /* where a study looks: rows and columns in the place of rocks and events */
-    RANDOM_SAMPLE,  /* of its bootstrap likewise: samples and points */
-    RANDOM_SEQUENCE /* numbers one after the other: streams and numbers */
+    RANDOM_RELEASE,  /* events: x, height, vx, vz, spin */
+    RANDOM_ROCK,     /* events: diameter, height, volume, mass, density, axes */
+    RANDOM_GROUND,   /* events: Rn, Rt */
+    RANDOM_STEM,     /* of a stool or tree: its gap, offset, mark and turn; events: stream, side, number */
+    RANDOM_SHOOT,    /* cohorts of four shoots of a stool; which four from bit 8 on */
+    RANDOM_DBH,      /* a stem's diameter; the shoot's number from bit 8 on, and from bit 32 on how many were used */
+    RANDOM_SECTION,  /* which section of a rock meets the ground, of law arm */
+    RANDOM_TURN,     /* how it is turned at a contact */
+    RANDOM_SIZE,     /* where the sequence of sizes starts, of no rock */
+    RANDOM_GROUP,    /* where a tree of a group stands; its number from bit 8 on */
+    RANDOM_POINT,    /* where a study looks: rows and columns in the place of rocks and events */
+    RANDOM_SAMPLE,   /* of its bootstrap likewise: samples and points */
+    RANDOM_SEQUENCE, /* numbers one after the other: streams and numbers */
+    RANDOM_SEED      /* seeds of variants of a scene, random_seed() */
+};
+
+/* What a variant of a scene is for that has rocks of its own. */
+enum random_variant {
+    VARIANT_YEAR,       /* a year of a window, by its place in the window */
+    VARIANT_POINT_YEAR, /* a year at each point of a study */
+    VARIANT_PREDICTION  /* predictions of a fit */
 };
 
 #define HALF_TURN 3.141592653589793 /* rad */
@@ -59,6 +67,14 @@ static inline struct random_pair random_pair(uint64_t seed, uint64_t rock, uint6
     uint64_t bits[2];
     random_bits(seed, rock, event, kind, bits);
     return (struct random_pair){{(double)(bits[0] >> 11) * 0x1p-53, (double)(bits[1] >> 11) * 0x1p-53}};
+}
+
+/* The seed of variant `number` of a scene with this seed. Different seeds, variants and numbers have unrelated seeds. */
+static inline uint64_t random_seed(uint64_t seed, enum random_variant variant, uint64_t number)
+{
+    uint64_t bits[2];
+    random_bits(seed, variant, number, RANDOM_SEED, bits);
+    return bits[0];
 }
 
 /* One number of kind `kind`; never 0, so that every quantile of it is finite. */

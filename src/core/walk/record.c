@@ -9,6 +9,7 @@
 #include "base/cancel.h"
 #include "base/grow.h"
 #include "base/real.h"
+#include "core/runs/check.h"
 
 /* Sums along a stretch; they become means at the end. */
 struct along {
@@ -178,9 +179,18 @@ static enum ceduo_status record_rock(struct recorder *r, struct ceduo_follower *
     return CEDUO_OK;
 }
 
+struct ceduo_record_def ceduo_record_def_default(const struct ceduo_scene *scene)
+{
+    return (struct ceduo_record_def){.scene = scene, .rocks = scene->simulation.rocks};
+}
+
 enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_record *record)
 {
     struct recorder r = {.def = def, .record = record};
+    *record = (struct ceduo_record){0};
+    enum ceduo_status status = ceduo_check_record_def(def);
+    if (status != CEDUO_OK)
+        return status;
     struct ceduo_follower *follower = ceduo_follower_create(def->scene, def->option);
     size_t n = (size_t)def->rocks;
     *record = (struct ceduo_record){.rocks_count = def->rocks};
@@ -189,7 +199,7 @@ enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_
     record->means = calloc(n * def->stretches_count + 1, sizeof *record->means);
     r.along = calloc(def->stretches_count + 1, sizeof *r.along);
     bool ready = follower && record->rocks && record->crossings && record->means && r.along;
-    enum ceduo_status status = ready ? CEDUO_OK : CEDUO_NO_MEMORY;
+    status = ready ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (uint64_t i = 0; status == CEDUO_OK && i < def->rocks; i++)
         status = record_rock(&r, follower, i);
     free(r.along);

@@ -25,11 +25,19 @@ struct stem_energy ceduo_stem_energy(const struct ceduo_stand *stand, const stru
     return e;
 }
 
+static void hash_volume(uint64_t *hash, const struct stem_volume *v)
+{
+    size_t count;
+    hash_each(hash, v->given, v->squares, v->dbh, v->height);
+    _Static_assert(offsetof(struct stem_volume, species) == 4 * sizeof(double), "all numbers are hashed");
+    hash_count(hash, v->species ? (uint64_t)(v->species - ceduo_species_list(&count)) + 1 : 0);
+}
+
 void ceduo_stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
 {
     hash_count(hash, (uint64_t)e->model);
-    hash_doubles(hash, &e->volume, sizeof e->volume / sizeof(double));
-    hash_doubles(hash, e->of, sizeof e->of / sizeof(double));
+    hash_volume(hash, &e->volume);
+    hash_array(hash, e->of);
 }
 
 double ceduo_stem_energy_mean(const struct stem_energy *e)

@@ -271,8 +271,10 @@ bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, 
         for (size_t k = 0; k < kinds; k++) {
             struct wood_kind kind;
             const struct wood_stratum stratum = stratum_of(stand, k, &kind);
-            hash_doubles(hash, &stratum, offsetof(struct wood_stratum, kind) / sizeof(double));
-            hash_doubles(hash, &kind, offsetof(struct wood_kind, most) / sizeof(double));
+            hash_each(hash, stratum.still, stratum.per_b);
+            _Static_assert(offsetof(struct wood_stratum, kind) == 2 * sizeof(double), "all numbers before it are hashed");
+            hash_each(hash, kind.dbh, kind.height, kind.below, kind.energy, kind.shape, kind.scale, kind.share_to);
+            _Static_assert(offsetof(struct wood_kind, most) == 7 * sizeof(double), "all numbers before it are hashed");
             if (isnan(kind.energy))
                 ceduo_stem_energy_hash(hash, &kind.by_hit);
             hash_count(hash, stratum.group);

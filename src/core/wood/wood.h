@@ -9,7 +9,7 @@
 
 /* Stems of one kind as rocks meet them: a cohort of shoots, a class of trees, stumps or logs. */
 struct wood_kind {
-    /* Doubles that decide what a rock meets: they go into the key of the forest as they stand. */
+    /* Doubles that decide what a rock meets: ceduo_wood_hash() lists them. */
     double dbh;          /* m, mean; NaN: a log */
     double height;       /* m */
     double below;        /* m: a hit takes nothing where the rock's centre is higher; infinite: any takes */

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "check.h"
+
+#include <math.h>
+
+#include "scene/schema.h"
+
+enum ceduo_status ceduo_check_scene(const struct ceduo_scene *scene)
+{
+    return scene ? ceduo_scene_check(scene, NULL) : CEDUO_BAD_ARGUMENT;
+}
+
+enum ceduo_status ceduo_check_window(struct ceduo_window w)
+{
+    bool good = w.step > 0 && w.first <= w.last && w.last <= CEDUO_YEAR_MOST;
+    return good && (w.last - w.first) / w.step < CEDUO_YEARS_MOST ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
+}
+
+static bool cells_rise(const struct ceduo_run_def *def)
+{
+    bool good = def->cells == 0 || def->cell_x;
+    for (size_t i = 0; good && i < def->cells; i++)
+        good = isfinite(def->cell_x[i]) && (i == 0 || def->cell_x[i] >= def->cell_x[i - 1]);
+    return good;
+}
+
+/* True if the lists of an option are there, which may be none of the scene's: of a year its numbers may be any. */
+static bool has_lists(const struct ceduo_option *option)
+{
+    bool good = !option || option->belts || option->belts_count == 0;
+    for (size_t i = 0; good && option && i < option->belts_count; i++) {
+        const struct ceduo_stand *s = &option->belts[i].stand;
+        good = (s->shoots || s->shoots_count == 0) && (s->trees || s->trees_count == 0);
+    }
+    return good;
+}
+
+/* True if a run of the scene may be made so. */
+static bool is_run_good(const struct ceduo_run_def *def)
+{
+    return def->rocks_most <= CEDUO_ROCKS_MOST && def->threads <= CEDUO_THREADS_MOST && def->kernel <= CEDUO_KERNEL_AVX512 &&
+           cells_rise(def) && has_lists(def->option);
+}
+
+enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def)
+{
+    enum ceduo_status status = ceduo_check_scene(def->scene);
+    return status == CEDUO_OK && !is_run_good(def) ? CEDUO_BAD_ARGUMENT : status;
+}
+
+enum ceduo_status ceduo_check_question(const struct ceduo_question *q)
+{
+    enum ceduo_status status = ceduo_check_run_def(&q->run);
+    if (status != CEDUO_OK)
+        return status;
+    size_t options = q->run.scene->options_count;
+    bool good = options > 0 && q->rocks <= CEDUO_ROCKS_MOST && (q->only == CEDUO_ALL_OPTIONS || q->only < options);
+    return good && (q->window.step == 0 || ceduo_check_window(q->window) == CEDUO_OK) ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
+}
+
+enum ceduo_status ceduo_check_blocks_def(const struct ceduo_blocks_def *def)
+{
+    enum ceduo_status status = ceduo_check_scene(def->scene);
+    bool good = def->option && status == CEDUO_OK && def->control < def->scene->controls_count &&
+                def->rocks <= CEDUO_ROCKS_MOST && def->threads <= CEDUO_THREADS_MOST;
+    return status == CEDUO_OK ? good ? ceduo_check_stands(def->option) : CEDUO_BAD_ARGUMENT : status;
+}
+
+enum ceduo_status ceduo_check_record_def(const struct ceduo_record_def *def)
+{
+    enum ceduo_status status = ceduo_check_scene(def->scene);
+    bool good = def->rocks <= CEDUO_ROCKS_MOST && (def->stretches || def->stretches_count == 0) && has_lists(def->option);
+    return status == CEDUO_OK && !good ? CEDUO_BAD_ARGUMENT : status;
+}
+
+enum ceduo_status ceduo_check_stands(const struct ceduo_option *option)
+{
+    bool good = option->belts || option->belts_count == 0;
+    for (size_t i = 0; good && i < option->belts_count; i++)
+        if (!ceduo_schema_holds(ceduo_schema_stand(), &option->belts[i].stand))
+            return CEDUO_BAD_STAND;
+    return good ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
+}
