@@ -54,7 +54,9 @@ static uint64_t random_number(void)
         return number;
     struct timespec now;
     clock_gettime(CLOCK_REALTIME, &now);
-    number = hash_bytes(&now, sizeof now);
+    number = HASH_START;
+    hash_count(&number, (uint64_t)now.tv_sec);
+    hash_count(&number, (uint64_t)now.tv_nsec);
     hash_count(&number, (uint64_t)getpid());
     return number;
 }
