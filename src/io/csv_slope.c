@@ -121,8 +121,8 @@ static bool read_coordinate(struct reader *r, enum column c, double *value)
     char text[CSV_NUMERAL_CAPACITY];
     if (c == ELEVATION && ceduo_csv_numeral(&r->csv, cell, text) == CSV_NUMERAL_GOOD &&
         (ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE || is_no_data(*value)))
-        return ceduo_csv_complain(&r->csv, cell, _("'%s' stands for no data; remove the row, or fill the gap in the terrain model"),
-                                  text);
+        return ceduo_csv_complain(&r->csv, cell,
+                                  _("'%s' stands for no data; remove the row, or fill the gap in the terrain model"), text);
     return ceduo_csv_number(&r->csv, cell, vertex->lo, vertex->hi, "m", value);
 }
 
@@ -505,9 +505,9 @@ static bool check_heights(struct reader *r)
         bool jumps = stands_for && (i == 0 || is_jump(&r->raw[i - 1], &r->raw[i])) &&
                      (last + 1 == r->n || is_jump(&r->raw[last], &r->raw[last + 1]));
         for (size_t k = i; jumps && k <= last; k++)
-            refuse_at(
-                r, &r->raw[k],
-                _("a height of 0 or 9999 among others stands for no data; remove the row, or fill the gap in the terrain model"));
+            refuse_at(r, &r->raw[k],
+                      _("a height of 0 or 9999 among others stands for no data; remove the row, or fill the gap in the terrain "
+                        "model"));
         if (i == 0 || last != i || i + 1 == r->n)
             continue;
         double up = r->raw[i].z - r->raw[i - 1].z, down = r->raw[i].z - r->raw[i + 1].z;

@@ -58,7 +58,7 @@ void ceduo_popup_offer_files(struct app *app, struct popup *popup);
 #define STAND_SURVEY  _("from a survey")      /* what a CSV file of plots holds */
 /* Replace the stand of the belt shown. Says which growth and cutting are dropped, and that the year of its cut stays. */
 bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *value);
-void ceduo_popup_survey(struct app *app);     /* asks for that file */
+void ceduo_popup_survey(struct app *app); /* asks for that file */
 
 /* A scene of nothing but the stand, with the rock of this one; false if it is no stand. The caller releases `file` in any case. */
 bool ceduo_popup_read_stand(const struct app *app, const char *value, struct scene_file *file);
