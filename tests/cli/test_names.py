@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Names that could mean several things: refused and said, or taken by a fixed order."""
+import json
+import os
 import sys
 from pathlib import Path
 
@@ -81,6 +83,37 @@ def test_names_with_signs():
         refused(path, "options[7].forest=[]", "'7': no such item")
         run = result(path, "-n", 1, "-s", "options[0].name=first")
         expect_equal([o["name"] for o in run["options"]], ["first", *names[1:]], "0 is the place")
+
+
+def test_name_with_a_number_sign():
+    """A '#' in a name begins no comment: in a path of -s, of --find, of a row of a table and of what is not known"""
+    name = "road #2"
+    with Folder() as f:
+        place = f"controls[{name}].accepted_kJ"
+        doubt = [{"path": place, "lo": 40, "hi": 60}, {"path": "rock.density_kg_m3", "lo": 2500, "hi": 2700}]
+        path = f.write("s.yaml", scene(controls=[{"x_m": 70, "name": name, "accepted_kJ": 50}], doubt=doubt))
+        for change, wanted in ((f"{place}=70", (name, 70)), (f'controls[{name}].name="way #3"', ("way #3", 50))):
+            control = result("-n", 5, "-s", change, path)["options"][0]["controls"][0]
+            expect_equal((control["name"], control["accepted_kJ"]), wanted, change)
+        figures = good("--sensitivity=16", "-n", 20, "-f", "json", path).json()[0]["figures"]
+        expect(any(i["path"] == place for f in figures for i in f["inputs"]), figures)
+        found = good("--find", f"{place}=1:1e5", "--goal", "exceed=0.5", "-n", 20, "-f", "json", path).json()[0]
+        expect_equal(found["path"], place)
+        table = f.write("t.csv", f"{place}\n60\n80\n")
+        rows = good("-b", "--each", table, "-n", 5, "-f", "json", path).json()
+        expect_equal([r["options"][0]["controls"][0]["accepted_kJ"] for r in rows], [60, 80])
+
+
+def test_file_that_is_no_utf8():
+    """JSON is UTF-8 whatever the name of a file: what is none becomes U+FFFD"""
+    with Folder() as f:
+        plain = f.write("s.yaml", scene(doubt=[{"path": "rock.density_kg_m3", "lo": 2500, "hi": 2700}]))
+        odd = os.fsencode(f.path) + b"/x\xff\xed\xa0\xbd.yaml"
+        Path(os.fsdecode(odd)).write_bytes(Path(plain).read_bytes())
+        for words in (("-b",), ("--sensitivity=16",), ("--find", "controls[0].x_m=61:79", "--goal", "arrive=0.5")):
+            done = good(*words, "-n", 20, "-f", "json", os.fsdecode(odd))
+            names = [r["scene"] for r in (json.loads(line) for line in done.out_bytes.decode("utf-8").splitlines())]
+            expect(len(names) == 1 and names[0].endswith("/x\ufffd\ufffd\ufffd\ufffd.yaml"), words, names)
 
 
 def test_find_by_name():
