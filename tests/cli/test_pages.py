@@ -31,6 +31,9 @@ def shown(text):
     return plain(re.sub(r"\\\[u([0-9A-F]{4})\]", lambda m: chr(int(m[1], 16)), text))
 
 
+UNDERSTOOD = r"[\w.-]+: (columns that are set: |colonne impostate: |\d+ plots |\d+ saggi )"  # how a table was read, on standard error
+
+
 def played(page, **more):
     """Mark, name and text of each display of a page, and what its commands print."""
     with Folder() as work, Machine() as machine:
@@ -39,7 +42,8 @@ def played(page, **more):
             what, name, body = m[1], (m[2] or "").strip(), shown(m[4])
             if what == "run":
                 done = machine.run(body, work.path, **more)
-                expect(done.returncode == 0 and not done.stderr, f"{page.name}:", body, f"status {done.returncode}", done.stderr)
+                others = [line for line in done.stderr.splitlines() if not re.match(UNDERSTOOD, line)]
+                expect(done.returncode == 0 and not others, f"{page.name}:", body, f"status {done.returncode}", done.stderr)
                 printed = done.stdout
             elif what == "file":
                 work.write(name, body)
