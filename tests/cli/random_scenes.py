@@ -379,12 +379,17 @@ class Maker:
         self.case.used |= {"slope.materials[].from_m", "slope.materials[].to_m"}
         return rows
 
-    def csv(self, xs, zs):
+    def csv(self, xs, zs, layers):
+        """A table of the profile; with layers, after another line."""
         sign = self.rng.choice([",", ";", "\t"])
         head = self.rng.choice(["distance{}elevation", "Distance{}Elevation", "x{}z"]).format(sign)
         end = self.rng.choice(["\n", "\r\n"])
         name = f"s{self.index}.csv"
-        self.case.files[name] = end.join([head, *(f"{x!r}{sign}{z!r}" for x, z in zip(xs, zs)), ""])
+        rows = [f"{x!r}{sign}{z!r}" for x, z in zip(xs, zs)]
+        if layers:
+            others = [f"{x!r}{sign}{z + 1!r}" for x, z in zip(xs, zs)]
+            head, rows = f"layer{sign}{head}", [f"{layer}{sign}{row}" for layer, line in zip(layers, (others, rows)) for row in line]
+        self.case.files[name] = end.join([head, *rows, ""])
         return name
 
     def slope(self):
@@ -397,8 +402,12 @@ class Maker:
             self.case.used.add("slope.reversed")
             self.case.xs, self.case.zs = [xs[0] + xs[-1] - x for x in reversed(xs)], zs[::-1]
         if self.chance(0.15):
-            slope["csv"] = self.csv(xs, zs)
+            layers = ("crown", "ground") if self.chance(0.3) else ()
+            slope["csv"] = self.csv(xs, zs, layers)
             self.case.used.add("slope.csv")
+            if layers:
+                slope["layer"] = layers[1]
+                self.case.used.add("slope.layer")
             if len(slope) == 1 and self.chance(0.3):
                 self.case.tolerance = TOLERANCE
                 return slope["csv"]  # on talus
@@ -410,7 +419,7 @@ class Maker:
         else:
             slope["segments"] = [self.segment() for _ in range(1 if self.chance(0.4) else len(xs) - 1)]
         each = len(slope.get("segments", [])) > 1  # has a ground of its own: its points are all kept
-        self.fill(self.table.tree["slope"], slope, ("segments", "materials", "reversed", *["tolerance_m"] * each))
+        self.fill(self.table.tree["slope"], slope, ("segments", "materials", "reversed", "layer", *["tolerance_m"] * each))
         self.case.tolerance = slope.get("tolerance_m", 0 if "segments" in slope else TOLERANCE)
         if self.chance(0.1):
             name = f"s{self.index}-slope.yaml"

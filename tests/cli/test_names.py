@@ -100,7 +100,7 @@ def test_name_with_a_number_sign():
         found = good("--find", f"{place}=1:1e5", "--goal", "exceed=0.5", "-n", 20, "-f", "json", path).json()[0]
         expect_equal(found["path"], place)
         table = f.write("t.csv", f"{place}\n60\n80\n")
-        rows = good("-b", "--each", table, "-n", 5, "-f", "json", path).json()
+        rows = good("-b", "-q", "--each", table, "-n", 5, "-f", "json", path).json()
         expect_equal([r["options"][0]["controls"][0]["accepted_kJ"] for r in rows], [60, 80])
 
 
