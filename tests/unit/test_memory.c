@@ -373,7 +373,7 @@ TEST(a_place_that_is_not_there)
     struct ceduo_doubt_def def = doubt_def(2, 8);
     def.inputs = &input;
     def.inputs_count = 1;
-    assert_int_equal(ask_doubt(def), CEDUO_BAD_SLOPE);
+    assert_int_equal(ask_doubt(def), CEDUO_BAD_PLACE);
 }
 
 /* Points enough for all terms, but not for all products, so that inputs are ranked; and what the terms tell little of, so that
