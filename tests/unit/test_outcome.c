@@ -227,6 +227,7 @@ TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
     scene.controls = two;
     scene.controls_count = 2;
     result.bare.arrivals = bares;
+    result.bare.controls = 2;
     option_result.wooded.arrivals = woodeds;
     choice.ahead = aheads;
     result.last_control = subject.control = 1;
