@@ -47,7 +47,7 @@ struct ceduo_calibration_def {
     uint64_t rocks;          /* of each evaluation and setting */
     uint64_t seed;
     unsigned threads;         /* at most CEDUO_THREADS_MOST; 0: one */
-    size_t steps_most;        /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: as many as is usual */
+    size_t steps_most;        /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: the usual number */
     const ceduo_flag *cancel; /* may be NULL */
     void (*progress)(void *context, const struct ceduo_calibration_state *state); /* may be NULL; by one thread at a time */
     void *context;

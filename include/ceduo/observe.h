@@ -122,7 +122,7 @@ double ceduo_classes_deviance(const double *seen, const double *simulated, size_
 /* Observations made ready: what differs in nothing but what was seen of it shares its rocks. */
 struct ceduo_observer;
 
-/* What the observations point to must outlive it. CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK. */
+/* The lists of the observations must outlive the observer. CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK. */
 enum ceduo_status ceduo_observer_create(const struct ceduo_observation *observations, size_t n,
                                         struct ceduo_observer **observer);
 void ceduo_observer_free(struct ceduo_observer *observer);

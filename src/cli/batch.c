@@ -93,20 +93,15 @@ static void put_verdicts(struct text *text, const struct arguments *a, const siz
     ceduo_text_free(&pages);
 }
 
-/* Add what was understood of each table. The notes are kept last first. */
-static void add_tables(const struct source_note *note, struct text *out)
+static void add_line(void *out, const char *line)
 {
-    if (!note)
-        return;
-    add_tables(note->before, out);
-    if (strcmp(note->kind, CEDUO_NOTE_TABLE) == 0)
-        ceduo_text_format(out, "%s\n", note->text);
+    ceduo_text_format(out, "%s\n", line);
 }
 
 static enum exit_status check(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     if (!a->quiet)
-        add_tables(file->notes, out);
+        ceduo_notes_each(file->notes, CEDUO_NOTE_TABLE, add_line, out);
     ceduo_batch_warn(a, file, true);
     return EXIT_DONE;
 }

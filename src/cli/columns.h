@@ -10,7 +10,7 @@ struct csv_span {
     size_t n;
 };
 
-/* Columns of CSV: the copied cells of --each, then those of the result, of which --columns chooses. */
+/* Columns of CSV: the copied cells of --each, then the cells of the result. --columns chooses among both. */
 struct columns {
     struct each *each;
     size_t count;   /* copied columns and those of the result */

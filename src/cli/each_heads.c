@@ -32,7 +32,7 @@ static bool is_everyday(const char *pattern, const char *key, enum path_value ki
     return kind == PATH_TEXT || kind == PATH_FILE || (part && !strchr(key, '_'));
 }
 
-/* Append a pattern with another text in each of its brackets: what stands in those of `from`, then 0. */
+/* Return a pattern with each of its brackets filled: with the text in the brackets of `from`, then with 0. */
 static const char *fill_brackets(struct arena *arena, const char *pattern, const char *from)
 {
     LOCAL_TEXT(path);

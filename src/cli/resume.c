@@ -182,7 +182,7 @@ static bool append(int fd, size_t end, const char *bytes, size_t n)
 
 /* ---- what the output holds ---- */
 
-/* Append the names of the lines in which two identities differ. */
+/* Append the name of each line that differs between two identities. */
 static void append_differences(const char *a, const char *b, struct text *names)
 {
     for (size_t i = 0; i < IDENTITY; i++) {

@@ -35,7 +35,7 @@ struct resume {
  * Returns another status than EXIT_DONE if the output belongs to another run or program, or cannot be used, which is reported. */
 enum exit_status ceduo_resume_open(struct resume *resume, struct each *each, const struct text *head);
 
-/* True if the output holds the lines of the scene with this key. `*status` is the status of that scene. */
+/* True if the output holds the lines of the scene with this key. Sets *status to the exit status of the scene. */
 bool ceduo_resume_has(struct resume *resume, uint64_t key, enum exit_status *status);
 
 /* Append the lines of the scene with this key. */

@@ -4,6 +4,16 @@
 #include <stddef.h>
 #include <string.h>
 
+void ceduo_notes_each(const struct source_note *notes, const char *kind, void (*say)(void *context, const char *text),
+                      void *context)
+{
+    if (!notes)
+        return;
+    ceduo_notes_each(notes->before, kind, say, context); /* kept last first */
+    if (strcmp(notes->kind, kind) == 0)
+        say(context, notes->text);
+}
+
 bool ceduo_path_leads_to(const char *outer, const char *path)
 {
     size_t n = strlen(outer);

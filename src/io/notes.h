@@ -15,6 +15,10 @@ struct source_note {
     const struct source_note *before;
 };
 
+/* Call `say` with the text of each note of a kind, in the order of the files. */
+void ceduo_notes_each(const struct source_note *notes, const char *kind, void (*say)(void *context, const char *text),
+                      void *context);
+
 /* Whether `outer` is `path` or leads to it. */
 bool ceduo_path_leads_to(const char *outer, const char *path);
 

@@ -102,7 +102,7 @@ static enum path_value value_of(const struct field *f)
     }
 }
 
-/* Kind of what stands at `rest` below a mapping or list item: its source, or a part of that. */
+/* Kind of the value at `rest` below a mapping or list item: its source, or a part of its source. */
 static enum path_value source_part(const char *rest)
 {
     size_t n = strlen("source");
@@ -111,7 +111,7 @@ static enum path_value source_part(const char *rest)
     return strcmp(rest, "source.text") == 0 ? PATH_TEXT : PATH_OTHER;
 }
 
-/* Kind of what stands at `rest` below a value: a number of a list or point, a part of a spread. */
+/* Kind of the value at `rest` below a value: a number of a list or point, a part of a spread. */
 static enum path_value value_part(const struct field *f, const char *rest)
 {
     size_t at = 0, n = strlen(rest), item;

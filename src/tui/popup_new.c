@@ -62,24 +62,19 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
     const char *typed = p->fields[NEW_PROFILE].line.text, *wrong = NULL;
     LOCAL_PROBLEMS(problems);
     struct points points = {0};
-    const char *mark = strrchr(typed, '#'), *path = mark ? ceduo_arena_copy(&p->arena, typed, (size_t)(mark - typed)) : typed;
-    if (ceduo_picker_is_file(typed, p->endings))
-        mark = NULL;
-    else if (mark && path && ceduo_picker_is_file(path, p->endings)) /* FILE.csv#LINE */
-        typed = path;
-    else
-        mark = NULL;
-    if (ceduo_picker_is_file(typed, p->endings)) {
-        bool good = ceduo_csv_slope_read(&p->arena, typed, mark ? mark + 1 : NULL, &points, &problems) && points.n > 1;
+    const char *mark = ceduo_picker_is_file(typed, p->endings) ? NULL : strrchr(typed, '#'); /* FILE.csv#LINE */
+    const char *path = mark ? ceduo_must(ceduo_arena_copy(&p->arena, typed, (size_t)(mark - typed))) : typed;
+    if (ceduo_picker_is_file(path, p->endings)) {
+        bool good = ceduo_csv_slope_read(&p->arena, path, mark ? mark + 1 : NULL, &points, &problems) && points.n > 1;
         if (!good)
             wrong = points.lines          ? ceduo_arena_format(&p->arena, _("several lines: %s; add one to the name: %s#%.*s"),
-                                                               points.lines, typed, (int)strcspn(points.lines, ","), points.lines)
+                                                               points.lines, path, (int)strcspn(points.lines, ","), points.lines)
                     : problems.text.bytes ? problems.text.bytes
                                           : _("a profile needs two points or more");
         a->understood = points.understood;
         a->first = good ? points.x[0] : 0;
         a->last = good ? points.x[points.n - 1] : 0;
-        append_quoted(&a->slope, "csv: ", typed);
+        append_quoted(&a->slope, "csv: ", path);
         if (mark)
             append_quoted(&a->slope, "\n  layer: ", mark + 1);
     } else {

@@ -472,14 +472,9 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     add_assumed(page, report, report->file->notes, places);
 }
 
-/* One line for each table that was read. The notes are kept last first. */
-static void add_tables(struct ceduo_page *page, const struct source_note *note)
+static void add_table(void *page, const char *line)
 {
-    if (!note)
-        return;
-    add_tables(page, note->before);
-    if (strcmp(note->kind, CEDUO_NOTE_TABLE) == 0)
-        ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", note->text);
+    ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", line);
 }
 
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report)
@@ -490,12 +485,9 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
     if (page->last == gap)
         ceduo_page_drop(page);
     const struct source_note *note = report->file->notes;
-    for (const struct source_note *n = note; n; n = n->before)
-        if (strcmp(n->kind, CEDUO_NOTE_TABLE) == 0) {
-            ceduo_page_say(page, CEDUO_PAGE_SECTION, _("Tables as they were read:"));
-            add_tables(page, report->file->notes);
-            break;
-        }
+    if (ceduo_notes_say(note, CEDUO_NOTE_TABLE, ""))
+        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("Tables as they were read:"));
+    ceduo_notes_each(note, CEDUO_NOTE_TABLE, add_table, page);
     while (note && !is_shown(report, note))
         note = note->before;
     if (!note)

@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import INPUT, ROOT, USAGE, Folder, ceduo, expect, expect_equal, run_all  # noqa: E402
 
-# What each option is given here; and what it needs besides.
+# Value of each option, then the options that it needs.
 VALUES = {"format": "csv", "output": "out.csv", "set": "rock.diameter_m=1", "rocks": "10", "tolerance": "0.1", "rows": "controls",
           "each": "none.csv", "columns": "scene", "seed": "1", "threads": "1", "option": "a", "charset": "ascii", "language": "en",
           "size": "80x24", "sure": "0.9", "script": "none.txt", "find": "rock.diameter_m=1:2", "goal": "adc", "report": "page.html",

@@ -14,7 +14,7 @@
 #include "line_scene.h"
 #include "paper_site.h"
 #include "runs.h"
-#include "slow_walk.h"
+#include "slow_scene.h"
 
 #define SCENES        FULL_OR(1200u, 700u) /* in 689 a rock flies back to a stem before the low end, where it would leave */
 #define LASTING_EVERY 600                  /* scenes of which one may go on for ever */
@@ -457,14 +457,7 @@ static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
     const struct ceduo_slope *slope = &scene->slope;
     const struct ceduo_release *r = &scene->release;
     assert_int_equal(ceduo_rock_of_means(&scene->rock, &body), CEDUO_OK);
-    for (size_t j = 0; j + 1 < slope->vertices; j++) {
-        const struct ceduo_segment *s = &slope->segments[j];
-        segments[j] = slow_segment_between(slope->x[j], slope->z[j], slope->x[j + 1], slope->z[j + 1]);
-        segments[j].rn = s->rn.mean;
-        segments[j].rt = s->rt.mean;
-        segments[j].friction = s->friction;
-        segments[j].theta_max = s->roughness_rad;
-    }
+    slow_segments(slope, body.radius, segments);
     const struct slow_def def = {.count = slope->vertices - 1,
                                  .segments = segments,
                                  .law = scene->simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,

@@ -13,7 +13,7 @@
 
 #include "line_scene.h"
 #include "paper_site.h"
-#include "slow_walk.h"
+#include "slow_scene.h"
 
 #define CONTACTS   3000 /* of a way are compared; a longer one is not followed to its end */
 #define SAME       1e-6 /* relative: the same */
@@ -109,14 +109,7 @@ static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct li
     const struct ceduo_release *r = &scene->release;
     struct ceduo_rock body;
     assert_int_equal(ceduo_rock_of_means(&scene->rock, &body), CEDUO_OK);
-    for (size_t j = 0; j + 1 < slope->vertices; j++) {
-        const struct ceduo_segment *s = &slope->segments[j];
-        segments[j] = slow_segment_between(slope->x[j], slope->z[j], slope->x[j + 1], slope->z[j + 1]);
-        segments[j].rn = s->rn.mean;
-        segments[j].rt = s->rt.mean;
-        segments[j].friction = s->friction;
-        segments[j].theta_max = isnan(s->roughness_rad) ? atan(s->roughness_m / body.radius) : s->roughness_rad;
-    }
+    slow_segments(slope, body.radius, segments);
     memset(t, 0, sizeof *t);
     struct slow_context context = {t, scene->simulation.seed, rock, 0, change};
     double x = nudge(r->x.mean, change);

@@ -23,7 +23,7 @@ enum random_kind {
     RANDOM_SEED      /* seeds of variants of a scene, random_seed() */
 };
 
-/* What a variant of a scene is for that has rocks of its own. */
+/* Purposes of variants of a scene that have rocks of their own. */
 enum random_variant {
     VARIANT_YEAR,       /* a year of a window, by its place in the window */
     VARIANT_POINT_YEAR, /* a year at each point of a study */
