@@ -10,7 +10,7 @@
 #include "io/file.h"
 #include "say.h"
 
-#define NAMES_MAX 10 /* scenes that failed, and columns, that are named */
+#define NAMES_MAX 10 /* scenes that failed and are named */
 #define LABEL_MAX 20 /* bytes */
 
 /* ---- the table ---- */
@@ -20,17 +20,14 @@ static bool is_wanted(const struct each_head *head, bool set)
     return head->name[0] && ceduo_each_is_copied(head) != set;
 }
 
-/* Append the names of the columns that are set, or of those that are copied. */
+/* Append the names of the columns that are set (`set`) or copied. */
 static void append_names(const struct each *e, bool set, struct text *text)
 {
     size_t n = 0;
     for (size_t i = 0; i < e->heads_count; i++)
-        if (is_wanted(&e->heads[i], set) && n++ < NAMES_MAX) {
-            ceduo_text_put(text, n > 1 ? ", " : "");
-            ceduo_text_safe(text, e->heads[i].name);
-        }
-    if (n > NAMES_MAX)
-        ceduo_text_format(text, _(" and %zu more"), n - NAMES_MAX);
+        if (is_wanted(&e->heads[i], set))
+            ceduo_csv_list(text, &n, e->heads[i].name, strlen(e->heads[i].name));
+    ceduo_csv_list_end(text, n);
     if (n == 0)
         ceduo_text_put(text, _("none"));
 }

@@ -13,7 +13,7 @@
 #define HEAD_MAX   500  /* bytes of a head that is known */
 #define TITLE_MAX  20   /* lines among which the head is */
 #define HEADS_MAX  1000 /* heads of a table whose heads are known */
-#define NAMES_MAX  10   /* unused columns that are named */
+#define NAMES_MAX  10   /* names that a list shows */
 
 /* ---- records ---- */
 
@@ -81,7 +81,7 @@ static const char *read_quoted(struct csv *csv, const char *p, const char *end, 
 
 static const char *read_cell(struct csv *csv, const char *p, const char *end, struct csv_cell *cell)
 {
-    if (*p == '"' && p < end) {
+    if (p < end && *p == '"') {
         p = read_quoted(csv, p, end, cell);
         for (size_t n; p < end && !is_separator(csv, p) && (n = ceduo_utf8_blank(p, (size_t)(end - p))) > 0;)
             p += n;
@@ -289,10 +289,9 @@ static void take_units(struct csv *csv)
 {
     struct csv_place before = csv->next;
     struct problems *problems = csv->problems;
-    bool units = true;
     size_t found = 0;
     csv->problems = NULL;
-    units = read_record(csv) && !is_blank_record(csv) && csv->cells_count <= csv->heads_count;
+    bool units = read_record(csv) && !is_blank_record(csv) && csv->cells_count <= csv->heads_count;
     csv->problems = problems;
     for (size_t i = 0; units && i < csv->cells_count; i++) {
         bool none = ceduo_csv_is_empty(csv->cells[i]);
@@ -388,31 +387,37 @@ void ceduo_csv_names(const struct csv *csv, struct text *names)
     }
 }
 
-void ceduo_csv_unused(const struct csv *csv, const size_t *used, size_t n, struct text *names)
+void ceduo_csv_list(struct text *names, size_t *n, const char *name, size_t length)
 {
+    if (++*n > NAMES_MAX)
+        return;
+    ceduo_text_put(names, *n > 1 ? ", " : "");
+    ceduo_text_safe_n(names, name, length);
+}
+
+void ceduo_csv_list_end(struct text *names, size_t n)
+{
+    if (n > NAMES_MAX)
+        ceduo_text_format(names, _(" and %zu more"), n - NAMES_MAX);
+}
+
+void ceduo_csv_describe(const struct csv *csv, const size_t *used, size_t n, const char *notes, struct text *line)
+{
+    LOCAL_TEXT(names);
     size_t unused = 0;
     for (size_t i = 0; i < csv->heads_count; i++) {
         bool needed = csv->heads[i].n == 0;
         for (size_t k = 0; k < n; k++)
             needed |= used[k] == i;
-        if (needed)
-            continue;
-        if (unused++ < NAMES_MAX) {
-            ceduo_text_put(names, unused > 1 ? ", " : "");
-            ceduo_text_safe_n(names, csv->heads[i].p, csv->heads[i].n);
-        }
+        if (!needed)
+            ceduo_csv_list(&names, &unused, csv->heads[i].p, csv->heads[i].n);
     }
-    if (unused > NAMES_MAX)
-        ceduo_text_format(names, _(" and %zu more"), unused - NAMES_MAX);
-}
-
-size_t ceduo_csv_lines(const struct csv *csv)
-{
-    const struct source *s = csv->source;
-    size_t n = 1;
-    for (size_t i = 0; i < s->length; i++)
-        n += s->bytes[i] == '\n';
-    return n;
+    ceduo_csv_list_end(&names, unused);
+    if (csv->decimal == ',')
+        ceduo_text_put(line, _("; decimal commas"));
+    ceduo_text_put(line, notes);
+    if (unused > 0)
+        ceduo_text_format(line, _("; not used: %s"), ceduo_text_string(&names));
 }
 
 /* ---- rows ---- */

@@ -102,20 +102,26 @@ bool ceduo_csv_is_empty(struct csv_cell cell);
 /* True if a quote stands within a cell that is not in quotes itself. */
 bool ceduo_csv_has_stray_quote(struct csv_cell cell);
 
-/* Append the names of heads that are not among the n columns used, at most ten. */
-void ceduo_csv_unused(const struct csv *csv, const size_t *used, size_t n, struct text *names);
+/* Append the end of the line that says how a table was read: decimal commas, `notes`, and the heads that are not among the n columns
+ * used. */
+void ceduo_csv_describe(const struct csv *csv, const size_t *used, size_t n, const char *notes, struct text *line);
+
+/* Append name number *n, from 0, of a list that shows ten, and count it. */
+void ceduo_csv_list(struct text *names, size_t *n, const char *name, size_t length);
+/* Append how many of n names the list does not show. */
+void ceduo_csv_list_end(struct text *names, size_t n);
 
 /* Append all heads, separated by commas; of a foreign file the beginning only. */
 void ceduo_csv_names(const struct csv *csv, struct text *names);
-
-/* Number of lines at most. */
-size_t ceduo_csv_lines(const struct csv *csv);
 
 enum csv_numeral { CSV_NUMERAL_GOOD, CSV_NUMERAL_NONE, CSV_NUMERAL_TWO_WAYS, CSV_NUMERAL_TWO_NUMBERS, CSV_NUMERAL_OTHER_SIGN };
 
 /* Write a number with a dot for decimals and without thousands separators to `to`. */
 #define CSV_NUMERAL_CAPACITY 128
 enum csv_numeral ceduo_csv_numeral(const struct csv *csv, struct csv_cell cell, char to[CSV_NUMERAL_CAPACITY]);
+
+/* Set *value if a cell is a number; false if it is not. Reports nothing. */
+bool ceduo_csv_value(const struct csv *csv, struct csv_cell cell, double *value);
 
 /* Number in a cell, lo <= number <= hi, in `unit`, which may follow it. Reports an error and returns false otherwise. */
 bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, double hi, const char *unit, double *value);

@@ -137,10 +137,9 @@ enum csv_numeral ceduo_csv_numeral(const struct csv *csv, struct csv_cell cell, 
     if (shown && decimal && shown != decimal)
         return CSV_NUMERAL_OTHER_SIGN;
     decimal = decimal ? decimal : shown;
-    if (numeral.signs == SIGNS_TWO_WAYS && !decimal && csv->separator == (numeral.sign == '.' ? ',' : ';'))
-        decimal = numeral.sign; /* commas do not separate cells where they stand for decimals, and are usual where ; does */
-    if (numeral.signs == SIGNS_TWO_WAYS && !decimal && numeral.sign == '.' && csv->separator != ';')
-        decimal = '.';
+    bool usual = (numeral.sign == ',') == (csv->separator == ';'); /* decimal commas go with semicolons, dots with the others */
+    if (numeral.signs == SIGNS_TWO_WAYS && !decimal && usual)
+        decimal = numeral.sign;
     if (numeral.signs == SIGNS_TWO_WAYS && (!decimal || (numeral.sign != decimal && !csv->grouped)))
         return CSV_NUMERAL_TWO_WAYS;
     size_t n = 0;
@@ -172,10 +171,8 @@ static uint32_t hidden_character(struct csv_cell cell)
         n = ceduo_utf8_decode(cell.p + i, cell.n - i, &code);
         if (n == 0)
             return 0;
-        if (code < 0x20 || code == 0x7f || ceduo_utf8_is_space(code) ||
-            uc_is_general_category_withtable(code, UC_CATEGORY_MASK_C))
-            if (code != ' ')
-                return code;
+        if (ceduo_utf8_is_space(code) || uc_is_general_category_withtable(code, UC_CATEGORY_MASK_C))
+            return code;
     }
     return 0;
 }
@@ -206,6 +203,12 @@ bool ceduo_csv_no_number(const struct csv *csv, struct csv_cell cell, enum csv_n
     else
         ceduo_csv_complain(csv, cell, _("'%s' is not a number"), word);
     return false;
+}
+
+bool ceduo_csv_value(const struct csv *csv, struct csv_cell cell, double *value)
+{
+    char text[CSV_NUMERAL_CAPACITY];
+    return ceduo_csv_numeral(csv, cell, text) == CSV_NUMERAL_GOOD && ceduo_number_read(text, value) == CEDUO_NUMBER_GOOD;
 }
 
 bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, double hi, const char *unit, double *value)

@@ -11,6 +11,7 @@
 #include "base/language.h"
 #include "bind.h"
 #include "csv.h"
+#include "file.h"
 
 #define BEGINNING    4096 /* bytes of a file in which it says what it is */
 #define LAYERS_MAX   1000
@@ -625,9 +626,7 @@ static bool make_points(struct reader *r, struct points *p)
 static void understand(struct reader *r, struct points *p, const char *path)
 {
     LOCAL_TEXT(line);
-    LOCAL_TEXT(unused);
     const struct csv *csv = &r->csv;
-    const char *slash = strrchr(path, '/');
     const bool wkt = r->columns[WKT] != CEDUO_CSV_NONE, table = csv->heads_count > 0 && !csv->headless;
     size_t used[5] = {r->columns[wkt ? WKT : r->map ? EAST : DISTANCE]}, n = 1;
     double rise = p->z[p->n - 1] - p->z[0];
@@ -635,7 +634,7 @@ static void understand(struct reader *r, struct points *p, const char *path)
         used[n++] = r->columns[NORTH];
     if (!wkt)
         used[n++] = r->columns[ELEVATION];
-    ceduo_text_safe(&line, slash ? slash + 1 : path);
+    ceduo_text_safe(&line, ceduo_file_name(path));
     ceduo_text_format(&line,
                       rise > 0 ? _(": %zu points, %.4g m long, rises %.4g m") : _(": %zu points, %.4g m long, falls %.4g m"),
                       p->n, p->x[p->n - 1] - p->x[0], fabs(rise));
@@ -647,16 +646,10 @@ static void understand(struct reader *r, struct points *p, const char *path)
         ceduo_text_put(&line, i > 0 ? ", " : n > 1 ? _("; columns ") : _("; column "));
         ceduo_text_safe_n(&line, csv->heads[used[i]].p, csv->heads[used[i]].n);
     }
-    if (csv->decimal == ',')
-        ceduo_text_put(&line, _("; decimal commas"));
-    ceduo_text_put(&line, ceduo_text_string(&r->notes));
     used[n++] = r->columns[LAYER];
     if (wkt)
         used[n++] = r->columns[LABEL];
-    if (table)
-        ceduo_csv_unused(csv, used, n, &unused);
-    if (unused.length > 0)
-        ceduo_text_format(&line, _("; not used: %s"), unused.bytes);
+    ceduo_csv_describe(csv, used, n, ceduo_text_string(&r->notes), &line);
     p->understood = ceduo_arena_string(r->arena, ceduo_text_string(&line));
 }
 

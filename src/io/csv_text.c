@@ -75,9 +75,10 @@ static bool is_broken_utf8(const struct source *s)
 {
     size_t valid = 0;
     uint32_t code;
-    for (size_t i = 0, n; i<s->length; i += n> 0 ? n : 1) {
-        n = ceduo_utf8_decode(s->bytes + i, s->length - i, &code);
+    for (size_t i = 0; i < s->length;) {
+        size_t n = ceduo_utf8_decode(s->bytes + i, s->length - i, &code);
         valid += n > 1;
+        i += n > 0 ? n : 1;
     }
     return valid > 0;
 }

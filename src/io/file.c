@@ -126,6 +126,12 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
 
 /* ---- finding ---- */
 
+const char *ceduo_file_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 static bool is_file(const char *path)
 {
     struct stat st;
@@ -273,7 +279,7 @@ static bool find_target(struct pending_file *file, mode_t *mode)
 static int open_temporary(struct pending_file *file, mode_t mode)
 {
     static const char mark[] = ".ceduo-tmp-XXXXXX";
-    const char *slash = strrchr(file->target, '/'), *name = slash ? slash + 1 : file->target;
+    const char *name = ceduo_file_name(file->target);
     size_t n = strlen(name);
     if (n > NAME_MAX - sizeof mark)
         for (n = NAME_MAX - sizeof mark; ceduo_utf8_inside(name[n]); n--)

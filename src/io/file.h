@@ -22,6 +22,9 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
  * added. A path in the arena; NULL where there is no such file. `beside` may be NULL. */
 const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder);
 
+/* The name of a file without its folder. */
+const char *ceduo_file_name(const char *path);
+
 /* The folders of profiles, best first, ended by NULL. */
 const char *const *ceduo_file_folders(struct arena *arena);
 

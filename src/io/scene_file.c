@@ -37,8 +37,7 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     if (!ceduo_validate(&v))
         return false;
     file->scene = v.draft.scene;
-    const char *slash = strrchr(file->path, '/'), *name = slash ? slash + 1 : file->path;
-    file->scene.title = file->scene.title ? file->scene.title : (char *)(uintptr_t)name;
+    file->scene.title = file->scene.title ? file->scene.title : (char *)(uintptr_t)ceduo_file_name(file->path);
     bool good = ceduo_problems_settle(problems) && problems->count == before;
     ceduo_problems_close(&unusual);
     if (good)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What only the whole table of a survey shows: values that can only be in another unit, and the line for the user. */
+/* Checks of a whole survey: values that can only be in another unit. Then the line for the user. */
 #include <math.h>
 #include <string.h>
 #include <strings.h>
@@ -138,7 +138,7 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
     return true;
 }
 
-/* True if two plots have the same name and the same sites but for case. */
+/* True if two plots have the same name and the same sites, ignoring case. */
 static bool differ_in_case(const struct survey_plot *a, const struct survey_plot *b)
 {
     bool same = a->name.n == b->name.n && strncasecmp(a->name.p, b->name.p, a->name.n) == 0;
@@ -312,18 +312,14 @@ static void describe_heads(const struct survey_reader *r, struct text *line)
 const char *ceduo_survey_understand(const struct survey_reader *r, const struct ceduo_survey *survey, const char *name)
 {
     LOCAL_TEXT(line);
-    LOCAL_TEXT(unused);
+    LOCAL_TEXT(read_as);
     ceduo_text_safe(&line, name);
     ceduo_text_put(&line, ": ");
     describe_plots(r, &line);
     describe_stems(r, survey, &line);
     describe_slopes(r, &line);
     describe_rows(r, &line);
-    if (r->csv.decimal == ',')
-        ceduo_text_put(&line, _("; decimal commas"));
-    describe_heads(r, &line);
-    ceduo_csv_unused(&r->csv, r->columns, COLUMNS, &unused);
-    if (unused.length > 0)
-        ceduo_text_format(&line, _("; not used: %s"), unused.bytes);
+    describe_heads(r, &read_as);
+    ceduo_csv_describe(&r->csv, r->columns, COLUMNS, ceduo_text_string(&read_as), &line);
     return ceduo_arena_string(r->arena, ceduo_text_string(&line));
 }

@@ -275,7 +275,7 @@ enum survey_unit ceduo_survey_split_unit(enum column column, struct csv_cell *ce
     return other ? SURVEY_UNIT_OTHER : SURVEY_UNIT_USUAL;
 }
 
-/* Refuse a column that is known but for its unit. */
+/* Refuse a column with a known name and an unknown unit. */
 static bool check_foreign_unit(const struct csv *csv, enum column c)
 {
     const struct csv_head *head = &ceduo_survey_heads[c];

@@ -9,6 +9,7 @@
 
 #include "base/language.h"
 #include "base/must.h"
+#include "file.h"
 #include "survey_reader.h"
 
 #define PLOTS_MOST      1000
@@ -465,7 +466,6 @@ static bool read_row(struct survey_reader *r)
 static bool check_numbering(struct survey_reader *r)
 {
     struct csv_place begin = r->csv.next;
-    char text[CSV_NUMERAL_CAPACITY];
     size_t rises = 0, rows = 0;
     bool numbering = true;
     double value, last = 0;
@@ -474,7 +474,7 @@ static bool check_numbering(struct survey_reader *r)
     r->csv.problems = NULL;
     while (numbering && ceduo_csv_next(&r->csv)) {
         struct csv_cell cell = ceduo_csv_cell(&r->csv, r->columns[COUNT]);
-        if (ceduo_csv_numeral(&r->csv, cell, text) != CSV_NUMERAL_GOOD || ceduo_number_read(text, &value) != CEDUO_NUMBER_GOOD)
+        if (!ceduo_csv_value(&r->csv, cell, &value))
             continue;
         numbering = rows++ == 0 || value == last + 1 || value == 1;
         rises += rows > 1 && value == last + 1;
@@ -642,7 +642,7 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
     struct survey_answers none = {0};
     ceduo_memory_lost(); /* what was lost before is of others */
     struct survey_reader *r = ceduo_arena_take(arena, sizeof *r);
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *name = ceduo_file_name(path);
     const bool standard = strcmp(name, "-") == 0;
     size_t length = strlen(name), before = problems->met;
     length -= length > 4 && strcasecmp(name + length - 4, ".csv") == 0 ? 4 : 0;

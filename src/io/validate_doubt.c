@@ -11,6 +11,7 @@
 #include "base/utf8.h"
 #include "csv.h"
 #include "doubt_inputs.h"
+#include "file.h"
 #include "resolve.h"
 #include "scene/value.h"
 #include "study/inputs.h"
@@ -407,13 +408,15 @@ static bool read_table(struct draws *t, const char *path)
     t->columns = csv->heads_count;
     t->values = ceduo_room(t->v, t->columns, sizeof *t->values);
     bool *numeric = ceduo_room(t->v, t->columns, sizeof *numeric), good = t->values && numeric;
-    for (size_t c = 0; good && c < t->columns; c++) {
-        numeric[c] = true;
-        good = (t->values[c] = ceduo_room(t->v, ceduo_csv_lines(csv), sizeof **t->values)) != NULL;
-    }
+    if (!good)
+        return false;
+    memset(numeric, true, t->columns * sizeof *numeric);
+    ceduo_csv_scan(csv, numeric);
+    for (size_t c = 0; good && c < t->columns; c++)
+        good = (t->values[c] = ceduo_room(t->v, csv->rows, sizeof **t->values)) != NULL;
     if (!good || !take_header(t))
         return false;
-    for (ceduo_csv_scan(csv, numeric); ceduo_csv_next(csv); t->rows++) {
+    for (; ceduo_csv_next(csv); t->rows++) {
         for (size_t c = 0, h = 0; c < t->columns && !csv->bad; c++) {
             struct csv_cell cell = ceduo_csv_cell(csv, c);
             double *to = &t->values[c][t->rows];
@@ -464,8 +467,7 @@ static void add_draws(struct validator *v)
         return;
     add_input(v, input, NULL);
     LOCAL_TEXT(line);
-    const char *slash = strrchr(path, '/');
-    ceduo_text_safe(&line, slash ? slash + 1 : path);
+    ceduo_text_safe(&line, ceduo_file_name(path));
     ceduo_text_format(&line, _(": %zu draws of %zu values that belong together"), t.rows, t.columns);
     ceduo_understand(v, "doubt.draws", ceduo_text_string(&line));
 }

@@ -8,6 +8,7 @@
 
 #include "base/language.h"
 #include "csv.h"
+#include "file.h"
 #include "resolve.h"
 #include "scene_file.h"
 #include "validator.h"
@@ -163,18 +164,16 @@ static bool find_columns(const struct place *p, struct table *t)
     const struct csv_place begin = csv->next;
     LOCAL_TEXT(all);
     double number;
-    char text[CSV_NUMERAL_CAPACITY];
     memcpy(heads[VALUES].names, quantity->columns, sizeof quantity->columns);
     ceduo_csv_find(csv, heads, COLUMNS, t->columns);
     csv->source->foreign = t->columns[VALUES] == CEDUO_CSV_NONE; /* any file has some column that a scene may name */
     size_t *column = &t->columns[p->values->column ? NAMED : VALUES];
     bool place = p->is->where == CEDUO_WHERE_AT_REST && csv->heads_count > 0 && *column < CEDUO_CSV_TWICE;
     bool map = place && !p->values->column && t->columns[MAP] != CEDUO_CSV_NONE &&
-               ceduo_csv_among(csv->heads[*column].p, csv->heads[*column].n, "x|x_m|x (m)|x [m]");
+               ceduo_csv_among(csv->heads[*column].p, csv->heads[*column].n, "x|x_m");
     if (*column == CEDUO_CSV_NONE && !p->values->column && csv->heads_count == 1) {
         *column = 0;
-        if (ceduo_csv_numeral(csv, csv->heads[0], text) == CSV_NUMERAL_GOOD &&
-            ceduo_number_read(text, &number) == CEDUO_NUMBER_GOOD) {
+        if (ceduo_csv_value(csv, csv->heads[0], &number)) {
             csv->next = begin;
             ceduo_csv_headless(csv, csv->separator);
         }
@@ -202,25 +201,21 @@ static bool find_columns(const struct place *p, struct table *t)
 static bool is_wanted(const struct table *t)
 {
     double number, wanted;
-    char text[CSV_NUMERAL_CAPACITY];
     if (!t->only_name)
         return true;
     struct csv_cell cell = ceduo_csv_cell(&t->csv, t->columns[ONLY]);
     if (ceduo_csv_has_stray_quote(cell))
         return ceduo_csv_complain(&t->csv, cell, _("a quote within a cell; remove it, or put the cell in quotes"));
     return ceduo_csv_is(cell, t->only_word) || (ceduo_number_read(t->only_word, &wanted) == CEDUO_NUMBER_GOOD &&
-                                                ceduo_csv_numeral(&t->csv, cell, text) == CSV_NUMERAL_GOOD &&
-                                                ceduo_number_read(text, &number) == CEDUO_NUMBER_GOOD && number == wanted);
+                                                ceduo_csv_value(&t->csv, cell, &number) && number == wanted);
 }
 
 /* Note what was read from a table, for the user. */
 static void understand(const struct place *p, const struct table *t, const char *path)
 {
     LOCAL_TEXT(line);
-    LOCAL_TEXT(unused);
-    const char *slash = strrchr(path, '/');
     const struct csv_cell *head = t->csv.headless ? NULL : &t->csv.heads[t->columns[VALUES]];
-    ceduo_text_safe(&line, slash ? slash + 1 : path);
+    ceduo_text_safe(&line, ceduo_file_name(path));
     ceduo_text_format(&line, ngettext(": %zu value", ": %zu values", p->values->values_count), p->values->values_count);
     if (head)
         ceduo_text_format(&line, _(" in the column %.*s"), head->n < 100 ? (int)head->n : 100, head->p);
@@ -228,11 +223,7 @@ static void understand(const struct place *p, const struct table *t, const char 
         ceduo_text_put(&line, _(", no head"));
     if (t->only_name)
         ceduo_text_format(&line, _("; rows with %s = %s"), t->only_name, t->only_word);
-    if (t->csv.decimal == ',')
-        ceduo_text_put(&line, _("; decimal commas"));
-    ceduo_csv_unused(&t->csv, t->columns, COLUMNS, &unused);
-    if (unused.length > 0 && !t->csv.headless)
-        ceduo_text_format(&line, _("; not used: %s"), unused.bytes);
+    ceduo_csv_describe(&t->csv, t->columns, COLUMNS, "", &line);
     ceduo_understand(p->v, p->at, ceduo_text_string(&line));
 }
 
@@ -245,11 +236,13 @@ static bool read_table(const struct place *p, const char *path)
     if (!split_only(p, &t) || !ceduo_csv_open(csv, v->arena, path, v->problems) || !find_columns(p, &t))
         return false;
     bool *numeric = ceduo_room(v, csv->heads_count, sizeof *numeric);
-    to->values = ceduo_room(v, ceduo_csv_lines(csv), sizeof *to->values);
-    if (!numeric || !to->values)
+    if (!numeric)
         return false;
     numeric[t.columns[VALUES]] = true;
     ceduo_csv_scan(csv, numeric);
+    to->values = ceduo_room(v, csv->rows, sizeof *to->values);
+    if (!to->values)
+        return false;
     while (ceduo_csv_next(csv))
         if (!csv->bad && is_wanted(&t) &&
             ceduo_csv_number(csv, ceduo_csv_cell(csv, t.columns[VALUES]), -1e9, 1e9, ceduo_observed_quantity(p->kind)->unit,

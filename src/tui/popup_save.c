@@ -8,6 +8,7 @@
 
 #include "base/language.h"
 #include "io/emit.h"
+#include "io/file.h"
 #include "popup.h"
 #include "popups.h"
 
@@ -48,7 +49,7 @@ static bool save_to(struct app *app, const char *path)
 /* Append .yaml to a name without an ending. The name of an existing file stays as it is. */
 static void append_ending(struct line *line)
 {
-    const char *slash = strrchr(line->text, '/'), *name = slash ? slash + 1 : line->text;
+    const char *name = ceduo_file_name(line->text);
     size_t n = strlen(line->text);
     if (name[0] == '\0' || strchr(name + 1, '.') || access(line->text, F_OK) == 0 || n + sizeof ENDING > sizeof line->text)
         return;
