@@ -4,6 +4,7 @@
  * so that x rises. */
 #include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -13,7 +14,7 @@
 #include "csv.h"
 #include "file.h"
 
-#define BEGINNING    4096 /* bytes of a file in which it says what it is */
+#define BEGINNING    4096 /* bytes of a file that can hold the mark of its format */
 #define LAYERS_MAX   1000
 #define LINE_MIN     1    /* m: a shorter line on the map is in degrees */
 #define LENGTH_MIN   0.1  /* m of a profile */
@@ -47,7 +48,7 @@ static const struct csv_head heads[COLUMNS] = {
 
 /* A point as its file has it. */
 struct raw {
-    double x, y, z; /* m; x: distance, or easting */
+    double along, x, y, z; /* m: distance, place on the map, height */
     size_t layer, line, column;
 };
 
@@ -88,8 +89,11 @@ static size_t layer_of(struct reader *r, const char *name, size_t n)
 /* A layer without a name is called by its number. */
 static size_t next_layer(struct reader *r, const char *name, size_t n)
 {
-    const char *number = ceduo_arena_format(r->arena, "%zu", r->layers_count + 1);
-    return n > 0 ? layer_of(r, name, n) : number ? layer_of(r, number, strlen(number)) : 0;
+    char number[32];
+    if (n > 0)
+        return layer_of(r, name, n);
+    snprintf(number, sizeof number, "%zu", r->layers_count + 1);
+    return layer_of(r, number, strlen(number));
 }
 
 static void add_point(struct reader *r, struct raw raw)
@@ -127,17 +131,23 @@ static bool read_coordinate(struct reader *r, enum column c, double *value)
     return ceduo_csv_number(&r->csv, cell, vertex->lo, vertex->hi, "m", value);
 }
 
+/* True if rows hold places on the map, beside distances or instead of them. */
+static bool has_places(const struct reader *r)
+{
+    return r->map || (r->csv.headless && r->columns[EAST] != CEDUO_CSV_NONE);
+}
+
 static void read_row(struct reader *r, size_t layer)
 {
     struct csv *csv = &r->csv;
-    struct raw raw = {.layer = layer};
-    enum column first = r->map ? EAST : DISTANCE;
-    struct csv_cell cell = ceduo_csv_cell(csv, r->columns[first]);
-    bool good = read_coordinate(r, first, &raw.x);
-    good = (!r->map || read_coordinate(r, NORTH, &raw.y)) && good;
+    struct raw raw = {.layer = layer, .column = 1};
+    bool good = r->map || read_coordinate(r, DISTANCE, &raw.along);
+    if (has_places(r)) {
+        good = read_coordinate(r, EAST, &raw.x) && good;
+        good = read_coordinate(r, NORTH, &raw.y) && good;
+    }
     good = read_coordinate(r, ELEVATION, &raw.z) && good;
-    raw.line = ceduo_csv_line(csv, cell);
-    raw.column = 1;
+    raw.line = ceduo_csv_line(csv, ceduo_csv_cell(csv, r->columns[r->map ? EAST : DISTANCE]));
     if (good)
         add_point(r, raw);
 }
@@ -233,16 +243,17 @@ static bool check_table(const struct csv *csv, struct problems *problems)
     return s->bytes[mark] != '<';
 }
 
-/* True if all cells of the present record are numbers. */
+/* True if all cells of the present record are numbers, although it may be open how to read them. */
 static bool are_numbers(const struct csv *csv)
 {
     char text[CSV_NUMERAL_CAPACITY];
     double value;
-    size_t i = 0;
-    while (i < csv->cells_count && ceduo_csv_numeral(csv, csv->cells[i], text) != CSV_NUMERAL_NONE &&
-           (ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD))
-        i++;
-    return i == csv->cells_count;
+    bool good = true;
+    for (size_t i = 0; good && i < csv->cells_count; i++) {
+        enum csv_numeral how = ceduo_csv_numeral(csv, csv->cells[i], text);
+        good = how == CSV_NUMERAL_GOOD ? ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD : how != CSV_NUMERAL_NONE;
+    }
+    return good;
 }
 
 /* Take a table without a head if its first record holds numbers only. GMT begins comments with # and lines with >. */
@@ -334,14 +345,24 @@ static const char *gmt_line(const struct csv *csv, size_t from, size_t *n)
     return name;
 }
 
+/* True if the distance of the present record is that of the first point, although distances rose: another line begins. */
+static bool begins_again(const struct reader *r)
+{
+    double x;
+    return !r->map && r->n > 1 && ceduo_csv_value(&r->csv, ceduo_csv_cell(&r->csv, r->columns[DISTANCE]), &x) &&
+           x == r->raw[0].along && r->raw[r->n - 1].along > x && r->raw[1].along > x;
+}
+
 static bool read_rows(struct reader *r)
 {
     struct csv *csv = &r->csv;
     size_t before = r->problems->met, layer = 0, length = 0;
     bool *numeric = ceduo_arena_take(r->arena, (csv->heads_count + 1) * sizeof *numeric);
-    for (enum column c = DISTANCE; numeric && c <= NORTH; c++)
-        if (r->columns[c] < csv->heads_count && (c == ELEVATION || (r->map ? c != DISTANCE : c == DISTANCE)))
+    for (enum column c = DISTANCE; numeric && c <= NORTH; c++) {
+        bool read = c == ELEVATION || (c == DISTANCE ? !r->map : has_places(r));
+        if (read && r->columns[c] < csv->heads_count)
             numeric[r->columns[c]] = true;
+    }
     ceduo_csv_scan(csv, numeric);
     for (size_t from = csv->next.at; ceduo_csv_next(csv); from = csv->next.at) {
         const struct csv_cell name = ceduo_csv_cell(csv, r->columns[LAYER]);
@@ -357,15 +378,9 @@ static bool read_rows(struct reader *r)
                 read_wkt(r, wkt.p, wkt.p + wkt.n, ceduo_csv_line(csv, wkt), name.n > 0 ? name : label);
             continue;
         }
-        double x;
-        char text[CSV_NUMERAL_CAPACITY];
-        bool again = !r->map && r->columns[LAYER] == CEDUO_CSV_NONE && r->n > 1 &&
-                     ceduo_csv_numeral(csv, ceduo_csv_cell(csv, r->columns[DISTANCE]), text) == CSV_NUMERAL_GOOD &&
-                     ceduo_number_read(text, &x) == CEDUO_NUMBER_GOOD && x == r->raw[0].x && r->raw[r->n - 1].x > x &&
-                     r->raw[1].x > x;
         if (r->columns[LAYER] != CEDUO_CSV_NONE)
             layer = next_layer(r, name.p, name.n);
-        else if (gmt || again)
+        else if (gmt || begins_again(r))
             layer = next_layer(r, gmt ? gmt : "", gmt ? length : 0);
         else if (r->layers_count == 0)
             layer = next_layer(r, "", 0);
@@ -381,10 +396,8 @@ static bool choose_layer(struct reader *r, const char *wanted)
 {
     LOCAL_TEXT(names);
     size_t found = wanted || r->layers_count == 1 ? 0 : SIZE_MAX, n = 0;
-    for (size_t i = 0; i < r->layers_count; i++) {
-        if (i < 10)
-            ceduo_text_format(&names, "%s%.100s", i > 0 ? ", " : "", r->layers[i]);
-    }
+    for (size_t i = 0; i < r->layers_count && i < 10; i++)
+        ceduo_text_format(&names, "%s%.100s", i > 0 ? ", " : "", r->layers[i]);
     if (r->layers_count > 10)
         ceduo_text_put(&names, ", \xe2\x80\xa6");
     while (wanted && found < r->layers_count && strcmp(r->layers[found], wanted) != 0)
@@ -405,22 +418,19 @@ static bool choose_layer(struct reader *r, const char *wanted)
     return true;
 }
 
-/* Take distance and elevation of four columns of GRASS, r.profile -g, if the distances are along the line of the first two. */
+/* Distance on the map between two points. */
+static double step_between(const struct raw *a, const struct raw *b)
+{
+    return hypot(b->x - a->x, b->y - a->y);
+}
+
+/* Check that the distances of a table of four columns, r.profile -g of GRASS, are along the line of its places. */
 static bool check_four(struct reader *r)
 {
-    if (!r->csv.headless || r->columns[EAST] == CEDUO_CSV_NONE)
-        return true;
-    double along = 0, east = 0, north = 0, x, y;
-    struct csv csv = r->csv;
-    csv.next = csv.head_place;
-    for (size_t i = 0; i < r->n && ceduo_csv_next(&csv); i++) {
-        if (!ceduo_csv_number(&csv, csv.cells[0], -INFINITY, INFINITY, "m", &x) ||
-            !ceduo_csv_number(&csv, csv.cells[1], -INFINITY, INFINITY, "m", &y))
-            return false;
-        along += i > 0 ? hypot(x - east, y - north) : 0;
-        east = x;
-        north = y;
-        if (fabs(r->raw[i].x - r->raw[0].x - along) > 0.01 * along + 0.5)
+    double along = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        along += i > 0 ? step_between(&r->raw[i - 1], &r->raw[i]) : 0;
+        if (fabs(r->raw[i].along - r->raw[0].along - along) > 0.01 * along + 0.5)
             return refuse_at(
                 r, &r->raw[i],
                 _("four columns without a head: write a first line that names them, such as x,y,distance,elevation"));
@@ -428,19 +438,16 @@ static bool check_four(struct reader *r)
     return true;
 }
 
-/* Distances along a line on the map. */
-static bool measure_line(struct reader *r)
+/* Refuse coordinates in degrees and in Web Mercator. `length`: of the line. */
+static bool check_coordinates(struct reader *r, double length)
 {
-    double x = 0, y = 0, along = 0, low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    double west = INFINITY, south = INFINITY, east = -INFINITY, north = -INFINITY;
     for (size_t i = 0; i < r->n; i++) {
-        low[0] = fmin(low[0], r->raw[i].x);
-        low[1] = fmin(low[1], r->raw[i].y);
-        high[0] = fmax(high[0], r->raw[i].x);
-        high[1] = fmax(high[1], r->raw[i].y);
+        west = fmin(west, r->raw[i].x);
+        south = fmin(south, r->raw[i].y);
+        east = fmax(east, r->raw[i].x);
+        north = fmax(north, r->raw[i].y);
     }
-    double length = 0;
-    for (size_t i = 1; i < r->n; i++)
-        length += hypot(r->raw[i].x - r->raw[i - 1].x, r->raw[i].y - r->raw[i - 1].y);
     if (r->n > 1 && length < LINE_MIN && length > 0)
         return ceduo_problem(
             r->problems, r->csv.source, r->csv.head_place.line, 1,
@@ -448,43 +455,62 @@ static bool measure_line(struct reader *r)
               "coordinates of a map, such as UTM"),
             length);
     /* Web Mercator between Spain and Romania, but none of the grids there: UTM, Gauss-Boaga, Lambert-93 */
-    bool mercator = low[0] > 840e3 && high[0] < 2.3e6 && low[1] > 4.16e6 && high[1] < 6.3e6;
-    bool boaga = low[0] > 1.3e6 && high[0] < 1.85e6 && high[1] < 5.23e6;
-    bool lambert = high[0] < 1.3e6 && low[1] > 6e6;
+    bool mercator = west > 840e3 && east < 2.3e6 && south > 4.16e6 && north < 6.3e6;
+    bool boaga = west > 1.3e6 && east < 1.85e6 && north < 5.23e6;
+    bool lambert = east < 1.3e6 && south > 6e6;
     if (mercator && !boaga && !lambert)
         return ceduo_problem(r->problems, r->csv.source, r->csv.head_place.line, 1,
                              _("the coordinates look like EPSG:3857 (Web Mercator), whose lengths are too long by a third; set "
                                "the project to UTM and export the line again"));
     if (mercator && boaga)
         ceduo_text_put(&r->notes, _("; x and y taken as metres on the ground, not as EPSG:3857"));
+    return true;
+}
+
+/* Refuse a line that turns back. */
+static bool check_turns(struct reader *r)
+{
     for (size_t i = 1; i + 1 < r->n; i++) {
         const struct raw *a = &r->raw[i - 1], *b = &r->raw[i], *c = &r->raw[i + 1];
-        double one = hypot(b->x - a->x, b->y - a->y), two = hypot(c->x - b->x, c->y - b->y);
+        double one = step_between(a, b), two = step_between(b, c);
         double cosine = ((b->x - a->x) * (c->x - b->x) + (b->y - a->y) * (c->y - b->y)) / (one * two);
         if (one > TURN_STEP && two > TURN_STEP && cosine < -M_SQRT1_2)
             return refuse_at(r, b, _("the line turns back here; sort its points as numbers, or draw it again along the fall"));
     }
+    return true;
+}
+
+/* Twice the area of a triangle on the map; its sign is the side of the line from a to b that c lies on. */
+static double side_of(const struct raw *a, const struct raw *b, const struct raw *c)
+{
+    return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
+}
+
+/* Refuse a line that crosses itself. Of many points some are left out. */
+static bool check_crossings(struct reader *r)
+{
     size_t step = r->n / CROSSINGS + 1;
     for (size_t i = step; i < r->n; i += step)
         for (size_t k = i + 2 * step; k < r->n; k += step) {
             const struct raw *a = &r->raw[i - step], *b = &r->raw[i], *c = &r->raw[k - step], *d = &r->raw[k];
-            if (fmax(a->x, b->x) < fmin(c->x, d->x) || fmax(c->x, d->x) < fmin(a->x, b->x) ||
-                fmax(a->y, b->y) < fmin(c->y, d->y) || fmax(c->y, d->y) < fmin(a->y, b->y))
-                continue;
-            double c1 = (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
-            double c2 = (b->x - a->x) * (d->y - a->y) - (b->y - a->y) * (d->x - a->x);
-            double d1 = (d->x - c->x) * (a->y - c->y) - (d->y - c->y) * (a->x - c->x);
-            double d2 = (d->x - c->x) * (b->y - c->y) - (d->y - c->y) * (b->x - c->x);
-            if (c1 * c2 < 0 && d1 * d2 < 0)
+            if (side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0)
                 return refuse_at(r, d, _("the line crosses itself here; draw it again along the fall"));
         }
-    for (size_t i = 0; i < r->n; i++) {
-        along += i > 0 ? hypot(r->raw[i].x - x, r->raw[i].y - y) : 0;
-        x = r->raw[i].x;
-        y = r->raw[i].y;
-        r->raw[i].x = along;
-    }
     return true;
+}
+
+/* Distances along a line on the map. */
+static bool measure_line(struct reader *r)
+{
+    for (size_t i = 1; i < r->n; i++)
+        r->raw[i].along = r->raw[i - 1].along + step_between(&r->raw[i - 1], &r->raw[i]);
+    return check_coordinates(r, r->n > 0 ? r->raw[r->n - 1].along : 0) && check_turns(r) && check_crossings(r);
+}
+
+/* Check the places on the map, and set the distances that they give. */
+static bool check_places(struct reader *r)
+{
+    return r->map ? measure_line(r) : !has_places(r) || check_four(r);
 }
 
 /* ---- heights ---- */
@@ -492,7 +518,7 @@ static bool measure_line(struct reader *r)
 static bool is_jump(const struct raw *a, const struct raw *b)
 {
     double rise = fabs(b->z - a->z);
-    return b->x != a->x && rise > JUMP_RISE && rise > JUMP_SLOPE * fabs(b->x - a->x);
+    return b->along != a->along && rise > JUMP_RISE && rise > JUMP_SLOPE * fabs(b->along - a->along);
 }
 
 /* Refuse heights that can only be errors: 0 or 9999 among others, spikes. */
@@ -512,7 +538,8 @@ static bool check_heights(struct reader *r)
         if (i == 0 || last != i || i + 1 == r->n)
             continue;
         double up = r->raw[i].z - r->raw[i - 1].z, down = r->raw[i].z - r->raw[i + 1].z;
-        bool near = fabs(r->raw[i].x - r->raw[i - 1].x) <= SPIKE_RUN && fabs(r->raw[i + 1].x - r->raw[i].x) <= SPIKE_RUN;
+        bool near = fabs(r->raw[i].along - r->raw[i - 1].along) <= SPIKE_RUN &&
+                    fabs(r->raw[i + 1].along - r->raw[i].along) <= SPIKE_RUN;
         if (near && fmin(fabs(up), fabs(down)) > SPIKE_RISE && up * down > 0 && !jumps)
             refuse_at(r, &r->raw[i],
                       _("this height is more than 200 m from both neighbours; remove the row, or mend the terrain model"));
@@ -527,7 +554,7 @@ static bool is_text_order(const struct reader *r)
 {
     size_t i = 1;
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
-    while (i < r->n && strcmp(ceduo_number_shortest(r->raw[i - 1].x, a), ceduo_number_shortest(r->raw[i].x, b)) <= 0)
+    while (i < r->n && strcmp(ceduo_number_shortest(r->raw[i - 1].along, a), ceduo_number_shortest(r->raw[i].along, b)) <= 0)
         i++;
     return i == r->n;
 }
@@ -540,7 +567,7 @@ static bool refuse_order(struct reader *r, const struct raw *raw, double before)
                                 _("the rows stand in the order of their text; sort them by distance, as numbers"));
     return ceduo_problem_at(r->problems, place,
                             _("distance %s does not lie beyond %s; distances must rise: sort the rows by distance"),
-                            NUMERAL(raw->x), NUMERAL(before));
+                            NUMERAL(raw->along), NUMERAL(before));
 }
 
 static void add_vertex(struct points *p, double x, double z)
@@ -557,7 +584,7 @@ static bool make_rising(struct reader *r, struct points *p, double sign)
     double wall = NAN, overhang = NAN, edge = -INFINITY; /* edge: the farthest x so far */
     for (size_t i = 0; i < n; i++) {
         const struct raw *now = &r->raw[sign > 0 ? i : n - 1 - i], *last = i > 0 ? &r->raw[sign > 0 ? i - 1 : n - i] : now;
-        double x = sign * now->x, z = now->z, x_last = sign * last->x;
+        double x = sign * now->along, z = now->z, x_last = sign * last->along;
         if (i > 0 && x == x_last && z == last->z) {
             repeated++;
         } else if (x > edge && x_last < edge && i > 0) { /* out of an overhang */
@@ -571,7 +598,7 @@ static bool make_rising(struct reader *r, struct points *p, double sign)
             wall = walls++ == 0 ? sign * edge : wall;
         } else if (x <= edge) {
             if (z >= last->z || edge - x > OVERHANG_MAX || i + 1 == n)
-                return refuse_order(r, sign > 0 ? now : last, (sign > 0 ? last : now)->x);
+                return refuse_order(r, sign > 0 ? now : last, (sign > 0 ? last : now)->along);
             overhang = x_last == edge && overhangs++ == 0 ? sign * edge : overhang;
             if (x == edge)
                 add_vertex(p, edge + WALL_RUN, z);
@@ -603,9 +630,9 @@ static bool make_points(struct reader *r, struct points *p)
     bool upward = r->n > 1 && r->raw[r->n - 1].z > r->raw[0].z;
     size_t falling = 0;
     for (size_t i = 1; i < r->n; i++)
-        falling += r->raw[i].x < r->raw[i - 1].x;
+        falling += r->raw[i].along < r->raw[i - 1].along;
     if (r->n > 1 && falling + 1 == r->n)
-        return refuse_order(r, &r->raw[1], r->raw[0].x);
+        return refuse_order(r, &r->raw[1], r->raw[0].along);
     if (!make_rising(r, p, upward ? -1 : 1))
         return false;
     if (p->n > 1 && fabs(p->x[p->n - 1] - p->x[0]) < LENGTH_MIN)
@@ -687,8 +714,8 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *lay
         return false;
     *r = (struct reader){.arena = arena, .problems = problems};
     bool good = ceduo_csv_open(&r->csv, arena, path, problems) && check_table(&r->csv, problems) && read_points(r) &&
-                (r->n == 0 || (choose_layer(r, layer) && check_four(r) && (!r->map || measure_line(r)) && check_heights(r))) &&
-                make_points(r, points) && problems->met == before;
+                (r->n == 0 || (choose_layer(r, layer) && check_places(r) && check_heights(r))) && make_points(r, points) &&
+                problems->met == before;
     points->lines = r->several;
     if (good && points->n > 0)
         understand(r, points, path);

@@ -162,6 +162,13 @@ def test_numbers():
             expect_refused(f, "p.csv", "distance{0}elevation\n{1}".format(";" if ";" in text.split("\n")[0] else ",", text), [words])
 
 
+def test_open_numbers_without_a_head():
+    """A table without a head whose numbers can be read in two ways is one, and the numbers are asked about"""
+    with Folder() as f:
+        expect_refused(f, "p.csv", "0;1.412\n40;1.371\n90;1.326\n", [":1:3: '1.412' can be read in two ways", "2 more"])
+        expect_read(f, "p.csv", "0;1412\n40;1.371,5\n90;1.326\n", [[0, 1412], [40, 1371.5], [90, 1326]], ["no head"])
+
+
 def test_no_data():
     """Heights that stand for no data, and heights that only an error of the terrain model has, are refused by line"""
     with Folder() as f:
@@ -213,6 +220,10 @@ def test_several_lines():
         expect_read(f, "p.csv", twice, POINTS, ["line '1' of 2"], layer="1")
         expect_read(f, "p.csv", twice, [[0, 90], [60, 30], [100, 0]], layer="2")
         expect_refused(f, "p.csv", twice, ["there is no line '3'; the file holds: 1, 2"], layer="3")
+        four = "".join(f"{600000 + x} 4870000 {x} {{}}\n" for x in (0, 20, 60, 90))
+        both = "> one\n" + four.format(90, 70, 30, 0) + "> two\n" + "700000 4870000 0 80\n700000 4869950 50 40\n700000 4869900 100 10\n"
+        expect_read(f, "p.csv", both, [[0, 90], [20, 70], [60, 30], [90, 0]], layer="one")
+        expect_read(f, "p.csv", both, [[0, 80], [50, 40], [100, 10]], ["line 'two' of 2"], layer="two")
         mixed = "linea;distanza;quota\n" + "".join(f"{'ab'[i % 2]};{x};{z}\n" for i, (x, z) in enumerate(p for pair in zip(POINTS, HIGHER) for p in pair))
         expect_refused(f, "p.csv", mixed, ["2 lines in one file: a, b"])
         expect_read(f, "p.csv", mixed, POINTS, layer="a")
