@@ -18,6 +18,7 @@
 #include "ceduo/doubt.h"
 #include "ceduo/years.h"
 #include "say.h"
+#include "scene/choices.h"
 
 #define WIDTH_LEAST  20
 #define HEIGHT_LEAST 6
@@ -359,24 +360,6 @@ const struct option_row *ceduo_option_rows(size_t *n)
     return rows;
 }
 
-/* Options of earlier versions, and what to do instead. */
-static const struct {
-    const char *name, *instead;
-} gone[] = {
-    {"plain", N_("shares and means are always as counted; leave it out")},
-    {"shard", N_("a scene is computed at once; give each machine scenes of its own, see man ceduo-workflows")},
-    {"merge", N_("results of several scenes are printed together; see man ceduo-workflows")},
-};
-
-static const char *instead_of(const char *word)
-{
-    size_t length = strcspn(word, "=");
-    for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
-        if (length > 2 && strlen(gone[i].name) == length - 2 && strncmp(gone[i].name, word + 2, length - 2) == 0)
-            return _(gone[i].instead);
-    return NULL;
-}
-
 bool ceduo_arguments_given(const struct arguments *a, const char *name)
 {
     size_t i = 0;
@@ -542,9 +525,9 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
             return ceduo_usage(NULL, _("'%s': this option takes no value"), word);
         if (letter == '?' && optopt && optopt < LONG)
             return ceduo_usage(NULL, _("unknown option '-%c'"), optopt);
-        const char *instead = letter == '?' ? instead_of(word) : NULL;
-        if (instead)
-            return ceduo_usage(NULL, _("'%s' is gone: %s"), word, instead);
+        const char *remedy = letter == '?' ? ceduo_gone(word) : NULL;
+        if (remedy)
+            return ceduo_usage(NULL, _("'%s' is gone: %s"), word, _(remedy));
         if (letter == '?')
             return ceduo_usage(NULL, _("unknown or ambiguous option '%s'"), word);
         size_t i = letter >= LONG ? (size_t)(letter - LONG) : 0;
