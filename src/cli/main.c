@@ -9,7 +9,7 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "batch.h"
-#include "ceduo/version.h"
+#include "ceduo/status.h"
 #include "output.h"
 #include "say.h"
 #include "tui/program.h"

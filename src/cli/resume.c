@@ -20,7 +20,7 @@
 #include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"
-#include "ceduo/version.h"
+#include "ceduo/status.h"
 #include "io/file.h"
 #include "say.h"
 

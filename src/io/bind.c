@@ -11,7 +11,7 @@
 
 #include "base/decimal.h"
 #include "base/language.h"
-#include "ceduo/number.h"
+#include "ceduo/rock.h"
 #include "scene/fields.h"
 
 #define KEYS_SHOWN_MOST 32

@@ -11,7 +11,7 @@
 
 #include "base/language.h"
 #include "base/path.h"
-#include "ceduo/material.h"
+#include "ceduo/slope.h"
 #include "file.h"
 #include "scene/choices.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The keys of what was observed of real rocks: see the kinds in ceduo/observe.h. */
-#include "ceduo/observe.h"
+#include "ceduo/scene.h"
 #include "fields.h"
 
 #define OF_KIND(KIND) AT(observed, values[CEDUO_OBSERVED_##KIND])

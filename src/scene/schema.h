@@ -4,7 +4,6 @@
 
 #include "base/path.h"
 #include "base/text.h"
-#include "ceduo/observe.h"
 #include "ceduo/scene.h"
 #include "choices.h"
 
