@@ -508,6 +508,13 @@ bool ceduo_csv_is(struct csv_cell cell, const char *word)
     return strlen(word) == cell.n && strncasecmp(cell.p, word, cell.n) == 0;
 }
 
+int ceduo_csv_compare(struct csv_cell a, struct csv_cell b)
+{
+    if (a.n != b.n)
+        return a.n < b.n ? -1 : 1;
+    return memcmp(a.p, b.p, a.n);
+}
+
 bool ceduo_csv_is_empty(struct csv_cell cell)
 {
     static const char *const words[] = {
