@@ -47,12 +47,7 @@ static struct sizes measure_sizes(const struct ceduo_survey *survey)
 /* Mean basal area over the plots, m2/ha. */
 static double mean_basal_area(const struct ceduo_survey *survey)
 {
-    size_t n;
-    double sum = 0;
-    ceduo_species_list(&n);
-    for (int k = -1; k < (int)n; k++)
-        sum += ceduo_survey_basal(survey, k);
-    return sum * (M_PI / 4) * 10000 / (double)survey->plots_count;
+    return ceduo_survey_basal(survey, CEDUO_SURVEY_ALL) * (M_PI / 4) * 10000 / (double)survey->plots_count;
 }
 
 static bool has_column(const struct survey_reader *r, enum column c)

@@ -25,6 +25,9 @@
 #define OTHER_SPECIES "other|others|altro|altra|altri|altre|altre latifoglie|altra specie|altre specie|sonstige"
 #define TOTALS        "total|totals|totale|totali|tot|sum|somma|mean|average|media|medie|summe|gesamt|mittel|mittelwert"
 
+/* Bytes of a cell that a message shows, for "%.*s". */
+#define SHOWN(cell) ((cell).n < 100 ? (int)(cell).n : 100), (cell).p
+
 /* ---- numbers ---- */
 
 /* Slope in degrees of a cell. `own`: the unit that stood in the cell. */
@@ -206,20 +209,8 @@ static bool read_species(struct survey_reader *r, int *found)
     LOCAL_TEXT(all);
     for (size_t i = 0, n; i < ceduo_species_words.n; i++)
         ceduo_text_format(&all, "%s%s", i > 0 ? ", " : "", _(ceduo_species_list(&n)[i].common));
-    return ceduo_csv_complain(&r->csv, cell, _("'%.*s' is an unknown species; leave it empty, or one of: %s"),
-                              cell.n < 100 ? (int)cell.n : 100, cell.p, ceduo_text_string(&all));
-}
-
-/* Numbers of stems by columns of their own: shoots, standards, trees. `all`: their sum. */
-static bool read_own_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KINDS_COUNT], size_t *all)
-{
-    bool good = true;
-    *all = 0;
-    for (enum column c = SHOOTS; c <= TREES; c++) {
-        good = read_count(r, c, &counts[c - SHOOTS]) && good;
-        *all += counts[c - SHOOTS];
-    }
-    return good;
+    return ceduo_csv_complain(&r->csv, cell, _("'%.*s' is an unknown species; leave it empty, or one of: %s"), SHOWN(cell),
+                              ceduo_text_string(&all));
 }
 
 /* Numbers of stems of each kind in a row: of the kind that the row names, or by columns of their own. */
@@ -227,12 +218,16 @@ static bool read_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
 {
     const struct csv_cell kind = r->fields[KIND], count = r->fields[COUNT];
     const bool tally = r->columns[KIND] == CEDUO_CSV_NONE;
-    size_t sum, given;
+    size_t sum = 0, given;
+    bool good = true;
     int found = ceduo_survey_find_word(&ceduo_survey_kind_words, kind);
     if (!tally && found < 0)
-        return ceduo_csv_complain(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
-                                  kind.n < 100 ? (int)kind.n : 100, kind.p);
-    if (!read_own_counts(r, counts, &sum) || !read_count(r, COUNT, &given))
+        return ceduo_csv_complain(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"), SHOWN(kind));
+    for (enum column c = SHOOTS; c <= TREES; c++) {
+        good = read_count(r, c, &counts[c - SHOOTS]) && good;
+        sum += counts[c - SHOOTS];
+    }
+    if (!good || !read_count(r, COUNT, &given))
         return false;
     for (int k = 0; !tally && k < CEDUO_SURVEY_STUMP; k++)
         if (k != found && counts[k] > 0)
@@ -262,7 +257,7 @@ static bool read_status(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
     if (status.n > 0 && found < 0)
         return ceduo_csv_complain(&r->csv, status,
                                   _("'%.*s' is no status: live, dead or cut; rename the column if it is something else"),
-                                  status.n < 100 ? (int)status.n : 100, status.p);
+                                  SHOWN(status));
     r->unmarked += status.n == 0 ? sum : 0;
     if (found <= SURVEY_LIVE)
         return true;
@@ -481,23 +476,25 @@ static bool check_numbering(struct survey_reader *r)
 
 /* ---- stools and areas ---- */
 
+static int compare_counts(size_t a, size_t b)
+{
+    return (a > b) - (a < b);
+}
+
 static int compare_shoots(const void *a, const void *b)
 {
     const struct survey_shoot *one = a, *other = b;
-    if (one->plot != other->plot)
-        return one->plot < other->plot ? -1 : 1;
-    return ceduo_csv_compare(one->stool, other->stool);
+    int plots = compare_counts(one->plot, other->plot);
+    return plots != 0 ? plots : ceduo_csv_compare(one->stool, other->stool);
 }
 
 static int compare_ids(const void *a, const void *b)
 {
     const struct survey_id *one = a, *other = b;
-    int stools = ceduo_csv_compare(one->stool, other->stool), ids = ceduo_csv_compare(one->id, other->id);
-    if (one->plot != other->plot)
-        return one->plot < other->plot ? -1 : 1;
-    if (one->kind != other->kind)
-        return one->kind < other->kind ? -1 : 1;
-    return stools != 0 ? stools : ids;
+    int order = compare_counts(one->plot, other->plot);
+    order = order != 0 ? order : one->kind - other->kind;
+    order = order != 0 ? order : ceduo_csv_compare(one->stool, other->stool);
+    return order != 0 ? order : ceduo_csv_compare(one->id, other->id);
 }
 
 static void count_repeated(struct survey_reader *r)
