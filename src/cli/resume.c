@@ -16,7 +16,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/grow.h"
 #include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/decimal.h"
 #include "base/language.h"
+#include "base/text.h"
 #include "ceduo/rock.h"
 #include "scene/fields.h"
 
