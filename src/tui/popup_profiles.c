@@ -8,8 +8,8 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/material.h"
 #include "ceduo/rotation.h"
+#include "ceduo/slope.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "model/changes.h"

@@ -2,7 +2,7 @@
 /* The figures of a result, of its years and of a search: each is named once. */
 #include "figures_parts.h"
 
-#include "ceduo/version.h"
+#include "ceduo/status.h"
 #include "scene/choices.h"
 
 /* ---- values ---- */
