@@ -419,8 +419,6 @@ static const struct ceduo_figure other_energy[] = {
     {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.exceed_lo), .null = UNSAID},
     {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.exceed_hi), .null = UNSAID},
     {"energy_kJ", "kJ", "energy of the rocks that reach it", .of = other_mean, .scale = J_TO_KJ},
-    {"energy_kJ_mean", "kJ", "energy_kJ.mean by an older name", AT(other_energy, arrivals.energy.mean), .scale = J_TO_KJ,
-     .null = NO_ROCK},
     {"verdict", "", "what is said of the control", .of = verdict_of_other},
     END};
 

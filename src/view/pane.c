@@ -224,6 +224,29 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
 
 /* ---- tables and words of views 4 and 7 ---- */
 
+void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    static const struct ceduo_page_column columns[] = {
+        {N_("ADC"), 10, 0, CEDUO_FILLS}, {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(1)}, {"", -6, 1, CEDUO_FITS}, {"", 1, 1, 0}};
+    const struct ceduo_option *option = &pane->result->scene->options[pane->option];
+    double threshold = pane->result->scene->simulation.threshold;
+    if (option->belts_count == 0)
+        return;
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_text_format(&page->last->cells[2].text, _("< %s m"), SHORTEST(threshold));
+    for (size_t i = 0; i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        const struct ceduo_stand_result *r = &pane->result->options[pane->option].stands[i];
+        LOCAL_TEXT(name);
+        ceduo_plot_belt_name(&name, belt);
+        ceduo_page_mark(page, CEDUO_ROLE_BELT, ceduo_text_string(&name));
+        ceduo_page_write(page, "%s\xe2\x80\x93%s m", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
+        ceduo_page_write(page, isfinite(r->adc_m) ? _("%s m") : "%s", BESIDE(r->adc_m, 3, threshold));
+        ceduo_page_light(page, r->passes_threshold ? CEDUO_PASS : CEDUO_FAIL);
+    }
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+}
+
 static void add_simulated(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
                           const struct ceduo_arrivals *a)
 {

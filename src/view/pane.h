@@ -26,6 +26,9 @@ struct ceduo_pane {
  * at its end are warnings. */
 size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane);
 
+/* The ADC of each belt beside the threshold, and a gap; nothing without forest. */
+void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane);
+
 /* The energy that is left at the last control: without forest, by the index, simulated. */
 void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane);
 
