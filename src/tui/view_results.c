@@ -13,7 +13,6 @@ static void draw_page(struct app *app, struct ceduo_area area, const struct cedu
     area.width -= 2; /* the mark of more below stands beside the text */
     struct ceduo_page page = {.width = (size_t)area.width};
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
-    struct ceduo_report report = ceduo_app_report(app);
     ceduo_pane_belts(&page, &pane);
     ceduo_pane_residual(&page, &pane);
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
@@ -23,7 +22,7 @@ static void draw_page(struct app *app, struct ceduo_area area, const struct cedu
                        rest > BARS_MIN ? rest < 2 * BARS_MIN ? rest : 2 * BARS_MIN : BARS_MIN);
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
     }
-    ceduo_pane_words(&page, &report, app->option);
+    ceduo_pane_words(&page, &pane);
     ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
 }
 
