@@ -416,9 +416,9 @@ $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-# Writes the tables of keys, goals, ranges and figures into the manual pages.
+# Writes the synopsis and the tables of keys, goals, ranges and figures into the manual pages.
 man: $(TABLES)
-	@$(TABLES) goals man/ceduo.1
+	@for table in synopsis goals; do $(TABLES) $$table man/ceduo.1; done
 	@$(TABLES) ranges man/ceduo-scene.5
 	@for table in search figures; do $(TABLES) $$table man/ceduo-output.5; done
 	@$(TABLES) keys man/ceduo-terminal.7

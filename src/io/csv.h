@@ -57,10 +57,19 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
 #define CEDUO_CSV_NONE  SIZE_MAX
 #define CEDUO_CSV_TWICE (SIZE_MAX - 1)
 
+enum csv_unit {
+    CSV_UNIT_NONE,
+    CSV_UNIT_USUAL, /* the unit in the name of the manual: cm, m2, degrees */
+    CSV_UNIT_OTHER  /* mm, percent */
+};
+
 /* Names of a column, the best first, ended by NULL, and its units, separated by |. */
 struct csv_head {
     const char *names[40];
     const char *units; /* NULL: any unit in brackets is ignored */
+    const char *other; /* among them: those of another scale; NULL: none */
+    const char *unit;  /* for messages; its translation is marked */
+    double lo, hi;     /* range of its numbers, in the usual unit */
 };
 
 /* Column with one of n known heads; CEDUO_CSV_NONE; CEDUO_CSV_TWICE. Case, blanks and punctuation do not matter. A unit may
@@ -93,6 +102,9 @@ struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column);
 /* True if a text is one of the words, separated by |. Case, blanks and punctuation do not matter. */
 bool ceduo_csv_among(const char *p, size_t n, const char *words);
 
+/* Order of two cells as of memcmp(); 0: they have the same bytes. */
+int ceduo_csv_compare(struct csv_cell a, struct csv_cell b);
+
 /* True if a cell is a word; case does not matter. */
 bool ceduo_csv_is(struct csv_cell cell, const char *word);
 
@@ -119,6 +131,9 @@ enum csv_numeral { CSV_NUMERAL_GOOD, CSV_NUMERAL_NONE, CSV_NUMERAL_TWO_WAYS, CSV
 /* Write a number with a dot for decimals and without thousands separators to `to`. */
 #define CSV_NUMERAL_CAPACITY 128
 enum csv_numeral ceduo_csv_numeral(const struct csv *csv, struct csv_cell cell, char to[CSV_NUMERAL_CAPACITY]);
+
+/* Remove the unit that follows the number in a cell, one of `units` (may be NULL), separated by |. False if there is none. */
+bool ceduo_csv_split_unit(struct csv_cell *cell, const char *units);
 
 /* Set *value if a cell is a number; false if it is not. Reports nothing. */
 bool ceduo_csv_value(const struct csv *csv, struct csv_cell cell, double *value);

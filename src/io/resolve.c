@@ -374,7 +374,7 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
     key[step->n] = '\0';
     const struct field *f = object ? ceduo_schema_field(object, key) : NULL;
     bool free_form = !object || strcmp(key, "source") == 0;
-    const char *instead = object ? ceduo_schema_gone(object, key) : NULL;
+    const char *instead = object ? ceduo_gone(key) : NULL;
     if (instead)
         return fail_at(s, step, _(instead));
     LOCAL_TEXT(said);

@@ -271,25 +271,6 @@ static const struct field energy_fields[] = {
 };
 static const struct object energy_object = OBJECT(ceduo_stand, energy_fields, NULL);
 
-/* Keys of earlier versions, and what to do instead. */
-static const struct {
-    const struct object *object;
-    const char *key, *instead;
-} gone[] = {
-    {&energy_object, "glancing",
-     N_("this key is gone: a hit takes what its law says, however slightly it touches; leave it out")},
-    {&energy_object, "green_density_kg_m3",
-     N_("this key is gone with the energy law inertia that it belonged to; leave it out")},
-};
-
-const char *ceduo_schema_gone(const struct object *object, const char *key)
-{
-    for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
-        if (gone[i].object == object && strcmp(gone[i].key, key) == 0)
-            return gone[i].instead;
-    return NULL;
-}
-
 const char *ceduo_schema_other(const struct object *object, const char *key)
 {
     static const char *const pairs[][2] = {{"per_ha", "per_stool"},          {"dbh_m", "dbh_cm"},   {"dbh_sd_m", "dbh_sd_cm"},

@@ -54,14 +54,6 @@ const struct field *ceduo_schema_row(const char *path)
     return row_at(path, strlen(path), &flags);
 }
 
-const char *ceduo_schema_gone_at(const char *path)
-{
-    unsigned flags = 0;
-    const char *dot = strrchr(path, '.');
-    const struct field *around = dot ? row_at(path, (size_t)(dot - path), &flags) : NULL;
-    return around && around->object ? ceduo_schema_gone(around->object, dot + 1) : NULL;
-}
-
 const struct field *ceduo_schema_at(const char *path)
 {
     const struct field *f = ceduo_schema_row(path);

@@ -141,10 +141,6 @@ const struct object *ceduo_schema_belt(void);
 const struct object *ceduo_schema_stand(void);
 
 const struct field *ceduo_schema_field(const struct object *object, const char *key);
-/* What to do instead of a key that earlier versions had there, marked for translation; NULL: none had it. */
-const char *ceduo_schema_gone(const struct object *object, const char *key);
-/* The same for the last key of a path of the scene. */
-const char *ceduo_schema_gone_at(const char *path);
 /* The key that says the same in another way, so that only one of the two may stand there; NULL: there is none. Who sets one
  * of two numbers takes the other out. */
 const char *ceduo_schema_other(const struct object *object, const char *key);

@@ -532,7 +532,7 @@ CASES = {
     "--rows requires --format csv": lambda row: [
         Words("--batch", "--rows", "stands", *words, "@")(row) for words in ((), ("-f", "json"))],
     "--charset requires --plot": Words("--batch", "--charset", "ascii", "@"),
-    "--script cannot be used with --batch": Words("--batch", "--script", "x", "@"),
+    "--batch cannot be used with --script": Words("--batch", "--script", "x", "@"),
     "--years requires --plot rotation|tradeoff": Words("--years", "0:5", "--plot", "profile", "@"),
 }
 
