@@ -68,7 +68,7 @@ def lights(screen, charset):
 
 
 OWN_KEYS = {"slope": ("Enter edit", "a add", "Tab picture"), "stand": ("Enter edit", "p stands", "c sample plot"),
-            "rock": ("Enter edit", "p presets"), "results": ("Down read on", "w export"),
+            "rock": ("Enter edit", "a blocks"), "results": ("Down read on", "w export"),
             "compare": ("a add", "y copy", "Enter name"), "rotation": ("Enter edit", "Tab years")}
 
 
