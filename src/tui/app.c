@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +9,6 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "base/utf8.h"
-#include "model/changes.h"
 #include "view/typed.h"
 
 /* ---- strings ---- */
@@ -295,7 +293,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
                       struct problems *problems)
 {
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
-    if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))
+    if (!ceduo_document_open(&app->document, path ? path : "paper-site", NULL, 0, problems))
         return false;
     if (!ceduo_live_create(&app->live, threads)) { /* no thread */
         problems->memory = true;
@@ -347,7 +345,7 @@ static bool take_opened(struct app *app, struct document *next, bool good)
 bool ceduo_app_open(struct app *app, const char *path)
 {
     struct document next;
-    return take_opened(app, &next, ceduo_document_open(&next, path, &app->problems));
+    return take_opened(app, &next, ceduo_document_open(&next, path, NULL, 0, &app->problems));
 }
 
 bool ceduo_app_open_text(struct app *app, const char *text)

@@ -2,7 +2,6 @@
 /* The value of the field under the cursor. */
 #include "edit.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/language.h"

@@ -2,8 +2,6 @@
 #ifndef CEDUO_POPUP_H
 #define CEDUO_POPUP_H
 
-#include <stdio.h>
-
 #include "app.h"
 #include "picker.h"
 #include "scene/schema.h"

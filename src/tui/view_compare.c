@@ -86,7 +86,7 @@ static void next_option(struct app *app, int by)
 static void copy_option(struct app *app)
 {
     size_t at = app->option;
-    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL, NULL, &app->problems)))
+    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL, &app->problems)))
         choose(app, (long)at + 1);
 }
 

@@ -6,7 +6,6 @@
 #include "app.h"
 #include "base/language.h"
 #include "edit.h"
-#include "model/changes.h"
 #include "popup.h"
 #include "popups.h"
 #include "view/page_parts.h"
