@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/decimal.h"
 #include "base/language.h"
-#include "ceduo/number.h"
+#include "base/text.h"
+#include "ceduo/rock.h"
 #include "scene/fields.h"
 
 #define KEYS_SHOWN_MOST 32

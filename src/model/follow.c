@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "ceduo/rotation.h"
 #include "document.h"
 #include "io/doubt_inputs.h"

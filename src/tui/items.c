@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/material.h"
+#include "ceduo/slope.h"
 #include "edit.h"
 #include "popup.h"
 #include "popups.h"

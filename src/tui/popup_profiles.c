@@ -8,7 +8,7 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/material.h"
+#include "ceduo/slope.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
