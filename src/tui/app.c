@@ -253,14 +253,6 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
     return good;
 }
 
-void ceduo_app_search(struct app *app)
-{
-    if (ceduo_form_search(ceduo_app_form(app), app->search))
-        ceduo_app_state(app)->pane = 0;
-    else
-        ceduo_app_say(app, _("'%s' is not found in this view"), app->search);
-}
-
 /* ---- opening and closing ---- */
 
 /* Shows a document that was opened, and the first value in it that is unusual. */

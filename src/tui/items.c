@@ -5,9 +5,7 @@
 
 #include "base/language.h"
 #include "ceduo/slope.h"
-#include "edit.h"
 #include "popup.h"
-#include "popups.h"
 
 /* The item under the cursor, copied because each edit builds the form again. */
 struct item {

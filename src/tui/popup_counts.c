@@ -5,7 +5,6 @@
 #include "base/language.h"
 #include "io/emit.h"
 #include "popup.h"
-#include "popups.h"
 
 enum {
     COUNT_AREA,

@@ -5,7 +5,6 @@
 #include "base/language.h"
 #include "io/emit.h"
 #include "popup.h"
-#include "popups.h"
 
 /* Adds an item at the end of a list. Blocks that are one power law become the first class; the first blocks take the place of their
  * number a year. */

@@ -10,7 +10,6 @@
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
-#include "popups.h"
 #include "scene/choices.h"
 #include "view/plot.h"
 #include "view/typed.h"

@@ -12,7 +12,6 @@
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
-#include "popups.h"
 #include "scene/choices.h"
 #include "view/typed.h"
 #include "view/words.h"

@@ -11,7 +11,6 @@
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
-#include "popups.h"
 
 #define ENDING ".yaml"
 

@@ -7,7 +7,6 @@
 #include "io/file.h"
 #include "io/survey_file.h"
 #include "popup.h"
-#include "popups.h"
 
 /* Questions of the form, and their answers. */
 static const struct {

@@ -9,7 +9,6 @@
 #include "io/file.h"
 #include "io/resolve.h"
 #include "popup.h"
-#include "popups.h"
 
 #define FIRST_YEAR   1  /* the next year: year 0 is the stand as filed */
 #define KEPT_USUALLY 60 /* standards per ha, offered if the stands do not say how many stay */

@@ -3,7 +3,6 @@
  * options year by year. */
 #include "base/language.h"
 #include "popup.h"
-#include "popups.h"
 
 static void build(struct app *app, struct form *form)
 {
