@@ -32,18 +32,15 @@ enum column { DISTANCE, ELEVATION, EAST, NORTH, LAYER, WKT, LABEL, COLUMNS };
 /* Names of a column, the best first. */
 #define METRES "m|mt|metri|metro|metres|meters|meter|m slm|m sm|m asl|m amsl|m \xc3\xbcm|m \xc3\xbc nn|m nn|m nhn"
 static const struct csv_head heads[COLUMNS] = {
-    [DISTANCE] = {{"distance", "distanza", "dist", "chainage", "progressiva", "distanza progressiva", "progr", "entfernung",
-                   "distanz", "station", "stazione"},
-                  METRES},
-    [ELEVATION] = {{"elevation", "quota", "altitude", "altitudine", "elevazione", "alt", "height", "h\xc3\xb6he", "hoehe", "z",
-                    "value", "quota terreno", "elev"},
+    [DISTANCE] = {"distance",
+                  "distanza|dist|chainage|progressiva|distanza progressiva|progr|entfernung|distanz|station|stazione", METRES},
+    [ELEVATION] = {"elevation", "quota|altitude|altitudine|elevazione|alt|height|h\xc3\xb6he|hoehe|z|value|quota terreno|elev",
                    METRES},
-    [EAST] = {{"x", "est", "east", "easting", "e"}, METRES},
-    [NORTH] = {{"y", "nord", "north", "northing", "n"}, METRES},
-    [LAYER] = {{"layer", "layer name", "livello", "nome layer", "line", "linea", "line id", "profile", "profilo", "track"},
-               NULL},
-    [WKT] = {{"wkt", "wkt_geom", "geometry", "geom", "the_geom", "shape"}, NULL},
-    [LABEL] = {{"name", "nome", "id", "fid"}, NULL},
+    [EAST] = {"x", "est|east|easting|e", METRES},
+    [NORTH] = {"y", "nord|north|northing|n", METRES},
+    [LAYER] = {"layer", "layer name|livello|nome layer|line|linea|line id|profile|profilo|track"},
+    [WKT] = {"wkt", "wkt_geom|geometry|geom|the_geom|shape"},
+    [LABEL] = {"name", "nome|id|fid"},
 };
 
 /* A point as its file has it. */
@@ -293,14 +290,14 @@ static bool check_units(struct reader *r)
 {
     bool good = true;
     for (enum column c = DISTANCE; c <= ELEVATION; c++) {
-        size_t column = r->columns[c] == CEDUO_CSV_NONE ? ceduo_csv_column(&r->csv, heads[c].names, NULL) : CEDUO_CSV_NONE;
+        size_t column = r->columns[c] == CEDUO_CSV_NONE ? ceduo_csv_column(&r->csv, &heads[c], NULL) : CEDUO_CSV_NONE;
         if (column >= CEDUO_CSV_TWICE || (c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NONE))
             continue;
         r->csv.source->foreign = false;
         good = ceduo_csv_complain(&r->csv, r->csv.heads[column],
                                   _("its values must be in m; convert them and name the "
                                     "column '%s'"),
-                                  heads[c].names[0]);
+                                  heads[c].name);
     }
     return good;
 }
