@@ -366,10 +366,10 @@ static bool read_rows(struct reader *r)
         if (r->columns[WKT] != CEDUO_CSV_NONE) {
             const struct csv_cell wkt = ceduo_csv_cell(csv, r->columns[WKT]), label = ceduo_csv_cell(csv, r->columns[LABEL]);
             r->map = true;
-            if (!is_wkt(wkt.p, wkt.n))
-                ceduo_csv_complain(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
-            else
+            if (is_wkt(wkt.p, wkt.n))
                 read_wkt(r, wkt.p, wkt.p + wkt.n, ceduo_csv_line(csv, wkt), name.n > 0 ? name : label);
+            else if (!csv->headless)
+                ceduo_csv_complain(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
             continue;
         }
         if (r->columns[LAYER] != CEDUO_CSV_NONE)
@@ -661,7 +661,7 @@ static void understand(struct reader *r, struct points *p, const char *path)
                       p->n, p->x[p->n - 1] - p->x[0], fabs(rise));
     if (r->layers_count > 1)
         ceduo_text_format(&line, _("; line '%.100s' of %zu"), r->layers[r->raw[0].layer], r->layers_count);
-    if (csv->headless)
+    if (csv->headless && !wkt)
         ceduo_text_put(&line, _("; no head: taken as distance and elevation"));
     for (size_t i = 0; table && i < n; i++) {
         ceduo_text_put(&line, i > 0 ? ", " : n > 1 ? _("; columns ") : _("; column "));
@@ -683,19 +683,11 @@ static bool read_points(struct reader *r)
         begin++;
     if (!is_wkt(begin, (size_t)(end - begin)))
         return find_columns(r) && read_rows(r);
-    r->map = true;
     for (size_t c = 0; c < COLUMNS; c++)
-        r->columns[c] = CEDUO_CSV_NONE;
-    r->columns[WKT] = 0;
+        r->columns[c] = c == WKT ? 0 : CEDUO_CSV_NONE;
     r->csv.source->foreign = false;
-    size_t line = 1;
-    for (const char *p = begin; p < end; line++) {
-        size_t n = strcspn(p, "\n");
-        if (is_wkt(p, n) && !read_wkt(r, p, p + n, line, (struct csv_cell){.p = ""}))
-            return false;
-        p += n + (p + n < end);
-    }
-    return true;
+    ceduo_csv_headless(&r->csv, '\n'); /* each line is one cell */
+    return read_rows(r);
 }
 
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *layer, struct points *points,
