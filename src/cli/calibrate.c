@@ -39,7 +39,7 @@ static enum exit_status find_value(struct job *j, size_t i)
     for (size_t s = 0; s < j->scenes_count; s++) {
         struct ceduo_input *input = &j->inputs[s * j->parameters_count + i];
         field = ceduo_input_find(&j->files[s], path, input);
-        const char *instead = ceduo_schema_gone_at(path);
+        const char *instead = ceduo_gone(path);
         if (instead)
             return ceduo_usage("calibrate", "'%s': %s", path, _(instead));
         if (!field)

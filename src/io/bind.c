@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/decimal.h"
 #include "base/language.h"
-#include "ceduo/number.h"
+#include "base/text.h"
+#include "ceduo/rock.h"
 #include "scene/fields.h"
 
 #define KEYS_SHOWN_MOST 32
@@ -101,7 +101,7 @@ const char *ceduo_bind_unknown_key(const struct object *object, const char *key,
 static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
 {
     LOCAL_TEXT(said);
-    const char *instead = ceduo_schema_gone(object, entry->key), *near = ceduo_bind_unknown_key(object, entry->key, &said);
+    const char *instead = ceduo_gone(entry->key), *near = ceduo_bind_unknown_key(object, entry->key, &said);
     struct problem_place place = ceduo_node_place(entry, NULL);
     if (entry->key_line) {
         place.line = entry->key_line;
@@ -247,7 +247,7 @@ static void bind_choice(struct binder *b, const struct choices *choices, const s
         memcpy(to, &found, sizeof found);
         return;
     }
-    const char *instead = ceduo_choice_gone(choices, node->text);
+    const char *instead = ceduo_gone(node->text);
     if (instead) {
         report(b, node, "%s", _(instead));
         return;

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/decimal.h"
 #include "base/language.h"
+#include "base/text.h"
 #include "emit.h"
 #include "resolve.h"
 #include "scene/schema.h"

@@ -186,7 +186,7 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
     if (n < 2)
         ceduo_complain(v, row->at, "one_of", _("name at least two words"));
     for (size_t i = 0; words && i < n; i++) {
-        const char *word = row->doubt.one_of[i], *instead = ceduo_choice_gone(field->choices, word);
+        const char *word = row->doubt.one_of[i], *instead = ceduo_gone(word);
         const char *at = ceduo_format(v, "%s.one_of[%zu]", row->at, i);
         words[i] = ceduo_choice_find(field->choices, word);
         if (instead)
@@ -210,7 +210,7 @@ static bool make_input(struct validator *v, const struct row *row, struct places
     if (!path)
         return false;
     const struct field *field = field_of(v, path);
-    const char *instead = ceduo_schema_gone_at(path);
+    const char *instead = ceduo_gone(path);
     *places = (struct places){.v = v};
     if (instead)
         return ceduo_complain(v, row->at, "path", "%s", _(instead));

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/grow.h"
 #include "base/language.h"
 #include "base/must.h"
 #include "io/file.h"

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/arena.h"
-#include "base/cancel.h"
+#include "base/parallel.h"
 #include "ceduo/record.h"
 #include "ceduo/run.h"
 #include "check_study.h"

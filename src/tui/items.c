@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/material.h"
+#include "ceduo/slope.h"
 #include "edit.h"
 #include "model/changes.h"
 #include "popup.h"

@@ -7,7 +7,7 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "ceduo/material.h"
+#include "ceduo/slope.h"
 #include "io/csv.h"
 #include "io/emit.h"
 #include "io/file.h"
