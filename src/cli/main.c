@@ -23,9 +23,9 @@ static void end_without_memory(void)
     static atomic_flag ends = ATOMIC_FLAG_INIT;
     while (atomic_flag_test_and_set(&ends)) /* another thread does it */
         pause();
-    fputs(ceduo_terminal_restore() ? _("ceduo: out of memory; unsaved work was kept and is offered at the next start\n")
-                                   : _("ceduo: out of memory\n"),
-          stderr);
+    fprintf(stderr, "ceduo: %s\n",
+            ceduo_terminal_restore() ? _("out of memory; unsaved work was kept and is offered at the next start")
+                                     : _("out of memory"));
     _exit(EXIT_RUN);
 }
 
