@@ -124,6 +124,8 @@ static enum exit_status set_share(struct arguments *a, const struct option_row *
 
 static enum exit_status set_plot(struct arguments *a, const struct option_row *row, char *value)
 {
+    if (strcmp(value, "adc") == 0)
+        return ceduo_usage(row->name, _("'%s' is gone: %s"), value, _("the page of --details has the ADC of each belt"));
     a->plot = ceduo_plot_find(value);
     if (a->plot == CEDUO_PLOT_NONE)
         return ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_plot_names);

@@ -59,7 +59,7 @@ static const char *read_quoted(struct csv *csv, const char *p, const char *end, 
         inside += is_separator(csv, to);
         to += *to == '"' ? 2 : 1;
     }
-    *cell = (struct csv_cell){from, (size_t)(to - from), p, true};
+    *cell = (struct csv_cell){.p = from, .n = (size_t)(to - from), .at = p, .quoted = true};
     if (to == end)
         mark_bad(csv, p, _("this quote is not closed; close it, or remove it"));
     else if (lines > 0 && csv->heads_count > 1 && inside + 1 >= csv->heads_count) /* it may have swallowed a row */
@@ -314,7 +314,7 @@ static void take_units(struct csv *csv)
         const char *whole = ceduo_arena_format(csv->arena, "%.*s %s%.*s%s", (int)head->n, head->p, bare ? "(" : "", (int)unit.n,
                                                unit.p, bare ? ")" : "");
         if (whole)
-            *head = (struct csv_cell){whole, strlen(whole), head->at, head->quoted};
+            *head = (struct csv_cell){.p = whole, .n = strlen(whole), .at = head->at, .quoted = head->quoted};
     }
 }
 
@@ -416,7 +416,7 @@ void ceduo_csv_describe(const struct csv *csv, const size_t *used, size_t n, con
 
 /* ---- rows ---- */
 
-void ceduo_csv_scan(struct csv *csv, const bool *numeric)
+void ceduo_csv_scan(struct csv *csv)
 {
     struct csv_place begin = csv->next;
     struct problems *problems = csv->problems;
@@ -428,8 +428,7 @@ void ceduo_csv_scan(struct csv *csv, const bool *numeric)
     while (read_filled(csv)) {
         csv->rows++;
         most = csv->cells_count > most ? csv->cells_count : most;
-        if (numeric)
-            ceduo_csv_note(csv, numeric);
+        ceduo_csv_note(csv);
     }
     csv->width = most > filled ? of_head : filled;
     csv->longer = csv->longer_by_one = 0;

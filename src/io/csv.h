@@ -16,6 +16,7 @@ struct csv_cell {
     size_t n;       /* bytes */
     const char *at; /* first byte in the file */
     bool quoted;
+    bool numeric; /* of a head: its column holds numbers */
 };
 
 /* A record as a place to return to. */
@@ -86,9 +87,16 @@ bool ceduo_csv_first(struct csv *csv);
 /* Take a table without a head: the first record that is not blank is its first row. */
 void ceduo_csv_headless(struct csv *csv, char separator);
 
-/* Read the whole table once: number of cells a record has, rows, decimal sign. numeric[c] is true if column c holds numbers;
- * NULL: none does. Call it before the first ceduo_csv_next(). */
-void ceduo_csv_scan(struct csv *csv, const bool *numeric);
+/* Mark a column as one of numbers, if there is such a column. */
+static inline void ceduo_csv_has_numbers(struct csv *csv, size_t column)
+{
+    if (column < csv->heads_count)
+        csv->heads[column].numeric = true;
+}
+
+/* Read the whole table once: number of cells a record has, rows, decimal sign of the columns that are marked as numeric. Call it
+ * before the first ceduo_csv_next(). */
+void ceduo_csv_scan(struct csv *csv);
 
 /* Read the next record that is not blank; false at the end. A broken record is reported and marked bad. */
 bool ceduo_csv_next(struct csv *csv);
@@ -141,8 +149,8 @@ bool ceduo_csv_value(const struct csv *csv, struct csv_cell cell, double *value)
 /* Number in a cell, lo <= number <= hi, in `unit`, which may follow it. Reports an error and returns false otherwise. */
 bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, double hi, const char *unit, double *value);
 
-/* Note the decimal sign of the present record, if it shows one. numeric[c]: as in ceduo_csv_scan(). */
-void ceduo_csv_note(struct csv *csv, const bool *numeric);
+/* Note the decimal sign of the present record, if it shows one. */
+void ceduo_csv_note(struct csv *csv);
 
 /* Report why a cell is not the number that ceduo_csv_numeral() looks for; returns false. */
 bool ceduo_csv_no_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral why);

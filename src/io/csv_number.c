@@ -234,11 +234,11 @@ bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, do
     return ceduo_csv_complain(csv, cell, _("beyond %g %s"), hi, unit);
 }
 
-void ceduo_csv_note(struct csv *csv, const bool *numeric)
+void ceduo_csv_note(struct csv *csv)
 {
     for (size_t i = 0; i < csv->cells_count && i < csv->heads_count; i++) {
         struct numeral numeral;
-        if (!numeric[i] || take_apart(csv->cells[i], &numeral) != CSV_NUMERAL_GOOD)
+        if (!csv->heads[i].numeric || take_apart(csv->cells[i], &numeral) != CSV_NUMERAL_GOOD)
             continue;
         char shown = shown_decimal(&numeral);
         csv->grouped |= numeral.signs >= SIGNS_GROUPS;

@@ -265,7 +265,7 @@ static bool take_headless(struct reader *r, struct csv_place begin)
         csv->next = begin;
         csv->problems = NULL;
         ceduo_csv_headless(csv, *s);
-        ceduo_csv_scan(csv, NULL);
+        ceduo_csv_scan(csv);
         bool good = ceduo_csv_next(csv) && csv->cells_count >= 2 && are_numbers(csv);
         csv->problems = problems;
         csv->next = begin;
@@ -357,13 +357,10 @@ static bool read_rows(struct reader *r)
 {
     struct csv *csv = &r->csv;
     size_t before = r->problems->met, layer = 0, length = 0;
-    bool *numeric = ceduo_arena_take(r->arena, (csv->heads_count + 1) * sizeof *numeric);
-    for (enum column c = DISTANCE; numeric && c <= NORTH; c++) {
-        bool read = c == ELEVATION || (c == DISTANCE ? !r->map : has_places(r));
-        if (read && r->columns[c] < csv->heads_count)
-            numeric[r->columns[c]] = true;
-    }
-    ceduo_csv_scan(csv, numeric);
+    for (enum column c = DISTANCE; c <= NORTH; c++)
+        if (c == ELEVATION || (c == DISTANCE ? !r->map : has_places(r)))
+            ceduo_csv_has_numbers(csv, r->columns[c]);
+    ceduo_csv_scan(csv);
     for (size_t from = csv->next.at; ceduo_csv_next(csv); from = csv->next.at) {
         const struct csv_cell name = ceduo_csv_cell(csv, r->columns[LAYER]);
         const char *gmt = gmt_line(csv, from, &length);

@@ -586,13 +586,10 @@ static void measure_plots(struct survey_reader *r, double *areas)
 
 static void scan_numbers(struct survey_reader *r)
 {
-    bool *numeric = ceduo_arena_take(r->arena, (r->csv.heads_count + 1) * sizeof *numeric);
-    for (int c = 0; numeric && c < COLUMNS; c++) {
-        bool number = (c >= AREA && c <= STOOLS) || (c >= DBH && c <= TREES);
-        if (number && r->columns[c] < CEDUO_CSV_TWICE)
-            numeric[r->columns[c]] = true;
-    }
-    ceduo_csv_scan(&r->csv, numeric);
+    for (int c = 0; c < COLUMNS; c++)
+        if ((c >= AREA && c <= STOOLS) || (c >= DBH && c <= TREES))
+            ceduo_csv_has_numbers(&r->csv, r->columns[c]);
+    ceduo_csv_scan(&r->csv);
 }
 
 static void read_rows(struct survey_reader *r)

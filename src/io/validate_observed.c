@@ -235,11 +235,8 @@ static bool read_table(const struct place *p, const char *path)
     struct csv *csv = &t.csv;
     if (!split_only(p, &t) || !ceduo_csv_open(csv, v->arena, path, v->problems) || !find_columns(p, &t))
         return false;
-    bool *numeric = ceduo_room(v, csv->heads_count, sizeof *numeric);
-    if (!numeric)
-        return false;
-    numeric[t.columns[VALUES]] = true;
-    ceduo_csv_scan(csv, numeric);
+    ceduo_csv_has_numbers(csv, t.columns[VALUES]);
+    ceduo_csv_scan(csv);
     to->values = ceduo_room(v, csv->rows, sizeof *to->values);
     if (!to->values)
         return false;

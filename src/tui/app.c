@@ -107,15 +107,6 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .year = app->year};
 }
 
-struct ceduo_report ceduo_app_report(const struct app *app)
-{
-    return (struct ceduo_report){.file = &app->document.file,
-                                 .result = app->live.result,
-                                 .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
-                                 .remarks = {.ground_assumed = app->document.file.ground_assumed},
-                                 .seconds = app->live.results.snapshot ? app->live.results.snapshot->seconds : 0};
-}
-
 bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
 {
     const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
@@ -133,30 +124,34 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
     return true;
 }
 
-struct ceduo_years **ceduo_app_years(const struct app *app)
+struct ceduo_report *ceduo_app_report(const struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
+    struct ceduo_report *report = ceduo_must(ceduo_arena_take(app->scratch, sizeof *report));
+    struct ceduo_doubt_report *doubt = ceduo_must(ceduo_arena_take(app->scratch, sizeof *doubt));
     struct ceduo_years **years = ceduo_must(ceduo_arena_take(app->scratch, scene->options_count * sizeof *years));
     for (size_t i = 0; i < scene->options_count; i++)
         years[i] = ceduo_live_years(&app->live, scene, i);
-    return years;
+    *report = (struct ceduo_report){.file = &app->document.file,
+                                    .result = app->live.result,
+                                    .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
+                                    .doubt = ceduo_app_doubt(app, doubt) ? doubt : NULL,
+                                    .ahead = years,
+                                    .snapshot = ceduo_live_snapshot(&app->live, scene),
+                                    .remarks = {.ground_assumed = app->document.file.ground_assumed},
+                                    .seconds = app->live.results.snapshot ? app->live.results.snapshot->seconds : 0,
+                                    .busy = app->live.busy};
+    return report;
 }
 
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height)
 {
-    const struct ceduo_scene *scene = &app->document.file.scene;
-    const struct ceduo_years *shown = ceduo_live_years(&app->live, scene, app->option);
-    struct ceduo_doubt_report *doubt = ceduo_must(ceduo_arena_take(app->scratch, sizeof *doubt));
-    bool known = ceduo_app_doubt(app, doubt), in_year = app->view == VIEW_ROTATION && shown && app->year < shown->count;
-    return (struct ceduo_pane){.file = &app->document.file,
-                               .result = app->live.result,
-                               .verdict = &app->live.verdict,
-                               .years = ceduo_app_years(app),
-                               .doubt = known ? doubt : NULL,
+    const struct ceduo_years *shown = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
+    bool in_year = app->view == VIEW_ROTATION && shown && app->year < shown->count;
+    return (struct ceduo_pane){.report = ceduo_app_report(app),
                                .year = in_year ? &shown->years[app->year] : NULL,
                                .option = app->option,
-                               .height = height,
-                               .busy = app->live.busy};
+                               .height = height};
 }
 
 void ceduo_app_refresh(struct app *app)

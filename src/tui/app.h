@@ -161,14 +161,11 @@ void ceduo_app_show_option(struct app *app, size_t option);
 /* What a picture shows of the scene as it is now. */
 struct ceduo_picture ceduo_app_picture(const struct app *app);
 
-/* The result as it is now, which may be missing. */
-struct ceduo_report ceduo_app_report(const struct app *app);
+/* All that is known of the scene as it is now, until the next key; the result may be missing. */
+struct ceduo_report *ceduo_app_report(const struct app *app);
 
 /* How sure the figures of the scene are; false where that is not known yet. Without inputs it has no answer. */
 bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report);
-
-/* The years of each option, NULL where they are not known, until the next key. */
-struct ceduo_years **ceduo_app_years(const struct app *app);
 
 /* What a pane of so many lines shows, until the next key. */
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height);

@@ -8,7 +8,6 @@
 
 void ceduo_popup_help(struct app *app);
 void ceduo_popup_presets(struct app *app);
-void ceduo_popup_starts(struct app *app);
 void ceduo_popup_new_option(struct app *app);
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell);
 void ceduo_popup_open(struct app *app);

@@ -32,7 +32,7 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_page page = {.width = (size_t)area.width - 2};
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_pane pane = ceduo_app_pane(app, area.height - form - 1);
-    const struct ceduo_doubt_report *r = pane.doubt;
+    const struct ceduo_doubt_report *r = pane.report->doubt;
     bool waits = app->over && r && r->answer && !r->over;
     picture.doubt = waits ? NULL : r;
     const char *never = waits ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;

@@ -466,6 +466,7 @@ CASES = {
     "--format: 'xml' is unknown; one of: table, csv, json": Words("--batch", "-f", "xml", "@"),
     "--rows: 'x' is unknown; one of: controls, stands": Words("--batch", "--rows", "x", "@"),
     "--plot: 'x' is unknown; one of: profile, energy, ...": Words("--plot", "x", "@"),
+    "--plot: 'adc' is gone: the page of --details has the ADC of each belt": Words("--plot", "adc", "@"),
     "--charset: 'x' is unknown; one of: braille, block, ascii": Words("--charset", "x", "@"),
     "--rocks: '1.5' is not a whole number": Words("--batch", "-n", "1.5", "@"),
     "--rocks: with blocks each rock is kept: at most 1048576 rocks": Words(
@@ -473,8 +474,8 @@ CASES = {
     "--rocks: 0 is outside 1 to 10000000": Words("--batch", "-n", "0", "@"),
     "--tolerance: 1 is not a share; write a number between 0 and 1, such as 0.05 for 5 %": lambda row: (
         Words("--batch", "-e", "1", "@")(row), Words("--batch", "-e", "0", "@")(row.replace("1 is", "0 is"))),
-    "--size: '80' is not COLUMNSxLINES, such as '80x24'": Words("--plot", "adc", "--size", "80", "@"),
-    "--size: 10x5 is outside 20x6 to 1000x500": Words("--plot", "adc", "--size", "10x5", "@"),
+    "--size: '80' is not COLUMNSxLINES, such as '80x24'": Words("--plot", "stand", "--size", "80", "@"),
+    "--size: 10x5 is outside 20x6 to 1000x500": Words("--plot", "stand", "--size", "10x5", "@"),
     "--years: '5' is not A:B[:STEP], such as '0:25'": Words("--years", "5", "@"),
     "--years: 0:5000: expected at most 1000 years of 0 (the stand as filed) to 100000": lambda row: [
         Words(f"--years={words}", "@")(row.replace("0:5000", words)) for words in ("0:5000", "-5:-1", "9:1", "5:100001")],
@@ -497,7 +498,7 @@ CASES = {
     "--report: 'other.yaml' does not end in .html or .htm; name the page, or - for standard output, then the scenes: ...":
         Words("--report", "other.yaml", "@"),
     "--size requires --plot": Words("--batch", "--size", "80x24", "@"),
-    "--plot cannot be used with --format csv": Words("--plot", "adc", "-f", "csv", "@"),
+    "--plot cannot be used with --format csv": Words("--plot", "stand", "-f", "csv", "@"),
     "--option: no option 'x' in mine.yaml; it has: 'current'": lambda row: [
         Words(*words, "--option", "x", "@")(row.replace("mine", "scene")) for words in (
             ("--batch",), ("--check",), ("--find", "rock.diameter_m=1:2", "--goal", "adc"))],
@@ -522,11 +523,11 @@ CASES = {
                                                                   forbidden="out.csv", status=OUTPUT, start="out.csv: "),
     "--check cannot be used with --format": lambda row: [
         Words(*mode, *words, "@")(row.replace("--check", mode[0]).replace("--format", f"--{name}")) for mode, name, words in (
-            (("--find", "a=1:9", "--goal", "adc"), "plot", ("--plot", "adc")), (("--find", "a=1:9", "--goal", "adc"), "tolerance", ("-e", 0.1)),
-            (("--report", "x.html"), "format", ("-f", "json")), (("--report", "x.html"), "plot", ("--plot", "adc")),
+            (("--find", "a=1:9", "--goal", "adc"), "plot", ("--plot", "stand")), (("--find", "a=1:9", "--goal", "adc"), "tolerance", ("-e", 0.1)),
+            (("--report", "x.html"), "format", ("-f", "json")), (("--report", "x.html"), "plot", ("--plot", "stand")),
             (("--sensitivity",), "tolerance", ("-e", 0.1)), (("--calibrate", "a=1:2"), "option", ("--option", "x")))] + [
         Words("--check", *words, "@")(row.replace("--format", f"--{name}")) for name, words in (
-            ("format", ("-f", "json")), ("rocks", ("-n", 5)), ("output", ("-o", "x")), ("plot", ("--plot", "adc")),
+            ("format", ("-f", "json")), ("rocks", ("-n", 5)), ("output", ("-o", "x")), ("plot", ("--plot", "stand")),
             ("find", ("--find", "a=1:2", "--goal", "adc")), ("tolerance", ("-e", 0.1)), ("years", ("--years", "0:2")),
             ("script", ("--script", "x")), ("charset", ("--charset", "ascii")), ("rows", ("--rows", "stands")))],
     "--rows requires --format csv": lambda row: [
