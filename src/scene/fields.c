@@ -32,7 +32,7 @@ const struct object ceduo_rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL
 static const struct field block_fields[] = {
     NUMBER("per_year", SHOWN(N_("blocks per year"), N_("per year"), 0.0001, 1000), AT(ceduo_block_class, per_year), "1/y", 0,
            1e6, REQUIRED | ABOVE, NULL, N_("blocks of these sizes that come down in a year")),
-    NUM(FIELD_NUMBERS, "volume_m3", SHOWN(N_("volumes, m3"), N_("m3"), 0.0001, 2000),
+    NUM(FIELD_NUMBERS, "volume_m3", SHOWN(N_("volume, m3"), N_("m3"), 0.0001, 2000),
         LIST(ceduo_block_class, volumes, volumes_count), "m3", 1, 0, 1e6, REQUIRED | ABOVE, NULL,
         N_("the smallest and the largest: [lo, hi]")),
     NUMBER("exponent", USUAL(N_("exponent"), 0.2, 2), AT(ceduo_block_class, exponent), "", 0, 10, FIELD_ZERO, NULL,
@@ -155,11 +155,9 @@ static const struct field rules_fields[] = {
     TEXT("note_it", NAMED(N_("in Italian")), AT(ceduo_regulation, note_it), NO_RUN,
          N_("the same in Italian pages, screens and lists")),
     ITEMS("standards", NAMED(N_("standards")), LIST(ceduo_regulation, standards, standards_count), NO_RUN,
-          N_("standards that a cut must leave; the first row that fits applies, a row without species fits all"),
-          &standards_object),
+          N_("the first row that fits applies, a row without species fits all"), &standards_object),
     ITEMS("turns", NAMED(N_("rotations")), LIST(ceduo_regulation, turns, turns_count), NO_RUN,
-          N_("ages at which shoots may be cut; the first row that fits applies, a row without species fits all"),
-          &turns_object),
+          N_("the first row that fits applies, a row without species fits all"), &turns_object),
 };
 static const struct object rules_object = OBJECT(ceduo_regulation, rules_fields, "rules");
 
@@ -188,7 +186,7 @@ static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
         NUMBER("dbh_m", CENTIMETRES(N_("diameter, cm"), N_("diam. cm"), 0.01, 2), AT(ceduo_stems, dbh), "m", 0, 10,            \
                REQUIRED | ABOVE, NULL, N_("diameter at breast height")),                                                       \
         NUM(FIELD_NUMBER, "dbh_cm", SHOWN(N_("diameter, cm"), N_("diam. cm"), 1, 200), AT(ceduo_stems, dbh), "cm", 0.01, 0,    \
-            1000, ABOVE, NULL, N_("the same in centimetres, instead of dbh_m")),                                               \
+            1000, ABOVE, NULL, N_("the same in centimetres")),                                                                 \
         NUMBER("height_m", SHOWN(N_("height, m"), N_("height m"), 0.5, 50), AT(ceduo_stems, height), "m", 0, 150,              \
                REQUIRED | ABOVE, NULL, N_("height")),                                                                          \
         NUMBER("volume_m3", SHOWN(N_("volume, m3"), N_("vol. m3"), 0, 30), AT(ceduo_stems, volume), "m3", 0, 1000, ABOVE,      \
@@ -196,7 +194,7 @@ static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
         NUMBER("dbh_sd_m", CENTIMETRES(N_("spread of the diameters, cm"), N_("sd cm"), 0, 0.5), AT(ceduo_stems, dbh_sd), "m",  \
                0, 10, 0, "0", N_("standard deviation of the diameters")),                                                      \
         NUM(FIELD_NUMBER, "dbh_sd_cm", SHOWN(N_("spread of the diameters, cm"), N_("sd cm"), 0, 50), AT(ceduo_stems, dbh_sd),  \
-            "cm", 0.01, 0, 1000, 0, "0", N_("the same in centimetres, instead of dbh_sd_m")),                                  \
+            "cm", 0.01, 0, 1000, 0, "0", N_("the same in centimetres")),                                                       \
         NUMBER("age_y", SHOWN(N_("age, years"), N_("age y"), 0, 500), AT(ceduo_stems, age), "y", 0, 2000, YEARS, NULL,         \
                N_("age"))
 
@@ -227,9 +225,9 @@ static const struct field stumps_fields[] = {
     NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2), AT(ceduo_stumps, diameter), "m", 0, 10, ABOVE, NULL,
            N_("diameter of a stump")),
     NUMBER("height_m", USUAL(N_("height, m"), 0.02, 2), AT(ceduo_stumps, height), "m", 0, 20, ABOVE, NULL,
-           N_("height of a stump: a rock higher above the ground flies over")),
+           N_("a rock higher above the ground flies over")),
     NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), 0, 500), AT(ceduo_stumps, energy), "kJ", 1000, 0, 1e6, 0, NULL,
-        N_("energy that a hit of a stump takes from the rock")),
+        N_("energy that a hit takes from the rock")),
 };
 static const struct object stumps_object = OBJECT(ceduo_stumps, stumps_fields, NULL);
 
@@ -239,9 +237,9 @@ static const struct field logs_fields[] = {
     NUMBER("length_m", USUAL(N_("length, m"), 0.5, 40), AT(ceduo_logs, length), "m", 0, 150, ABOVE, NULL,
            N_("length of a log, which lies at a random angle")),
     NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2), AT(ceduo_logs, diameter), "m", 0, 10, ABOVE, NULL,
-           N_("diameter of a log: a rock higher above the ground flies over")),
+           N_("a rock higher above the ground flies over")),
     NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), 0, 500), AT(ceduo_logs, energy), "kJ", 1000, 0, 1e6, 0, NULL,
-        N_("energy that a hit of a log takes from the rock")),
+        N_("energy that a hit takes from the rock")),
 };
 static const struct object logs_object = OBJECT(ceduo_logs, logs_fields, NULL);
 

@@ -79,7 +79,7 @@ static const struct object way_object = OBJECT(observed, way_fields, NULL);
 static const struct field scars_fields[] = {
     POSITION("from_m", N_("from, m"), from, REQUIRED, N_("where it begins")),
     POSITION("to_m", N_("to, m"), to, REQUIRED, N_("where it ends")),
-    VALUES("height_m", N_("heights"), N_("heights of the middles of scars above the ground")),
+    VALUES("height_m", N_("height"), N_("heights of the middles of scars above the ground")),
     TABLE,
     RELEASED,
     NUMBER("share_seen", NAMED(N_("share seen")), AT(observed_values, share_seen), "", 0, 1, ABOVE | NO_RUN, NULL,
