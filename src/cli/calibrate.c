@@ -12,7 +12,6 @@
 #include "io/file.h"
 #include "model/changes.h"
 #include "model/fit.h"
-#include "output.h"
 #include "say.h"
 #include "view/figures.h"
 
