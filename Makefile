@@ -16,7 +16,7 @@
 #   make net        compare what the program prints with an earlier commit: BEFORE=v0.2 ONLY=plot
 #   make coverage   list branches of the library and src/io that no test takes, with the reason for each: slow
 
-VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
+VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/status.h)
 VARIANT ?= release
 PREFIX ?= /usr/local
 DESTDIR ?=
@@ -416,9 +416,9 @@ $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-# Writes the tables of keys, goals, ranges and figures into the manual pages.
+# Writes the synopsis and the tables of keys, goals, ranges and figures into the manual pages.
 man: $(TABLES)
-	@$(TABLES) goals man/ceduo.1
+	@for table in synopsis goals; do $(TABLES) $$table man/ceduo.1; done
 	@$(TABLES) ranges man/ceduo-scene.5
 	@for table in search figures; do $(TABLES) $$table man/ceduo-output.5; done
 	@$(TABLES) keys man/ceduo-terminal.7

@@ -2,6 +2,7 @@
 #ifndef CEDUO_ASSESS_H
 #define CEDUO_ASSESS_H
 
+#include "adc.h"
 #include "run.h"
 #include "scene.h"
 

@@ -50,8 +50,10 @@ struct ceduo_survey {
 /* A plot of `area` m2 laid along a slope covers this on the map. */
 double ceduo_survey_horizontal(double area, double slope_rad);
 
-/* The basal area per hectare of a species (-1: not said), stumps left out, summed over the plots: for shares of it. In m2 of the
- * squares of the diameters, per m2. */
+#define CEDUO_SURVEY_ALL (-2)
+
+/* The basal area per hectare of a species (-1: not said), or of CEDUO_SURVEY_ALL, stumps left out, summed over the plots: for shares
+ * of it. In m2 of the squares of the diameters, per m2. */
 double ceduo_survey_basal(const struct ceduo_survey *survey, int species);
 
 #define CEDUO_SURVEY_CLASS   0.05 /* m of dbh: the width of a class */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/grow.h"
+#include "base/must.h"
 #include "ceduo/doubt.h"
 #include "ceduo/key.h"
 

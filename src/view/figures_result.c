@@ -2,7 +2,7 @@
 /* The figures of a result, of its years and of a search: each is named once. */
 #include "figures_parts.h"
 
-#include "ceduo/version.h"
+#include "ceduo/status.h"
 #include "scene/choices.h"
 
 /* ---- values ---- */
@@ -59,9 +59,8 @@ static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
 /* NULL if the window is today alone, or its years were not simulated. */
 static const struct ceduo_choice *window_at(const struct ceduo_place *p)
 {
-    const struct ceduo_verdict *v = p->report->verdict;
-    const struct ceduo_choice *c = v && p->option < v->n ? &v->choices[p->option] : NULL;
-    return c && c->over.simulated > 0 && c->window.kind != CEDUO_WINDOW_ALIKE ? c : NULL;
+    const struct ceduo_choice *c = ceduo_report_ahead(p->report, p->option);
+    return c && c->over.simulated > 0 ? c : NULL;
 }
 
 static const struct ceduo_stand_result *belt_result(const struct ceduo_place *p)
@@ -164,7 +163,7 @@ static struct ceduo_outcome outcome_of(const struct ceduo_place *p)
         enum ceduo_judgement judgement = ceduo_judge(&result_of(p)->bare.arrivals[p->control], through_the_wood(p));
         return (struct ceduo_outcome){.answer = judgement, .today = judgement};
     }
-    return ceduo_outcome_of(p->report->result, p->report->verdict, NULL, p->option, p->control);
+    return ceduo_report_outcome(p->report, p->option, p->control);
 }
 
 static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void *context)
@@ -172,8 +171,7 @@ static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void 
     const struct ceduo_outcome o = outcome_of(p);
     LOCAL_TEXT(why);
     if ((o.ahead && o.answer != CEDUO_NOTHING) || o.impossible)
-        ceduo_words_reason(&why, &(const struct ceduo_subject){p->report->result, p->report->verdict, NULL, p->option,
-                                                               p->control, false, false});
+        ceduo_words_reason(&why, &(const struct ceduo_subject){p->report, p->option, p->control, false, false});
     else
         ceduo_words_because(&why, p->report->result, p->control, through_the_wood(p));
     say(context, ceduo_text_string(&why));
@@ -411,8 +409,6 @@ static const struct ceduo_figure other_energy[] = {
     {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.exceed.lo), .null = UNSAID},
     {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.exceed.hi), .null = UNSAID},
     {"energy_kJ", "kJ", "energy of the rocks that reach it", .of = other_mean, .scale = J_TO_KJ},
-    {"energy_kJ_mean", "kJ", "energy_kJ.mean by an older name", AT(other_energy, arrivals.energy.mean), .scale = J_TO_KJ,
-     .null = NO_ROCK},
     {"verdict", "", "what is said of the control", .of = verdict_of_other},
     END};
 

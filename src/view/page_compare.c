@@ -176,7 +176,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (!v)
         return;
     bool known = false;
-    if (v->choices[0].over.years > 0 && v->choices[0].window.kind != CEDUO_WINDOW_ALIKE)
+    if (ceduo_report_ahead(report, 0))
         add_rotations(page, r, v);
     for (size_t i = 0; v->choices[0].over.years > 0 && i < v->n; i++) { /* what a yield leaves out */
         known |= !isnan(v->choices[i].yield.cut_per_year);

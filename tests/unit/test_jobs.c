@@ -129,7 +129,7 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
 /* A preview is waited for as a search is. */
 TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
 {
-    ceduo_jobs_preview(jobs, &file, "rock.diameter_m=0.6", 0);
+    ceduo_jobs_preview(jobs, &file, "rock.diameter_m", "0.6", 0);
     assert_true(ceduo_jobs_wait_search(jobs));
     take();
     assert_non_null(results.preview);

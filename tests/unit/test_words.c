@@ -10,7 +10,7 @@
 #include "base/utf8.h"
 #include "physics/line_scene.h"
 #include "view/page_parts.h"
-#include "view/report_doubt.h"
+#include "view/report.h"
 #include "view/words.h"
 
 #define OPTIONS 3
@@ -199,7 +199,8 @@ static void expect_answer(double share, double may_lo, double may_hi, size_t wid
     arrivals[0].reach.lo = arrivals[0].exceed.lo = fmax(0, share - .01);
     arrivals[0].reach.hi = arrivals[0].exceed.hi = share + .01;
     LOCAL(ceduo_result, result) = assess();
-    ceduo_words_answer(&text, &(const struct ceduo_subject){result, NULL, &doubt, 0, 0, false, false}, width);
+    const struct ceduo_report report = {.result = result, .doubt = &doubt};
+    ceduo_words_answer(&text, &(const struct ceduo_subject){.report = &report}, width);
     assert_string_equal(ceduo_text_string(&text), wanted);
 }
 
