@@ -34,7 +34,8 @@ static void draw_table(struct app *app, struct ceduo_area area)
 {
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     struct ceduo_page table = {.width = (size_t)area.width}, said = {.width = (size_t)area.width - 2};
-    size_t n = app->live.verdict.n, room = area.height > HEADS + WORDS_MIN + 1 ? (size_t)(area.height - HEADS - WORDS_MIN - 1) : 1;
+    size_t n = app->live.verdict.n,
+           room = area.height > HEADS + WORDS_MIN + 1 ? (size_t)(area.height - HEADS - WORDS_MIN - 1) : 1;
     size_t shown = n <= room ? n : room - (room > 1);
     size_t first = app->option >= shown ? app->option - shown + 1 : 0;
     ceduo_pane_options(&table, &pane, first, shown);
