@@ -16,7 +16,7 @@
 #   make net        compare what the program prints with an earlier commit: BEFORE=v0.2 ONLY=plot
 #   make coverage   list branches of the library and src/io that no test takes, with the reason for each: slow
 
-VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
+VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/status.h)
 VARIANT ?= release
 PREFIX ?= /usr/local
 DESTDIR ?=

@@ -100,7 +100,7 @@ struct option_row {
     unsigned without; /* modes that refuse it: a bit for each */
     enum option_needs needs;
     const char *help;
-    double lo, hi; /* of a whole number */
+    double lo, hi; /* of a number */
 };
 
 const struct option_row *ceduo_option_rows(size_t *n);

@@ -82,7 +82,7 @@ static enum exit_status set_count(struct arguments *a, const struct option_row *
     case CEDUO_NUMBER_GOOD:
         return EXIT_DONE;
     case CEDUO_NUMBER_TOO_LARGE:
-        return ceduo_usage(row->name, _("%s is outside %.0f to %.0f"), value, row->lo, row->hi);
+        return ceduo_usage(row->name, _("%s is outside %s to %s"), value, NUMERAL(row->lo), NUMERAL(row->hi));
     default:
         return ceduo_usage(row->name, _("'%s' is not a whole number"), value);
     }
@@ -108,22 +108,18 @@ static enum exit_status no_number(const struct option_row *row, const char *valu
     return ceduo_usage(row->name, _("'%s' is not a number"), value);
 }
 
-static enum exit_status set_tolerance(struct arguments *a, const struct option_row *row, char *value)
+static enum exit_status no_share(const struct option_row *row, const char *value)
 {
-    if (ceduo_number_read(value, &a->tolerance) != CEDUO_NUMBER_GOOD)
-        return no_number(row, value);
-    if (!(a->tolerance > 0) || !(a->tolerance < 1))
-        return ceduo_usage(row->name, _("%s must lie above 0 and below 1"), value);
-    return EXIT_DONE;
+    return ceduo_usage(row->name, _("%s is not a share; write a number between 0 and 1, such as 0.05 for 5 %%"), value);
 }
 
-static enum exit_status set_sure(struct arguments *a, const struct option_row *row, char *value)
+/* A share above 0, at most row->hi. */
+static enum exit_status set_share(struct arguments *a, const struct option_row *row, char *value)
 {
-    if (ceduo_number_read(value, &a->sure) != CEDUO_NUMBER_GOOD)
+    double *share = (double *)(void *)((char *)a + row->at);
+    if (ceduo_number_read(value, share) != CEDUO_NUMBER_GOOD)
         return no_number(row, value);
-    if (!(a->sure > 0) || !(a->sure <= 1))
-        return ceduo_usage(row->name, _("%s is not a share; write 0.9 for nine of ten cases"), value);
-    return EXIT_DONE;
+    return *share > 0 && *share <= row->hi ? EXIT_DONE : no_share(row, value);
 }
 
 static enum exit_status set_plot(struct arguments *a, const struct option_row *row, char *value)
@@ -157,14 +153,23 @@ static bool is_whole(double number)
     return number == floor(number);
 }
 
+/* Report a value of another form than the option has. */
+static enum exit_status no_form(const struct option_row *row, const char *value, const char *form, const char *example)
+{
+    return ceduo_usage(row->name, _("'%s' is not %s, such as '%s'"), value, form, example);
+}
+
 static enum exit_status set_size(struct arguments *a, const struct option_row *row, char *value)
 {
     double n[2];
     if (!read_numbers(value, "x", 2, 2, n) || !is_whole(n[0]) || !is_whole(n[1]))
-        return ceduo_usage(row->name, _("'%s' is not a size; write COLUMNSxLINES, such as 80x24"), value);
-    if (n[0] < WIDTH_LEAST || n[0] > CEDUO_CANVAS_MAX_WIDTH || n[1] < HEIGHT_LEAST || n[1] > CEDUO_CANVAS_MAX_HEIGHT)
-        return ceduo_usage(row->name, _("%s is outside %dx%d to %dx%d"), value, WIDTH_LEAST, HEIGHT_LEAST,
-                           CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
+        return no_form(row, value, "COLUMNSxLINES", "80x24");
+    if (n[0] < WIDTH_LEAST || n[0] > CEDUO_CANVAS_MAX_WIDTH || n[1] < HEIGHT_LEAST || n[1] > CEDUO_CANVAS_MAX_HEIGHT) {
+        char least[16], most[16];
+        snprintf(least, sizeof least, "%dx%d", WIDTH_LEAST, HEIGHT_LEAST);
+        snprintf(most, sizeof most, "%dx%d", CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
+        return ceduo_usage(row->name, _("%s is outside %s to %s"), value, least, most);
+    }
     a->plot_width = (int)n[0];
     a->plot_height = (int)n[1];
     return EXIT_DONE;
@@ -179,7 +184,7 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
     double parts[3] = {0, 0, 1};
     bool good = read_numbers(value, ":", 2, 3, parts) && is_whole(parts[0]) && is_whole(parts[1]) && is_whole(parts[2]);
     if (!good)
-        return ceduo_usage(row->name, _("'%s' is not a range of years; write A:B or A:B:STEP, such as 0:25"), value);
+        return no_form(row, value, "A:B[:STEP]", "0:25");
     if (parts[0] < 0 || parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1 ||
         (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
         return ceduo_usage(row->name, _("%s: expected at most %d years of 0 (the stand as filed) to 100000"), value,
@@ -196,7 +201,7 @@ static enum exit_status read_range(const struct option_row *row, char *value, co
     char *equals = strrchr(value, '=');
     double ends[2];
     if (!equals || equals == value || !read_numbers(equals + 1, ":", 2, 2, ends))
-        return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, such as '%s'"), value, such_as);
+        return no_form(row, value, row->value, such_as);
     if (one ? ends[1] < ends[0] : ends[1] <= ends[0])
         return ceduo_usage(row->name, _("the range %s is empty; HI must be above LO"), equals + 1);
     *equals = '\0';
@@ -230,7 +235,7 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
     case CEDUO_GOAL_NEGATIVE:
         return ceduo_usage(row->name, _("%s is below 0"), number);
     case CEDUO_GOAL_NO_SHARE:
-        return ceduo_usage(row->name, _("%s is not a share; write 0 to 1, such as 0.05 for 5 %%"), number);
+        return no_share(row, number);
     default:
         return EXIT_DONE;
     }
@@ -288,8 +293,8 @@ static const struct option_row rows[] = {
      .help = N_("change a parameter of the scene; may be repeated")},
     {"rocks", 'n', "N", set_count, AT(rocks), MODE_TERMINAL, CHECK | SURVEY | SCREEN,
      .help = N_("number of rocks; with --tolerance the maximum"), .lo = 1, .hi = CEDUO_ROCKS_MOST},
-    {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
-     .help = N_("simulate until the 95 % error of each mean energy is below REL of it")},
+    {"tolerance", 'e', "REL", set_share, AT(tolerance), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
+     .help = N_("simulate until the 95 % error of each mean energy is below REL of it"), .hi = 1 - 0x1p-53},
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY | SCREEN,
      NEEDS_CSV, .help = N_("what each row of CSV describes (controls)")},
     {"each", 0, "ROWS.csv", set_text, AT(each), MODE_TERMINAL, FIT | PAGE | SURVEY | SCREEN,
@@ -314,8 +319,8 @@ static const struct option_row rows[] = {
      .help = N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY, NEEDS_FIND,
      .help = N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
-    {"sure", 0, "SHARE", set_sure, 0, MODE_TERMINAL, CHECK | SURVEY, NEEDS_FIND,
-     .help = N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9")},
+    {"sure", 0, "SHARE", set_share, AT(sure), MODE_TERMINAL, CHECK | SURVEY, NEEDS_FIND,
+     .help = N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9"), .hi = 1},
     {"sensitivity", 0, "[N]", set_count, AT(points), MODE_SENSITIVITY, CHECK | SURVEY,
      .help = N_("show how sure the result is, and what that depends on; N points (256)"), .lo = 2,
      .hi = CEDUO_DOUBT_POINTS_MAX},
@@ -457,7 +462,7 @@ static enum exit_status check_arguments(const struct arguments *a)
         return EXIT_USAGE;
     bool screen = a->mode == MODE_TERMINAL, plot = a->plot != CEDUO_PLOT_NONE;
     bool wants_scene = a->mode >= MODE_BATCH && a->mode <= MODE_CHECK;
-    size_t standard = a->each && strcmp(a->each, "-") == 0;
+    size_t standard = a->each && a->scenes_count > 0; /* a scene that is read for each row must be a file */
     for (size_t i = 0; i < a->scenes_count; i++)
         standard += strcmp(a->scenes[i], "-") == 0;
     if (a->mode == MODE_FIND && a->window.step > 0)
@@ -476,10 +481,7 @@ static enum exit_status check_arguments(const struct arguments *a)
         return ceduo_usage(NULL, _("--%s takes no scene: '%s'"), mode, a->scenes[0]);
     if (screen && a->scenes_count > 1)
         return ceduo_usage(NULL, _("the terminal program opens one scene; --batch takes several"));
-    for (size_t i = 0; a->each && i < a->scenes_count; i++)
-        if (strcmp(a->scenes[i], "-") == 0)
-            return ceduo_usage("each", _("standard input can be read only once; name a file for the scene"));
-    return standard > 1 ? ceduo_usage(NULL, _("standard input can be read only once")) : EXIT_DONE;
+    return standard > 1 ? ceduo_usage(NULL, _("standard input can be read only once; name a file for the scene")) : EXIT_DONE;
 }
 
 /* ---- reading ---- */
@@ -534,13 +536,11 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
             return ceduo_usage(NULL, _("'%s' needs a value"), word);
         if (letter == '?' && word[0] == '-' && word[1] == '-' && optopt)
             return ceduo_usage(NULL, _("'%s': this option takes no value"), word);
-        if (letter == '?' && optopt && optopt < LONG)
-            return ceduo_usage(NULL, _("unknown option '-%c'"), optopt);
         const char *remedy = letter == '?' ? ceduo_gone(word) : NULL;
         if (remedy)
             return ceduo_usage(NULL, _("'%s' is gone: %s"), word, _(remedy));
         if (letter == '?')
-            return ceduo_usage(NULL, _("unknown or ambiguous option '%s'"), word);
+            return ceduo_usage(NULL, _("unknown or ambiguous option '%s'"), optopt ? (char[]){'-', (char)optopt, '\0'} : word);
         size_t i = letter >= LONG ? (size_t)(letter - LONG) : 0;
         while (letter < LONG && rows[i].letter != letter)
             i++;

@@ -10,10 +10,10 @@
 #include <strings.h>
 
 #include "base/language.h"
-#include "base/path.h"
-#include "ceduo/material.h"
+#include "ceduo/slope.h"
 #include "file.h"
 #include "scene/choices.h"
+#include "scene/schema.h"
 
 #define FIRST      "-1e9" /* m: before any profile begins */
 #define BASES_MOST 8

@@ -5,7 +5,6 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/observe.h"
 #include "ceduo/scene.h"
 
 #define FOLDED_MOST 64 /* bytes of a word that are compared */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/version.h"
+#include "ceduo/status.h"
 #include "io/emit.h"
 #include "page_parts.h"
 #include "plot_parts.h"

@@ -150,7 +150,7 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
                      index->worst_free_run <= CEDUO_FREE_RUN_MOST ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MOST * 100);
     add_light(page, pane, index->free_run, c->over.unprotected_free_run, true);
     if (index->energy != CEDUO_UNKNOWN && wood)
-        ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed_probability, wood->limit),
+        ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed.mean, wood->limit),
                          than(index->energy, "\xe2\x89\xa4", ">"), ROUNDED(wood->limit * 100, 3));
     else
         ceduo_page_write(page, "%s",
