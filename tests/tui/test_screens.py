@@ -158,7 +158,7 @@ MUST = {
 WIDE = {"slope": ["release", "end of the forest (135 m)", "bounce Rn slide Rt", "friction", "name", "facets against"],
         "stand": ["Energy of a contact", " height", "energy law brauner", "fracture ratio"],
         "rock": ["form of the ADC auto", "threshold, m 30", "gravity, m/s2 9.81", "seed 1", "title"],
-        "results": ["energy, kJ"],
+        "results": ["arriving kJ", "m/s"],
         "compare": ["CFE", "worst", "/ha y"]}
 # With rocks in the wood, and by the index alone.
 MUST_WOOD = {"slope": ["wood", "bare"], "stand": [], "rock": ["rocks among stems stems"],
