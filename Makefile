@@ -39,7 +39,7 @@ $(LATER): deps
 	@+$(MAKE) --no-print-directory $@
 else
 
-VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
+VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/status.h)
 VARIANT ?= release
 PREFIX ?= /usr/local
 DESTDIR ?=
@@ -182,10 +182,10 @@ $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 $(COMPLETION): $(BUILD)/man/completion.o $(PARTS) $(LIBRARY)
 	$(link) $(LIBS)
 
-# Writes the tables of keys, goals, ranges and figures into the manual pages.
+# Writes the synopsis and the tables of keys, goals, ranges and figures into the manual pages.
 .PHONY: man samples tables pictures
 man: $(TABLES)
-	@$(TABLES) goals man/ceduo.1
+	@for table in synopsis goals; do $(TABLES) $$table man/ceduo.1; done
 	@$(TABLES) ranges man/ceduo-scene.5
 	@for table in search figures; do $(TABLES) $$table man/ceduo-output.5; done
 	@$(TABLES) keys man/ceduo-terminal.7

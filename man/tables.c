@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes a table into a manual page, between its two marks: tables keys PAGE that of the keys of the terminal program (in a
- * third word's language), goals and search those of a search, ranges those of doubt, figures those of JSON. */
+ * third word's language), goals and search those of a search, ranges those of doubt, figures those of JSON, synopsis the forms of
+ * the command line. */
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
+#include "cli/arguments.h"
 #include "cli/say.h"
 #include "scene/ranges.h"
 #include "scene/schema.h"
@@ -155,16 +158,157 @@ static void put_search(FILE *out)
     fputs(".El\n", out);
 }
 
+/* ---- the synopsis ---- */
+
+/* A form of the command line: an option for its mode, or several with | between them, and those that must go with it. */
+struct form {
+    enum mode mode;
+    const char *required, *more, *operand;
+};
+
+static const struct form forms[] = {{MODE_TERMINAL, "", NULL, ".Op Ar scene"},
+                                    {MODE_BATCH, "batch", NULL, ".Ar scene ..."},
+                                    {MODE_FIND, "find", "goal", ".Ar scene ..."},
+                                    {MODE_CALIBRATE, "calibrate", NULL, ".Ar scene ..."},
+                                    {MODE_SENSITIVITY, "sensitivity", NULL, ".Ar scene ..."},
+                                    {MODE_REPORT, "report", NULL, ".Ar scene ..."},
+                                    {MODE_BATCH, "plot", NULL, ".Ar scene ..."},
+                                    {MODE_CHECK, "check", NULL, ".Ar scene ..."},
+                                    {MODE_SURVEY, "survey", NULL, NULL},
+                                    {MODE_COLUMNS, "list-columns", NULL, NULL},
+                                    {MODE_PARAMETERS, "list-parameters|list-profiles|schema", NULL, NULL},
+                                    {MODE_HELP, "help|version", NULL, NULL}};
+
+static const struct option_row *find_option(const char *name, size_t n)
+{
+    size_t count;
+    const struct option_row *row = ceduo_option_rows(&count);
+    while (strncmp(row->name, name, n) != 0 || row->name[n])
+        row++;
+    return row;
+}
+
+/* A value as the help shows it, in the words of mdoc: capitals are arguments, small letters are literal. */
+static void put_value(FILE *out, const char *value)
+{
+    bool literal = strchr(value, '|') || !value[0];
+    const char *before = ""; /* no blank may come before the next part */
+    if (literal)
+        fputs(" Cm", out);
+    for (size_t n; *value; value += n) {
+        n = strspn(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+        if (literal) {
+            n = strcspn(value, "|");
+            fprintf(out, " %.*s%s", (int)n, value, value[n] ? " |" : "");
+            n += value[n] == '|';
+        } else if (n > 0) {
+            fprintf(out, "%s Ar ", before);
+            n += value[n] == '.' ? strlen(value + n) : 0;
+            for (size_t i = 0; i < n; i++)
+                fputc(tolower((unsigned char)value[i]), out);
+            before = " Ns";
+        } else {
+            n = 1;
+            if (*value == '[')
+                fprintf(out, "%s Op", before);
+            else if (*value != ']')
+                fprintf(out, *value == ':' || !before[0] ? " %c" : " Ns %c", *value);
+            before = *value == '[' ? "" : " Ns";
+        }
+    }
+}
+
+/* `macro`: what comes before the option. */
+static void put_option(FILE *out, const char *macro, const struct option_row *row, bool value)
+{
+    if (row->letter)
+        fprintf(out, "%sFl %c", macro, row->letter);
+    else
+        fprintf(out, "%sFl -%s", macro, row->name);
+    if (value && row->value)
+        put_value(out, row->value);
+}
+
+/* True if a form may have an option. What prints a list or a stand takes the options of --survey. */
+static bool takes(const struct form *form, const struct option_row *row)
+{
+    bool list = form->mode >= MODE_PARAMETERS, years = strcmp(row->name, "years") == 0, rows = strcmp(row->name, "rows") == 0;
+    bool plot = strcmp(form->required, "plot") == 0, doubt = strcmp(row->name, "sensitivity") == 0;
+    const struct option_row *format = find_option("format", 6);
+    bool format_goes = !plot && !(format->without >> form->mode & 1);
+    if (form->mode == MODE_HELP)
+        return strcmp(row->name, "language") == 0;
+    if (form->mode == MODE_COLUMNS && (years || rows))
+        return true;
+    if (row->mode != MODE_TERMINAL && form->mode == MODE_TERMINAL)
+        return false;
+    if (row->mode != MODE_TERMINAL && !years && strcmp(row->name, "details") != 0 && !(doubt && form->mode == MODE_REPORT))
+        return false;
+    if (row->without >> (list ? MODE_SURVEY : form->mode) & 1)
+        return false;
+    const bool needs[] = {[NEEDS_NOTHING] = row != format || format_goes,
+                          [NEEDS_GOAL] = false,
+                          [NEEDS_FIND] = form->mode == MODE_FIND,
+                          [NEEDS_PLOT] = plot,
+                          [NEEDS_PICTURE] = plot || form->mode == MODE_TERMINAL,
+                          [NEEDS_CSV] = format_goes,
+                          [NEEDS_FILE] = format_goes};
+    return needs[row->needs] && !(form->more && strcmp(form->more, row->name) == 0);
+}
+
+/* Letters come first, those without a value before the others; then names. */
+static int compare_options(const void *a, const void *b)
+{
+    const struct option_row *x = *(const struct option_row *const *)a, *y = *(const struct option_row *const *)b;
+    if (!x->letter != !y->letter)
+        return x->letter ? -1 : 1;
+    if (x->letter && !x->value != !y->value)
+        return x->value ? 1 : -1;
+    return x->letter ? x->letter - y->letter : strcmp(x->name, y->name);
+}
+
+static void put_form(FILE *out, const struct form *form)
+{
+    size_t count, n = 0;
+    const struct option_row *rows = ceduo_option_rows(&count), *taken[64];
+    fputs(".Nm\n", out);
+    for (const char *name = form->required; *name; name += *name == '|') {
+        const struct option_row *row = find_option(name, strcspn(name, "|"));
+        put_option(out, name == form->required ? "." : " | ", row, true);
+        fputs(strstr(row->help, "repeated") ? " ..." : form->mode == MODE_SURVEY ? " | Fl -survey -template" : "", out);
+        name += strcspn(name, "|");
+    }
+    fputs(form->required[0] ? "\n" : "", out);
+    if (form->more) {
+        put_option(out, ".", find_option(form->more, strlen(form->more)), true);
+        fputc('\n', out);
+    }
+    for (size_t i = 0; i < count; i++)
+        if (takes(form, &rows[i]))
+            taken[n++] = &rows[i];
+    qsort(taken, n, sizeof *taken, compare_options);
+    for (size_t i = 0; i < n; i++) {
+        put_option(out, ".Op ", taken[i],
+                   strcmp(taken[i]->name, "years") != 0 || (form->mode != MODE_FIND && form->mode != MODE_COLUMNS));
+        fputc('\n', out);
+    }
+    if (form->operand)
+        fprintf(out, "%s\n", form->operand);
+}
+
+static void put_synopsis(FILE *out)
+{
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++)
+        put_form(out, &forms[i]);
+}
+
 int main(int argc, char **argv)
 {
     static const struct {
         const char *name;
         void (*put)(FILE *out);
-    } tables[] = {{"keys", put_keys},
-                  {"goals", put_goals},
-                  {"ranges", put_ranges},
-                  {"search", put_search},
-                  {"figures", put_figure_lists}};
+    } tables[] = {{"keys", put_keys},     {"goals", put_goals},          {"ranges", put_ranges},
+                  {"search", put_search}, {"figures", put_figure_lists}, {"synopsis", put_synopsis}};
     if (argc != 3 && argc != 4)
         return 2;
     if (argc == 4) {

@@ -2,22 +2,7 @@
 #ifndef CEDUO_ADC_H
 #define CEDUO_ADC_H
 
-#include "stand.h"
-
-/* The forms of the Average Distance between Contacts. AUTO is the rule of Ciabocco et al. 2009: rock smaller than the
- * spacing of the shoots → gsteiger-stems, otherwise interception; without stools gsteiger-stems. */
-#define CEDUO_RULES(X)                                                                                                         \
-    X(RULE_AUTO, "auto")                                                                                                       \
-    X(GSTEIGER_STOOLS, "gsteiger-stools") /* Eq. 1 as the paper computed it: A/[(Nc + Ns)(B + mean d)] */                      \
-    X(GSTEIGER_STEMS, "gsteiger-stems")   /* Eq. 1 with every stem: A/[sum N(B + d)], the mean free path */                    \
-    X(INTERCEPTION, "interception")       /* Eq. 6: A/[(Nc + Ns)B + Nc(mean shoot d + s) + sum N d of trees] */                \
-    X(CROFTON, "crofton") /* A/[Nc(B + mean shoot d + P/pi) + sum N(B + d) of trees]: stools met (Cauchy, Crofton) */
-
-enum ceduo_rule {
-#define X(NAME, word) CEDUO_##NAME,
-    CEDUO_RULES(X)
-#undef X
-};
+#include "scene.h"
 
 /* Metres between contacts in each form, counting stems from stand->counted_from on; infinite where there are none. A stool
  * counts with its shoots that do. */

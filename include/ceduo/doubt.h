@@ -11,16 +11,6 @@
  * which more rocks reduce; only measuring reduces it. Every value that is in doubt is an input with a range; many scenes are
  * drawn from the ranges, and each is computed with the same rocks. */
 
-enum ceduo_input_kind {
-    CEDUO_INPUT_RANGE,  /* uniform between lo and hi */
-    CEDUO_INPUT_FACTOR, /* its value in the scene times a factor, uniform between lo and hi */
-    CEDUO_INPUT_NORMAL, /* normal, cut at three standard deviations: lo and hi */
-    /* gamma, cut where a normal one would be: of what cannot be below 0 and has an error above a third of it */
-    CEDUO_INPUT_GAMMA,
-    CEDUO_INPUT_WORDS, /* one of several words, each as likely */
-    CEDUO_INPUT_DRAWS  /* one of several rows, each with a value for each place: what a calibration left open */
-};
-
 /* One thing that is not known. It may stand at several places of the scene, which then change together. */
 struct ceduo_input {
     const char *path; /* of its first place, or what its places have in common */

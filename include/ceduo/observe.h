@@ -8,56 +8,6 @@
 /* What was seen of real rocks on a slope, and what simulated rocks do there: the ground between them is fitted to the one
  * by the other, see calibrate.h. */
 
-#define CEDUO_OBSERVED_USES(X)                                                                                                 \
-    X(FIT, "fit")                                                                                                              \
-    X(CHECK, "check") /* only predicted, to see whether the fit holds */
-
-enum ceduo_observed_use {
-#define X(NAME, word) CEDUO_OBSERVED_##NAME,
-    CEDUO_OBSERVED_USES(X)
-#undef X
-};
-
-/* Where something is observed, and so which keys it has and which simulated values are compared with it. */
-enum ceduo_where {
-    CEDUO_WHERE_AT_REST,  /* where a rock came to rest or was stopped */
-    CEDUO_WHERE_AT_PLACE, /* on rocks that pass a place */
-    CEDUO_WHERE_LARGEST,  /* the largest of each rock on its way */
-    CEDUO_WHERE_ALONG,    /* each rock's mean along a stretch, metre by metre, of those that enter it */
-    CEDUO_WHERE_ON_STEMS  /* where rocks strike stems along a stretch: their centre */
-};
-
-/* What is observed; its row has the unit. Heights are those of the underside above the ground, on stems of the centre. */
-enum ceduo_quantity {
-    CEDUO_QUANTITY_PLACE,
-    CEDUO_QUANTITY_COUNT,
-    CEDUO_QUANTITY_SPEED,
-    CEDUO_QUANTITY_HEIGHT,
-    CEDUO_QUANTITY_ENERGY
-};
-
-/* The kinds: name, path in a row of the file, the key of a list of values (NULL: it has none), where and what. A new one is a row
- * here, and its keys in scene/fields_observed.c. */
-#define CEDUO_OBSERVED_LIST(X)                                                                                                 \
-    X(STOPS, "stops", "x_m", AT_REST, PLACE)                                                                                   \
-    X(PASSED, "passed", NULL, AT_PLACE, COUNT)                                                                                 \
-    X(SPEED, "speed", "values", AT_PLACE, SPEED)                                                                               \
-    X(HEIGHT, "height", "values", AT_PLACE, HEIGHT)                                                                            \
-    X(ENERGY, "energy", "values", AT_PLACE, ENERGY)                                                                            \
-    X(LARGEST_SPEED, "largest.speed_m_s", "values", LARGEST, SPEED)                                                            \
-    X(LARGEST_HEIGHT, "largest.height_m", "values", LARGEST, HEIGHT)                                                           \
-    X(WAY_SPEED, "on_the_way.speed_m_s", "values", ALONG, SPEED)                                                               \
-    X(WAY_HEIGHT, "on_the_way.height_m", "values", ALONG, HEIGHT)                                                              \
-    X(WAY_ENERGY, "on_the_way.energy_kJ", "values", ALONG, ENERGY)                                                             \
-    X(SCARS, "scars", "height_m", ON_STEMS, HEIGHT)
-
-enum ceduo_observed_kind {
-#define X(NAME, path, list, where, quantity) CEDUO_OBSERVED_##NAME,
-    CEDUO_OBSERVED_LIST(X)
-#undef X
-        CEDUO_OBSERVED_KINDS
-};
-
 struct ceduo_observed_row {
     const char *path, *list;
     enum ceduo_where where;
@@ -65,9 +15,9 @@ struct ceduo_observed_row {
 };
 
 struct ceduo_quantity_row {
-    const char *unit;        /* in files and for people; "": of a count */
-    double scale;            /* SI per unit */
-    const char *columns[20]; /* of a table that holds the values, ended by NULL */
+    const char *unit;          /* in files and for people; "": of a count */
+    double scale;              /* SI per unit */
+    const char *column, *also; /* name of the column of a table that holds the values; other names, separated by | */
 };
 
 const struct ceduo_observed_row *ceduo_observed_row(enum ceduo_observed_kind kind);

@@ -5,10 +5,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "adc.h"
-#include "contact.h"
-#include "number.h"
-#include "regulation.h"
 #include "rock.h"
 #include "slope.h"
 #include "stand.h"
@@ -17,6 +13,19 @@
 #define CEDUO_THRESHOLD_M      30 /* Bozzolo 1987 as cited by Ciabocco et al. 2009 */
 #define CEDUO_ROCKS_MOST       10000000
 #define CEDUO_SIZED_ROCKS_MOST 1048576 /* with blocks: each rock is kept, with its weight */
+
+/* The laws of an impact on the ground. A new law is a file like src/core/walk/law_crsp.h, named in strike.h, and a line here. */
+#define CEDUO_LAWS(X)                                                                                                          \
+    X(LUMPED, lumped)                                                                                                          \
+    X(CRSP, crsp)                                                                                                              \
+    X(ARM, arm)
+
+enum ceduo_law {
+#define X(NAME, name) CEDUO_LAW_##NAME,
+    CEDUO_LAWS(X)
+#undef X
+        CEDUO_LAW_COUNT
+};
 
 /* How a rock starts. Each number may have a spread. */
 struct ceduo_release {
@@ -78,6 +87,21 @@ enum ceduo_contact_model {
 #undef X
 };
 
+/* The forms of the Average Distance between Contacts. AUTO is the rule of Ciabocco et al. 2009: rock smaller than the
+ * spacing of the shoots → gsteiger-stems, otherwise interception; without stools gsteiger-stems. */
+#define CEDUO_RULES(X)                                                                                                         \
+    X(RULE_AUTO, "auto")                                                                                                       \
+    X(GSTEIGER_STOOLS, "gsteiger-stools") /* Eq. 1 as the paper computed it: A/[(Nc + Ns)(B + mean d)] */                      \
+    X(GSTEIGER_STEMS, "gsteiger-stems")   /* Eq. 1 with every stem: A/[sum N(B + d)], the mean free path */                    \
+    X(INTERCEPTION, "interception")       /* Eq. 6: A/[(Nc + Ns)B + Nc(mean shoot d + s) + sum N d of trees] */                \
+    X(CROFTON, "crofton") /* A/[Nc(B + mean shoot d + P/pi) + sum N(B + d) of trees]: stools met (Cauchy, Crofton) */
+
+enum ceduo_rule {
+#define X(NAME, word) CEDUO_##NAME,
+    CEDUO_RULES(X)
+#undef X
+};
+
 struct ceduo_simulation {
     enum ceduo_law law;
     uint64_t rocks; /* 1…10^7 */
@@ -120,6 +144,34 @@ struct ceduo_design_values {
 struct ceduo_report_head {
     char *place, *owner, *parcel, *author, *date, *note;
 };
+
+/* What the forest regulation of a region asks of a coppice. */
+struct ceduo_regulation_item {
+    size_t species_count; /* 0: all others */
+    char **species;       /* by their names in ceduo_species_list() */
+    int system;           /* of this system alone; -1: of any */
+    double least, most;   /* standards per ha, or years; most: NaN where there is none */
+    char *article;        /* and the act that it is of */
+    unsigned year;        /* of that act */
+};
+
+struct ceduo_regulation {
+    char *name;           /* of the region; NULL: there is none */
+    char *note, *note_it; /* NULL: none; in Italian, NULL: not said */
+    size_t standards_count, turns_count;
+    struct ceduo_regulation_item *standards, *turns; /* the first that is about a stand counts */
+};
+
+/* How a coppice stands to it. */
+struct ceduo_compliance {
+    const struct ceduo_regulation *of;                              /* NULL: there is none, or the stand is no coppice */
+    const struct ceduo_regulation_item *standards_item, *turn_item; /* NULL: it says nothing of this species */
+    double standards;             /* per ha: those that a cut leaves; where the stand does not say, its trees */
+    double turn;                  /* years: age of the oldest shoots at a cut; NaN: the stand is never cut */
+    bool standards_met, turn_met; /* where there is an item, and a turn */
+};
+
+struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *regulation, const struct ceduo_stand *stand);
 
 /* Everything that a run depends on. */
 struct ceduo_scene {
@@ -165,5 +217,68 @@ size_t ceduo_scene_last_control(const struct ceduo_scene *scene);
 
 /* Where the first of its belts that are not bare begins (m, relative to the slope's first vertex); infinite: nothing stands. */
 double ceduo_option_stems_from(const struct ceduo_option *option);
+
+/* ---- what a scene says of real rocks and of uncertain values ---- */
+
+#define CEDUO_OBSERVED_USES(X)                                                                                                 \
+    X(FIT, "fit")                                                                                                              \
+    X(CHECK, "check") /* only predicted, to see whether the fit holds */
+
+enum ceduo_observed_use {
+#define X(NAME, word) CEDUO_OBSERVED_##NAME,
+    CEDUO_OBSERVED_USES(X)
+#undef X
+};
+
+/* Where something is observed, and so which keys it has and which simulated values are compared with it. */
+enum ceduo_where {
+    CEDUO_WHERE_AT_REST,  /* where a rock came to rest or was stopped */
+    CEDUO_WHERE_AT_PLACE, /* on rocks that pass a place */
+    CEDUO_WHERE_LARGEST,  /* the largest of each rock on its way */
+    CEDUO_WHERE_ALONG,    /* each rock's mean along a stretch, metre by metre, of those that enter it */
+    CEDUO_WHERE_ON_STEMS  /* where rocks strike stems along a stretch: their centre */
+};
+
+/* What is observed; its row has the unit. Heights are those of the underside above the ground, on stems of the centre. */
+enum ceduo_quantity {
+    CEDUO_QUANTITY_PLACE,
+    CEDUO_QUANTITY_COUNT,
+    CEDUO_QUANTITY_SPEED,
+    CEDUO_QUANTITY_HEIGHT,
+    CEDUO_QUANTITY_ENERGY
+};
+
+/* The kinds: name, path in a row of the file, the key of a list of values (NULL: it has none), where and what. A new one is a row
+ * here, and its keys in scene/fields_observed.c. */
+#define CEDUO_OBSERVED_LIST(X)                                                                                                 \
+    X(STOPS, "stops", "x_m", AT_REST, PLACE)                                                                                   \
+    X(PASSED, "passed", NULL, AT_PLACE, COUNT)                                                                                 \
+    X(SPEED, "speed", "values", AT_PLACE, SPEED)                                                                               \
+    X(HEIGHT, "height", "values", AT_PLACE, HEIGHT)                                                                            \
+    X(ENERGY, "energy", "values", AT_PLACE, ENERGY)                                                                            \
+    X(LARGEST_SPEED, "largest.speed_m_s", "values", LARGEST, SPEED)                                                            \
+    X(LARGEST_HEIGHT, "largest.height_m", "values", LARGEST, HEIGHT)                                                           \
+    X(WAY_SPEED, "on_the_way.speed_m_s", "values", ALONG, SPEED)                                                               \
+    X(WAY_HEIGHT, "on_the_way.height_m", "values", ALONG, HEIGHT)                                                              \
+    X(WAY_ENERGY, "on_the_way.energy_kJ", "values", ALONG, ENERGY)                                                             \
+    X(SCARS, "scars", "height_m", ON_STEMS, HEIGHT)
+
+enum ceduo_observed_kind {
+#define X(NAME, path, list, where, quantity) CEDUO_OBSERVED_##NAME,
+    CEDUO_OBSERVED_LIST(X)
+#undef X
+        CEDUO_OBSERVED_KINDS
+};
+
+/* Kinds of uncertain values. */
+enum ceduo_input_kind {
+    CEDUO_INPUT_RANGE,  /* uniform between lo and hi */
+    CEDUO_INPUT_FACTOR, /* its value in the scene times a factor, uniform between lo and hi */
+    CEDUO_INPUT_NORMAL, /* normal, cut at three standard deviations: lo and hi */
+    /* gamma, cut where a normal one would be: of what cannot be below 0 and has an error above a third of it */
+    CEDUO_INPUT_GAMMA,
+    CEDUO_INPUT_WORDS, /* one of several words, each as likely */
+    CEDUO_INPUT_DRAWS  /* one of several rows, each with a value for each place: what a calibration left open */
+};
 
 #endif

@@ -5,8 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "number.h"
-#include "status.h"
+#include "rock.h"
 
 /* Which way the ground's small facets are turned: always against the rock, or to both sides. */
 #define CEDUO_FACETS(X)                                                                                                        \
@@ -92,5 +91,27 @@ struct ceduo_topography ceduo_slope_topography(const struct ceduo_slope *slope, 
 
 /* CEDUO_BAD_SLOPE where it is not as described above. */
 enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope);
+
+/* ---- grounds of the library ---- */
+
+/* A ground of the library. Restitutions are the means of published ranges. Roughness and friction are assumed: no source has
+ * them for a rock that keeps its motion while it rolls; they follow two bare field sites (ceduo-validation(7)). */
+struct ceduo_material {
+    const char *name;
+    const char *what; /* it is, marked for translation */
+    double rn, rn_lo, rn_hi;
+    double rt, rt_lo, rt_hi;
+    double roughness, roughness_lo, roughness_hi; /* m: the height S of CRSP */
+    double friction, friction_lo, friction_hi;    /* tan of the angle of friction */
+    double mu;                                    /* Coulomb's, for the law arm; assumed */
+    bool literature;                              /* false: an assumption of ours */
+    const char *source;
+};
+
+/* The library: `*count` rows, static. */
+const struct ceduo_material *ceduo_materials(size_t *count);
+
+/* The row that is taken where nothing is said of the ground. */
+const struct ceduo_material *ceduo_material_talus(void);
 
 #endif

@@ -30,4 +30,10 @@ enum ceduo_status {
 /* A sentence in English, without a full stop; never NULL. */
 const char *ceduo_status_text(enum ceduo_status status);
 
+#define CEDUO_VERSION "0.4.0"
+
+/* That of the library which runs. Before 1.0 structures may differ between versions: a program compares it with the
+ * CEDUO_VERSION that it was compiled with. */
+const char *ceduo_version(void);
+
 #endif

@@ -29,4 +29,18 @@ static inline void *ceduo_must(void *allocated)
     return allocated;
 }
 
+/* Grow an array of n items of `size` bytes so that it holds one more; `*capacity` is the number that it holds. Returns the array, which
+ * may have moved. NULL on failure: the array stays as it was. */
+static inline void *ceduo_grow(void *items, size_t n, size_t *capacity, size_t size)
+{
+    if (n < *capacity)
+        return items;
+    size_t more = *capacity > 0 ? 2 * *capacity : 32;
+    void *grown = realloc(items, more * size);
+    if (!grown)
+        ceduo_no_memory();
+    *capacity = grown ? more : *capacity;
+    return grown;
+}
+
 #endif

@@ -19,6 +19,12 @@ struct parallel {
 /* 0 once all items are done; otherwise the first status that is not 0: no item was begun after it was known. */
 int ceduo_parallel(const struct parallel *work);
 
+/* True if the caller has raised its flag. `cancel` may be NULL. */
+static inline bool ceduo_cancelled(const atomic_bool *cancel)
+{
+    return cancel && atomic_load_explicit(cancel, memory_order_relaxed);
+}
+
 /* Calls a callback of the caller from one thread at a time. A thread that finds another one in it goes on without, so that none
  * waits: progress that is missed is soon reported again. Starts zeroed. */
 struct talk {

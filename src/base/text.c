@@ -4,13 +4,14 @@
 #include "text.h"
 
 #include <float.h>
+#include <locale.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-#include "decimal.h"
 #include "language.h"
 #include "must.h"
 #include "utf8.h"
@@ -68,6 +69,45 @@ void ceduo_text_quoted(struct text *text, const char *string)
 void ceduo_text_char(struct text *text, char c)
 {
     ceduo_text_add(text, &c, 1);
+}
+
+/* ---- numbers with a dot ---- */
+
+static locale_t dotted; /* of the process; never freed */
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+/* glibc returns a constant for "C": this cannot fail. */
+static void make_dotted(void)
+{
+    dotted = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+}
+
+static locale_t dotted_locale(void)
+{
+    pthread_once(&once, make_dotted);
+    return dotted;
+}
+
+int ceduo_decimal_vformat(char *to, size_t size, const char *format, va_list args)
+{
+    locale_t before = uselocale(dotted_locale());
+    int n = vsnprintf(to, size, format, args);
+    uselocale(before);
+    return n;
+}
+
+int ceduo_decimal_format(char *to, size_t size, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    int n = ceduo_decimal_vformat(to, size, format, args);
+    va_end(args);
+    return n;
+}
+
+double ceduo_decimal_read(const char *string)
+{
+    return strtod_l(string, NULL, dotted_locale());
 }
 
 char *ceduo_number_spoken(char *number)

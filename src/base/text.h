@@ -54,6 +54,12 @@ char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM]);
 /* Numbers as people of the language read them: with its decimal sign in place of each dot. */
 char *ceduo_number_spoken(char *number);
 
+/* As snprintf(), vsnprintf() and strtod() without its second argument, but with a dot in whatever locale the host program has set: in
+ * Italian or German strtod() reads "9.81" as 9. */
+int ceduo_decimal_vformat(char *to, size_t size, const char *format, va_list args) __attribute__((format(printf, 3, 0)));
+int ceduo_decimal_format(char *to, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+double ceduo_decimal_read(const char *string);
+
 enum ceduo_number_reading { CEDUO_NUMBER_GOOD, CEDUO_NUMBER_NONE, CEDUO_NUMBER_TOO_LARGE };
 
 /* Reads a decimal number with a dot: 12, -0.5, .5, 1e-3. Not: 1,5 1_000 0x10 010 inf nan, or anything after it. */

@@ -85,18 +85,22 @@ struct arguments {
     struct text *title;              /* of a report: that of the first scene */
 };
 
-/* An option: parsing, help, completion and the checks of what goes together read it. */
+/* Options that another option needs. */
+enum option_needs { NEEDS_NOTHING, NEEDS_GOAL, NEEDS_FIND, NEEDS_PLOT, NEEDS_PICTURE, NEEDS_CSV, NEEDS_FILE };
+
+/* An option of the command line. Parser, help, checks, completion and the synopsis of ceduo(1) read this row. */
 struct option_row {
     const char *name;
     char letter; /* 0: none */
-    /* as the help shows it, "a|b|c" where it is one of these; "[N]": it may have one; NULL: it takes none */
-    const char *value;
+    const char
+        *value; /* as the help shows it: "a|b" if it is one of these words, "[N]" if it may be left out; NULL: takes none */
     enum exit_status (*set)(struct arguments *arguments, const struct option_row *row, char *value); /* may be NULL */
-    size_t at;        /* of the member that is set, for the setters that several options share */
+    size_t at;        /* of the member that a shared setter sets */
     enum mode mode;   /* that it asks for; MODE_TERMINAL: none */
-    unsigned without; /* modes with which it does not go: a bit for each */
+    unsigned without; /* modes that refuse it: a bit for each */
+    enum option_needs needs;
     const char *help;
-    double lo, hi; /* of a whole number */
+    double lo, hi; /* of a number */
 };
 
 const struct option_row *ceduo_option_rows(size_t *n);

@@ -127,10 +127,9 @@ void ceduo_progress_scenes(struct progress *p, size_t computed, size_t done, siz
     if (computed == 0 || !ceduo_progress_due(p, &seconds))
         return;
     double left = seconds / (double)computed * (double)(all - done);
-    if (left < 120)
-        ceduo_say_progress(_("%zu of %zu scenes, %.0f s left"), done, all, left);
-    else
-        ceduo_say_progress(_("%zu of %zu scenes, %.0f min left"), done, all, left / 60);
+    LOCAL_TEXT(time);
+    ceduo_text_format(&time, left < 120 ? "%.0f s" : "%.0f min", left < 120 ? left : left / 60);
+    ceduo_say_progress(_("%zu of %zu scenes, %s left"), done, all, ceduo_text_string(&time));
 }
 
 /* ---- nothing to be said ---- */

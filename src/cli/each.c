@@ -89,10 +89,9 @@ static bool check_numbers(const struct each *e)
 static bool read_rows(struct each *e)
 {
     struct csv *t = &e->table;
-    bool *numeric = ceduo_arena_take(&e->arena, (e->heads_count + 1) * sizeof *numeric);
     for (size_t i = 0; i < e->heads_count; i++)
-        numeric[i] = e->heads[i].sets == PATH_NUMBER;
-    ceduo_csv_scan(t, numeric);
+        t->heads[i].numeric = e->heads[i].sets == PATH_NUMBER;
+    ceduo_csv_scan(t);
     if (t->rows == 0)
         return ceduo_problem(t->problems, t->source, 0, 0, _("no row below the head"));
     e->rows = ceduo_arena_take(&e->arena, t->rows * sizeof *e->rows);

@@ -143,7 +143,7 @@ static const char *find_nearest(const struct meants *m, struct arena *arena, con
 static bool check_copied(const struct csv *table, size_t column, const struct meants *m, struct arena *arena, const char *head)
 {
     bool path = strpbrk(head, ".[");
-    const char *instead = path ? ceduo_schema_gone_at(head) : NULL;
+    const char *instead = path ? ceduo_gone(head) : NULL;
     if (instead)
         return ceduo_csv_complain(table, table->heads[column], "'%s': %s", head, _(instead));
     const char *meant = path ? find_nearest(m, arena, head) : find_meant(m, arena, head);

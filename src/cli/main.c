@@ -9,12 +9,10 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "batch.h"
-#include "ceduo/version.h"
+#include "ceduo/status.h"
 #include "output.h"
 #include "say.h"
 #include "tui/program.h"
-#include "tui/script.h"
-#include "tui/terminal.h"
 
 /* Ends the program without memory, from any thread; nothing here allocates. What a person has edited is in the recovery
  * copy already, which each edit writes; a file is put in its place whole or not at all. */
@@ -23,9 +21,9 @@ static void end_without_memory(void)
     static atomic_flag ends = ATOMIC_FLAG_INIT;
     while (atomic_flag_test_and_set(&ends)) /* another thread does it */
         pause();
-    fputs(ceduo_terminal_restore() ? _("ceduo: out of memory; unsaved work was kept and is offered at the next start\n")
-                                   : _("ceduo: out of memory\n"),
-          stderr);
+    fprintf(stderr, "ceduo: %s\n",
+            ceduo_terminal_restore() ? _("out of memory; unsaved work was kept and is offered at the next start")
+                                     : _("out of memory"));
     _exit(EXIT_RUN);
 }
 

@@ -18,6 +18,7 @@
 #include "ceduo/doubt.h"
 #include "ceduo/years.h"
 #include "say.h"
+#include "scene/choices.h"
 
 #define WIDTH_LEAST  20
 #define HEIGHT_LEAST 6
@@ -81,7 +82,7 @@ static enum exit_status set_count(struct arguments *a, const struct option_row *
     case CEDUO_NUMBER_GOOD:
         return EXIT_DONE;
     case CEDUO_NUMBER_TOO_LARGE:
-        return ceduo_usage(row->name, _("%s is outside %.0f to %.0f"), value, row->lo, row->hi);
+        return ceduo_usage(row->name, _("%s is outside %s to %s"), value, NUMERAL(row->lo), NUMERAL(row->hi));
     default:
         return ceduo_usage(row->name, _("'%s' is not a whole number"), value);
     }
@@ -107,26 +108,24 @@ static enum exit_status no_number(const struct option_row *row, const char *valu
     return ceduo_usage(row->name, _("'%s' is not a number"), value);
 }
 
-static enum exit_status set_tolerance(struct arguments *a, const struct option_row *row, char *value)
+static enum exit_status no_share(const struct option_row *row, const char *value)
 {
-    if (ceduo_number_read(value, &a->tolerance) != CEDUO_NUMBER_GOOD)
-        return no_number(row, value);
-    if (!(a->tolerance > 0) || !(a->tolerance < 1))
-        return ceduo_usage(row->name, _("%s must lie above 0 and below 1"), value);
-    return EXIT_DONE;
+    return ceduo_usage(row->name, _("%s is not a share; write a number between 0 and 1, such as 0.05 for 5 %%"), value);
 }
 
-static enum exit_status set_sure(struct arguments *a, const struct option_row *row, char *value)
+/* A share above 0, at most row->hi. */
+static enum exit_status set_share(struct arguments *a, const struct option_row *row, char *value)
 {
-    if (ceduo_number_read(value, &a->sure) != CEDUO_NUMBER_GOOD)
+    double *share = (double *)(void *)((char *)a + row->at);
+    if (ceduo_number_read(value, share) != CEDUO_NUMBER_GOOD)
         return no_number(row, value);
-    if (!(a->sure > 0) || !(a->sure <= 1))
-        return ceduo_usage(row->name, _("%s is not a share; write 0.9 for nine of ten cases"), value);
-    return EXIT_DONE;
+    return *share > 0 && *share <= row->hi ? EXIT_DONE : no_share(row, value);
 }
 
 static enum exit_status set_plot(struct arguments *a, const struct option_row *row, char *value)
 {
+    if (strcmp(value, "adc") == 0)
+        return ceduo_usage(row->name, _("'%s' is gone: %s"), value, _("the page of --details has the ADC of each belt"));
     a->plot = ceduo_plot_find(value);
     if (a->plot == CEDUO_PLOT_NONE)
         return ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_plot_names);
@@ -154,14 +153,23 @@ static bool is_whole(double number)
     return number == floor(number);
 }
 
+/* Report a value of another form than the option has. */
+static enum exit_status no_form(const struct option_row *row, const char *value, const char *form, const char *example)
+{
+    return ceduo_usage(row->name, _("'%s' is not %s, such as '%s'"), value, form, example);
+}
+
 static enum exit_status set_size(struct arguments *a, const struct option_row *row, char *value)
 {
     double n[2];
     if (!read_numbers(value, "x", 2, 2, n) || !is_whole(n[0]) || !is_whole(n[1]))
-        return ceduo_usage(row->name, _("'%s' is not a size; write COLUMNSxLINES, such as 80x24"), value);
-    if (n[0] < WIDTH_LEAST || n[0] > CEDUO_CANVAS_MAX_WIDTH || n[1] < HEIGHT_LEAST || n[1] > CEDUO_CANVAS_MAX_HEIGHT)
-        return ceduo_usage(row->name, _("%s is outside %dx%d to %dx%d"), value, WIDTH_LEAST, HEIGHT_LEAST,
-                           CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
+        return no_form(row, value, "COLUMNSxLINES", "80x24");
+    if (n[0] < WIDTH_LEAST || n[0] > CEDUO_CANVAS_MAX_WIDTH || n[1] < HEIGHT_LEAST || n[1] > CEDUO_CANVAS_MAX_HEIGHT) {
+        char least[16], most[16];
+        snprintf(least, sizeof least, "%dx%d", WIDTH_LEAST, HEIGHT_LEAST);
+        snprintf(most, sizeof most, "%dx%d", CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
+        return ceduo_usage(row->name, _("%s is outside %s to %s"), value, least, most);
+    }
     a->plot_width = (int)n[0];
     a->plot_height = (int)n[1];
     return EXIT_DONE;
@@ -176,7 +184,7 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
     double parts[3] = {0, 0, 1};
     bool good = read_numbers(value, ":", 2, 3, parts) && is_whole(parts[0]) && is_whole(parts[1]) && is_whole(parts[2]);
     if (!good)
-        return ceduo_usage(row->name, _("'%s' is not a range of years; write A:B or A:B:STEP, such as 0:25"), value);
+        return no_form(row, value, "A:B[:STEP]", "0:25");
     if (parts[0] < 0 || parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1 ||
         (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
         return ceduo_usage(row->name, _("%s: expected at most %d years of 0 (the stand as filed) to 100000"), value,
@@ -193,7 +201,7 @@ static enum exit_status read_range(const struct option_row *row, char *value, co
     char *equals = strrchr(value, '=');
     double ends[2];
     if (!equals || equals == value || !read_numbers(equals + 1, ":", 2, 2, ends))
-        return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, such as '%s'"), value, such_as);
+        return no_form(row, value, row->value, such_as);
     if (one ? ends[1] < ends[0] : ends[1] <= ends[0])
         return ceduo_usage(row->name, _("the range %s is empty; HI must be above LO"), equals + 1);
     *equals = '\0';
@@ -227,7 +235,7 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
     case CEDUO_GOAL_NEGATIVE:
         return ceduo_usage(row->name, _("%s is below 0"), number);
     case CEDUO_GOAL_NO_SHARE:
-        return ceduo_usage(row->name, _("%s is not a share; write 0 to 1, such as 0.05 for 5 %%"), number);
+        return no_share(row, number);
     default:
         return EXIT_DONE;
     }
@@ -285,20 +293,20 @@ static const struct option_row rows[] = {
      .help = N_("change a parameter of the scene; may be repeated")},
     {"rocks", 'n', "N", set_count, AT(rocks), MODE_TERMINAL, CHECK | SURVEY | SCREEN,
      .help = N_("number of rocks; with --tolerance the maximum"), .lo = 1, .hi = CEDUO_ROCKS_MOST},
-    {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
-     .help = N_("simulate until the 95 % error of each mean energy is below REL of it")},
+    {"tolerance", 'e', "REL", set_share, AT(tolerance), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
+     .help = N_("simulate until the 95 % error of each mean energy is below REL of it"), .hi = 1 - 0x1p-53},
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY | SCREEN,
-     .help = N_("what each row of CSV describes (controls)")},
+     NEEDS_CSV, .help = N_("what each row of CSV describes (controls)")},
     {"each", 0, "ROWS.csv", set_text, AT(each), MODE_TERMINAL, FIT | PAGE | SURVEY | SCREEN,
      .help = N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "
                 "copied")},
-    {"columns", 0, "LIST", set_text, AT(columns), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | SCREEN,
+    {"columns", 0, "LIST", set_text, AT(columns), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | LISTS | SCREEN, NEEDS_CSV,
      .help = N_("print these columns of CSV, with commas between their names")},
-    {"resume", 0, NULL, set_flag, AT(resume), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | SCREEN,
+    {"resume", 0, NULL, set_flag, AT(resume), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | SCREEN, NEEDS_FILE,
      .help = N_("with --each and -o: rows that stand in FILE are not computed again; FILE grows row by row, with FILE.resume "
                 "beside it")},
-    {"seed", 0, "N", set_seed, AT(seed), MODE_TERMINAL, SURVEY | SCREEN, .help = N_("seed of the random numbers, 0 to 2^53"), 0,
-     0x1p53},
+    {"seed", 0, "N", set_seed, AT(seed), MODE_TERMINAL, SURVEY | SCREEN, .help = N_("seed of the random numbers, 0 to 2^53"),
+     .lo = 0, .hi = 0x1p53},
     {"threads", 'j', "N", set_count, AT(threads), MODE_TERMINAL, SURVEY,
      .help = N_("number of threads; it does not change the result (all cores)"), .lo = 1, .hi = THREADS_MOST},
     {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, FIT | SURVEY | SCREEN,
@@ -307,12 +315,12 @@ static const struct option_row rows[] = {
      .help =
          N_("compute every option year by year: the years ahead, which all options have, or the years A to B; the stands as "
             "filed are year 0")},
-    {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, CHECK | PAGE | SURVEY,
+    {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, CHECK | PAGE | SURVEY, NEEDS_GOAL,
      .help = N_("find the value of a parameter that reaches --goal at the worst control")},
-    {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY,
+    {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY, NEEDS_FIND,
      .help = N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
-    {"sure", 0, "SHARE", set_sure, 0, MODE_TERMINAL, CHECK | SURVEY,
-     .help = N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9")},
+    {"sure", 0, "SHARE", set_share, AT(sure), MODE_TERMINAL, CHECK | SURVEY, NEEDS_FIND,
+     .help = N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9"), .hi = 1},
     {"sensitivity", 0, "[N]", set_count, AT(points), MODE_SENSITIVITY, CHECK | SURVEY,
      .help = N_("show how sure the result is, and what that depends on; N points (256)"), .lo = 2,
      .hi = CEDUO_DOUBT_POINTS_MAX},
@@ -325,13 +333,13 @@ static const struct option_row rows[] = {
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, CHECK | FIND | FIT | PAGE | SURVEY,
      .help =
          N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare, tradeoff, doubt or hazard")},
-    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, CHECK | SURVEY,
+    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, CHECK | SURVEY, NEEDS_PLOT,
      .help = N_("size of a picture in columns and lines (80x24)")},
-    {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, CHECK | SURVEY,
+    {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, CHECK | SURVEY, NEEDS_PICTURE,
      .help = N_("characters that pictures are made of (from the locale)")},
     {"language", 0, "it|en", set_language, AT(language), MODE_TERMINAL, 0,
      .help = N_("language of tables, screens and messages (from the locale)")},
-    {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, CHECK | SURVEY,
+    {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, ~(unsigned)SCREEN,
      .help = N_("feed keys and commands to the terminal program; needs no terminal")},
     {"check", 0, NULL, NULL, 0, MODE_CHECK, SURVEY, .help = N_("check the scenes and print every problem; compute nothing")},
     {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, SURVEY,
@@ -357,24 +365,6 @@ const struct option_row *ceduo_option_rows(size_t *n)
 {
     *n = ROWS;
     return rows;
-}
-
-/* Options of earlier versions, and what to do instead. */
-static const struct {
-    const char *name, *instead;
-} gone[] = {
-    {"plain", N_("shares and means are always as counted; leave it out")},
-    {"shard", N_("a scene is computed at once; give each machine scenes of its own, see man ceduo-workflows")},
-    {"merge", N_("results of several scenes are printed together; see man ceduo-workflows")},
-};
-
-static const char *instead_of(const char *word)
-{
-    size_t length = strcspn(word, "=");
-    for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
-        if (length > 2 && strlen(gone[i].name) == length - 2 && strncmp(gone[i].name, word + 2, length - 2) == 0)
-            return _(gone[i].instead);
-    return NULL;
 }
 
 bool ceduo_arguments_given(const struct arguments *a, const char *name)
@@ -418,23 +408,48 @@ void ceduo_arguments_help(struct text *text)
 
 /* ---- what goes together ---- */
 
-/* Says which option does not go with what is asked for. A format of its own is one that is not the page. */
-static enum exit_status check_with(const struct arguments *a, const char *mode)
+static enum exit_status say_excluded(const char *option, const char *other)
 {
+    return ceduo_usage(NULL, _("--%s cannot be used with --%s"), option, other);
+}
+
+static enum exit_status say_needed(const char *option, const char *needed)
+{
+    return ceduo_usage(NULL, _("--%s requires %s"), option, needed);
+}
+
+/* Report an option that does not go with the mode, or needs another one. With --format table a list or a report prints what it always
+ * prints. */
+static enum exit_status check_rows(const struct arguments *a, const char *mode)
+{
+    bool plot = a->plot != CEDUO_PLOT_NONE, csv = a->format == CEDUO_CSV;
+    const struct {
+        const char *name;
+        bool given;
+    } needs[] = {[NEEDS_GOAL] = {"--goal", ceduo_arguments_given(a, "goal")},
+                 [NEEDS_FIND] = {"--find", a->mode == MODE_FIND},
+                 [NEEDS_PLOT] = {"--plot", plot},
+                 [NEEDS_PICTURE] = {"--plot", plot || a->mode == MODE_TERMINAL},
+                 [NEEDS_CSV] = {"--format csv", csv || a->mode == MODE_COLUMNS},
+                 [NEEDS_FILE] = {"--each --output --format csv", a->each && a->output && csv}};
     for (size_t i = 0; i < ROWS; i++) {
-        bool page = strcmp(rows[i].name, "format") == 0 && a->format == CEDUO_TABLE;
-        bool doubt = a->mode == MODE_SENSITIVITY && strcmp(rows[i].name, "plot") == 0 && a->plot != CEDUO_PLOT_DOUBT;
-        if (!(a->given >> i & 1) || !(doubt || (rows[i].without >> a->mode & 1)))
+        const struct option_row *row = &rows[i];
+        bool table = strcmp(row->name, "format") == 0 && a->format == CEDUO_TABLE;
+        bool other_plot = a->mode == MODE_SENSITIVITY && strcmp(row->name, "plot") == 0 && a->plot != CEDUO_PLOT_DOUBT;
+        bool without = other_plot || (row->without >> a->mode & 1);
+        if (!(a->given >> i & 1) || (table && (a->mode == MODE_REPORT || a->mode >= MODE_PARAMETERS)))
             continue;
-        if (a->mode == MODE_TERMINAL)
-            return ceduo_usage(NULL, _("--%s requires %s"), rows[i].name, "--batch");
-        if (!page || (a->mode != MODE_REPORT && a->mode < MODE_PARAMETERS))
-            return ceduo_usage(NULL, _("--%s cannot be used with --%s"), mode, rows[i].name);
+        if (without && a->mode == MODE_TERMINAL)
+            return say_needed(row->name, "--batch");
+        if (without)
+            return say_excluded(mode, row->name);
+        if (row->needs != NEEDS_NOTHING && !needs[row->needs].given)
+            return say_needed(row->name, needs[row->needs].name);
     }
     return EXIT_DONE;
 }
 
-/* Whether the options go together, and as many scenes are named as they want. */
+/* Check that the options go together, and that the number of scenes fits. */
 static enum exit_status check_arguments(const struct arguments *a)
 {
     const char *mode = "batch", *goal = ceduo_goals[a->goal].word;
@@ -443,36 +458,20 @@ static enum exit_status check_arguments(const struct arguments *a)
             mode = rows[i].name;
     if (a->mode >= MODE_HELP)
         return EXIT_DONE;
-    if (check_with(a, mode) != EXIT_DONE)
+    if (check_rows(a, mode) != EXIT_DONE)
         return EXIT_USAGE;
-    bool find = a->mode == MODE_FIND, screen = a->mode == MODE_TERMINAL, plot = a->plot != CEDUO_PLOT_NONE;
-    bool csv = a->format == CEDUO_CSV, wants_scene = a->mode >= MODE_BATCH && a->mode <= MODE_CHECK;
-    bool by_years = a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
-    size_t standard = a->each && strcmp(a->each, "-") == 0;
+    bool screen = a->mode == MODE_TERMINAL, plot = a->plot != CEDUO_PLOT_NONE;
+    bool wants_scene = a->mode >= MODE_BATCH && a->mode <= MODE_CHECK;
+    size_t standard = a->each && a->scenes_count > 0; /* a scene that is read for each row must be a file */
     for (size_t i = 0; i < a->scenes_count; i++)
         standard += strcmp(a->scenes[i], "-") == 0;
-    const struct {
-        bool broken;
-        const char *option, *needs, *bars; /* needs or bars */
-    } rules[] = {
-        {find && !ceduo_arguments_given(a, "goal"), "find", "--goal", NULL},
-        {!find && ceduo_arguments_given(a, "goal"), "goal", "--find", NULL},
-        {!find && ceduo_arguments_given(a, "sure"), "sure", "--find", NULL},
-        {find && a->window.step > 0, "find", NULL, "years A:B"},
-        {plot && a->format != CEDUO_TABLE, "plot", NULL, csv ? "format csv" : "format json"},
-        {ceduo_arguments_given(a, "size") && !plot, "size", "--plot", NULL},
-        {ceduo_arguments_given(a, "rows") && a->mode != MODE_COLUMNS && !csv, "rows", "--format csv", NULL},
-        {a->columns && !csv, "columns", "--format csv", NULL},
-        {a->resume && (!a->each || !a->output || !csv || plot), "resume", "--each --output --format csv", NULL},
-        {ceduo_arguments_given(a, "charset") && !plot && !screen, "charset", "--plot", NULL},
-        {a->script && !screen, "script", NULL, "batch"},
-        {a->years && plot && !by_years, "years", "--plot rotation|tradeoff", NULL},
-    };
-    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
-        if (rules[i].broken)
-            return rules[i].needs ? ceduo_usage(NULL, _("--%s requires %s"), rules[i].option, rules[i].needs)
-                                  : ceduo_usage(NULL, _("--%s cannot be used with --%s"), rules[i].option, rules[i].bars);
-    if (find && !ceduo_goals[a->goal].usual && isnan(a->goal_value))
+    if (a->mode == MODE_FIND && a->window.step > 0)
+        return say_excluded("find", "years A:B");
+    if (plot && a->format != CEDUO_TABLE)
+        return say_excluded("plot", a->format == CEDUO_CSV ? "format csv" : "format json");
+    if (plot && a->years && a->plot != CEDUO_PLOT_ROTATION && a->plot != CEDUO_PLOT_TRADEOFF)
+        return say_needed("years", "--plot rotation|tradeoff");
+    if (a->mode == MODE_FIND && !ceduo_goals[a->goal].usual && isnan(a->goal_value))
         return ceduo_usage("goal", _("'%s' needs a value, such as %s=%s"), goal, goal,
                            ceduo_goal_is_share(a->goal) ? "0.5" : "50");
     if (wants_scene && a->scenes_count == 0)
@@ -482,10 +481,7 @@ static enum exit_status check_arguments(const struct arguments *a)
         return ceduo_usage(NULL, _("--%s takes no scene: '%s'"), mode, a->scenes[0]);
     if (screen && a->scenes_count > 1)
         return ceduo_usage(NULL, _("the terminal program opens one scene; --batch takes several"));
-    for (size_t i = 0; a->each && i < a->scenes_count; i++)
-        if (strcmp(a->scenes[i], "-") == 0)
-            return ceduo_usage("each", _("standard input can be read only once; name a file for the scene"));
-    return standard > 1 ? ceduo_usage(NULL, _("standard input can be read only once")) : EXIT_DONE;
+    return standard > 1 ? ceduo_usage(NULL, _("standard input can be read only once; name a file for the scene")) : EXIT_DONE;
 }
 
 /* ---- reading ---- */
@@ -540,13 +536,11 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
             return ceduo_usage(NULL, _("'%s' needs a value"), word);
         if (letter == '?' && word[0] == '-' && word[1] == '-' && optopt)
             return ceduo_usage(NULL, _("'%s': this option takes no value"), word);
-        if (letter == '?' && optopt && optopt < LONG)
-            return ceduo_usage(NULL, _("unknown option '-%c'"), optopt);
-        const char *instead = letter == '?' ? instead_of(word) : NULL;
-        if (instead)
-            return ceduo_usage(NULL, _("'%s' is gone: %s"), word, instead);
+        const char *remedy = letter == '?' ? ceduo_gone(word) : NULL;
+        if (remedy)
+            return ceduo_usage(NULL, _("'%s' is gone: %s"), word, _(remedy));
         if (letter == '?')
-            return ceduo_usage(NULL, _("unknown or ambiguous option '%s'"), word);
+            return ceduo_usage(NULL, _("unknown or ambiguous option '%s'"), optopt ? (char[]){'-', (char)optopt, '\0'} : word);
         size_t i = letter >= LONG ? (size_t)(letter - LONG) : 0;
         while (letter < LONG && rows[i].letter != letter)
             i++;

@@ -258,16 +258,19 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
     if (status == CEDUO_OK) {
         LOCAL_TEXT(command);
         LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
+        append_command(&command, a);
         struct ceduo_report report = {.file = file,
                                       .result = c.answer.result,
                                       .verdict = &c.verdict,
                                       .blocks = c.answer.blocks,
                                       .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed},
-                                      .doubt = &c.doubt};
+                                      .doubt = &c.doubt,
+                                      .ahead = c.answer.years,
+                                      .snapshot = c.snapshot,
+                                      .command = ceduo_text_string(&command),
+                                      .same = true};
         c.doubt.years = &c.verdict;
-        append_command(&command, a);
-        const struct ceduo_chapter chapter = {&report, c.snapshot, c.answer.years, ceduo_text_string(&command), true};
-        ceduo_page_chapter(&page, &chapter);
+        ceduo_page_chapter(&page, &report);
         ceduo_page_html(&(struct ceduo_html){.text = out}, &page, a->profiles->count + 1);
         if (a->profiles->count == 0)
             ceduo_text_put(a->title, ceduo_in_language(file->scene.title, file->scene.title_it));

@@ -16,11 +16,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/grow.h"
 #include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"
-#include "ceduo/version.h"
+#include "ceduo/status.h"
 #include "io/file.h"
 #include "say.h"
 
@@ -65,17 +64,12 @@ static uint64_t hash_scenes(const struct arguments *a)
 static uint64_t hash_options(const struct arguments *a)
 {
     uint64_t hash = HASH_START;
-    hash_count(&hash, (uint64_t)a->mode);
-    hash_count(&hash, (uint64_t)a->stands);
-    hash_count(&hash, a->years);
-    hash_count(&hash, a->window.first);
-    hash_count(&hash, a->window.last);
-    hash_count(&hash, a->window.step);
+    const unsigned words[] = {a->mode, (unsigned)a->stands, a->years, a->window.first, a->window.last, a->window.step, a->goal};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        hash_count(&hash, words[i]);
     hash_count(&hash, a->points);
-    hash_count(&hash, (uint64_t)a->goal);
+    hash_each(&hash, a->tolerance, a->find.lo, a->find.hi, a->goal_value, a->sure);
     hash_text(&hash, a->find.path);
-    const double numbers[] = {a->tolerance, a->find.lo, a->find.hi, a->goal_value, a->sure};
-    hash_doubles(&hash, numbers, sizeof numbers / sizeof numbers[0]);
     for (size_t i = 0; i < a->options.n; i++)
         hash_text(&hash, a->options.items[i]);
     return hash;
@@ -90,21 +84,18 @@ static uint64_t hash_columns(const struct each *e, const struct text *head)
     return hash;
 }
 
-/* Names of the lines of the identity, in their order, and what they are called. */
-static const char *const identity_keys[] = {"version", "scene", "options", "seed", "rocks", "columns"};
+/* What the lines of the identity are called, in their order. */
 static const char *const identity_names[] = {N_("version"), N_("scene"), N_("options"), N_("seed"), N_("rocks"), N_("columns")};
-enum { IDENTITY = sizeof identity_keys / sizeof identity_keys[0] };
+enum { IDENTITY = sizeof identity_names / sizeof identity_names[0] };
 
 static void make_identity(struct resume *r, const struct each *e)
 {
     const struct arguments *a = r->arguments;
-    ceduo_text_put(&r->identity, FORMAT "\n");
-    ceduo_text_format(&r->identity, "%s %s\n", identity_keys[0], CEDUO_VERSION);
-    ceduo_text_format(&r->identity, "%s %016" PRIx64 "\n", identity_keys[1], hash_scenes(a));
-    ceduo_text_format(&r->identity, "%s %016" PRIx64 "\n", identity_keys[2], hash_options(a));
-    ceduo_text_format(&r->identity, "%s %s\n", identity_keys[3], a->seed_set[0] ? a->seed_set : "-");
-    ceduo_text_format(&r->identity, "%s %" PRIu64 "\n", identity_keys[4], a->rocks);
-    ceduo_text_format(&r->identity, "%s %016" PRIx64 "\n", identity_keys[5], hash_columns(e, r->head));
+    ceduo_text_format(&r->identity,
+                      FORMAT "\nversion %s\nscene %016" PRIx64 "\noptions %016" PRIx64 "\nseed %s\nrocks %" PRIu64
+                             "\ncolumns %016" PRIx64 "\n",
+                      CEDUO_VERSION, hash_scenes(a), hash_options(a), a->seed_set[0] ? a->seed_set : "-", a->rocks,
+                      hash_columns(e, r->head));
 }
 
 /* ---- files ---- */
@@ -234,13 +225,6 @@ static size_t find_lines(const char *bytes, size_t n, size_t from, struct resume
     return end;
 }
 
-static int compare_parts(const void *a, const void *b)
-{
-    const struct resume_part *x = a, *y = b;
-    int order = (x->key > y->key) - (x->key < y->key);
-    return order != 0 ? order : (x->from > y->from) - (x->from < y->from);
-}
-
 /* Find the parts of the output that are whole, and cut off both files after the last of them. */
 static bool find_parts(struct resume *r, const char *output, size_t output_n, const char *side, size_t side_n)
 {
@@ -257,8 +241,6 @@ static bool find_parts(struct resume *r, const char *output, size_t output_n, co
         r->end = from;
         side_end = at + PART_LENGTH;
     }
-    if (r->known_count > 0)
-        qsort(r->known, r->known_count, sizeof *r->known, compare_parts);
     return ftruncate(r->file, (off_t)r->end) == 0 && ftruncate(r->side, (off_t)side_end) == 0;
 }
 
@@ -332,21 +314,17 @@ static void add_to_order(struct resume *r, struct resume_part part)
 
 bool ceduo_resume_has(struct resume *r, uint64_t key, enum exit_status *status)
 {
-    size_t lo = 0, hi = r->known_count; /* the first part of this key */
-    while (lo < hi) {
-        size_t middle = lo + (hi - lo) / 2;
-        if (r->known[middle].key < key)
-            lo = middle + 1;
-        else
-            hi = middle;
+    for (size_t i = 0; i < r->known_count; i++) {
+        struct resume_part *part = &r->known[(r->next + i) % r->known_count];
+        if (part->key != key || part->used)
+            continue;
+        part->used = true;
+        r->next = (size_t)(part - r->known) + 1;
+        add_to_order(r, *part);
+        *status = part->status;
+        return true;
     }
-    struct resume_part *first = r->known + lo;
-    if (lo == r->known_count || first->key != key || lo + first->used == r->known_count || first[first->used].key != key)
-        return false;
-    struct resume_part part = first[first->used++];
-    add_to_order(r, part);
-    *status = part.status;
-    return true;
+    return false;
 }
 
 /* Append the line of a part to the text of a side file. */

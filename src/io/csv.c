@@ -59,7 +59,7 @@ static const char *read_quoted(struct csv *csv, const char *p, const char *end, 
         inside += is_separator(csv, to);
         to += *to == '"' ? 2 : 1;
     }
-    *cell = (struct csv_cell){from, (size_t)(to - from), p, true};
+    *cell = (struct csv_cell){.p = from, .n = (size_t)(to - from), .at = p, .quoted = true};
     if (to == end)
         mark_bad(csv, p, _("this quote is not closed; close it, or remove it"));
     else if (lines > 0 && csv->heads_count > 1 && inside + 1 >= csv->heads_count) /* it may have swallowed a row */
@@ -179,8 +179,8 @@ static bool may_begin(struct csv_cell head, char letter)
     return first >= 0x80 || (unsigned char)letter >= 0x80 || tolower(first) == letter;
 }
 
-/* True if a head is a name, alone or with a unit. `wanted`: the folded name. */
-static bool is_head(struct csv_cell head, const char *name, const char *wanted, const char *units)
+/* True if a head is a name of n bytes, alone or with a unit. `wanted`: the folded name. */
+static bool is_head(struct csv_cell head, const char *name, size_t length, const char *wanted, const char *units)
 {
     char given[FOLDED_MAX];
     size_t before = 0;
@@ -190,7 +190,7 @@ static bool is_head(struct csv_cell head, const char *name, const char *wanted, 
         before++;
     ceduo_utf8_fold(head.p, before, given, sizeof given);
     size_t n = strlen(wanted);
-    if (ceduo_csv_is(head, name))
+    if (head.n == length && strncasecmp(head.p, name, length) == 0)
         return true;
     if (n == 0 || strncmp(given, wanted, n) != 0)
         return false;
@@ -199,19 +199,27 @@ static bool is_head(struct csv_cell head, const char *name, const char *wanted, 
     return !given[n] || (units && ceduo_csv_among(given + n, strlen(given + n), units));
 }
 
-size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const char *units)
+/* Column with a name of n bytes, as ceduo_csv_column(). */
+static size_t find_name(const struct csv *csv, const char *name, size_t n, const char *units)
 {
-    for (int k = 0; names[k]; k++) {
-        char wanted[FOLDED_MAX];
-        size_t found = CEDUO_CSV_NONE;
-        ceduo_utf8_fold(names[k], strlen(names[k]), wanted, sizeof wanted);
-        for (size_t i = 0; i < csv->heads_count; i++)
-            if (is_head(csv->heads[i], names[k], wanted, units))
-                found = found == CEDUO_CSV_NONE ? i : CEDUO_CSV_TWICE;
-        if (found != CEDUO_CSV_NONE)
-            return found;
+    char wanted[FOLDED_MAX];
+    size_t found = CEDUO_CSV_NONE;
+    ceduo_utf8_fold(name, n, wanted, sizeof wanted);
+    for (size_t i = 0; i < csv->heads_count; i++)
+        if (is_head(csv->heads[i], name, n, wanted, units))
+            found = found == CEDUO_CSV_NONE ? i : CEDUO_CSV_TWICE;
+    return found;
+}
+
+size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, const char *units)
+{
+    size_t found = head->name ? find_name(csv, head->name, strlen(head->name), units) : CEDUO_CSV_NONE;
+    for (const char *also = head->also ? head->also : ""; *also && found == CEDUO_CSV_NONE; also += *also == '|') {
+        size_t n = strcspn(also, "|");
+        found = find_name(csv, also, n, units);
+        also += n;
     }
-    return CEDUO_CSV_NONE;
+    return found;
 }
 
 /* Make the present record the head. */
@@ -226,11 +234,22 @@ static void take_heads(struct csv *csv)
         csv->heads_count = 0;
 }
 
+/* A reader at the same place that reports nothing and leaves the present record as it is. */
+static struct csv try_separator(const struct csv *csv, char separator)
+{
+    struct csv trial = *csv;
+    trial.problems = NULL;
+    trial.separator = separator;
+    trial.cells = NULL;
+    trial.cells_capacity = 0;
+    return trial;
+}
+
 static size_t count_known(const struct csv *csv, const struct csv_head *heads, size_t n)
 {
     size_t known = 0;
     for (size_t i = 0; i < n; i++)
-        known += ceduo_csv_column(csv, heads[i].names, heads[i].units) != CEDUO_CSV_NONE;
+        known += ceduo_csv_column(csv, &heads[i], heads[i].units) != CEDUO_CSV_NONE;
     return known;
 }
 
@@ -253,11 +272,10 @@ static size_t rate_head(struct csv *trial, struct csv_place line, const struct c
 static void find_head(struct csv *csv, const struct csv_head *heads, size_t n)
 {
     const char given[] = {csv->separator, '\0'}, *all = csv->separator ? given : csv->blanks ? ";\t,| " : ";\t,|";
-    struct csv trial = *csv;
+    struct csv trial = try_separator(csv, 0);
     struct csv_place line = csv->next, best_line = csv->next;
     size_t most = 0, from, to;
     char best = csv->separator ? csv->separator : ',';
-    trial.problems = NULL;
     for (size_t k = 0; k < TITLE_MAX && line.at < csv->source->length; k++) {
         const bool comment = csv->comments && csv->source->bytes[line.at] == '#'; /* may hold the heads */
         const struct csv_place head = {line.at + comment, line.line};
@@ -277,8 +295,6 @@ static void find_head(struct csv *csv, const struct csv_head *heads, size_t n)
     }
     csv->next = best_line;
     csv->separator = best;
-    csv->cells = trial.cells;
-    csv->cells_capacity = trial.cells_capacity;
 }
 
 /* Units that may stand in a row of their own. */
@@ -287,30 +303,26 @@ static void find_head(struct csv *csv, const struct csv_head *heads, size_t n)
 /* Append the units of a row below the head to the heads. */
 static void take_units(struct csv *csv)
 {
-    struct csv_place before = csv->next;
-    struct problems *problems = csv->problems;
+    struct csv row = try_separator(csv, csv->separator);
     size_t found = 0;
-    csv->problems = NULL;
-    bool units = read_record(csv) && !is_blank_record(csv) && csv->cells_count <= csv->heads_count;
-    csv->problems = problems;
-    for (size_t i = 0; units && i < csv->cells_count; i++) {
-        bool none = ceduo_csv_is_empty(csv->cells[i]);
-        units = none || ceduo_csv_among(csv->cells[i].p, csv->cells[i].n, UNITS);
+    bool units = read_record(&row) && !is_blank_record(&row) && row.cells_count <= csv->heads_count;
+    for (size_t i = 0; units && i < row.cells_count; i++) {
+        bool none = ceduo_csv_is_empty(row.cells[i]);
+        units = none || ceduo_csv_among(row.cells[i].p, row.cells[i].n, UNITS);
         found += !none;
     }
-    if (!units || found == 0) {
-        csv->next = before;
+    if (!units || found == 0)
         return;
-    }
-    for (size_t i = 0; i < csv->cells_count; i++) {
-        struct csv_cell *head = &csv->heads[i], unit = csv->cells[i];
+    csv->next = row.next;
+    for (size_t i = 0; i < row.cells_count; i++) {
+        struct csv_cell *head = &csv->heads[i], unit = row.cells[i];
         if (ceduo_csv_is_empty(unit))
             continue;
         bool bare = unit.p[0] != '(' && unit.p[0] != '[';
         const char *whole = ceduo_arena_format(csv->arena, "%.*s %s%.*s%s", (int)head->n, head->p, bare ? "(" : "", (int)unit.n,
                                                unit.p, bare ? ")" : "");
         if (whole)
-            *head = (struct csv_cell){whole, strlen(whole), head->at, head->quoted};
+            *head = (struct csv_cell){.p = whole, .n = strlen(whole), .at = head->at, .quoted = head->quoted};
     }
 }
 
@@ -321,37 +333,27 @@ void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, siz
         take_heads(csv);
     take_units(csv);
     for (size_t i = 0; i < n; i++) {
-        columns[i] = ceduo_csv_column(csv, heads[i].names, heads[i].units);
+        columns[i] = ceduo_csv_column(csv, &heads[i], heads[i].units);
         csv->source->foreign &= columns[i] == CEDUO_CSV_NONE;
     }
     for (size_t i = 0; i < n; i++)
         if (columns[i] == CEDUO_CSV_TWICE)
             ceduo_problem(csv->problems, csv->source, csv->head_place.line, 1,
-                          _("the column '%s' is there twice; rename all but one"), _(heads[i].names[0]));
+                          _("the column '%s' is there twice; rename all but one"), _(heads[i].name));
 }
 
 bool ceduo_csv_first(struct csv *csv)
 {
-    struct csv_place begin = csv->next;
-    if (!csv->separator) {
-        size_t most = 1;
-        struct problems *problems = csv->problems;
-        csv->problems = NULL;
-        csv->separator = ',';
-        for (const char *s = ";\t|,"; *s; s++) { /* the one that the head has; several: the one with most cells, ; first */
-            struct csv trial = *csv;
-            trial.separator = *s;
-            bool good = read_filled(&trial);
-            csv->cells = trial.cells;
-            csv->cells_capacity = trial.cells_capacity;
-            if (good && !trial.bad && trial.cells_count > most) {
-                most = trial.cells_count;
-                csv->separator = *s;
-            }
+    size_t most = 1;
+    char best = csv->separator ? csv->separator : ',';
+    for (const char *s = csv->separator ? "" : ";\t|,"; *s; s++) { /* the one with most cells, ; first */
+        struct csv trial = try_separator(csv, *s);
+        if (read_filled(&trial) && !trial.bad && trial.cells_count > most) {
+            most = trial.cells_count;
+            best = *s;
         }
-        csv->problems = problems;
     }
-    csv->next = begin;
+    csv->separator = best;
     if (!read_filled(csv))
         return ceduo_problem(csv->problems, csv->source, 0, 0, _("the file is empty"));
     take_heads(csv);
@@ -422,7 +424,7 @@ void ceduo_csv_describe(const struct csv *csv, const size_t *used, size_t n, con
 
 /* ---- rows ---- */
 
-void ceduo_csv_scan(struct csv *csv, const bool *numeric)
+void ceduo_csv_scan(struct csv *csv)
 {
     struct csv_place begin = csv->next;
     struct problems *problems = csv->problems;
@@ -434,8 +436,7 @@ void ceduo_csv_scan(struct csv *csv, const bool *numeric)
     while (read_filled(csv)) {
         csv->rows++;
         most = csv->cells_count > most ? csv->cells_count : most;
-        if (numeric)
-            ceduo_csv_note(csv, numeric);
+        ceduo_csv_note(csv);
     }
     csv->width = most > filled ? of_head : filled;
     csv->longer = csv->longer_by_one = 0;
@@ -506,6 +507,13 @@ struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column)
 bool ceduo_csv_is(struct csv_cell cell, const char *word)
 {
     return strlen(word) == cell.n && strncasecmp(cell.p, word, cell.n) == 0;
+}
+
+int ceduo_csv_compare(struct csv_cell a, struct csv_cell b)
+{
+    if (a.n != b.n)
+        return a.n < b.n ? -1 : 1;
+    return memcmp(a.p, b.p, a.n);
 }
 
 bool ceduo_csv_is_empty(struct csv_cell cell)

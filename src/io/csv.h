@@ -16,6 +16,7 @@ struct csv_cell {
     size_t n;       /* bytes */
     const char *at; /* first byte in the file */
     bool quoted;
+    bool numeric; /* of a head: its column holds numbers */
 };
 
 /* A record as a place to return to. */
@@ -57,15 +58,25 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
 #define CEDUO_CSV_NONE  SIZE_MAX
 #define CEDUO_CSV_TWICE (SIZE_MAX - 1)
 
-/* Names of a column, the best first, ended by NULL, and its units, separated by |. */
+enum csv_unit {
+    CSV_UNIT_NONE,
+    CSV_UNIT_USUAL, /* the unit in the name of the manual: cm, m2, degrees */
+    CSV_UNIT_OTHER  /* mm, percent */
+};
+
+/* Names and units of a column. Those of `also` and the units are separated by |. */
 struct csv_head {
-    const char *names[40];
+    const char *name;  /* the best; NULL: no column is meant */
+    const char *also;  /* other names, the best first; NULL: none */
     const char *units; /* NULL: any unit in brackets is ignored */
+    const char *other; /* among them: those of another scale; NULL: none */
+    const char *unit;  /* for messages; its translation is marked */
+    double lo, hi;     /* range of its numbers, in the usual unit */
 };
 
 /* Column with one of n known heads; CEDUO_CSV_NONE; CEDUO_CSV_TWICE. Case, blanks and punctuation do not matter. A unit may
  * follow the name, in brackets or without. Earlier names win. */
-size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const char *units);
+size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, const char *units);
 
 /* Find the head of a table: the line among the first 20, and the separator, with most of n known heads. Reads a row of units
  * below it. Sets columns[i] for each head. Reports columns that occur twice. The file is foreign until a head is known. */
@@ -77,9 +88,16 @@ bool ceduo_csv_first(struct csv *csv);
 /* Take a table without a head: the first record that is not blank is its first row. */
 void ceduo_csv_headless(struct csv *csv, char separator);
 
-/* Read the whole table once: number of cells a record has, rows, decimal sign. numeric[c] is true if column c holds numbers;
- * NULL: none does. Call it before the first ceduo_csv_next(). */
-void ceduo_csv_scan(struct csv *csv, const bool *numeric);
+/* Mark a column as one of numbers, if there is such a column. */
+static inline void ceduo_csv_has_numbers(struct csv *csv, size_t column)
+{
+    if (column < csv->heads_count)
+        csv->heads[column].numeric = true;
+}
+
+/* Read the whole table once: number of cells a record has, rows, decimal sign of the columns that are marked as numeric. Call it
+ * before the first ceduo_csv_next(). */
+void ceduo_csv_scan(struct csv *csv);
 
 /* Read the next record that is not blank; false at the end. A broken record is reported and marked bad. */
 bool ceduo_csv_next(struct csv *csv);
@@ -92,6 +110,9 @@ struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column);
 
 /* True if a text is one of the words, separated by |. Case, blanks and punctuation do not matter. */
 bool ceduo_csv_among(const char *p, size_t n, const char *words);
+
+/* Order of two cells as of memcmp(); 0: they have the same bytes. */
+int ceduo_csv_compare(struct csv_cell a, struct csv_cell b);
 
 /* True if a cell is a word; case does not matter. */
 bool ceduo_csv_is(struct csv_cell cell, const char *word);
@@ -120,14 +141,17 @@ enum csv_numeral { CSV_NUMERAL_GOOD, CSV_NUMERAL_NONE, CSV_NUMERAL_TWO_WAYS, CSV
 #define CSV_NUMERAL_CAPACITY 128
 enum csv_numeral ceduo_csv_numeral(const struct csv *csv, struct csv_cell cell, char to[CSV_NUMERAL_CAPACITY]);
 
+/* Remove the unit that follows the number in a cell, one of `units` (may be NULL), separated by |. False if there is none. */
+bool ceduo_csv_split_unit(struct csv_cell *cell, const char *units);
+
 /* Set *value if a cell is a number; false if it is not. Reports nothing. */
 bool ceduo_csv_value(const struct csv *csv, struct csv_cell cell, double *value);
 
 /* Number in a cell, lo <= number <= hi, in `unit`, which may follow it. Reports an error and returns false otherwise. */
 bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, double hi, const char *unit, double *value);
 
-/* Note the decimal sign of the present record, if it shows one. numeric[c]: as in ceduo_csv_scan(). */
-void ceduo_csv_note(struct csv *csv, const bool *numeric);
+/* Note the decimal sign of the present record, if it shows one. */
+void ceduo_csv_note(struct csv *csv);
 
 /* Report why a cell is not the number that ceduo_csv_numeral() looks for; returns false. */
 bool ceduo_csv_no_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral why);

@@ -152,15 +152,20 @@ enum csv_numeral ceduo_csv_numeral(const struct csv *csv, struct csv_cell cell, 
     return ceduo_number_read(to, &value) == CEDUO_NUMBER_NONE ? CSV_NUMERAL_NONE : CSV_NUMERAL_GOOD;
 }
 
-/* A cell without the unit that follows its number. */
-static struct csv_cell without_unit(struct csv_cell cell, const char *unit)
+bool ceduo_csv_split_unit(struct csv_cell *cell, const char *units)
 {
-    size_t n = cell.n;
-    while (n > 0 && !is_digit(cell.p[n - 1]))
-        n--;
-    if (n > 0 && n < cell.n && unit[0] && ceduo_csv_among(cell.p + n, cell.n - n, unit))
-        cell.n = n;
-    return cell;
+    size_t n = cell->n;
+    for (int k = 0; k < 2 && units; k++) { /* cm, then m2, which ends in a digit */
+        while (n > 0 && !is_digit(cell->p[n - 1]))
+            n--;
+        if (n > 0 && n < cell->n && ceduo_csv_among(cell->p + n, cell->n - n, units)) {
+            cell->n = n;
+            return true;
+        }
+        while (n > 0 && is_digit(cell->p[n - 1]))
+            n--;
+    }
+    return false;
 }
 
 /* The first character of a cell that cannot be meant in a number: it shows as nothing or turns text. 0: there is none. */
@@ -216,7 +221,8 @@ bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, do
     char text[CSV_NUMERAL_CAPACITY];
     if (cell.n == 0)
         return ceduo_csv_complain(csv, cell, _("a value is missing; remove the line"));
-    struct csv_cell bare = without_unit(cell, unit);
+    struct csv_cell bare = cell;
+    ceduo_csv_split_unit(&bare, unit);
     enum csv_numeral how = ceduo_csv_numeral(csv, bare, text);
     if (how != CSV_NUMERAL_GOOD)
         return ceduo_csv_no_number(csv, cell, how);
@@ -228,11 +234,11 @@ bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, do
     return ceduo_csv_complain(csv, cell, _("beyond %g %s"), hi, unit);
 }
 
-void ceduo_csv_note(struct csv *csv, const bool *numeric)
+void ceduo_csv_note(struct csv *csv)
 {
     for (size_t i = 0; i < csv->cells_count && i < csv->heads_count; i++) {
         struct numeral numeral;
-        if (!numeric[i] || take_apart(csv->cells[i], &numeral) != CSV_NUMERAL_GOOD)
+        if (!csv->heads[i].numeric || take_apart(csv->cells[i], &numeral) != CSV_NUMERAL_GOOD)
             continue;
         char shown = shown_decimal(&numeral);
         csv->grouped |= numeral.signs >= SIGNS_GROUPS;

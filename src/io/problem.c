@@ -245,7 +245,7 @@ void ceduo_problems_close(struct problems *problems)
         ceduo_text_put(&problems->text, ceduo_text_string(&problems->warnings));
     ceduo_text_free(&problems->warnings);
     if (!ceduo_problems_settle(problems))
-        ceduo_text_put(&problems->text, _("out of memory\n"));
+        ceduo_text_format(&problems->text, "%s\n", _("out of memory"));
 }
 
 void ceduo_problems_free(struct problems *problems)

@@ -10,10 +10,10 @@
 #include <strings.h>
 
 #include "base/language.h"
-#include "base/path.h"
-#include "ceduo/material.h"
+#include "ceduo/slope.h"
 #include "file.h"
 #include "scene/choices.h"
+#include "scene/schema.h"
 
 #define FIRST      "-1e9" /* m: before any profile begins */
 #define BASES_MOST 8
@@ -374,7 +374,7 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
     key[step->n] = '\0';
     const struct field *f = object ? ceduo_schema_field(object, key) : NULL;
     bool free_form = !object || strcmp(key, "source") == 0;
-    const char *instead = object ? ceduo_schema_gone(object, key) : NULL;
+    const char *instead = object ? ceduo_gone(key) : NULL;
     if (instead)
         return fail_at(s, step, _(instead));
     LOCAL_TEXT(said);

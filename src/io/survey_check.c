@@ -47,12 +47,7 @@ static struct sizes measure_sizes(const struct ceduo_survey *survey)
 /* Mean basal area over the plots, m2/ha. */
 static double mean_basal_area(const struct ceduo_survey *survey)
 {
-    size_t n;
-    double sum = 0;
-    ceduo_species_list(&n);
-    for (int k = -1; k < (int)n; k++)
-        sum += ceduo_survey_basal(survey, k);
-    return sum * (M_PI / 4) * 10000 / (double)survey->plots_count;
+    return ceduo_survey_basal(survey, CEDUO_SURVEY_ALL) * (M_PI / 4) * 10000 / (double)survey->plots_count;
 }
 
 static bool has_column(const struct survey_reader *r, enum column c)
@@ -66,18 +61,10 @@ static bool have_units(const struct survey_reader *r, enum column a, enum column
     return (!has_column(r, a) || r->units[a]) && (!has_column(r, b) || r->units[b]);
 }
 
-/* Report a problem of a column at its head. */
-static bool refuse_column(const struct survey_reader *r, enum column c, const char *why)
+/* Head of a column, as the place of a problem. */
+static struct csv_cell head_of(const struct survey_reader *r, enum column c)
 {
-    const struct csv_cell head = r->csv.heads[r->columns[c]];
-    return ceduo_csv_complain(&r->csv, (struct csv_cell){.at = head.at}, "%s", why);
-}
-
-/* Ask about a column at its head. */
-static bool ask_column(const struct survey_reader *r, enum survey_question question, enum column c, const char *why)
-{
-    r->answers->asked[question] = true;
-    return refuse_column(r, c, why);
+    return (struct csv_cell){.at = r->csv.heads[r->columns[c]].at};
 }
 
 static enum column size_column(const struct survey_reader *r)
@@ -97,45 +84,42 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
     const double basal = mean_basal_area(survey);
     const enum column size = size_column(r), area = has_column(r, AREA) ? AREA : RADIUS;
     const bool sized = have_units(r, DBH, CIRCUMFERENCE), laid = have_units(r, AREA, RADIUS);
-    LOCAL_TEXT(why);
+    const struct csv_cell head = head_of(r, size);
     const bool may_be_altitude = has_column(r, HEIGHT) && (!r->units[HEIGHT] || is_altitude(r->csv.heads[r->columns[HEIGHT]]));
+    bool *asked = r->answers->asked;
     if (may_be_altitude && s.height > HEIGHT_BARE && !r->answers->given[SURVEY_HEIGHTS]) {
-        ceduo_text_format(
-            &why,
+        asked[SURVEY_HEIGHTS] = true;
+        return ceduo_csv_complain(
+            &r->csv, head_of(r, HEIGHT),
             _("a mean height of %.0f m: name the column 'height_m' if it holds heights in metres, 'altitude' if it holds "
               "altitudes"),
             s.height);
-        return ask_column(r, SURVEY_HEIGHTS, HEIGHT, ceduo_text_string(&why));
     }
     if (!sized && s.dbh > DBH_BARE && s.height < SLENDERNESS_MIN * s.height_of_dbh) {
-        ceduo_text_format(&why,
-                          size == DBH
-                              ? _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column 'dbh_mm' if it is "
-                                  "in millimetres, 'dbh_cm' if it is in centimetres")
-                              : _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column "
-                                  "'circumference_mm' if it is in millimetres, 'circumference_cm' if it is in centimetres"),
-                          s.dbh * 100, s.height);
-        return ask_column(r, SURVEY_DIAMETERS, size, ceduo_text_string(&why));
+        asked[SURVEY_DIAMETERS] = true;
+        return ceduo_csv_complain(
+            &r->csv, head,
+            size == DBH ? _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column 'dbh_mm' if it is "
+                            "in millimetres, 'dbh_cm' if it is in centimetres")
+                        : _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column "
+                            "'circumference_mm' if it is in millimetres, 'circumference_cm' if it is in centimetres"),
+            s.dbh * 100, s.height);
     }
-    if (basal > BASAL_MOST) {
-        ceduo_text_format(
-            &why, _("a basal area of %.0f m2/ha is more than any forest has; are the areas in m2 and the diameters in cm?"),
-            basal);
-        return refuse_column(r, area, ceduo_text_string(&why));
-    }
-    if (basal > BASAL_BARE && !(sized && laid)) {
-        ceduo_text_format(&why,
-                          size == DBH
-                              ? _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'dbh_cm' if it is right, "
-                                  "'dbh_mm' if the diameters are in millimetres")
-                              : _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'circumference_cm' if it "
-                                  "is right, 'circumference_mm' if the circumferences are in millimetres"),
-                          basal, _(ceduo_survey_heads[area].names[0]));
-        r->answers->asked[SURVEY_AREAS] = !laid;
-        r->answers->asked[SURVEY_DIAMETERS] = !sized;
-        return refuse_column(r, sized ? area : size, ceduo_text_string(&why));
-    }
-    return true;
+    if (basal > BASAL_MOST)
+        return ceduo_csv_complain(
+            &r->csv, head_of(r, area),
+            _("a basal area of %.0f m2/ha is more than any forest has; are the areas in m2 and the diameters in cm?"), basal);
+    if (basal <= BASAL_BARE || (sized && laid))
+        return true;
+    asked[SURVEY_AREAS] = !laid;
+    asked[SURVEY_DIAMETERS] = !sized;
+    return ceduo_csv_complain(
+        &r->csv, sized ? head_of(r, area) : head,
+        size == DBH ? _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'dbh_cm' if it is right, "
+                        "'dbh_mm' if the diameters are in millimetres")
+                    : _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'circumference_cm' if it "
+                        "is right, 'circumference_mm' if the circumferences are in millimetres"),
+        basal, HEAD(area));
 }
 
 /* True if two plots have the same name and the same sites, ignoring case. */
@@ -153,7 +137,7 @@ static bool check_sites(const struct survey_reader *r, const struct survey_plot 
     size_t line = a->returned ? a->returned : b->returned, site = 0;
     if (line == 0)
         return true;
-    while (site + 1 < SITES && ceduo_survey_is_same(a->sites[site], b->sites[site]))
+    while (site + 1 < SITES && ceduo_csv_compare(a->sites[site], b->sites[site]) == 0)
         site++;
     LOCAL_TEXT(name);
     const struct csv_cell head = r->csv.heads[r->columns[SITE + site]];
@@ -178,7 +162,7 @@ static bool check_plots(struct survey_reader *r)
                                   _("the names of this plot and of the plot on line %zu differ only in case; write both in the "
                                     "same way, or rename one"),
                                   a->line);
-            else if (ceduo_survey_is_same(a->name, b->name)) {
+            else if (ceduo_csv_compare(a->name, b->name) == 0) {
                 r->split = true;
                 good = check_sites(r, a, b);
             }
@@ -198,7 +182,7 @@ static void describe_plots(const struct survey_reader *r, struct text *line)
 {
     double lo = INFINITY, hi = 0;
     for (size_t i = 0; i < r->plots_count; i++) {
-        const double *of = r->plots[i].values, area = isnan(of[AREA]) ? M_PI * of[RADIUS] * of[RADIUS] : of[AREA];
+        const double area = ceduo_survey_area(&r->plots[i]);
         lo = fmin(lo, area);
         hi = fmax(hi, area);
     }
@@ -228,7 +212,7 @@ static void describe_slopes(const struct survey_reader *r, struct text *line)
         ceduo_text_format(line, _("; slopes %.0f to %.0f degrees"), lo, hi);
     else if (lo == hi)
         ceduo_text_format(line, _("; slope %.0f degrees"), lo);
-    if (lo <= hi && r->units[SLOPE] == SURVEY_UNIT_OTHER)
+    if (lo <= hi && r->units[SLOPE] == CSV_UNIT_OTHER)
         ceduo_text_put(line, _(", given in percent"));
 }
 
@@ -259,7 +243,7 @@ static void describe_stems(const struct survey_reader *r, const struct ceduo_sur
         return;
     const struct sizes s = measure_sizes(survey);
     ceduo_text_format(line, s.lo < s.hi ? _("; dbh %.3g to %.3g cm") : _("; dbh %.3g cm"), s.lo * 100, s.hi * 100);
-    if (r->units[size_column(r)] == SURVEY_UNIT_OTHER)
+    if (r->units[size_column(r)] == CSV_UNIT_OTHER)
         ceduo_text_put(line, _(", given in mm"));
     if (!has_column(r, DBH))
         ceduo_text_put(line, _(", from circumferences"));
@@ -305,7 +289,7 @@ static void describe_heads(const struct survey_reader *r, struct text *line)
         const struct csv_cell head = r->csv.heads[r->columns[c]];
         ceduo_text_put(line, n++ == 0 ? _("; read as: ") : ", ");
         ceduo_text_safe_n(line, head.p, head.n);
-        ceduo_text_format(line, " = %s", _(ceduo_survey_heads[c].names[0]));
+        ceduo_text_format(line, " = %s", HEAD(c));
     }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "survey_columns.h"
+/* Columns of a survey and the words of its cells. */
 
 #include <ctype.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/survey.h"
+#include "survey_reader.h"
 
 #define FOLDED_MAX 128 /* bytes of a head that are compared */
 #define WORD_MAX   64  /* bytes of a cell that are compared */
@@ -16,7 +16,6 @@
 #define AREA_UNITS "m2|m²|mq|qm|m q|metri quadrati"
 #define DEGREES    "deg|degrees|°|gradi|gradi sessagesimali|grad"
 #define PERCENT    "%|percent|percento|perc|percentuale|prozent|proz"
-#define KILOJOULES "kJ"
 
 /* Words of other units. A head that ends with one of them has a unit that the column cannot have. */
 #define FOREIGN_UNITS "mm|cm|dm|m|km|in|inch|inches|ft|feet|ha|ar|are|acre|acres|J|MJ|gon|zoll"
@@ -25,107 +24,70 @@
 #define VAGUE "h|d|n|nr|num|numero|alt|r"
 
 const struct csv_head ceduo_survey_heads[COLUMNS] = {
-    [PLOT] = {{N_("plot"), "saggio", "n saggio", "num saggio", "numero saggio", "area di saggio", "n area di saggio",
-               "numero area di saggio", "ads", "n ads", "id saggio", "plot id", "plot no", "plot number", "id plot",
-               "probefläche", "probekreis", "parzelle"},
-              NULL},
-    [AREA] = {{N_("area_m2"), "plot area", "area saggio", "area del saggio", "area ads", "superficie saggio",
-               "superficie del saggio", "superficie ads", "sup saggio", "probeflächengröße", "area", "superficie", "sup",
-               "fläche"},
-              AREA_UNITS},
-    [RADIUS] = {{N_("radius_m"), "radius", "plot radius", "raggio", "raggio saggio", "r"}, "m"},
-    [SLOPE] = {{N_("slope_deg"), "slope", "pendenza", "pend", "pendenza media", "inclinazione", "neigung", "hangneigung"},
-               DEGREES "|" PERCENT},
-    [STOOLS] = {{N_("stools"), "ceppaie", "n ceppaie", "num ceppaie", "numero ceppaie", "n di ceppaie", "stool count",
-                 "number of stools", "no of stools", "anzahl stöcke", "stöcke"},
-                NULL},
-    [SPECIES] = {{N_("species"), "specie", "essenza", "spp", "baumart", "holzart"}, NULL},
-    [GENUS] = {{N_("genus"), "genere", "gattung"}, NULL},
-    [KIND] = {{N_("kind"), "stem type", "tipo fusto", "tipo di fusto", "tipo", "origine", "p/m", "typ"}, NULL},
-    [STOOL] = {{N_("stool"), "ceppaia", "n ceppaia", "num ceppaia", "numero ceppaia", "ceppaia n", "id ceppaia", "stool id",
-                "stool no", "stool number", "stock", "stock nr"},
-               NULL},
-    [DBH] = {{N_("dbh_cm"),
-              "dbh",
-              "dap",
-              "diametro",
-              "diam",
-              "diametro a 1,30 m",
-              "diametro a 1,30",
-              "diam a 1,30",
-              "diam a 1,30 m",
-              "diam 1,30",
-              "d130",
-              "diametro medio",
-              "diam medio",
-              "d medio",
-              "classe diam",
-              "classe diametrica",
-              "classe di diametro",
-              "diameter",
-              "mean dbh",
-              "mean diameter",
-              "dbh class",
-              "diameter class",
-              "bhd",
-              "brusthöhendurchmesser",
-              "mitteldurchmesser",
-              "durchmesser",
-              "Ø",
-              "⌀",
-              "d"},
-             "cm|mm"},
-    [CIRCUMFERENCE] = {{N_("circumference_cm"), "circumference", "circonferenza", "circonferenza a 1,30",
-                        "circonferenza a 1,30 m", "circ", "circ a 1,30", "c130", "girth", "gbh", "cbh", "umfang",
-                        "brusthöhenumfang"},
-                       "cm|mm"},
-    [HEIGHT] = {{N_("height_m"), "height", "total height", "altezza", "altezza totale", "altezza media", "mean height", "h tot",
-                 "ht", "h media", "h medio", "höhe", "baumhöhe", "h", "alt"},
-                "m|mt|metri"},
-    [SPACING] = {{N_("spacing_m"), "spacing", "distanza", "distanza polloni", "abstand"}, "m|mt|metri"},
-    [ENERGY] = {{N_("energy_kJ"), "energy", "energia", "energie"}, KILOJOULES},
-    [COUNT] = {{N_("count"),  "n fusti",       "num fusti", "numero fusti", "numero di fusti", "n piante",
-                "num piante", "numero piante", "n stems",   "no of stems",  "number of stems", "stems",
-                "stem count", "tree count",    "freq",      "frequenza",    "frequency",       "conteggio",
-                "anzahl",     "stammzahl",     "n",         "num",          "numero",          "nr"},
-               NULL},
-    [SHOOTS] = {{N_("shoots"), "polloni", "n polloni", "num polloni", "numero polloni", "n di polloni", "number of shoots",
-                 "no of shoots", "n shoots", "stockausschläge", "loden"},
-                NULL},
-    [STANDARDS] = {{N_("standards"), "matricine", "n matricine", "num matricine", "numero matricine", "number of standards",
-                    "no of standards", "n standards", "überhälter", "lassreitel"},
-                   NULL},
-    [TREES] = {{N_("trees"), "alberi", "n alberi", "num alberi", "numero alberi", "number of trees", "no of trees", "n trees",
-                "bäume"},
-               NULL},
-    [STATUS] = {{N_("status"), "vitalità", "vitalita", "stato", "condizione", "condizioni", "condition", "health", "statuscd",
-                 "status cd", "live/dead", "vivo/morto", "v/m", "zustand", "vitalität"},
-                NULL},
-    [ID] = {{N_("id"), "n pianta", "num pianta", "numero pianta", "pianta", "id pianta", "id pollone", "n pollone", "id fusto",
-             "n fusto", "n albero", "id albero", "tree", "tree id", "tree no", "tree number", "stem id", "baum nr",
-             "baumnummer"},
-            NULL},
-    [YEAR] = {{N_("year"), "anno", "anno rilievo", "survey year", "measurement year", "invyr", "jahr", "aufnahmejahr"}, NULL},
-    [SITE] = {{N_("site"), "sito", "località", "localita", "locality", "location", "standort", "ort"}, NULL},
-    [SITE + 1] = {{N_("stand"), "popolamento", "soprassuolo", "bestand"}, NULL},
-    [SITE + 2] = {{N_("compresa")}, NULL},
-    [SITE + 3] = {{N_("compartment"), "particella", "particella forestale", "part for", "abteilung"}, NULL},
-    [SITE + 4] = {{N_("subcompartment"), "sottoparticella", "sub", "unterabteilung"}, NULL},
-    [SITE + 5] = {{N_("stratum"), "strato", "strata"}, NULL},
-    [SITE + 6] = {{N_("county"), "countycd", "county cd"}, NULL},
+    [PLOT] = {N_("plot"),
+              "saggio|n saggio|num saggio|numero saggio|area di saggio|n area di saggio|numero area di saggio|ads|n ads|"
+              "id saggio|plot id|plot no|plot number|id plot|probefläche|probekreis|parzelle"},
+    [AREA] = {N_("area_m2"),
+              "plot area|area saggio|area del saggio|area ads|superficie saggio|superficie del saggio|superficie ads|"
+              "sup saggio|probeflächengröße|area|superficie|sup|fläche",
+              AREA_UNITS, .unit = N_("m2"), .lo = 1, .hi = 1e6},
+    [RADIUS] = {N_("radius_m"), "radius|plot radius|raggio|raggio saggio|r", "m", .unit = N_("m"), .lo = 0.5, .hi = 500},
+    [SLOPE] = {N_("slope_deg"), "slope|pendenza|pend|pendenza media|inclinazione|neigung|hangneigung", DEGREES "|" PERCENT,
+               .other = PERCENT, .unit = N_("degrees or %")},
+    [STOOLS] = {N_("stools"),
+                "ceppaie|n ceppaie|num ceppaie|numero ceppaie|n di ceppaie|stool count|number of stools|no of stools|"
+                "anzahl stöcke|stöcke",
+                .unit = N_("stools"), .hi = STEMS_MAX},
+    [SPECIES] = {N_("species"), "specie|essenza|spp|baumart|holzart"},
+    [GENUS] = {N_("genus"), "genere|gattung"},
+    [KIND] = {N_("kind"), "stem type|tipo fusto|tipo di fusto|tipo|origine|p/m|typ"},
+    [STOOL] =
+        {N_("stool"),
+         "ceppaia|n ceppaia|num ceppaia|numero ceppaia|ceppaia n|id ceppaia|stool id|stool no|stool number|stock|stock nr"},
+    [DBH] = {N_("dbh_cm"),
+             "dbh|dap|diametro|diam|diametro a 1,30 m|diametro a 1,30|diam a 1,30|diam a 1,30 m|diam 1,30|d130|"
+             "diametro medio|diam medio|d medio|classe diam|classe diametrica|classe di diametro|diameter|mean dbh|"
+             "mean diameter|dbh class|diameter class|bhd|brusthöhendurchmesser|mitteldurchmesser|durchmesser|Ø|⌀|d",
+             "cm|mm", .other = "mm", .unit = N_("cm or mm"), .lo = 0.1, .hi = 1e6},
+    [CIRCUMFERENCE] = {N_("circumference_cm"),
+                       "circumference|circonferenza|circonferenza a 1,30|circonferenza a 1,30 m|circ|circ a 1,30|c130|girth|"
+                       "gbh|cbh|umfang|brusthöhenumfang",
+                       "cm|mm", .other = "mm", .unit = N_("cm or mm"), .lo = 0.3, .hi = 3e6},
+    [HEIGHT] =
+        {N_("height_m"),
+         "height|total height|altezza|altezza totale|altezza media|mean height|h tot|ht|h media|h medio|höhe|baumhöhe|h|alt",
+         "m|mt|metri", .unit = N_("m"), .hi = 150},
+    [SPACING] = {N_("spacing_m"), "spacing|distanza|distanza polloni|abstand", "m|mt|metri", .unit = N_("m"), .lo = 0.01,
+                 .hi = 20},
+    [ENERGY] = {N_("energy_kJ"), "energy|energia|energie", "kJ", .unit = N_("kJ"), .hi = 1e6},
+    [COUNT] = {N_("count"),
+               "n fusti|num fusti|numero fusti|numero di fusti|n piante|num piante|numero piante|n stems|no of stems|"
+               "number of stems|stems|stem count|tree count|freq|frequenza|frequency|conteggio|anzahl|stammzahl|n|num|numero|"
+               "nr",
+               .unit = N_("stems"), .hi = STEMS_MAX},
+    [SHOOTS] = {N_("shoots"),
+                "polloni|n polloni|num polloni|numero polloni|n di polloni|number of shoots|no of shoots|n shoots|"
+                "stockausschläge|loden",
+                .unit = N_("stems"), .hi = STEMS_MAX},
+    [STANDARDS] = {N_("standards"),
+                   "matricine|n matricine|num matricine|numero matricine|number of standards|no of standards|n standards|"
+                   "überhälter|lassreitel",
+                   .unit = N_("stems"), .hi = STEMS_MAX},
+    [TREES] = {N_("trees"), "alberi|n alberi|num alberi|numero alberi|number of trees|no of trees|n trees|bäume",
+               .unit = N_("stems"), .hi = STEMS_MAX},
+    [STATUS] = {N_("status"), "vitalità|vitalita|stato|condizione|condizioni|condition|health|statuscd|status cd|live/dead|"
+                              "vivo/morto|v/m|zustand|vitalität"},
+    [ID] = {N_("id"), "n pianta|num pianta|numero pianta|pianta|id pianta|id pollone|n pollone|id fusto|n fusto|n albero|"
+                      "id albero|tree|tree id|tree no|tree number|stem id|baum nr|baumnummer"},
+    [YEAR] = {N_("year"), "anno|anno rilievo|survey year|measurement year|invyr|jahr|aufnahmejahr"},
+    [SITE] = {N_("site"), "sito|località|localita|locality|location|standort|ort"},
+    [SITE + 1] = {N_("stand"), "popolamento|soprassuolo|bestand"},
+    [SITE + 2] = {N_("compresa")},
+    [SITE + 3] = {N_("compartment"), "particella|particella forestale|part for|abteilung"},
+    [SITE + 4] = {N_("subcompartment"), "sottoparticella|sub|unterabteilung"},
+    [SITE + 5] = {N_("stratum"), "strato|strata"},
+    [SITE + 6] = {N_("county"), "countycd|county cd"},
 };
-
-static const char *const other_units[COLUMNS] = {[SLOPE] = PERCENT, [DBH] = "mm", [CIRCUMFERENCE] = "mm"};
-
-/* Units for a message. */
-static const char *const unit_names[COLUMNS] = {[AREA] = N_("m2"),
-                                                [RADIUS] = N_("m"),
-                                                [SLOPE] = N_("degrees or %"),
-                                                [DBH] = N_("cm or mm"),
-                                                [CIRCUMFERENCE] = N_("cm or mm"),
-                                                [HEIGHT] = N_("m"),
-                                                [SPACING] = N_("m"),
-                                                [ENERGY] = N_("kJ")};
 
 /* ---- words ---- */
 
@@ -147,28 +109,12 @@ static const char *const statuses_also[] = {
     "cut|felled|removed|tagliato|tagliata|tagliati|tagliate|t|abbattuto|abbattuta|gefällt|entnommen"};
 const struct choices ceduo_survey_status_words = {statuses, 3, statuses_also};
 
-static const char *const others[] = {
-    "other|others|altro|altra|altri|altre|altre latifoglie|altra specie|altre specie|sonstige"};
-static const char *const totals[] = {"total|totals|totale|totali|tot|sum|somma|mean|average|media|medie|summe|gesamt|mittel|"
-                                     "mittelwert"};
-static const struct choices other_words = {others, 1, others}, total_words = {totals, 1, totals};
-
 int ceduo_survey_find_word(const struct choices *words, struct csv_cell cell)
 {
     char word[WORD_MAX] = "";
     if (cell.n < sizeof word)
         memcpy(word, cell.p, cell.n);
     return ceduo_choice_find(words, word);
-}
-
-bool ceduo_survey_is_other_species(struct csv_cell cell)
-{
-    return ceduo_survey_find_word(&other_words, cell) >= 0;
-}
-
-bool ceduo_survey_is_total(struct csv_cell cell)
-{
-    return cell.n > 0 && ceduo_survey_find_word(&total_words, cell) >= 0;
 }
 
 /* Species of a genus that begins with n letters, and of an epithet; -1: none, or several. */
@@ -260,27 +206,12 @@ bool ceduo_survey_is_vague(const struct csv *csv, size_t column)
     return ceduo_csv_among(head.p, head.n, VAGUE);
 }
 
-enum survey_unit ceduo_survey_split_unit(enum column column, struct csv_cell *cell)
-{
-    size_t n = 0, digits = 0;
-    while (n < cell->n && strchr("0123456789.,+-' ", cell->p[n]))
-        digits = cell->p[n++] == ' ' ? digits : n;
-    const char *unit = cell->p + n;
-    if (digits == 0 || n == cell->n || !ceduo_survey_heads[column].units)
-        return SURVEY_UNIT_NONE;
-    bool other = other_units[column] && ceduo_csv_among(unit, cell->n - n, other_units[column]);
-    if (!other && !ceduo_csv_among(unit, cell->n - n, ceduo_survey_heads[column].units))
-        return SURVEY_UNIT_NONE;
-    cell->n = digits;
-    return other ? SURVEY_UNIT_OTHER : SURVEY_UNIT_USUAL;
-}
-
 /* Refuse a column with a known name and an unknown unit. */
 static bool check_foreign_unit(const struct csv *csv, enum column c)
 {
     const struct csv_head *head = &ceduo_survey_heads[c];
-    size_t found = ceduo_csv_column(csv, head->names, NULL);
-    found = found == CEDUO_CSV_NONE ? ceduo_csv_column(csv, head->names, FOREIGN_UNITS) : found;
+    size_t found = ceduo_csv_column(csv, head, NULL);
+    found = found == CEDUO_CSV_NONE ? ceduo_csv_column(csv, head, FOREIGN_UNITS) : found;
     if (found >= CEDUO_CSV_TWICE)
         return true;
     const struct csv_cell cell = csv->heads[found];
@@ -292,7 +223,7 @@ static bool check_foreign_unit(const struct csv *csv, enum column c)
     LOCAL_TEXT(name);
     ceduo_text_safe_n(&name, cell.p, cell.n);
     return ceduo_csv_complain(csv, cell, _("'%s': its values must be in %s; convert them and name the column '%s'"),
-                              ceduo_text_string(&name), _(unit_names[c]), _(head->names[0]));
+                              ceduo_text_string(&name), _(head->unit), _(head->name));
 }
 
 /* Refuse a table without a column, with the names of the columns that it has unless it is foreign. */
@@ -307,7 +238,7 @@ static bool refuse_head(const struct csv *csv, const char *missing)
                             ceduo_text_string(&names));
 }
 
-bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum survey_unit units[COLUMNS])
+bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum csv_unit units[COLUMNS])
 {
     size_t before = csv->problems->met;
     ceduo_csv_find(csv, ceduo_survey_heads, COLUMNS, columns);
@@ -316,17 +247,15 @@ bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum su
         none[c] = columns[c] == CEDUO_CSV_NONE;
     bool sized = !none[DBH] || !none[CIRCUMFERENCE], laid = !none[AREA] || !none[RADIUS];
     for (int c = 0; c < COLUMNS; c++) {
-        const char *usual = ceduo_survey_heads[c].units, *other = other_units[c];
-        units[c] = SURVEY_UNIT_NONE;
+        const char *usual = ceduo_survey_heads[c].units, *other = ceduo_survey_heads[c].other;
+        units[c] = CSV_UNIT_NONE;
         bool needed = c == DBH || c == CIRCUMFERENCE ? !sized : c == AREA || c == RADIUS ? !laid : true;
         if (usual && none[c] && needed)
             check_foreign_unit(csv, (enum column)c);
         if (!usual || columns[c] >= CEDUO_CSV_TWICE)
             continue;
         const struct csv_cell head = csv->heads[columns[c]];
-        units[c] = other && has_unit(head, other) ? SURVEY_UNIT_OTHER
-                   : has_unit(head, usual)        ? SURVEY_UNIT_USUAL
-                                                  : SURVEY_UNIT_NONE;
+        units[c] = other && has_unit(head, other) ? CSV_UNIT_OTHER : has_unit(head, usual) ? CSV_UNIT_USUAL : CSV_UNIT_NONE;
     }
     if (csv->problems->met > before)
         return false;

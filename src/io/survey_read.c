@@ -13,7 +13,6 @@
 #include "survey_reader.h"
 
 #define PLOTS_MOST      1000
-#define STEMS_MOST      200000
 #define SLOPE_MOST      85   /* degrees */
 #define SLOPE_BARE_MOST 1e4  /* more is no slope in any unit */
 #define SLOPE_BARE      45   /* degrees or percent: a steeper slope needs a unit (assumed) */
@@ -22,33 +21,20 @@
 #define DBH_MOST        300  /* cm: a larger diameter is in mm (assumed) */
 #define SAME_DBH        1.05 /* ratio of a diameter to that of the circumference that still is the same (assumed) */
 
-static const struct {
-    double lo, hi;
-    const char *unit;
-} ranges[COLUMNS] = {
-    [AREA] = {1, 1e6, N_("m2")},
-    [RADIUS] = {0.5, 500, N_("m")},
-    [STOOLS] = {0, STEMS_MOST, N_("stools")},
-    [DBH] = {0.1, 1e6, N_("cm")},
-    [CIRCUMFERENCE] = {0.3, 3e6, N_("cm")},
-    [HEIGHT] = {0, 150, N_("m")},
-    [SPACING] = {0.01, 20, N_("m")},
-    [ENERGY] = {0, 1e6, N_("kJ")},
-    [COUNT] = {0, STEMS_MOST, N_("stems")},
-    [SHOOTS] = {0, STEMS_MOST, N_("stems")},
-    [STANDARDS] = {0, STEMS_MOST, N_("stems")},
-    [TREES] = {0, STEMS_MOST, N_("stems")},
-};
+/* Words for species without a name, and labels of a row of totals or means. */
+#define OTHER_SPECIES "other|others|altro|altra|altri|altre|altre latifoglie|altra specie|altre specie|sonstige"
+#define TOTALS        "total|totals|totale|totali|tot|sum|somma|mean|average|media|medie|summe|gesamt|mittel|mittelwert"
 
-#define HEAD(c) _(ceduo_survey_heads[c].names[0])
+/* Bytes of a cell that a message shows, for "%.*s". */
+#define SHOWN(cell) ((cell).n < 100 ? (int)(cell).n : 100), (cell).p
 
 /* ---- numbers ---- */
 
 /* Slope in degrees of a cell. `own`: the unit that stood in the cell. */
-static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum survey_unit own, double *value)
+static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum csv_unit own, double *value)
 {
-    const enum survey_unit unit = own ? own : r->units[SLOPE];
-    bool percent = unit == SURVEY_UNIT_OTHER;
+    const enum csv_unit unit = own ? own : r->units[SLOPE];
+    bool percent = unit == CSV_UNIT_OTHER;
     double hi = percent ? 100 * tan(SLOPE_MOST * M_PI / 180) : SLOPE_MOST;
     if (!ceduo_csv_number(&r->csv, cell, 0, unit ? hi : SLOPE_BARE_MOST, percent ? "%" : _("degrees"), value))
         return false;
@@ -60,7 +46,7 @@ static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum surve
               "it is in percent"),
             *value);
     }
-    r->marked_slopes |= own != SURVEY_UNIT_NONE;
+    r->marked_slopes |= own != CSV_UNIT_NONE;
     r->bare_slopes |= !unit && *value > 0;
     if (r->marked_slopes && r->bare_slopes)
         return ceduo_csv_complain(&r->csv, cell, _("some slopes have a unit and others have none; write it in each cell"));
@@ -76,15 +62,19 @@ static bool read_number(struct survey_reader *r, enum column c, double *value)
     *value = NAN;
     if (cell.n == 0)
         return true;
-    enum survey_unit own = ceduo_survey_split_unit(c, &cell);
+    const struct csv_head *head = &ceduo_survey_heads[c];
+    const enum csv_unit own = ceduo_csv_split_unit(&cell, head->other)   ? CSV_UNIT_OTHER
+                              : ceduo_csv_split_unit(&cell, head->units) ? CSV_UNIT_USUAL
+                                                                         : CSV_UNIT_NONE;
     if (own && r->units[c] && own != r->units[c])
         return ceduo_csv_complain(&r->csv, cell,
                                   _("the first line gives another unit for this column; write it without a unit"));
     if (c == SLOPE)
         return read_slope(r, cell, own, value);
-    bool mm = (own ? own : r->units[c]) == SURVEY_UNIT_OTHER;
+    bool mm = (own ? own : r->units[c]) == CSV_UNIT_OTHER;
     double scale = mm ? 10 : 1;
-    if (!ceduo_csv_number(&r->csv, cell, ranges[c].lo * scale, ranges[c].hi * scale, mm ? _("mm") : _(ranges[c].unit), value))
+    const char *unit = mm ? _("mm") : head->other ? _("cm") : _(head->unit);
+    if (!ceduo_csv_number(&r->csv, cell, head->lo * scale, head->hi * scale, unit, value))
         return false;
     *value /= scale;
     return true;
@@ -121,7 +111,7 @@ static bool read_diameter(struct survey_reader *r, enum column c, double *value)
 static bool are_same_sites(const struct csv_cell *a, const struct csv_cell *b)
 {
     for (size_t i = 0; i < SITES; i++)
-        if (!ceduo_survey_is_same(a[i], b[i]))
+        if (ceduo_csv_compare(a[i], b[i]) != 0)
             return false;
     return true;
 }
@@ -142,7 +132,7 @@ static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
     if (name->n == 0)
         return ceduo_csv_complain(&r->csv, *name, _("'%s' is missing: give it in each row"), HEAD(PLOT));
     size_t i = r->plots_count;
-    while (i > 0 && !(ceduo_survey_is_same(r->plots[i - 1].name, *name) && are_same_sites(r->plots[i - 1].sites, sites)))
+    while (i > 0 && !(ceduo_csv_compare(r->plots[i - 1].name, *name) == 0 && are_same_sites(r->plots[i - 1].sites, sites)))
         i--; /* mostly the last */
     if (i == 0 && r->plots_count == PLOTS_MOST)
         return ceduo_csv_complain(&r->csv, *name, _("more than %d plots"), PLOTS_MOST);
@@ -196,7 +186,7 @@ static bool read_plot(struct survey_reader *r, struct survey_plot *plot)
     }
     const struct csv_cell year = r->fields[YEAR];
     plot->year = plot->year.n == 0 ? year : plot->year;
-    if (year.n > 0 && !ceduo_survey_is_same(year, plot->year))
+    if (year.n > 0 && ceduo_csv_compare(year, plot->year) != 0)
         return ceduo_csv_complain(
             &r->csv, year,
             _("this plot was surveyed in the years %.*s and %.*s: keep the rows of one year, or rename the "
@@ -214,25 +204,13 @@ static bool read_species(struct survey_reader *r, int *found)
 {
     const struct csv_cell species = r->fields[SPECIES], genus = r->fields[GENUS], cell = species.n > 0 ? species : genus;
     *found = ceduo_survey_find_species(species, genus);
-    if (*found >= 0 || cell.n == 0 || ceduo_survey_is_other_species(cell))
+    if (*found >= 0 || cell.n == 0 || ceduo_csv_among(cell.p, cell.n, OTHER_SPECIES))
         return true;
     LOCAL_TEXT(all);
     for (size_t i = 0, n; i < ceduo_species_words.n; i++)
         ceduo_text_format(&all, "%s%s", i > 0 ? ", " : "", _(ceduo_species_list(&n)[i].common));
-    return ceduo_csv_complain(&r->csv, cell, _("'%.*s' is an unknown species; leave it empty, or one of: %s"),
-                              cell.n < 100 ? (int)cell.n : 100, cell.p, ceduo_text_string(&all));
-}
-
-/* Numbers of stems by columns of their own: shoots, standards, trees. `all`: their sum. */
-static bool read_own_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KINDS_COUNT], size_t *all)
-{
-    bool good = true;
-    *all = 0;
-    for (enum column c = SHOOTS; c <= TREES; c++) {
-        good = read_count(r, c, &counts[c - SHOOTS]) && good;
-        *all += counts[c - SHOOTS];
-    }
-    return good;
+    return ceduo_csv_complain(&r->csv, cell, _("'%.*s' is an unknown species; leave it empty, or one of: %s"), SHOWN(cell),
+                              ceduo_text_string(&all));
 }
 
 /* Numbers of stems of each kind in a row: of the kind that the row names, or by columns of their own. */
@@ -240,12 +218,16 @@ static bool read_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
 {
     const struct csv_cell kind = r->fields[KIND], count = r->fields[COUNT];
     const bool tally = r->columns[KIND] == CEDUO_CSV_NONE;
-    size_t sum, given;
+    size_t sum = 0, given;
+    bool good = true;
     int found = ceduo_survey_find_word(&ceduo_survey_kind_words, kind);
     if (!tally && found < 0)
-        return ceduo_csv_complain(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
-                                  kind.n < 100 ? (int)kind.n : 100, kind.p);
-    if (!read_own_counts(r, counts, &sum) || !read_count(r, COUNT, &given))
+        return ceduo_csv_complain(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"), SHOWN(kind));
+    for (enum column c = SHOOTS; c <= TREES; c++) {
+        good = read_count(r, c, &counts[c - SHOOTS]) && good;
+        sum += counts[c - SHOOTS];
+    }
+    if (!good || !read_count(r, COUNT, &given))
         return false;
     for (int k = 0; !tally && k < CEDUO_SURVEY_STUMP; k++)
         if (k != found && counts[k] > 0)
@@ -275,7 +257,7 @@ static bool read_status(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
     if (status.n > 0 && found < 0)
         return ceduo_csv_complain(&r->csv, status,
                                   _("'%.*s' is no status: live, dead or cut; rename the column if it is something else"),
-                                  status.n < 100 ? (int)status.n : 100, status.p);
+                                  SHOWN(status));
     r->unmarked += status.n == 0 ? sum : 0;
     if (found <= SURVEY_LIVE)
         return true;
@@ -303,7 +285,7 @@ static bool read_dbh(struct survey_reader *r, double *dbh)
     const enum column missing = r->columns[DBH] == CEDUO_CSV_NONE ? CIRCUMFERENCE : DBH;
     if (isnan(*dbh))
         return ceduo_csv_complain(csv, fields[missing], _("'%s' is missing: give it in each row"), HEAD(missing));
-    if (*dbh > DBH_MOST && r->units[c] == SURVEY_UNIT_OTHER)
+    if (*dbh > DBH_MOST && r->units[c] == CSV_UNIT_OTHER)
         return ceduo_csv_complain(csv, fields[c], _("%g cm: more than %d cm; correct it"), *dbh, DBH_MOST);
     if (*dbh > DBH_MOST)
         return ceduo_csv_complain(csv, fields[c],
@@ -327,7 +309,7 @@ static bool read_sizes(struct survey_reader *r, struct ceduo_survey_stem *stem)
     good = read_number(r, ENERGY, &stem->energy) && good;
     if (!good)
         return false;
-    double lo = stump ? 0 : CEDUO_BREAST_HEIGHT, hi = stump ? STUMP_MOST : ranges[HEIGHT].hi;
+    double lo = stump ? 0 : CEDUO_BREAST_HEIGHT, hi = stump ? STUMP_MOST : ceduo_survey_heads[HEIGHT].hi;
     if (stem->height <= lo || stem->height > hi)
         return ceduo_csv_complain(
             csv, fields[HEIGHT],
@@ -353,8 +335,8 @@ static bool add_stems(struct survey_reader *r, struct ceduo_survey_stem stem, si
 {
     bool shoot = stem.kind == CEDUO_SURVEY_SHOOT, loose = shoot && r->fields[STOOL].n == 0;
     struct survey_plot *plot = &r->plots[stem.plot];
-    if (r->stems_count + n > STEMS_MOST)
-        return ceduo_csv_complain(&r->csv, r->fields[COUNT], _("more than %d stems"), STEMS_MOST);
+    if (r->stems_count + n > STEMS_MAX)
+        return ceduo_csv_complain(&r->csv, r->fields[COUNT], _("more than %d stems"), STEMS_MAX);
     struct ceduo_survey_stem *stems =
         ceduo_arena_more(r->arena, r->stems, r->stems_count, n, &r->stems_capacity, sizeof *stems);
     struct survey_shoot *shoots =
@@ -404,6 +386,11 @@ static bool read_fields(struct survey_reader *r)
     return good;
 }
 
+static bool is_total(struct csv_cell cell)
+{
+    return cell.n > 0 && ceduo_csv_among(cell.p, cell.n, TOTALS);
+}
+
 /* True if a row holds totals: its first word says so, or the cell of a kind, species, stool or size. */
 static bool is_total_row(const struct survey_reader *r)
 {
@@ -416,10 +403,10 @@ static bool is_total_row(const struct survey_reader *r)
     for (size_t n = first.n; n > 0; n--)
         word.n = strchr(" :", first.p[n - 1]) ? n - 1 : word.n;
     bool begins = r->columns[KIND] == CEDUO_CSV_NONE ? !sized : r->fields[KIND].n == 0;
-    if (at != r->columns[STATUS] && (ceduo_survey_is_total(first) || (begins && ceduo_survey_is_total(word))))
+    if (at != r->columns[STATUS] && (is_total(first) || (begins && is_total(word))))
         return true;
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
-        if (ceduo_survey_is_total(r->fields[columns[i]]))
+        if (is_total(r->fields[columns[i]]))
             return true;
     return false;
 }
@@ -489,30 +476,25 @@ static bool check_numbering(struct survey_reader *r)
 
 /* ---- stools and areas ---- */
 
-static int compare_cells(struct csv_cell a, struct csv_cell b)
+static int compare_counts(size_t a, size_t b)
 {
-    if (a.n != b.n)
-        return a.n < b.n ? -1 : 1;
-    return memcmp(a.p, b.p, a.n);
+    return (a > b) - (a < b);
 }
 
 static int compare_shoots(const void *a, const void *b)
 {
     const struct survey_shoot *one = a, *other = b;
-    if (one->plot != other->plot)
-        return one->plot < other->plot ? -1 : 1;
-    return compare_cells(one->stool, other->stool);
+    int plots = compare_counts(one->plot, other->plot);
+    return plots != 0 ? plots : ceduo_csv_compare(one->stool, other->stool);
 }
 
 static int compare_ids(const void *a, const void *b)
 {
     const struct survey_id *one = a, *other = b;
-    int stools = compare_cells(one->stool, other->stool), ids = compare_cells(one->id, other->id);
-    if (one->plot != other->plot)
-        return one->plot < other->plot ? -1 : 1;
-    if (one->kind != other->kind)
-        return one->kind < other->kind ? -1 : 1;
-    return stools != 0 ? stools : ids;
+    int order = compare_counts(one->plot, other->plot);
+    order = order != 0 ? order : one->kind - other->kind;
+    order = order != 0 ? order : ceduo_csv_compare(one->stool, other->stool);
+    return order != 0 ? order : ceduo_csv_compare(one->id, other->id);
 }
 
 static void count_repeated(struct survey_reader *r)
@@ -582,12 +564,18 @@ static void number_all_stools(struct survey_reader *r)
     }
 }
 
+double ceduo_survey_area(const struct survey_plot *plot)
+{
+    const double area = plot->values[AREA], radius = plot->values[RADIUS];
+    return isnan(area) ? M_PI * radius * radius : area;
+}
+
 /* Areas of the plots on the map. */
 static void measure_plots(struct survey_reader *r, double *areas)
 {
     for (size_t i = 0; i < r->plots_count; i++) {
-        const double *of = r->plots[i].values, area = isnan(of[AREA]) ? M_PI * of[RADIUS] * of[RADIUS] : of[AREA];
-        areas[i] = ceduo_survey_horizontal(area, isnan(of[SLOPE]) ? 0 : of[SLOPE] * M_PI / 180);
+        const double area = ceduo_survey_area(&r->plots[i]), slope = r->plots[i].values[SLOPE];
+        areas[i] = ceduo_survey_horizontal(area, isnan(slope) ? 0 : slope * M_PI / 180);
         if (isnan(area))
             ceduo_problem(r->problems, r->csv.source, r->plots[i].line, 1,
                           _("this plot has no area_m2 and no radius_m; give one, or remove the row if it is no plot"));
@@ -598,20 +586,17 @@ static void measure_plots(struct survey_reader *r, double *areas)
 
 static void scan_numbers(struct survey_reader *r)
 {
-    bool *numeric = ceduo_arena_take(r->arena, (r->csv.heads_count + 1) * sizeof *numeric);
-    for (int c = 0; numeric && c < COLUMNS; c++) {
-        bool number = (c >= AREA && c <= STOOLS) || (c >= DBH && c <= TREES);
-        if (number && r->columns[c] < CEDUO_CSV_TWICE)
-            numeric[r->columns[c]] = true;
-    }
-    ceduo_csv_scan(&r->csv, numeric);
+    for (int c = 0; c < COLUMNS; c++)
+        if ((c >= AREA && c <= STOOLS) || (c >= DBH && c <= TREES))
+            ceduo_csv_has_numbers(&r->csv, r->columns[c]);
+    ceduo_csv_scan(&r->csv);
 }
 
 static void read_rows(struct survey_reader *r)
 {
     for (size_t n = 0; ceduo_csv_next(&r->csv); n++) {
-        if (n == STEMS_MOST) {
-            ceduo_problem(r->problems, r->csv.source, r->csv.place.line, 1, _("more than %d rows"), STEMS_MOST);
+        if (n == STEMS_MAX) {
+            ceduo_problem(r->problems, r->csv.source, r->csv.place.line, 1, _("more than %d rows"), STEMS_MAX);
             return;
         }
         if (!r->csv.bad && !read_row(r))
@@ -627,11 +612,11 @@ static void take_answers(struct survey_reader *r)
     const int *given = r->answers->given;
     memset(r->answers->asked, 0, sizeof r->answers->asked);
     if (given[SURVEY_SLOPES])
-        r->units[SLOPE] = (enum survey_unit)given[SURVEY_SLOPES];
+        r->units[SLOPE] = (enum csv_unit)given[SURVEY_SLOPES];
     if (given[SURVEY_DIAMETERS])
-        r->units[DBH] = r->units[CIRCUMFERENCE] = (enum survey_unit)given[SURVEY_DIAMETERS];
+        r->units[DBH] = r->units[CIRCUMFERENCE] = (enum csv_unit)given[SURVEY_DIAMETERS];
     if (given[SURVEY_AREAS])
-        r->units[AREA] = r->units[RADIUS] = SURVEY_UNIT_USUAL;
+        r->units[AREA] = r->units[RADIUS] = CSV_UNIT_USUAL;
     if (given[SURVEY_HEIGHTS] == 2)
         r->columns[HEIGHT] = CEDUO_CSV_NONE;
 }

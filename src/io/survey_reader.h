@@ -1,12 +1,66 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* State of the reader of a survey, for the checks of the whole table. */
+/* Columns of a survey, and the state of its reader for the checks of the whole table. */
 #ifndef CEDUO_SURVEY_READER_H
 #define CEDUO_SURVEY_READER_H
 
-#include <string.h>
-
-#include "survey_columns.h"
+#include "csv.h"
+#include "scene/choices.h"
 #include "survey_file.h"
+
+#define STEMS_MAX 200000
+
+/* Columns of a plot, then of a stem, then numbers of stems, then names of places that hold plots. */
+enum column {
+    PLOT,
+    AREA,
+    RADIUS,
+    SLOPE,
+    STOOLS, /* number of stools on the plot */
+    SPECIES,
+    GENUS,
+    KIND,
+    STOOL,
+    DBH,
+    CIRCUMFERENCE,
+    HEIGHT,
+    SPACING,
+    ENERGY,
+    COUNT,
+    SHOOTS,
+    STANDARDS,
+    TREES,
+    STATUS,
+    ID,
+    YEAR, /* of the survey */
+    SITE,
+    SITE_LAST = SITE + 6,
+    COLUMNS
+};
+
+#define SITES (SITE_LAST - SITE + 1)
+
+/* Heads of each column. The name is that in the manual and in messages, marked for translation. */
+extern const struct csv_head ceduo_survey_heads[COLUMNS];
+#define HEAD(c) _(ceduo_survey_heads[c].name)
+
+/* Kinds of stems, in the order of enum ceduo_survey_kind. */
+extern const struct choices ceduo_survey_kind_words;
+
+enum survey_status { SURVEY_LIVE, SURVEY_DEAD, SURVEY_CUT };
+extern const struct choices ceduo_survey_status_words;
+
+/* Find the head and the columns of a survey, and the units that the heads name. Report columns that are missing, that occur twice,
+ * or that have another unit, and return false. */
+bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum csv_unit units[COLUMNS]);
+
+/* True if the head of a column can have several meanings: h, d, n, alt. */
+bool ceduo_survey_is_vague(const struct csv *csv, size_t column);
+
+/* Value of a word in a cell; -1: unknown. */
+int ceduo_survey_find_word(const struct choices *words, struct csv_cell cell);
+
+/* Index of a species by its name, which may have an author or an abbreviated genus; -1: unknown. `genus` may be empty. */
+int ceduo_survey_find_species(struct csv_cell cell, struct csv_cell genus);
 
 struct survey_plot {
     struct csv_cell name, sites[SITES], year;
@@ -16,11 +70,6 @@ struct survey_plot {
     struct csv_place loose;    /* first row of a shoot without a stool */
     bool has_loose;
 };
-
-static inline bool ceduo_survey_is_same(struct csv_cell a, struct csv_cell b)
-{
-    return a.n == b.n && memcmp(a.p, b.p, a.n) == 0;
-}
 
 /* Shoot on a stool. The stools get numbers after all rows are read. */
 struct survey_shoot {
@@ -41,7 +90,7 @@ struct survey_reader {
     struct problems *problems;
     struct survey_answers *answers; /* never NULL */
     size_t columns[COLUMNS];
-    enum survey_unit units[COLUMNS]; /* of the heads */
+    enum csv_unit units[COLUMNS];    /* of the heads */
     struct csv_cell fields[COLUMNS]; /* of the present row; n = 0: no value */
 
     struct survey_plot *plots;
@@ -62,6 +111,9 @@ struct survey_reader {
     size_t repeated, repeated_line;  /* stems whose identifier occurs twice, and the line of the first */
     bool split;                      /* the same plot number occurs at several sites */
 };
+
+/* Area of a plot along the slope, m2; NaN: not given. */
+double ceduo_survey_area(const struct survey_plot *plot);
 
 /* Check what only the whole table shows: plots at several sites, basal area, diameters and heights. Returns false if the survey is
  * refused, which is reported. */

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/decimal.h"
 #include "base/language.h"
+#include "base/text.h"
 #include "emit.h"
 #include "resolve.h"
 #include "scene/schema.h"
@@ -32,16 +32,14 @@ static double rounded(double value)
     return ceduo_decimal_read(room);
 }
 
-static void print_number(struct text *out, const char *before, double value)
-{
-    ceduo_text_format(out, "%s%s", before, NUMERAL(rounded(value)));
-}
+#define ROUNDED(value) NUMERAL(rounded(value))
 
-static void print_source(struct text *out, bool assumed, const char *what)
+/* `end`: what follows the source. */
+static void print_source(struct text *out, bool assumed, const char *what, const char *end)
 {
     ceduo_text_format(out, "source: {kind: %s, text: ", assumed ? "assumed" : "measured");
     ceduo_emit_scalar(out, what, true);
-    ceduo_text_put(out, "}");
+    ceduo_text_format(out, "}%s", end);
 }
 
 /* ---- what was found ---- */
@@ -107,9 +105,7 @@ static void remark(const struct writer *w)
     const struct ceduo_survey *s = &w->file->survey; /* the share of each species of the basal area */
     size_t n, said = 0;
     const struct ceduo_species *list = ceduo_species_list(&n);
-    double all = 0, own;
-    for (int k = -1; k < (int)n; k++)
-        all += ceduo_survey_basal(s, k);
+    double all = ceduo_survey_basal(s, CEDUO_SURVEY_ALL), own;
     for (int k = -1; k < (int)n; k++)
         if ((own = ceduo_survey_basal(s, k)) > 0)
             ceduo_text_format(out, "%s%s %.0f %%", said++ ? ", " : _("# basal area: "),
@@ -120,11 +116,9 @@ static void remark(const struct writer *w)
     ceduo_text_put(out, /* what a stump takes from a rock has no default: it is asked for, not made up */
                    _("# The stumps are not in the stand: they need a height_m, and the energy_kJ that one takes from a rock,\n"
                      "# in at least one row of the survey, or here:\n"));
-    print_number(out, "# stumps: {per_ha: ", a->per_ha[CEDUO_SURVEY_STUMP].mean);
-    print_number(out, ", diameter_m: ", a->stump_diameter);
-    if (!isnan(a->stump_height))
-        print_number(out, ", height_m: ", a->stump_height);
-    ceduo_text_put(out, isnan(a->stump_height) ? ", height_m: ?, energy_kJ: ?}\n" : ", energy_kJ: ?}\n");
+    ceduo_text_format(out, "# stumps: {per_ha: %s, diameter_m: %s, height_m: %s, energy_kJ: ?}\n",
+                      ROUNDED(a->per_ha[CEDUO_SURVEY_STUMP].mean), ROUNDED(a->stump_diameter),
+                      isnan(a->stump_height) ? "?" : ROUNDED(a->stump_height));
 }
 
 /* ---- the stand ---- */
@@ -155,14 +149,12 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
             continue;
         LOCAL_TEXT(what);
         bool given = is_given_volume(w, c);
-        ceduo_text_put(w->out, n++ ? "" : key);
-        print_number(w->out, "  - {per_ha: ", c->per_ha.mean);
-        print_number(w->out, ", dbh_m: ", c->dbh);
+        ceduo_text_format(w->out, "%s  - {per_ha: %s, dbh_m: %s", n++ ? "" : key, ROUNDED(c->per_ha.mean), ROUNDED(c->dbh));
         if (c->dbh_sd > 0) /* a stand takes none above dbh_m, which two thin stems may have */
-            print_number(w->out, ", dbh_sd_m: ", fmin(c->dbh_sd, c->dbh));
-        print_number(w->out, ", height_m: ", c->height);
+            ceduo_text_format(w->out, ", dbh_sd_m: %s", ROUNDED(fmin(c->dbh_sd, c->dbh)));
+        ceduo_text_format(w->out, ", height_m: %s", ROUNDED(c->height));
         if (given)
-            print_number(w->out, ", volume_m3: ", c->volume);
+            ceduo_text_format(w->out, ", volume_m3: %s", ROUNDED(c->volume));
         ceduo_text_format(&what, _("%s of %.0f to %.0f cm, n = %zu"), _(kinds[c->kind]), c->from * 100,
                           (c->from + CEDUO_SURVEY_CLASS) * 100, c->stems);
         if (w->one_plot)
@@ -173,8 +165,7 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
             ceduo_text_format(&what, _("; volume of %zu by form factor"), c->form_factor);
         ceduo_text_put(w->out, ",\n     ");
         print_source(w->out, w->one_plot || h->from >= CEDUO_HEIGHTS_MEAN || (given && c->form_factor > 0),
-                     ceduo_text_string(&what));
-        ceduo_text_put(w->out, "}\n");
+                     ceduo_text_string(&what), "}\n");
     }
 }
 
@@ -250,9 +241,10 @@ static void print_scaled(struct text *out, const struct node *list, double sum)
     double all = 0;
     for (size_t i = 0; i < list->n; i++)
         all += ceduo_node_item_number(list, i);
-    for (size_t i = 0; i < list->n; i++)
-        print_number(out, i > 0 ? ", " : "[",
-                     sum > 0 ? round(ceduo_node_item_number(list, i) * sum / all) : ceduo_node_item_number(list, i));
+    for (size_t i = 0; i < list->n; i++) {
+        double number = ceduo_node_item_number(list, i);
+        ceduo_text_format(out, "%s%s", i > 0 ? ", " : "[", ROUNDED(sum > 0 ? round(number * sum / all) : number));
+    }
     ceduo_text_put(out, "]\n");
 }
 
@@ -273,8 +265,7 @@ static void print_assumed(const struct writer *w, const char *key, const struct 
         ceduo_text_char(w->out, '\n');
     }
     ceduo_text_put(w->out, "  ");
-    print_source(w->out, true, what);
-    ceduo_text_char(w->out, '\n');
+    print_source(w->out, true, what, "\n");
 }
 
 /* Growth and cutting, which no survey of one day shows. */
@@ -304,23 +295,18 @@ static void print_future(const struct writer *w)
 /* ---- doubt ---- */
 
 /* Two numbers of what may be true. */
-static void print_row(const struct writer *w, size_t *n, const char *path, const char *first, double a, const char *second,
-                      double b)
+static void print_row(const struct writer *w, size_t *n, const char *path, const char *keys[2], double a, double b)
 {
-    if ((*n)++ == 0)
-        ceduo_text_put(w->out, "doubt:\n");
-    ceduo_text_put(w->out, "  - {path: ");
+    ceduo_text_put(w->out, (*n)++ == 0 ? "doubt:\n  - {path: " : "  - {path: ");
     ceduo_emit_scalar(w->out, path, true);
-    print_number(w->out, first, a);
-    print_number(w->out, second, b);
-    ceduo_text_put(w->out, "}\n");
+    ceduo_text_format(w->out, ", %s: %s, %s: %s}\n", keys[0], ROUNDED(a), keys[1], ROUNDED(b));
 }
 
 /* A mean and its standard error. */
 static void print_doubt(const struct writer *w, size_t *n, const char *path, const struct ceduo_estimate *e, double mean)
 {
     if (e->se > 0)
-        print_row(w, n, path, ", mean: ", mean, ", sd: ", e->se);
+        print_row(w, n, path, (const char *[]){"mean", "sd"}, mean, e->se);
 }
 
 static void print_doubts(const struct writer *w)
@@ -345,7 +331,7 @@ static void print_doubts(const struct writer *w)
         bool given = is_given_volume(w, c); /* otherwise the volume follows from the height */
         double size = given ? c->volume : c->height, range = CEDUO_SURVEY_HEIGHT_DOUBT * size;
         snprintf(path, sizeof path, "%s[%zu].%s", list, at[tree] - 1, given ? "volume_m3" : "height_m");
-        print_row(w, &n, path, ", lo: ", size - range, ", hi: ", size + range);
+        print_row(w, &n, path, (const char *[]){"lo", "hi"}, size - range, size + range);
     }
 }
 
@@ -365,9 +351,8 @@ static void print_stand(const struct writer *w)
     if (a->stools.mean > 0) {
         bool measured = !isnan(a->spacing.mean);
         LOCAL_TEXT(of_stools);
-        print_number(w->out, "stools: {per_ha: ", stools_of(w));
-        print_number(w->out, ", spacing_m: ", measured ? a->spacing.mean : CEDUO_SURVEY_SPACING);
-        ceduo_text_put(w->out, ",\n  ");
+        ceduo_text_format(w->out, "stools: {per_ha: %s, spacing_m: %s,\n  ", ROUNDED(stools_of(w)),
+                          ROUNDED(measured ? a->spacing.mean : CEDUO_SURVEY_SPACING));
         ceduo_text_format(&of_stools, "n = %zu", w->file->survey.stools_count);
         if (measured)
             ceduo_text_format(&of_stools, _("; spacing on %zu of them"), a->stools_measured);
@@ -375,25 +360,20 @@ static void print_stand(const struct writer *w)
             ceduo_text_put(&of_stools, _("; the spacing of the shoots was not measured"));
         if (w->one_plot)
             ceduo_text_put(&of_stools, _("; one plot, no standard error"));
-        print_source(w->out, w->one_plot || !measured, ceduo_text_string(&of_stools));
-        ceduo_text_put(w->out, "}\n");
+        print_source(w->out, w->one_plot || !measured, ceduo_text_string(&of_stools), "}\n");
     }
     print_classes(w, "shoots:\n", false);
     print_classes(w, "trees:\n", true);
     if (w->stumps) {
-        print_number(w->out, "stumps: {per_ha: ", a->per_ha[CEDUO_SURVEY_STUMP].mean);
-        print_number(w->out, ", diameter_m: ", a->stump_diameter);
-        print_number(w->out, ", height_m: ", a->stump_height);
-        print_number(w->out, ", energy_kJ: ", a->stump_energy / 1000);
-        ceduo_text_put(w->out, ",\n  ");
-        print_source(w->out, true, _("counted; what one takes from a rock is not measured"));
-        ceduo_text_put(w->out, "}\n");
+        ceduo_text_format(w->out, "stumps: {per_ha: %s, diameter_m: %s, height_m: %s, energy_kJ: %s,\n  ",
+                          ROUNDED(a->per_ha[CEDUO_SURVEY_STUMP].mean), ROUNDED(a->stump_diameter), ROUNDED(a->stump_height),
+                          ROUNDED(a->stump_energy / 1000));
+        print_source(w->out, true, _("counted; what one takes from a rock is not measured"), "}\n");
     }
     if (a->stools.mean > 0)
         print_future(w);
     ceduo_text_format(&what, _("survey of %zu plots, %.0f m2 of the map"), w->file->survey.plots_count, w->area);
-    print_source(w->out, false, ceduo_text_string(&what));
-    ceduo_text_char(w->out, '\n');
+    print_source(w->out, false, ceduo_text_string(&what), "\n");
     print_doubts(w);
 }
 

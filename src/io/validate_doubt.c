@@ -186,7 +186,7 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
     if (n < 2)
         ceduo_complain(v, row->at, "one_of", _("name at least two words"));
     for (size_t i = 0; words && i < n; i++) {
-        const char *word = row->doubt.one_of[i], *instead = ceduo_choice_gone(field->choices, word);
+        const char *word = row->doubt.one_of[i], *instead = ceduo_gone(word);
         const char *at = ceduo_format(v, "%s.one_of[%zu]", row->at, i);
         words[i] = ceduo_choice_find(field->choices, word);
         if (instead)
@@ -210,7 +210,7 @@ static bool make_input(struct validator *v, const struct row *row, struct places
     if (!path)
         return false;
     const struct field *field = field_of(v, path);
-    const char *instead = ceduo_schema_gone_at(path);
+    const char *instead = ceduo_gone(path);
     *places = (struct places){.v = v};
     if (instead)
         return ceduo_complain(v, row->at, "path", "%s", _(instead));
@@ -407,11 +407,10 @@ static bool read_table(struct draws *t, const char *path)
         return false;
     t->columns = csv->heads_count;
     t->values = ceduo_room(t->v, t->columns, sizeof *t->values);
-    bool *numeric = ceduo_room(t->v, t->columns, sizeof *numeric), good = t->values && numeric;
-    if (!good)
-        return false;
-    memset(numeric, true, t->columns * sizeof *numeric);
-    ceduo_csv_scan(csv, numeric);
+    bool good = t->values != NULL;
+    for (size_t c = 0; c < t->columns; c++)
+        csv->heads[c].numeric = true;
+    ceduo_csv_scan(csv);
     for (size_t c = 0; good && c < t->columns; c++)
         good = (t->values[c] = ceduo_room(t->v, csv->rows, sizeof **t->values)) != NULL;
     if (!good || !take_header(t))
@@ -439,7 +438,7 @@ static void add_draws(struct validator *v)
 {
     struct draws t = {.v = v};
     if (v->draws->kind != NODE_SCALAR) {
-        ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"), _("expected the path of a table"));
+        ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"), _("expected a path to a file"));
         return;
     }
     const char *path = ceduo_resolve_path(v->arena, v->draws, "scenes");

@@ -4,8 +4,8 @@
 
 #include "bind.h"
 #include "ceduo/doubt.h"
-#include "ceduo/material.h"
 #include "ceduo/observe.h"
+#include "ceduo/slope.h"
 
 /* A scene that is being checked, and what every check needs: each subject has a file of its own, validate_*.c. */
 

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <yaml.h>
 
-#include "base/grow.h"
 #include "base/language.h"
+#include "base/must.h"
 #include "base/utf8.h"
 #include "node.h"
 

@@ -5,7 +5,6 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/observe.h"
 #include "ceduo/scene.h"
 
 #define FOLDED_MOST 64 /* bytes of a word that are compared */
@@ -60,18 +59,23 @@ int ceduo_choice_find(const struct choices *choices, const char *word)
     return -1;
 }
 
-const char *ceduo_choice_gone(const struct choices *choices, const char *word)
+const char *ceduo_gone(const char *name)
 {
     static const struct {
-        const struct choices *choices;
-        const char *word, *instead;
+        const char *old, *remedy;
     } gone[] = {
-        {&ceduo_contact_model_words, "poisson", N_("poisson is gone; leave contact_model out: every stem is hit by itself")},
-        {&ceduo_energy_words, "inertia",
-         N_("inertia is gone: the experiment at Vaujany refutes it; write brauner or dorren, or leave it out")},
+        {"--plain", N_("shares and means are always as counted; leave it out")},
+        {"--shard", N_("a scene is computed at once; give each machine scenes of its own, see man ceduo-workflows")},
+        {"--merge", N_("results of several scenes are printed together; see man ceduo-workflows")},
+        {"glancing", N_("this key is gone: a hit takes what its law says, however slightly it touches; leave it out")},
+        {"green_density_kg_m3", N_("this key is gone with the energy law inertia that it belonged to; leave it out")},
+        {"poisson", N_("poisson is gone; leave contact_model out: every stem is hit by itself")},
+        {"inertia", N_("inertia is gone: the experiment at Vaujany refutes it; write brauner or dorren, or leave it out")},
     };
+    const char *dot = strrchr(name, '.'), *last = dot ? dot + 1 : name;
+    size_t n = strcspn(last, "=");
     for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
-        if (gone[i].choices == choices && strcmp(gone[i].word, word) == 0)
-            return gone[i].instead;
+        if (strlen(gone[i].old) == n && strncmp(gone[i].old, last, n) == 0)
+            return gone[i].remedy;
     return NULL;
 }

@@ -19,7 +19,8 @@ extern const struct choices ceduo_shape_words, ceduo_facets_words, ceduo_system_
  * not matter. */
 int ceduo_choice_find(const struct choices *choices, const char *word);
 
-/* What to do instead of a word that earlier versions had, marked for translation; NULL: none had it. */
-const char *ceduo_choice_gone(const struct choices *choices, const char *word);
+/* Remedy for an option, a key (alone or at the end of a path) or a word that only earlier versions had. Marked for translation; NULL:
+ * no version had it. */
+const char *ceduo_gone(const char *name);
 
 #endif

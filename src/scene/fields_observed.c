@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The keys of what was observed of real rocks: see the kinds in ceduo/observe.h. */
-#include "ceduo/observe.h"
+#include "ceduo/scene.h"
 #include "fields.h"
 
 #define OF_KIND(KIND) AT(observed, values[CEDUO_OBSERVED_##KIND])
@@ -36,7 +36,7 @@ static const struct object stops_object = OBJECT(observed_values, stops_fields, 
 ASKED_AT_ONCE(stops_fields);
 
 static const struct field passed_fields[] = {
-    POSITION("x_m", N_("counted at, m"), x, REQUIRED, N_("where they were counted")),
+    POSITION("x_m", N_("counted at, m"), x, REQUIRED, N_("where they were observed")),
     COUNT("count", N_("passed"), count, 0, REQUIRED, N_("rocks that passed")),
     COUNT("of", N_("rocks released"), of, 1, REQUIRED, N_("rocks released")),
 };
@@ -44,8 +44,8 @@ static const struct object passed_object = OBJECT(observed_values, passed_fields
 ASKED_AT_ONCE(passed_fields);
 
 static const struct field crossing_fields[] = {
-    POSITION("x_m", N_("seen at, m"), x, REQUIRED, N_("where they were seen")),
-    VALUES("values", N_("values"), N_("values of rocks that passed: m/s, m above the ground, kJ")),
+    POSITION("x_m", N_("seen at, m"), x, REQUIRED, N_("where they were observed")),
+    VALUES("values", N_("values"), N_("one value for each rock: m/s, m above the ground, kJ")),
     TABLE,
     MEAN,
 };
@@ -53,37 +53,33 @@ static const struct object crossing_object = OBJECT(observed_values, crossing_fi
 ASKED_AT_ONCE(crossing_fields);
 
 static const struct field sample_fields[] = {
-    VALUES("values", N_("values"), N_("values, one for each rock: m/s, m above the ground, kJ")),
+    VALUES("values", N_("values"), N_("one value for each rock: m/s, m above the ground, kJ")),
     TABLE,
     MEAN,
 };
 static const struct object sample_object = OBJECT(observed_values, sample_fields, NULL);
 
 static const struct field largest_fields[] = {
-    GROUP("speed_m_s", NAMED(N_("largest speed")), OF_KIND(LARGEST_SPEED), 0, N_("largest speed of each rock on its way"),
-          &sample_object),
-    GROUP("height_m", NAMED(N_("largest height")), OF_KIND(LARGEST_HEIGHT), 0,
-          N_("largest height of each rock above the ground"), &sample_object),
+    GROUP("speed_m_s", N_("largest speed"), OF_KIND(LARGEST_SPEED), 0, &sample_object),
+    GROUP("height_m", N_("largest height"), OF_KIND(LARGEST_HEIGHT), 0, &sample_object),
 };
 static const struct object largest_object = OBJECT(observed, largest_fields, NULL);
 
 static const struct field way_fields[] = {
     NUMBER("from_m", BRIEF(N_("from, m"), N_("from m")), AT(observed, way_from), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
-           N_("where the stretch begins")),
+           N_("where it begins")),
     NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), AT(observed, way_to), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
            N_("where it ends")),
-    GROUP("speed_m_s", NAMED(N_("mean speed")), OF_KIND(WAY_SPEED), 0, N_("mean speed of each rock along it, metre by metre"),
-          &sample_object),
-    GROUP("height_m", NAMED(N_("mean height")), OF_KIND(WAY_HEIGHT), 0, N_("mean height of each rock above the ground"),
-          &sample_object),
-    GROUP("energy_kJ", NAMED(N_("mean energy")), OF_KIND(WAY_ENERGY), 0, N_("mean energy of each rock"), &sample_object),
+    GROUP("speed_m_s", N_("mean speed"), OF_KIND(WAY_SPEED), 0, &sample_object),
+    GROUP("height_m", N_("mean height"), OF_KIND(WAY_HEIGHT), 0, &sample_object),
+    GROUP("energy_kJ", N_("mean energy"), OF_KIND(WAY_ENERGY), 0, &sample_object),
 };
 static const struct object way_object = OBJECT(observed, way_fields, NULL);
 
 static const struct field scars_fields[] = {
-    POSITION("from_m", N_("from, m"), from, REQUIRED, N_("where the stretch begins")),
+    POSITION("from_m", N_("from, m"), from, REQUIRED, N_("where it begins")),
     POSITION("to_m", N_("to, m"), to, REQUIRED, N_("where it ends")),
-    VALUES("height_m", N_("heights"), N_("heights of the middles of scars above the ground")),
+    VALUES("height_m", N_("height"), N_("heights of the middles of scars above the ground")),
     TABLE,
     RELEASED,
     NUMBER("share_seen", NAMED(N_("share seen")), AT(observed_values, share_seen), "", 0, 1, ABOVE | NO_RUN, NULL,
@@ -94,24 +90,21 @@ ASKED_AT_ONCE(scars_fields);
 
 static const struct field observed_fields[] = {
     TEXT("name", NAMED(N_("name")), AT(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
-    TEXT("name_it", NAMED(N_("name, in Italian")), AT(observed, name_it), NO_RUN,
-         N_("its name in Italian pages, screens and lists; without it the name")),
+    TEXT("name_it", NAMED(N_("in Italian")), AT(observed, name_it), NO_RUN, N_("the same in Italian pages, screens and lists")),
     WORD("use", NAMED(N_("use")), AT(observed, use), NO_RUN, "fit",
          N_("whether the ground is fitted to it, or it only checks the fit"), &ceduo_use_words),
     TEXT("option", NAMED(N_("option")), AT(observed, option), NO_RUN, N_("the option that stood there; without it the first")),
-    GROUP("rock", NAMED(N_("rock")), AT(observed, rock), 0, N_("the rock, where it is another than the scene's"),
-          &ceduo_rock_object),
-    GROUP("release", NAMED(N_("release")), AT(observed, release), 0, N_("how it started, where that differs from the scene's"),
-          &ceduo_release_object),
-    GROUP("stops", NAMED(N_("stops")), OF_KIND(STOPS), 0, N_("where rocks stopped"), &stops_object),
-    GROUP("passed", NAMED(N_("passed")), OF_KIND(PASSED), 0, N_("how many passed a place"), &passed_object),
-    GROUP("speed", NAMED(N_("speed")), OF_KIND(SPEED), 0, N_("speed of those that passed a place, m/s"), &crossing_object),
-    GROUP("height", NAMED(N_("height")), OF_KIND(HEIGHT), 0, N_("height of their underside above the ground there, m"),
-          &crossing_object),
-    GROUP("energy", NAMED(N_("energy")), OF_KIND(ENERGY), 0, N_("their energy there, kJ"), &crossing_object),
-    GROUP("largest", NAMED(N_("largest")), SAME, 0, N_("the largest of each rock on its way"), &largest_object),
-    GROUP("on_the_way", NAMED(N_("on the way")), SAME, 0, N_("means of each rock along a stretch"), &way_object),
-    GROUP("scars", NAMED(N_("scars")), OF_KIND(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
+    GROUP("rock", N_("rock"), AT(observed, rock), 0, &ceduo_rock_object),
+    GROUP("release", N_("release"), AT(observed, release), 0, &ceduo_release_object),
+    GROUP_SAID("stops", NAMED(N_("stops")), OF_KIND(STOPS), 0, N_("where rocks stopped"), &stops_object),
+    GROUP_SAID("passed", NAMED(N_("passed")), OF_KIND(PASSED), 0, N_("how many passed a place"), &passed_object),
+    GROUP_SAID("speed", NAMED(N_("speed")), OF_KIND(SPEED), 0, N_("speed of those that passed a place, m/s"), &crossing_object),
+    GROUP_SAID("height", NAMED(N_("height")), OF_KIND(HEIGHT), 0, N_("height of their underside above the ground there, m"),
+               &crossing_object),
+    GROUP_SAID("energy", NAMED(N_("energy")), OF_KIND(ENERGY), 0, N_("their energy there, kJ"), &crossing_object),
+    GROUP("largest", N_("largest"), SAME, 0, &largest_object),
+    GROUP("on_the_way", N_("on the way"), SAME, 0, &way_object),
+    GROUP_SAID("scars", NAMED(N_("scars")), OF_KIND(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
 };
 const struct object ceduo_observed_object = OBJECT(observed, observed_fields, NULL);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/material.h"
+#include "ceduo/slope.h"
 
 #include "base/language.h"
 #include "choices.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/number.h"
+#include "ceduo/rock.h"
 
 #include <math.h>
 

@@ -2,8 +2,7 @@
 #ifndef CEDUO_RANGES_H
 #define CEDUO_RANGES_H
 
-#include "ceduo/doubt.h"
-#include "ceduo/material.h"
+#include "ceduo/slope.h"
 #include "schema.h"
 
 /* How far a value that is only assumed may be from what is true, if the scene does not say it. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/regulation.h"
+#include "ceduo/scene.h"
 
 #include <math.h>
 

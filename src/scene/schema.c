@@ -4,6 +4,50 @@
 #include <math.h>
 #include <string.h>
 
+bool ceduo_path_next(const char *path, size_t length, size_t *at, struct path_step *step)
+{
+    size_t i = *at;
+    if (i >= length)
+        return false;
+    if (path[i] == '[') {
+        const char *end = memchr(path + i, ']', length - i);
+        if (!end || end == path + i + 1)
+            return false;
+        *step = (struct path_step){path + i + 1, (size_t)(end - path) - i - 1, true};
+        *at = (size_t)(end - path) + 1;
+        return true;
+    }
+    if (i > 0) {
+        if (path[i] != '.')
+            return false;
+        i++;
+    }
+    size_t from = i;
+    while (i < length && path[i] != '.' && path[i] != '[')
+        i++;
+    if (i == from)
+        return false;
+    *step = (struct path_step){path + from, i - from, false};
+    *at = i;
+    return true;
+}
+
+bool ceduo_path_is(const struct path_step *step, const char *word)
+{
+    return word && strlen(word) == step->n && memcmp(step->p, word, step->n) == 0;
+}
+
+bool ceduo_path_index(const struct path_step *step, size_t *index)
+{
+    *index = 0;
+    for (size_t i = 0; i < step->n; i++) {
+        if (step->p[i] < '0' || step->p[i] > '9' || i > 8)
+            return false;
+        *index = *index * 10 + (size_t)(step->p[i] - '0');
+    }
+    return true;
+}
+
 const struct field *ceduo_schema_field(const struct object *object, const char *key)
 {
     return ceduo_schema_step(object, &(const struct path_step){.p = key, .n = strlen(key)});
@@ -52,14 +96,6 @@ const struct field *ceduo_schema_row(const char *path)
 {
     unsigned flags = 0;
     return row_at(path, strlen(path), &flags);
-}
-
-const char *ceduo_schema_gone_at(const char *path)
-{
-    unsigned flags = 0;
-    const char *dot = strrchr(path, '.');
-    const struct field *around = dot ? row_at(path, (size_t)(dot - path), &flags) : NULL;
-    return around && around->object ? ceduo_schema_gone(around->object, dot + 1) : NULL;
 }
 
 const struct field *ceduo_schema_at(const char *path)

@@ -2,15 +2,30 @@
 #ifndef CEDUO_SCHEMA_H
 #define CEDUO_SCHEMA_H
 
-#include "base/path.h"
 #include "base/text.h"
-#include "ceduo/observe.h"
 #include "ceduo/scene.h"
 #include "choices.h"
 
 /* The table of the scene: one row for each key of the files, with the member of the scene that holds its value. Everything
  * that knows keys reads it here: the files' reader, --set, --list-parameters, the manual, the forms, typed get and put
  * (value.h), the keys of runs. The rows are in fields.c. */
+
+/* Paths of values: keys joined by '.', items of lists as [0] or [name]: forest[0].stand.trees[oak].per_ha */
+
+/* One step of a path: a key, or what stands in brackets. */
+struct path_step {
+    const char *p;
+    size_t n;
+    bool bracket;
+};
+
+/* The step at *at, which then is behind it; false at the end or where the path is malformed (then *at stays). */
+bool ceduo_path_next(const char *path, size_t length, size_t *at, struct path_step *step);
+
+bool ceduo_path_is(const struct path_step *step, const char *word);
+
+/* Whether a step is a place in a list. */
+bool ceduo_path_index(const struct path_step *step, size_t *index);
 
 /* The terminal program asks for all fields of some mappings in one popup, and for one of the kinds of observations by a digit. */
 #define CEDUO_ASKED_FIELDS_MAX 16
@@ -141,10 +156,6 @@ const struct object *ceduo_schema_belt(void);
 const struct object *ceduo_schema_stand(void);
 
 const struct field *ceduo_schema_field(const struct object *object, const char *key);
-/* What to do instead of a key that earlier versions had there, marked for translation; NULL: none had it. */
-const char *ceduo_schema_gone(const struct object *object, const char *key);
-/* The same for the last key of a path of the scene. */
-const char *ceduo_schema_gone_at(const char *path);
 /* The key that says the same in another way, so that only one of the two may stand there; NULL: there is none. Who sets one
  * of two numbers takes the other out. */
 const char *ceduo_schema_other(const struct object *object, const char *key);

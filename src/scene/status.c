@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "ceduo/status.h"
 
-#include "ceduo/version.h"
-
 const char *ceduo_status_text(enum ceduo_status status)
 {
     switch (status) {

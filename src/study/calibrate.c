@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cancel.h"
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/statistics.h"

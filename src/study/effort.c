@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/cancel.h"
+#include "base/parallel.h"
 #include "points.h"
 
 #define PER_ROCK    24.      /* started and read */

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cancel.h"
 #include "base/gsl_errors.h"
+#include "base/parallel.h"
 #include "check_study.h"
 
 #define SAMPLES_MAX 128   /* bisection alone needs at most 54, the ends and the scan 10 */

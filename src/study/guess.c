@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cancel.h"
 #include "base/gsl_errors.h"
+#include "base/parallel.h"
 #include "ceduo/calibrate.h"
 
 #define KNOWN_BY  3    /* times as many places as terms: those within reach of the best set how much a place counts */

@@ -7,7 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/cancel.h"
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/statistics.h"

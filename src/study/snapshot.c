@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/arena.h"
-#include "base/cancel.h"
+#include "base/parallel.h"
 #include "ceduo/key.h"
 
 /* ---- trajectories ---- */

@@ -41,17 +41,14 @@ static struct ceduo_estimate estimate_of(const double *values, size_t n)
 
 /* ---- densities ---- */
 
-static struct ceduo_estimate density(struct surveyor *s)
+/* Density per hectare of what was counted on each plot. The next count begins at 0. */
+static struct ceduo_estimate take_density(struct surveyor *s)
 {
     for (size_t i = 0; i < s->survey->plots_count; i++)
         s->counts[i] *= HECTARE / s->survey->areas[i];
-    return estimate_of(s->counts, s->survey->plots_count);
-}
-
-static void begin_counts(struct surveyor *s)
-{
-    for (size_t i = 0; i < s->survey->plots_count; i++)
-        s->counts[i] = 0;
+    const struct ceduo_estimate density = estimate_of(s->counts, s->survey->plots_count);
+    memset(s->counts, 0, s->survey->plots_count * sizeof *s->counts);
+    return density;
 }
 
 /* Stools with shoots, and the mean spacing of those where it was measured. False without memory. */
@@ -67,7 +64,6 @@ static bool count_stools(struct surveyor *s)
     size_t n = 0;
     if (!stools || !spacings)
         return false;
-    begin_counts(s);
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
         if (stem->kind != CEDUO_SURVEY_SHOOT)
@@ -80,7 +76,7 @@ static bool count_stools(struct surveyor *s)
     for (size_t i = 0; i < survey->stools_count; i++)
         if (stools[i].measured > 0)
             spacings[n++] = stools[i].spacing / (double)stools[i].measured;
-    s->answer->stools = density(s);
+    s->answer->stools = take_density(s);
     s->answer->stools_measured = n;
     s->answer->spacing = n > 0 ? estimate_of(spacings, n) : (struct ceduo_estimate){NAN, NAN, NAN, NAN};
     return true;
@@ -93,7 +89,7 @@ double ceduo_survey_basal(const struct ceduo_survey *survey, int species)
     double sum = 0;
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
-        if (stem->species == species && stem->kind != CEDUO_SURVEY_STUMP)
+        if ((stem->species == species || species == CEDUO_SURVEY_ALL) && stem->kind != CEDUO_SURVEY_STUMP)
             sum += stem->dbh * stem->dbh / survey->areas[stem->plot];
     }
     return sum;
@@ -210,7 +206,6 @@ static void fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ce
     const struct ceduo_survey *survey = s->survey;
     double squares = 0;
     *c = (struct ceduo_survey_class){.kind = kind, .from = (double)k * CEDUO_SURVEY_CLASS};
-    begin_counts(s);
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
         if (stem->kind != kind || class_of(stem) != k)
@@ -224,7 +219,7 @@ static void fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ce
             add_volume(c, stem, s->heights[i], s->answer->species);
     }
     double n = (double)c->stems;
-    c->per_ha = density(s);
+    c->per_ha = take_density(s);
     c->dbh_sd = c->stems > 1 ? sqrt(squares / (n - 1)) : 0;
     c->height = kind == CEDUO_SURVEY_STUMP ? s->answer->stump_height : c->height / n;
     c->volume = kind == CEDUO_SURVEY_STUMP ? NAN : c->volume / n;
@@ -262,10 +257,9 @@ enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ced
     s.pairs = ceduo_arena_take(&s.memory, (2 * survey->stems_count + 1) * sizeof *s.pairs);
     bool good = !s.memory.failed;
     for (int kind = 0; good && kind < CEDUO_SURVEY_KINDS_COUNT; kind++) {
-        begin_counts(&s);
         for (size_t i = 0; i < survey->stems_count; i++)
             s.counts[survey->stems[i].plot] += survey->stems[i].kind == (enum ceduo_survey_kind)kind ? 1 : 0;
-        a->per_ha[kind] = density(&s);
+        a->per_ha[kind] = take_density(&s);
     }
     a->species = main_species(survey);
     a->stump_diameter = of_stumps(survey, offsetof(struct ceduo_survey_stem, dbh));

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +9,6 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "base/utf8.h"
-#include "model/changes.h"
 #include "view/typed.h"
 
 /* ---- strings ---- */
@@ -107,15 +105,6 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .year = app->year};
 }
 
-struct ceduo_report ceduo_app_report(const struct app *app)
-{
-    return (struct ceduo_report){.file = &app->document.file,
-                                 .result = app->live.result,
-                                 .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
-                                 .remarks = {.ground_assumed = app->document.file.ground_assumed},
-                                 .seconds = app->live.results.snapshot ? app->live.results.snapshot->seconds : 0};
-}
-
 bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
 {
     const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
@@ -133,30 +122,34 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
     return true;
 }
 
-struct ceduo_years **ceduo_app_years(const struct app *app)
+struct ceduo_report *ceduo_app_report(const struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
+    struct ceduo_report *report = ceduo_must(ceduo_arena_take(app->scratch, sizeof *report));
+    struct ceduo_doubt_report *doubt = ceduo_must(ceduo_arena_take(app->scratch, sizeof *doubt));
     struct ceduo_years **years = ceduo_must(ceduo_arena_take(app->scratch, scene->options_count * sizeof *years));
     for (size_t i = 0; i < scene->options_count; i++)
         years[i] = ceduo_live_years(&app->live, scene, i);
-    return years;
+    *report = (struct ceduo_report){.file = &app->document.file,
+                                    .result = app->live.result,
+                                    .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
+                                    .doubt = ceduo_app_doubt(app, doubt) ? doubt : NULL,
+                                    .ahead = years,
+                                    .snapshot = ceduo_live_snapshot(&app->live, scene),
+                                    .remarks = {.ground_assumed = app->document.file.ground_assumed},
+                                    .seconds = app->live.results.snapshot ? app->live.results.snapshot->seconds : 0,
+                                    .busy = app->live.busy};
+    return report;
 }
 
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height)
 {
-    const struct ceduo_scene *scene = &app->document.file.scene;
-    const struct ceduo_years *shown = ceduo_live_years(&app->live, scene, app->option);
-    struct ceduo_doubt_report *doubt = ceduo_must(ceduo_arena_take(app->scratch, sizeof *doubt));
-    bool known = ceduo_app_doubt(app, doubt), in_year = app->view == VIEW_ROTATION && shown && app->year < shown->count;
-    return (struct ceduo_pane){.file = &app->document.file,
-                               .result = app->live.result,
-                               .verdict = &app->live.verdict,
-                               .years = ceduo_app_years(app),
-                               .doubt = known ? doubt : NULL,
+    const struct ceduo_years *shown = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
+    bool in_year = app->view == VIEW_ROTATION && shown && app->year < shown->count;
+    return (struct ceduo_pane){.report = ceduo_app_report(app),
                                .year = in_year ? &shown->years[app->year] : NULL,
                                .option = app->option,
-                               .height = height,
-                               .busy = app->live.busy};
+                               .height = height};
 }
 
 void ceduo_app_refresh(struct app *app)
@@ -260,14 +253,6 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
     return good;
 }
 
-void ceduo_app_search(struct app *app)
-{
-    if (ceduo_form_search(ceduo_app_form(app), app->search))
-        ceduo_app_state(app)->pane = 0;
-    else
-        ceduo_app_say(app, _("'%s' is not found in this view"), app->search);
-}
-
 /* ---- opening and closing ---- */
 
 /* Shows a document that was opened, and the first value in it that is unusual. */
@@ -295,7 +280,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
                       struct problems *problems)
 {
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
-    if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))
+    if (!ceduo_document_open(&app->document, path ? path : "paper-site", NULL, 0, problems))
         return false;
     if (!ceduo_live_create(&app->live, threads)) { /* no thread */
         problems->memory = true;
@@ -347,7 +332,7 @@ static bool take_opened(struct app *app, struct document *next, bool good)
 bool ceduo_app_open(struct app *app, const char *path)
 {
     struct document next;
-    return take_opened(app, &next, ceduo_document_open(&next, path, &app->problems));
+    return take_opened(app, &next, ceduo_document_open(&next, path, NULL, 0, &app->problems));
 }
 
 bool ceduo_app_open_text(struct app *app, const char *text)

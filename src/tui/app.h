@@ -161,14 +161,11 @@ void ceduo_app_show_option(struct app *app, size_t option);
 /* What a picture shows of the scene as it is now. */
 struct ceduo_picture ceduo_app_picture(const struct app *app);
 
-/* The result as it is now, which may be missing. */
-struct ceduo_report ceduo_app_report(const struct app *app);
+/* All that is known of the scene as it is now, until the next key; the result may be missing. */
+struct ceduo_report *ceduo_app_report(const struct app *app);
 
 /* How sure the figures of the scene are; false where that is not known yet. Without inputs it has no answer. */
 bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report);
-
-/* The years of each option, NULL where they are not known, until the next key. */
-struct ceduo_years **ceduo_app_years(const struct app *app);
 
 /* What a pane of so many lines shows, until the next key. */
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height);
@@ -195,8 +192,25 @@ bool ceduo_app_follow_rock(struct app *app);
 void ceduo_app_next_rock(struct app *app, int by);
 void ceduo_app_step_rock(struct app *app, int by);
 
-/* Moves the cursor of the form to the next line that holds what is searched for. */
-void ceduo_app_search(struct app *app);
+/* ---- editing the field or the item under the cursor of the form (edit.c, items.c) ---- */
+
+/* Opens the field, as a line or with the list of its choices. */
+void ceduo_edit_start(struct app *app);
+/* Handles a key while the line is open. */
+void ceduo_edit_key(struct app *app, int key);
+/* Changes the value by one step up (+1) or down (-1). */
+void ceduo_edit_step(struct app *app, int direction);
+
+void ceduo_items_add(struct app *app);
+/* Splits item `index` of a list `at` a place along the slope, m as given, or adds a control there. */
+void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at);
+/* The stretch between points of the profile that holds x, both as the file of the slope has them. */
+size_t ceduo_items_stretch_of(const struct app *app, double x_written);
+/* Asks for a class of blocks, wherever the cursor is. */
+void ceduo_items_add_blocks(struct app *app);
+void ceduo_items_delete(struct app *app);
+void ceduo_items_duplicate(struct app *app);
+void ceduo_items_move(struct app *app, int by);
 
 /* ---- drawing ---- */
 

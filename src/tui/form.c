@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/grow.h"
 #include "base/language.h"
+#include "base/must.h"
 #include "base/utf8.h"
 #include "view/typed.h"
 

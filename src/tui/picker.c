@@ -7,8 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/grow.h"
 #include "base/language.h"
+#include "base/must.h"
 #include "base/text.h"
 
 void ceduo_picker_clear(struct picker *p)

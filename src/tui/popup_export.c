@@ -10,7 +10,6 @@
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
-#include "popups.h"
 #include "view/figures.h"
 #include "view/html.h"
 #include "view/page.h"
@@ -50,23 +49,20 @@ static bool is_sure(const struct app *app)
 }
 
 /* Of the figures as they are, and without doubt where that is not known yet: nobody waits while a screen is to be used. */
-static void put_html(struct app *app, struct ceduo_report report, struct text *text)
+static void put_html(struct app *app, struct ceduo_report *report, struct text *text)
 {
     struct ceduo_doubt_report doubt;
     bool sure =
-        is_sure(app) && app->live.result->wooded && !ceduo_page_says_nothing(app->live.result) && ceduo_app_doubt(app, &doubt);
+        is_sure(app) && report->result->wooded && !ceduo_page_says_nothing(report->result) && ceduo_app_doubt(app, &doubt);
     const struct ceduo_scene *scene = &app->document.file.scene;
     struct ceduo_html html = {.text = text};
     LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
     LOCAL_TEXT(command);
     append_command(app, &command, "--report report.html");
-    const struct ceduo_chapter chapter = {.report = &report,
-                                          .snapshot = ceduo_live_snapshot(&app->live, scene),
-                                          .years = ceduo_app_years(app),
-                                          .command = command.bytes};
     doubt.over = false;
-    report.doubt = sure ? &doubt : NULL;
-    ceduo_page_chapter(&page, &chapter);
+    report->doubt = sure ? &doubt : NULL;
+    report->command = command.bytes;
+    ceduo_page_chapter(&page, report);
     ceduo_page_html_begin(&html, ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_html(&html, &page, 1);
     ceduo_page_html_end(&html);
@@ -86,9 +82,10 @@ static const struct {
 
 static void append_export(struct app *app, enum export export, struct text *text)
 {
-    struct ceduo_report report = ceduo_app_report(app);
-    struct ceduo_doubt_report doubt;
+    struct ceduo_report *report = ceduo_app_report(app);
     bool ascii = app->charset == CEDUO_CHARSET_ASCII;
+    if (export != EXPORT_PAGE) /* how sure it is, if that is known already, is part of the page alone */
+        report->doubt = NULL;
     if (export == EXPORT_SCREEN) {
         ceduo_screen_draw(app); /* without the popup, which is off already */
         char *screen = ceduo_cells_dump(app->cells);
@@ -96,16 +93,15 @@ static void append_export(struct app *app, enum export export, struct text *text
         free(screen);
     } else if (!app->live.result) {
         return;
-    } else if (export == EXPORT_PAGE) { /* how sure it is, where that is known already, is part of the page */
-        report.doubt = ceduo_app_doubt(app, &doubt) ? &doubt : NULL;
-        ceduo_report_short(text, &report, ascii);
+    } else if (export == EXPORT_PAGE) {
+        ceduo_report_short(text, report, ascii);
     } else if (export == EXPORT_TABLE) {
-        ceduo_report_table(text, &report, ascii);
+        ceduo_report_table(text, report, ascii);
     } else if (export == EXPORT_CSV) {
         ceduo_csv_head(text, &ceduo_control_csv);
-        ceduo_csv_rows(text, &ceduo_control_csv, &(struct ceduo_place){.report = &report});
+        ceduo_csv_rows(text, &ceduo_control_csv, &(struct ceduo_place){.report = report});
     } else if (export == EXPORT_JSON) {
-        ceduo_figures_json(text, ceduo_result_figures, &(struct ceduo_place){.report = &report}, report.details);
+        ceduo_figures_json(text, ceduo_result_figures, &(struct ceduo_place){.report = report}, report->details);
     } else {
         put_html(app, report, text);
     }
@@ -195,7 +191,6 @@ void ceduo_popup_copy(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
     const struct ceduo_scene *scene = &app->document.file.scene;
-    struct ceduo_doubt_report doubt;
     LOCAL_TEXT(text);
     if (!app->copy) {
         ceduo_app_warn(app, "%s", _("this terminal has no clipboard that a program may write; w writes to a file"));
@@ -209,8 +204,7 @@ void ceduo_popup_copy(struct app *app)
     ceduo_text_format(&text, ": %s\n", ceduo_app_option(app)->name);
     if (r && scene->controls_count > 0) {
         ceduo_words_answer(&text,
-                           &(const struct ceduo_subject){r, &app->live.verdict, ceduo_app_doubt(app, &doubt) ? &doubt : NULL,
-                                                         app->option, r->last_control, false, false},
+                           &(const struct ceduo_subject){ceduo_app_report(app), app->option, r->last_control, false, false},
                            COPY_WIDTH);
         ceduo_text_char(&text, '\n');
     }

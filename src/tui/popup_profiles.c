@@ -8,13 +8,10 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/material.h"
-#include "ceduo/rotation.h"
+#include "ceduo/slope.h"
 #include "io/emit.h"
 #include "io/file.h"
-#include "model/changes.h"
 #include "popup.h"
-#include "popups.h"
 #include "scene/choices.h"
 #include "view/typed.h"
 #include "view/words.h"
@@ -140,7 +137,7 @@ static void append_lights(struct app *app, struct text *text, const struct previ
 /* What the lights would be with a value at the popup's path; it is asked for, and put once it is known. */
 static void append_change(struct app *app, struct popup *p)
 {
-    LOCAL_TEXT(set);
+    LOCAL_TEXT(value);
     if (p->ahead_known) {
         if (p->ahead.known)
             append_lights(app, &p->text, &p->ahead);
@@ -148,13 +145,13 @@ static void append_change(struct app *app, struct popup *p)
     }
     ceduo_text_put(&p->text, _("the lights: computing …\n"));
     bool all = p->chosen == chose_new_option; /* the stand in every belt */
-    ceduo_text_format(&set, "%s=", all ? ceduo_app_forest(app) : p->path);
     if (!all)
-        ceduo_emit_scalar(&set, p->value, true);
+        ceduo_emit_scalar(&value, p->value, true);
     else
-        ceduo_document_belts(&app->document, p->value, &set);
-    if (set.length < JOB_TEXT)
-        ceduo_jobs_preview(app->live.jobs, &app->document.file, set.bytes, app->option);
+        ceduo_document_belts(&app->document, p->value, &value);
+    if (value.length < JOB_TEXT)
+        ceduo_jobs_preview(app->live.jobs, &app->document.file, all ? ceduo_app_forest(app) : p->path, value.bytes,
+                           app->option);
 }
 
 static void preview_word(struct app *app, struct popup *p)
@@ -369,83 +366,6 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
     const char *now = listed_name(app, p->path);
     for (int shipped = 0; shipped < 2; shipped++)
         add_files(app, p, f->object->folder, shipped, false, now);
-}
-
-/* ---- the rock and how it starts, as other scenes have them ---- */
-
-/* Changes that take them over, a line each: the rock whole, of the release all but where it is. */
-static void append_changes(struct text *rock, struct text *release, const struct node *root)
-{
-    const struct node *map = ceduo_node_get(root, "rock");
-    ceduo_text_put(rock, "rock=");
-    ceduo_emit_flow(rock, map);
-    map = ceduo_node_get(root, "release");
-    for (size_t i = 0; map && i < map->n; i++) {
-        if (strcmp(map->items[i]->key, "x_m") == 0)
-            continue;
-        ceduo_text_format(release, "%srelease.%s=", release->length > 0 ? "\n" : "", map->items[i]->key);
-        ceduo_emit_flow(release, map->items[i]);
-    }
-}
-
-/* Under its words, once. */
-static void add_start(struct app *app, struct popup *p, const char *words, const char *value, const char *of)
-{
-    for (size_t i = 0; i < p->picker.count; i++)
-        if (strncmp(p->picker.picks[i].text, words, strlen(words)) == 0)
-            return;
-    ceduo_popup_item(p, ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(words, 27), words, of), value);
-}
-
-static void add_starts(struct app *app, struct popup *p, const char *path, const char *name)
-{
-    struct scene_file file = {0};
-    LOCAL_PROBLEMS(problems);
-    if (ceduo_scene_load(&file, path, NULL, 0, &problems)) {
-        LOCAL_TEXT(rock);
-        LOCAL_TEXT(release);
-        struct ceduo_rock mean = ceduo_rock_mean(&file.scene.rock);
-        const struct ceduo_release *r = &file.scene.release;
-        append_changes(&rock, &release, file.root);
-        const char *title = ceduo_in_language(file.scene.title, file.scene.title_it), *of = title[0] ? title : name;
-        if (file.scene.blocks_count == 0) /* of many sizes there is none to take over */
-            add_start(app, p, ceduo_app_format(app, _("rock: %.3g m, %.0f kg"), mean.mean_diameter, mean.mass), rock.bytes, of);
-        if (release.bytes)
-            add_start(app, p,
-                      ceduo_app_format(app, _("start: %.3g m high, %.3g m/s"), r->height.mean, hypot(r->vx.mean, r->vz.mean)),
-                      release.bytes, of);
-    }
-    ceduo_scene_release(&file);
-}
-
-static void preview_start(struct app *app, struct popup *p)
-{
-    (void)app;
-    ceduo_text_put(&p->text, p->value);
-}
-
-static void chose_start(struct app *app, struct popup *p)
-{
-    struct changes c = {.d = &app->document};
-    for (const char *line = p->value, *end; *line; line = *end ? end + 1 : end) {
-        end = line + strcspn(line, "\n");
-        ceduo_changes_add(&c, "%.*s", (int)(end - line), line);
-    }
-    if (ceduo_app_edited(app, ceduo_changes_make(&c, strncmp(p->value, "rock", 4) == 0 ? "rock" : "release", &app->problems)))
-        ceduo_app_say(app, "%s", _("taken over; u takes it back"));
-}
-
-void ceduo_popup_starts(struct app *app)
-{
-    struct popup *p = ceduo_popup_list(app, _("A rock, or how it starts, as another scene has it"), "", chose_start);
-    const char *const *folders = ceduo_file_folders(&p->arena);
-    p->preview = preview_start;
-    for (size_t i = 0; folders && folders[i]; i++) {
-        size_t n;
-        const char *const *names = ceduo_file_list(&p->arena, folders[i], "scenes", &n);
-        for (size_t k = 0; k < n; k++)
-            add_starts(app, p, ceduo_app_format(app, "%s/scenes/%s.yaml", folders[i], names[k]), names[k]);
-    }
 }
 
 /* ---- a scene to open ---- */

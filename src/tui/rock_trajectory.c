@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "base/grow.h"
 #include "base/language.h"
+#include "base/must.h"
 
 #define FLIGHT_POINTS 24 /* of a parabola: enough for any screen */
 #define PIECES_MAX    20000

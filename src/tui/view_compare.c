@@ -3,7 +3,6 @@
  * options year by year. */
 #include "base/language.h"
 #include "popup.h"
-#include "popups.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -34,7 +33,8 @@ static void draw_table(struct app *app, struct ceduo_area area)
 {
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     struct ceduo_page table = {.width = (size_t)area.width}, said = {.width = (size_t)area.width - 2};
-    size_t n = pane.verdict->n, room = area.height > HEADS + WORDS_MIN + 1 ? (size_t)(area.height - HEADS - WORDS_MIN - 1) : 1;
+    size_t n = app->live.verdict.n,
+           room = area.height > HEADS + WORDS_MIN + 1 ? (size_t)(area.height - HEADS - WORDS_MIN - 1) : 1;
     size_t shown = n <= room ? n : room - (room > 1);
     size_t first = app->option >= shown ? app->option - shown + 1 : 0;
     ceduo_pane_options(&table, &pane, first, shown);
@@ -86,7 +86,7 @@ static void next_option(struct app *app, int by)
 static void copy_option(struct app *app)
 {
     size_t at = app->option;
-    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL, NULL, &app->problems)))
+    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL, &app->problems)))
         choose(app, (long)at + 1);
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 7: how sure the answer is today or over the rotation, what it depends on, whether the options separate, and the ranges that
  * the scene names. */
-#include <stdio.h>
 
 #include "app.h"
 #include "base/language.h"
@@ -32,7 +31,7 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_page page = {.width = (size_t)area.width - 2};
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_pane pane = ceduo_app_pane(app, area.height - form - 1);
-    const struct ceduo_doubt_report *r = pane.doubt;
+    const struct ceduo_doubt_report *r = pane.report->doubt;
     bool waits = app->over && r && r->answer && !r->over;
     picture.doubt = waits ? NULL : r;
     const char *never = waits ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;

@@ -4,7 +4,7 @@
 #include "base/language.h"
 
 #define WIDE_MIN   110 /* columns that hold pictures beside the words */
-#define HEIGHT_ALL 30  /* lines with room for the four rules of the ADC, for energy along the slope */
+#define HEIGHT_ALL 30  /* lines with room for energy along the slope */
 #define BARS_MIN   7   /* lines of the energies as bars */
 
 /* `bars`: the energies as bars stand among the words. */
@@ -13,9 +13,7 @@ static void draw_page(struct app *app, struct ceduo_area area, const struct cedu
     area.width -= 2; /* the mark of more below stands beside the text */
     struct ceduo_page page = {.width = (size_t)area.width};
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
-    struct ceduo_report report = ceduo_app_report(app);
-    ceduo_plot_add(CEDUO_PLOT_ADC, &page, picture, area.height >= HEIGHT_ALL ? area.height / 2 : area.height / 4);
-    ceduo_page_add(&page, CEDUO_PAGE_GAP);
+    ceduo_pane_belts(&page, &pane);
     ceduo_pane_residual(&page, &pane);
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
     int rest = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0);
@@ -24,7 +22,7 @@ static void draw_page(struct app *app, struct ceduo_area area, const struct cedu
                        rest > BARS_MIN ? rest < 2 * BARS_MIN ? rest : 2 * BARS_MIN : BARS_MIN);
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
     }
-    ceduo_pane_words(&page, &report, app->option);
+    ceduo_pane_words(&page, &pane);
     ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
 }
 

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 3: the rock, how it starts, and how it is computed. */
 #include <math.h>
-
 #include <string.h>
 
+#include "app.h"
 #include "base/language.h"
-#include "edit.h"
-#include "popups.h"
 
 /* A power law, or a list of classes. */
 static void build_blocks(struct form *form, const struct node *blocks)
@@ -85,17 +83,11 @@ static void delete_blocks(struct app *app)
         ceduo_app_say(app, "%s", _("blocks deleted: every rock is the one above; u brings them back"));
 }
 
-static const struct act acts[] = {{ACTION_PRESETS, .plain = ceduo_popup_starts},
-                                  {ACTION_ADD, .plain = ceduo_items_add_blocks},
-                                  {ACTION_DELETE, .plain = delete_blocks},
-                                  {0}};
+static const struct act acts[] = {{ACTION_ADD, .plain = ceduo_items_add_blocks}, {ACTION_DELETE, .plain = delete_blocks}, {0}};
 
-const struct view ceduo_view_rock = {.panes = 1,
-                                     .build = build,
-                                     .draw = draw,
-                                     .acts = {acts},
-                                     .bar = {{ACTION_EDIT, N_("edit")},
-                                             {ACTION_ADD, N_("blocks")},
-                                             {ACTION_PRESETS, N_("presets")},
-                                             {ACTION_MORE, N_("more")},
-                                             {ACTION_LESS, N_("less")}}};
+const struct view ceduo_view_rock = {
+    .panes = 1,
+    .build = build,
+    .draw = draw,
+    .acts = {acts},
+    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_ADD, N_("blocks")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")}}};

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "ceduo/version.h"
+#include "ceduo/status.h"
 
 #define VERSION                                                                                                                \
     {                                                                                                                          \

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/grow.h"
 #include "base/language.h"
+#include "base/must.h"
 #include "svg.h"
 
 static struct ceduo_page_block *add_block(struct ceduo_page *page, enum ceduo_page_kind kind)

@@ -61,7 +61,7 @@ static void append_judged(struct text *text, const struct ceduo_report *report, 
     const struct ceduo_result *r = report->result;
     size_t n = 0;
     for (size_t i = 0; i < r->scene->options_count; i++) {
-        const struct ceduo_outcome o = ceduo_words_at_last(r, report->verdict, report->doubt, i);
+        const struct ceduo_outcome o = ceduo_report_outcome(report, i, r->last_control);
         if ((today ? o.today : o.answer) == judgement)
             ceduo_text_format(text, n++ > 0 ? ", '%s'" : "'%s'", r->scene->options[i].name);
     }
@@ -92,7 +92,7 @@ static void answer_many(struct ceduo_page *page, const struct ceduo_report *repo
     if (!v->accepted || !v->wooded)
         return;
     bool blocks = report->result->scene->blocks_count > 0;
-    if (v->choices[0].window.kind != CEDUO_WINDOW_ALIKE && v->choices[0].over.years > 0)
+    if (ceduo_report_ahead(report, 0))
         append_keepers(text, report, false,
                        blocks ? _("Within the limit over these years: %s.") : _("Within the limit in every year: %s."));
     else
@@ -116,8 +116,8 @@ size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdic
 static void say_mean(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
-    const struct ceduo_choice *c = report->verdict ? &report->verdict->choices[0] : NULL;
-    if (!c || c->over.simulated == 0 || c->window.kind == CEDUO_WINDOW_ALIKE)
+    const struct ceduo_choice *c = ceduo_report_ahead(report, 0);
+    if (!c || c->over.simulated == 0)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
     struct ceduo_measure mean = ceduo_share(c->mean);
@@ -135,7 +135,7 @@ static void say_mean(struct ceduo_page *page, const struct ceduo_report *report)
                       1000 * c->worst.mean, c->over.worst_year);
     LOCAL_TEXT(value);
     ceduo_measure_value(&value, &today);
-    const struct ceduo_outcome o = ceduo_words_at_last(r, report->verdict, report->doubt, 0);
+    const struct ceduo_outcome o = ceduo_report_outcome(report, 0, r->last_control);
     ceduo_text_format(text, _("; today %s"), ceduo_text_string(&value));
     if (o.today != CEDUO_UNANSWERED)
         ceduo_text_format(text, " (%s)", ceduo_words_decided(o.today));
@@ -158,7 +158,7 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
         if (k != r->last_control && isnan(r->scene->controls[k].accepted))
             continue;
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-        const struct ceduo_subject subject = {r, report->verdict, report->doubt, 0, k, k == r->last_control, false};
+        const struct ceduo_subject subject = {report, 0, k, k == r->last_control, false};
         ceduo_words_answer(text, &subject, page->width - CEDUO_ANSWER_INDENT);
         if (k == r->last_control)
             say_mean(page, report);

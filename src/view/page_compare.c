@@ -58,10 +58,10 @@ void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
         ceduo_page_write(page, "%s", r->scene->options[i].name);
         if (r->wooded) {
             const struct ceduo_measure share = ceduo_share(ceduo_share_at(ceduo_result_wooded(r, i, r->last_control)));
-            struct ceduo_paired to_first = ceduo_share_to_first(r, i);
+            struct ceduo_estimate to_first = ceduo_share_to_first(r, i);
             ceduo_measure_error(ceduo_page_text(page), &share, " ");
-            if (to_first.below > 0)
-                ceduo_page_write(page, "< %.0f", ceil(to_first.below * 1000));
+            if (ceduo_pairs_are_equal(&to_first))
+                ceduo_page_write(page, "< %.0f", ceil(to_first.hi * 1000));
             else if (i > 0 && to_first.mean == 0 && to_first.se == 0)
                 ceduo_page_write(page, "%s", _("the same"));
             else if (i == 0 || isnan(to_first.mean))
@@ -176,7 +176,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (!v)
         return;
     bool known = false;
-    if (v->choices[0].over.years > 0 && v->choices[0].window.kind != CEDUO_WINDOW_ALIKE)
+    if (ceduo_report_ahead(report, 0))
         add_rotations(page, r, v);
     for (size_t i = 0; v->choices[0].over.years > 0 && i < v->n; i++) { /* what a yield leaves out */
         known |= !isnan(v->choices[i].yield.cut_per_year);

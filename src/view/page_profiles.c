@@ -53,13 +53,13 @@ void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *rep
                                  .options = ceduo_must(ceduo_arena_take(&p->arena, (n + 1) * sizeof *to->options))};
     for (size_t i = 0; i < n; i++) {
         struct profile_option *option = &to->options[i];
-        const struct ceduo_subject subject = {r, report->verdict, report->doubt, i, r->last_control, false, false};
+        const struct ceduo_subject subject = {report, i, r->last_control, false, false};
         LOCAL_TEXT(answer);
         if (c)
             ceduo_words_answer(&answer, &subject, CEDUO_PAGE_WIDTH - SCENE_WIDTH - 1);
         option->name = keep(p, r->scene->options[i].name);
         option->answer = keep(p, c ? ceduo_text_string(&answer) : "-");
-        option->judgement = c ? ceduo_words_outcome(&subject).answer : CEDUO_UNANSWERED;
+        option->judgement = c ? ceduo_report_outcome(report, i, r->last_control).answer : CEDUO_UNANSWERED;
         option->rank = rank_of(option->judgement);
         const struct ceduo_arrivals *wooded = c ? ceduo_result_wooded(r, i, r->last_control) : NULL;
         option->share = wooded ? ceduo_judged(c, wooded).value : NAN;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/version.h"
+#include "ceduo/status.h"
 #include "io/emit.h"
 #include "page_parts.h"
 #include "plot_parts.h"
@@ -29,22 +29,22 @@ static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int colum
     ceduo_text_put(&block->description, description);
 }
 
-static struct ceduo_picture picture_of(const struct ceduo_chapter *c, size_t option)
+static struct ceduo_picture picture_of(const struct ceduo_report *report, size_t option)
 {
-    const struct ceduo_result *r = c->report->result;
+    const struct ceduo_result *r = report->result;
     return (struct ceduo_picture){.scene = r->scene,
-                                  .snapshot = c->snapshot,
-                                  .verdict = c->report->verdict,
+                                  .snapshot = report->snapshot,
+                                  .verdict = report->verdict,
                                   .option = option,
                                   .control = ceduo_scene_last_control(r->scene),
-                                  .years = c->years ? c->years[option] : NULL,
+                                  .years = report->ahead ? report->ahead[option] : NULL,
                                   .year = SIZE_MAX};
 }
 
 /* Whether the scene asks for more than fits on four sheets: then what other commands show is left to them. */
-static bool is_crowded(const struct ceduo_chapter *c)
+static bool is_crowded(const struct ceduo_report *report)
 {
-    return ceduo_report_has_hazard(c->report) && c->report->result->scene->options_count > CROWD;
+    return ceduo_report_has_hazard(report) && report->result->scene->options_count > CROWD;
 }
 
 /* ---- sections ---- */
@@ -58,7 +58,7 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     const struct ceduo_doubt_report *doubt = report->doubt;
     const struct ceduo_control *place = &r->scene->controls[r->last_control];
     size_t option = ceduo_result_best(r, report->verdict);
-    const struct ceduo_outcome o = ceduo_words_at_last(r, report->verdict, doubt, option);
+    const struct ceduo_outcome o = ceduo_report_outcome(report, option, r->last_control);
     struct ceduo_measure m = ceduo_judged(place, NULL);
     ceduo_measure_doubt(&m, doubt, option, r->last_control);
     if (isnan(m.may_lo)) {
@@ -105,61 +105,61 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
 #define SLOPE_LEAST 12 /* where tables of several options follow */
 #define STRIP_ROWS  10
 
-static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
+static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    struct ceduo_picture picture = picture_of(c, ceduo_result_best(c->report->result, c->report->verdict));
-    size_t options = c->report->result->scene->options_count;
+    struct ceduo_picture picture = picture_of(report, ceduo_result_best(report->result, report->verdict));
+    size_t options = report->result->scene->options_count;
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
-    ceduo_page_facts(page, c->report);
+    ceduo_page_facts(page, report);
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, options > 1 ? SLOPE_LEAST : SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
     picture.ways = true;
-    if (c->snapshot && !is_crowded(c))
+    if (report->snapshot && !is_crowded(report))
         add_picture(
             page, CEDUO_PLOT_HEIGHT, WHOLE, STRIP_ROWS, &picture,
             _("Each of these ways as its height above the ground along the slope, and curves of the median and the 95th "
               "percentile, through the forest and without it."));
-    if (c->snapshot && c->report->result->scene->controls_count > 0 && options == 1)
+    if (report->snapshot && report->result->scene->controls_count > 0 && options == 1)
         add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, STRIP_ROWS, &picture,
                     _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
                       "through the forest and without it."));
 }
 
 /* Of one option they stand with all its figures; of several those of the one that is drawn. */
-static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter *c)
+static void add_percentiles(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    const struct ceduo_result *r = c->report->result;
-    size_t option = ceduo_result_best(c->report->result, c->report->verdict);
+    const struct ceduo_result *r = report->result;
+    size_t option = ceduo_result_best(report->result, report->verdict);
     if (r->scene->options_count < 2 || r->bare.rocks == 0)
         return;
-    for (size_t k = is_crowded(c) ? r->last_control : 0; k < r->scene->controls_count; k++) {
+    for (size_t k = is_crowded(report) ? r->last_control : 0; k < r->scene->controls_count; k++) {
         LOCAL_TEXT(place);
         ceduo_plot_control_name(&place, &r->scene->controls[k]);
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_PLACE), _("At %s, with '%s'"), ceduo_text_string(&place),
                           r->scene->options[option].name);
         ceduo_page_percentiles(page, r, option, k, true);
-        ceduo_page_design(page, c->report, option, k);
+        ceduo_page_design(page, report, option, k);
     }
 }
 
 #define YEARS_ROWS 10
 
 /* The option that is best over the years. */
-static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
+static void add_years(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    const struct ceduo_verdict *v = c->report->verdict;
-    size_t option = v && v->rotation.known ? v->rotation.best : ceduo_result_best(c->report->result, c->report->verdict);
-    if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_ALIKE || !c->years || !c->years[option] ||
-        c->years[option]->count < 2) /* they do not differ at all */
+    const struct ceduo_verdict *v = report->verdict;
+    size_t option = v && v->rotation.known ? v->rotation.best : ceduo_result_best(report->result, report->verdict);
+    if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_ALIKE || !report->ahead ||
+        !report->ahead[option] || report->ahead[option]->count < 2) /* they do not differ at all */
         return;
-    struct ceduo_picture picture = picture_of(c, option);
-    const struct ceduo_scene *scene = c->report->result->scene;
+    struct ceduo_picture picture = picture_of(report, option);
+    const struct ceduo_scene *scene = report->result->scene;
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("Year by year"));
     if (scene->options_count > 1)
         ceduo_page_say(page, CEDUO_PAGE_PLACE, "%s", scene->options[option].name);
-    ceduo_page_years_words(page, c->report->result, c->years[option]);
-    if (is_crowded(c))
+    ceduo_page_years_words(page, report->result, report->ahead[option]);
+    if (is_crowded(report))
         return;
     ceduo_page_say(page, CEDUO_PAGE_DETAIL, "%s",
                    _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
@@ -215,18 +215,18 @@ static const struct node *without_texts(struct arena *arena, const struct node *
     return plain;
 }
 
-static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
+static void add_origin(struct ceduo_page *page, const struct ceduo_report *report)
 {
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("How to compute this page again"));
     ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Program")), "ceduo %s", CEDUO_VERSION);
     ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s",
-                   c->same ? _("This command gives the same page, to the last byte:")
-                           : _("This command computes the page again:"));
-    ceduo_page_say(page, CEDUO_PAGE_CODE, "%s", c->command);
+                   report->same ? _("This command gives the same page, to the last byte:")
+                                : _("This command computes the page again:"));
+    ceduo_page_say(page, CEDUO_PAGE_CODE, "%s", report->command);
     ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene, as its file says it, without the texts of sources:"));
     /* with what the command line changed, and the names of other files */
     struct arena arena = {0};
-    const struct node *root = ceduo_emit_unresolve(&arena, c->report->file->root);
+    const struct node *root = ceduo_emit_unresolve(&arena, report->file->root);
     ceduo_emit(ceduo_page_add(page, CEDUO_PAGE_CODE), without_texts(&arena, root));
     ceduo_arena_free(&arena);
 }
@@ -234,16 +234,16 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
 #define HAZARD_ROWS 9
 
 /* How often at each place, and at the last one as curves. */
-static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c)
+static void add_hazard(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    const struct ceduo_scene *scene = c->report->result->scene;
-    struct ceduo_picture picture = picture_of(c, ceduo_result_best(c->report->result, c->report->verdict));
-    if (!ceduo_report_has_hazard(c->report))
+    const struct ceduo_scene *scene = report->result->scene;
+    struct ceduo_picture picture = picture_of(report, ceduo_result_best(report->result, report->verdict));
+    if (!ceduo_report_has_hazard(report))
         return;
-    size_t first = is_crowded(c) ? picture.control : 0;
+    size_t first = is_crowded(report) ? picture.control : 0;
     for (size_t k = first; k < scene->controls_count; k++)
-        ceduo_page_hazard(page, c->report, k, k == first);
-    if (is_crowded(c))
+        ceduo_page_hazard(page, report, k, k == first);
+    if (is_crowded(report))
         return;
     add_picture(
         page, CEDUO_PLOT_HAZARD, WHOLE, HAZARD_ROWS, &picture,
@@ -251,46 +251,46 @@ static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c)
           "an energy to the next. Rules mark 30 and 300 kJ, 30, 100 and 300 years."));
 }
 
-void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
+void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    const struct ceduo_scene *scene = c->report->result->scene;
+    const struct ceduo_scene *scene = report->result->scene;
     bool controls = scene->controls_count > 0, several = scene->options_count > 1;
     ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     add_head(page, &scene->page);
-    ceduo_page_question(page, c->report->result);
-    ceduo_page_answer(page, c->report);
-    add_unknown(page, c->report);
-    ceduo_page_sure(page, c->report);
-    ceduo_page_over(page, c->report);
-    add_slope(page, c);
-    add_percentiles(page, c);
+    ceduo_page_question(page, report->result);
+    ceduo_page_answer(page, report);
+    add_unknown(page, report);
+    ceduo_page_sure(page, report);
+    ceduo_page_over(page, report);
+    add_slope(page, report);
+    add_percentiles(page, report);
     if (several && controls) {
-        struct ceduo_picture picture = picture_of(c, 0);
-        ceduo_page_comparison(page, c->report);
-        if (!ceduo_report_has_hazard(c->report) && scene->options_count <= CROWD) /* the table says it all */
+        struct ceduo_picture picture = picture_of(report, 0);
+        ceduo_page_comparison(page, report);
+        if (!ceduo_report_has_hazard(report) && scene->options_count <= CROWD) /* the table says it all */
             add_picture(page, CEDUO_PLOT_COMPARE, WIDE, 2 + (int)scene->options_count, &picture,
                         _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too "
                           "much energy, and their mean energy."));
     } else if (!several) {
         ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("Through the forest, and without it"));
-        ceduo_page_option(page, c->report, 0, true);
+        ceduo_page_option(page, report, 0, true);
     }
-    if (controls && !is_crowded(c))
-        ceduo_page_laws(page, c->report->result);
+    if (controls && !is_crowded(report))
+        ceduo_page_laws(page, report->result);
     if (controls) {
-        if (c->report->doubt && c->report->doubt->answer)
-            ceduo_doubt_blocks(page, c->report->doubt, scene->options_count <= CROWD);
-        add_years(page, c);
-        add_hazard(page, c);
+        if (report->doubt && report->doubt->answer)
+            ceduo_doubt_blocks(page, report->doubt, scene->options_count <= CROWD);
+        add_years(page, report);
+        add_hazard(page, report);
     }
     if (several)
-        ceduo_page_rules(page, c->report->result);
-    ceduo_page_notes(page, c->report);
+        ceduo_page_rules(page, report->result);
+    ceduo_page_notes(page, report);
     for (size_t i = 0; several && i < scene->options_count; i++)
-        ceduo_page_stand_warnings(page, c->report->result, i);
-    add_limits(page, c->report->result);
+        ceduo_page_stand_warnings(page, report->result, i);
+    add_limits(page, report->result);
     if (scene->options_count > CROWD)
         ceduo_page_note(page, _("Not on this page, as it would be too long: what 'ceduo --batch', 'ceduo --plot' and 'ceduo "
                                 "--sensitivity' show."));
-    add_origin(page, c);
+    add_origin(page, report);
 }

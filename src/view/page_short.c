@@ -105,10 +105,9 @@ enum form { AHEAD, RATES, TODAY };
 
 static enum form form_of(const struct ceduo_report *report)
 {
-    const struct ceduo_choice *c = &report->verdict->choices[0];
     if (report->result->scene->blocks_count > 0 && report->verdict->accepted)
         return RATES;
-    return c->over.years > 0 && c->window.kind != CEDUO_WINDOW_ALIKE ? AHEAD : TODAY;
+    return ceduo_report_ahead(report, 0) ? AHEAD : TODAY;
 }
 
 static void add_span(struct ceduo_page *page, const struct ceduo_measure *m)
@@ -124,7 +123,7 @@ static void add_span(struct ceduo_page *page, const struct ceduo_measure *m)
 static void add_rates(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
 {
     const struct ceduo_result *r = report->result;
-    const struct ceduo_outcome o = ceduo_words_at_last(r, report->verdict, report->doubt, i);
+    const struct ceduo_outcome o = ceduo_report_outcome(report, i, r->last_control);
     const struct ceduo_arrivals *today = ceduo_result_wooded(r, i, r->last_control);
     ceduo_words_years(ceduo_page_text(page), o.rate);
     ceduo_words_decision(ceduo_page_text(page), o.answer);

@@ -18,7 +18,7 @@
 
 static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
-    const struct ceduo_scene *s = &pane->file->scene;
+    const struct ceduo_scene *s = &pane->report->file->scene;
     struct ceduo_rock rock = ceduo_rock_mean(&s->rock);
     double min = INFINITY, max = 0, per_year = 0;
     for (size_t i = 0; i < s->blocks_count; i++) {
@@ -32,7 +32,7 @@ static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_line(page, CEDUO_ROLE_TEXT, _("Blocks %.3g\xe2\x80\x93%.3g m\xc2\xb3, %.3g/year"), min, max, per_year);
     else if (!isnan(rock.mass) && pane->height >= HEIGHT_MIN)
         ceduo_page_line(page, CEDUO_ROLE_TEXT, _("Rock %.3g m, %.4g kg%s"), rock.mean_diameter, rock.mass,
-                        ceduo_notes_say(pane->file->notes, "assumed", "rock") ? "*" : "");
+                        ceduo_notes_say(pane->report->file->notes, "assumed", "rock") ? "*" : "");
 }
 
 /* ---- what arrives ---- */
@@ -40,7 +40,7 @@ static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
 /* Of the rocks of the scene with its wood, or in a year of it; NULL: not known yet, or never (index). */
 static const struct ceduo_arrivals *wood_of(const struct ceduo_pane *pane)
 {
-    const struct ceduo_result *r = pane->result;
+    const struct ceduo_result *r = pane->report->result;
     if (!pane->year)
         return ceduo_result_wooded(r, pane->option, r->last_control);
     return pane->year->wooded.rocks > 0 ? &pane->year->wooded.arrivals[r->last_control] : NULL;
@@ -69,7 +69,8 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
     static const struct ceduo_page_column narrow[] = {{OF_1000}, {N_("wood"), -8, 0, 0}, {BARE}},
                                           wide[] = {{OF_1000}, {N_("wood"), -16, 0, 0}, {BARE}};
     static const enum ceduo_end ends[] = {CEDUO_STOPPED_BY_STEMS, CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED};
-    const struct ceduo_arrivals *bare = &pane->result->bare.arrivals[pane->result->last_control], *wood = wood_of(pane);
+    const struct ceduo_arrivals *bare = &pane->report->result->bare.arrivals[pane->report->result->last_control],
+                                *wood = wood_of(pane);
     bool blocks = !isnan(bare->hazard.per_year);
     ceduo_page_table(page, page->width >= WIDE ? wide : narrow, 3);
     add_row(page, ceduo_arriving(wood), ceduo_arriving(bare));
@@ -77,7 +78,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
         add_row(page, ceduo_judged(c, wood), ceduo_judged(c, bare));
     struct ceduo_measure judged = ceduo_judged(c, wood);
     if (wood && !pane->year && !nothing) /* by the index it would be of the rocks without forest */
-        ceduo_measure_doubt(&judged, pane->doubt, pane->option, pane->result->last_control);
+        ceduo_measure_doubt(&judged, pane->report->doubt, pane->option, pane->report->result->last_control);
     if (!isnan(judged.may_lo)) {
         ceduo_page_write(page, "  %s", _("may be"));
         ceduo_measure_may_be(ceduo_page_text(page), &judged);
@@ -85,7 +86,8 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
     }
     if (blocks && !nothing) { /* years from one dangerous rock to the next: what matters where blocks of all sizes come down */
         ceduo_page_write(page, "%s", _("years apart"));
-        ceduo_words_every(ceduo_page_text(page), wood ? ceduo_hazard_feared(&wood->hazard) : (struct ceduo_rate){.rate = NAN});
+        ceduo_words_every(ceduo_page_text(page),
+                          wood ? ceduo_hazard_feared(&wood->hazard) : (struct ceduo_estimate){.mean = NAN});
         ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&bare->hazard));
     }
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
@@ -112,12 +114,10 @@ static const char *than(enum ceduo_light light, const char *good, const char *ba
     return light == CEDUO_PASS ? good : bad;
 }
 
-/* The option over the years ahead; NULL if they are not known or are all as today. */
+/* The option over the years ahead; NULL also in a year. */
 static const struct ceduo_choice *choice_ahead(const struct ceduo_pane *pane)
 {
-    const struct ceduo_verdict *v = pane->verdict;
-    const struct ceduo_choice *c = v && pane->option < v->n && !pane->year ? &v->choices[pane->option] : NULL;
-    return c && c->over.years > 0 && c->window.kind != CEDUO_WINDOW_ALIKE ? c : NULL;
+    return pane->year ? NULL : ceduo_report_ahead(pane->report, pane->option);
 }
 
 /* Beside the sign of today that of the worst year ahead: fail if the test fails in any. */
@@ -135,10 +135,10 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
 {
     static const struct ceduo_page_column columns[] = {{"", 23, 0, 0}, {"", -1, 1, 0}, {"", -1, 0, 0}};
     const struct ceduo_arrivals *wood = wood_of(pane);
-    const struct ceduo_choice none = {0}, *c = pane->verdict && pane->option < pane->verdict->n
-                                                   ? &pane->verdict->choices[pane->option]
+    const struct ceduo_choice none = {0}, *c = pane->report->verdict && pane->option < pane->report->verdict->n
+                                                   ? &pane->report->verdict->choices[pane->option]
                                                    : &none;
-    double threshold = pane->result->scene->simulation.threshold;
+    double threshold = pane->report->result->scene->simulation.threshold;
     bool gap = index->length > 0 && index->longest_gap > threshold; /* the reason in the page, too */
     CEDUO_PAGE_TABLE_OF(page, columns);
     if (gap)
@@ -153,10 +153,11 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
                      index->worst_free_run <= CEDUO_FREE_RUN_MOST ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MOST * 100);
     add_light(page, pane, index->free_run, c->over.unprotected_free_run, true);
     if (index->energy != CEDUO_UNKNOWN && wood)
-        ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed_probability, wood->limit),
+        ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed.mean, wood->limit),
                          than(index->energy, "\xe2\x89\xa4", ">"), ROUNDED(wood->limit * 100, 3));
     else
-        ceduo_page_write(page, "%s", wood || !pane->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));
+        ceduo_page_write(page, "%s",
+                         wood || !pane->report->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));
     add_light(page, pane, index->energy, c->over.unprotected_energy, c->energy_known);
     if (pane->height >= HEIGHT_ALL && choice_ahead(pane))
         ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
@@ -178,7 +179,7 @@ static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, co
 
 size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
-    const struct ceduo_result *r = pane->result;
+    const struct ceduo_result *r = pane->report->result;
     add_scene(page, pane);
     if (!r) {
         ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
@@ -202,20 +203,19 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
         add_index(page, pane, index);
     }
     const struct ceduo_arrivals *wood = wood_of(pane);
-    ceduo_page_line(page, CEDUO_ROLE_DIM, pane->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
+    ceduo_page_line(page, CEDUO_ROLE_DIM, pane->report->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
                     (unsigned long long)(wood ? wood : &r->bare.arrivals[r->last_control])->released);
-    bool doubt = pane->height >= HEIGHT_ALL && !nothing && pane->doubt && pane->doubt->answer && !pane->year;
+    bool doubt = pane->height >= HEIGHT_ALL && !nothing && pane->report->doubt && pane->report->doubt->answer && !pane->year;
     for (size_t i = 0; i < 3 && doubt; i++) { /* what turns a test within what may be true */
         LOCAL_TEXT(causes);
-        if (ceduo_doubt_causes(&causes, pane->doubt, pane->option, ceduo_doubt_lights[i]))
+        if (ceduo_doubt_causes(&causes, pane->report->doubt, pane->option, ceduo_doubt_lights[i]))
             ceduo_page_line(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]), ceduo_text_string(&causes));
     }
     const struct ceduo_page_block *last = page->last;
-    const struct ceduo_run_remarks remarks = {.ground_assumed = pane->file->ground_assumed};
     size_t warnings = 0;
     ceduo_words_still(r, ceduo_page_warn, page);
     ceduo_page_stand_warnings(page, r, pane->option);
-    ceduo_words_run_warnings(r, &remarks, ceduo_page_warn, page);
+    ceduo_words_run_warnings(r, &pane->report->remarks, ceduo_page_warn, page);
     ceduo_page_stand_rules(page, r, pane->option, true);
     while ((last = last->next))
         warnings++;
@@ -223,6 +223,29 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
 }
 
 /* ---- tables and words of views 4 and 7 ---- */
+
+void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    static const struct ceduo_page_column columns[] = {
+        {N_("ADC"), 10, 0, CEDUO_FILLS}, {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(1)}, {"", -6, 1, CEDUO_FITS}, {"", 1, 1, 0}};
+    const struct ceduo_option *option = &pane->report->result->scene->options[pane->option];
+    double threshold = pane->report->result->scene->simulation.threshold;
+    if (option->belts_count == 0)
+        return;
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_text_format(&page->last->cells[2].text, _("< %s m"), SHORTEST(threshold));
+    for (size_t i = 0; i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        const struct ceduo_stand_result *r = &pane->report->result->options[pane->option].stands[i];
+        LOCAL_TEXT(name);
+        ceduo_plot_belt_name(&name, belt);
+        ceduo_page_mark(page, CEDUO_ROLE_BELT, ceduo_text_string(&name));
+        ceduo_page_write(page, "%s\xe2\x80\x93%s m", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
+        ceduo_page_write(page, isfinite(r->adc_m) ? _("%s m") : "%s", BESIDE(r->adc_m, 3, threshold));
+        ceduo_page_light(page, r->passes_threshold ? CEDUO_PASS : CEDUO_FAIL);
+    }
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+}
 
 static void add_simulated(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
                           const struct ceduo_arrivals *a)
@@ -247,7 +270,7 @@ void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     static const struct ceduo_page_column columns[] = {
         {"", 14, 0, CEDUO_FILLS}, {"", -6, 1, CEDUO_FITS}, {N_("95 %"), -5, 1, CEDUO_FITS}, {"", -7, 2, CEDUO_FITS}};
-    const struct ceduo_result *r = pane->result;
+    const struct ceduo_result *r = pane->report->result;
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control],
                                 *wood = ceduo_result_wooded(r, pane->option, r->last_control);
@@ -268,18 +291,19 @@ void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane)
         add_mean(page, _("measured"), WRITTEN(index->measured * J_TO_KJ, 3));
 }
 
-void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_report *report, size_t option)
+void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
+    const struct ceduo_report *report = pane->report;
     if (report->result->scene->options_count > 1)
-        ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", report->result->scene->options[option].name);
-    ceduo_page_option(page, report, option, true);
+        ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", report->result->scene->options[pane->option].name);
+    ceduo_page_option(page, report, pane->option, true);
     ceduo_words_still(report->result, ceduo_page_warn, page);
     ceduo_words_run_warnings(report->result, &report->remarks, ceduo_page_warn, page);
 }
 
 void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
-    const struct ceduo_doubt_report *r = pane->doubt;
+    const struct ceduo_doubt_report *r = pane->report->doubt;
     if (!r || !r->answer || isnan(ceduo_doubt_main(r, pane->option)->fit.p5))
         return;
     ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);

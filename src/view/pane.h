@@ -11,26 +11,24 @@
  * tables of the views. */
 
 struct ceduo_pane {
-    const struct scene_file *file;          /* as it is now */
-    const struct ceduo_result *result;      /* NULL: nothing is computed yet */
-    const struct ceduo_verdict *verdict;    /* of all options; NULL: not known */
-    struct ceduo_years *const *years;       /* of each option; an item is NULL where it is not known */
-    const struct ceduo_doubt_report *doubt; /* NULL: not known yet; perhaps of the option alone */
-    const struct ceduo_year *year;          /* that the column is of; NULL: today */
+    const struct ceduo_report *report;
+    const struct ceduo_year *year; /* that the column is of; NULL: today */
     size_t option;
     int height; /* lines that are seen at once */
-    bool busy;  /* finer figures are on their way */
 };
 
 /* The column: what arrives with the wood and without, the three tests, what the index says, warnings. Returns how many blocks
  * at its end are warnings. */
 size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane);
 
+/* The ADC of each belt beside the threshold, and a gap; nothing without forest. */
+void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane);
+
 /* The energy that is left at the last control: without forest, by the index, simulated. */
 void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane);
 
 /* All of an option in words, and what is to be said of the run. */
-void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
+void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane);
 
 /* What doubt means for the option: both errors, what to measure first, whether it separates from others, what tests depend on. */
 void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane);

@@ -60,15 +60,16 @@ static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
 /* True if the uncertainty of the mean over the years is known. Then it stands beside that, otherwise today's beside today. */
 static bool knows_rotation(const struct ceduo_pane *pane)
 {
-    return pane->doubt && pane->doubt->answer && pane->doubt->answer->rotation && pane->verdict->wooded;
+    return pane->report->doubt && pane->report->doubt->answer && pane->report->doubt->answer->rotation &&
+           pane->report->verdict->wooded;
 }
 
 /* "296±7 (219–327)": the mean over the years, with its range. */
 static void add_mean(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
 {
-    struct ceduo_measure mean = ceduo_share(pane->verdict->choices[i].mean);
+    struct ceduo_measure mean = ceduo_share(pane->report->verdict->choices[i].mean);
     struct text *text = add_share(page, &mean);
-    ceduo_measure_doubt_over(&mean, pane->doubt, i);
+    ceduo_measure_doubt_over(&mean, pane->report->doubt, i);
     if (!knows_rotation(pane) || isnan(mean.may_lo))
         return;
     ceduo_text_put(text, " (");
@@ -79,18 +80,13 @@ static void add_mean(struct ceduo_page *page, const struct ceduo_pane *pane, siz
 /* With blocks the options are judged by the years from one rock above the limit to the next. */
 static bool has_rates(const struct ceduo_pane *pane)
 {
-    return pane->result->wooded && pane->result->scene->blocks_count > 0 && pane->verdict->accepted;
-}
-
-static struct ceduo_outcome outcome_of(const struct ceduo_pane *pane, size_t i)
-{
-    return ceduo_words_at_last(pane->result, pane->verdict, pane->doubt, i);
+    return pane->report->result->wooded && pane->report->result->scene->blocks_count > 0 && pane->report->verdict->accepted;
 }
 
 static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
 {
-    const struct ceduo_result *r = pane->result;
-    const struct ceduo_verdict *v = pane->verdict;
+    const struct ceduo_result *r = pane->report->result;
+    const struct ceduo_verdict *v = pane->report->verdict;
     const struct ceduo_choice *c = &v->choices[i];
     const struct ceduo_index *index = ceduo_result_last_index(r, i);
     const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);
@@ -98,19 +94,19 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], a);
     const struct ceduo_measure today = ceduo_share(c->today); /* its error is right where rocks have weights, too */
     if (has_rates(pane))
-        ceduo_words_every(ceduo_page_text(page), a ? ceduo_hazard_feared(&a->hazard) : (struct ceduo_rate){.rate = NAN});
+        ceduo_words_every(ceduo_page_text(page), a ? ceduo_hazard_feared(&a->hazard) : (struct ceduo_estimate){.mean = NAN});
     else if (v->wooded)
         add_share(page, &today);
     else
         ceduo_page_write(page, "%s", BESIDE(index->worst_adc, 3, r->scene->simulation.threshold));
     struct text *may_be = ceduo_page_text(page);
-    ceduo_measure_doubt(&judged, pane->doubt, i, r->last_control);
+    ceduo_measure_doubt(&judged, pane->report->doubt, i, r->last_control);
     if (!isnan(judged.may_lo) && !knows_rotation(pane) && !has_rates(pane))
         ceduo_measure_may_be(may_be, &judged);
     if (has_rates(pane) && c->over.years == 0)
         ceduo_page_write(page, PENDING);
     else if (has_rates(pane))
-        ceduo_words_years(ceduo_page_text(page), outcome_of(pane, i).rate);
+        ceduo_words_years(ceduo_page_text(page), ceduo_report_outcome(pane->report, i, r->last_control).rate);
     else if (v->wooded)
         add_mean(page, pane, i);
     else
@@ -122,7 +118,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
         ceduo_page_write(page, "%s (%u)", WRITTEN(1 / (c->worst.mean * r->bare.arrivals[r->last_control].hazard.per_year), 2),
                          c->over.worst_year);
         LOCAL_TEXT(decision);
-        ceduo_words_decision(&decision, outcome_of(pane, i).answer);
+        ceduo_words_decision(&decision, ceduo_report_outcome(pane->report, i, r->last_control).answer);
         ceduo_page_write(page, "%s", ceduo_text_string(&decision));
     } else {
         if (v->wooded)
@@ -142,12 +138,12 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     ceduo_page_light(page, index->contact);
     ceduo_page_light(page, index->free_run);
     ceduo_page_light(page, index->energy);
-    add_years(page, v->wooded ? pane->years[i] : NULL);
+    add_years(page, v->wooded ? pane->report->ahead[i] : NULL);
 }
 
 static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
-    const struct ceduo_result *r = pane->result;
+    const struct ceduo_result *r = pane->report->result;
     struct ceduo_page_cell *heads = page->last->cells;
     ceduo_text_put(&heads[TODAY].text, r->wooded ? _("today") : _("ADC m"));
     ceduo_text_put(&heads[MEAN].text, r->wooded ? _("mean") : _("kJ/100 m"));
@@ -156,13 +152,13 @@ static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
         return;
     if (knows_rotation(pane))
         ceduo_text_format(&heads[MEAN].text, ", %s", _("may be"));
-    else if (pane->doubt && pane->doubt->answer)
+    else if (pane->report->doubt && pane->report->doubt->answer)
         ceduo_text_put(&heads[MAY_BE].text, _("may be"));
 }
 
 void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, size_t first, size_t rows)
 {
-    const struct ceduo_result *r = pane->result;
+    const struct ceduo_result *r = pane->report->result;
     const struct ceduo_control *control = &r->scene->controls[r->last_control];
     struct ceduo_measure judged = ceduo_judged(control, NULL);
     LOCAL_TEXT(name);
@@ -176,7 +172,7 @@ void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, 
         ceduo_page_say(page, CEDUO_PAGE_TITLE, _("At %s m"), ROUNDED(control->x_given, 6));
     ceduo_page_table(page, columns, COLUMNS);
     add_heads(page, pane);
-    for (size_t i = first; i < pane->verdict->n && i < first + rows; i++)
+    for (size_t i = first; i < pane->report->verdict->n && i < first + rows; i++)
         add_option(page, pane, i);
 }
 
@@ -184,8 +180,8 @@ void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, 
 
 void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
-    const struct ceduo_result *r = pane->result;
-    const struct ceduo_verdict *v = pane->verdict;
+    const struct ceduo_result *r = pane->report->result;
+    const struct ceduo_verdict *v = pane->report->verdict;
     if (r->scene->blocks_count > 0 && r->scene->controls_count > 0)
         ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, r->last_control);
     if (v->n < 2) {
@@ -193,8 +189,8 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);
-        for (size_t i = 0; knows_rotation(pane) && i < ceduo_doubt_verdict(pane->doubt->answer)->count; i++)
-            ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->doubt, i);
+        for (size_t i = 0; knows_rotation(pane) && i < ceduo_doubt_verdict(pane->report->doubt->answer)->count; i++)
+            ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->doubt, i);
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);
         if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
@@ -208,7 +204,7 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_note(page, _(ceduo_words_unjudged));
     if (!r->wooded)
         ceduo_page_note(page, _(ceduo_words_by_index));
-    if (pane->busy)
+    if (pane->report->busy)
         ceduo_page_note(page, _("Computing: the figures become finer."));
     if (v->n > 1 && r->wooded && v->accepted && !has_rates(pane))
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 bring too much."),

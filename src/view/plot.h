@@ -51,7 +51,6 @@ struct ceduo_picture {
  *   to the right, where the area has room.
  * histogram: how the energies of the rocks that reach the control are spread, through the forest (bars) and without
  *   (marks); with the contact model index without forest alone.
- * adc: the four rules of the ADC for each of the option's belts, beside the threshold.
  * rotation: the option over the years: ADC, how many bring too much energy, the lights, the cuts, on one axis.
  * stand: a stand from above, to scale, with the strip that the rock clears. One pattern of many: the same for the same
  *   stand. Where the selected rock came to stems of this belt, those instead, around the last of them: to scale along
@@ -68,7 +67,6 @@ struct ceduo_picture {
     X(ENERGY, energy, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("energy of the rocks"))                                 \
     X(HEIGHT, height, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("height of the rocks above the ground"))                \
     X(HISTOGRAM, histogram, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_PAGE, N_("energy at %s"))                                   \
-    X(ADC, adc, CEDUO_PICTURE_PAGE, N_("average distance between contacts, m"))                                                \
     X(ROTATION, rotation, CEDUO_PICTURE_RUN, N_("year by year, up to %s"))                                                     \
     X(STAND, stand, 0, N_("%s, from above"))                                                                                   \
     X(COMPARE, compare, CEDUO_PICTURE_OF_ALL | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))                       \

@@ -56,23 +56,15 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement);
 void ceduo_words_because(struct text *text, const struct ceduo_result *result, size_t control,
                          const struct ceduo_arrivals *wooded); /* NULL: not known */
 
-/* An option at a control, and what is known of it. */
-struct ceduo_doubt_report;
+/* An option at a control. */
+struct ceduo_report;
 struct ceduo_subject {
-    const struct ceduo_result *result;
-    const struct ceduo_verdict *verdict;    /* may be NULL: today alone */
-    const struct ceduo_doubt_report *doubt; /* may be NULL */
+    const struct ceduo_report *report;
     size_t option, control;
     bool apart;  /* the caller shows mean, worst year and today elsewhere */
     bool so_far; /* the uncertainty is still being computed */
 };
 
-/* What is said of it, see ceduo_outcome_of(). */
-struct ceduo_outcome ceduo_words_outcome(const struct ceduo_subject *subject);
-
-/* The same at the last control, from the report's parts. */
-struct ceduo_outcome ceduo_words_at_last(const struct ceduo_result *result, const struct ceduo_verdict *verdict,
-                                         const struct ceduo_doubt_report *doubt, size_t option);
 const char *ceduo_words_decided(enum ceduo_judgement judgement);              /* "NO", translated; not of CEDUO_UNANSWERED */
 void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement); /* "✘ NO"; nothing where it is not answered */
 
@@ -118,8 +110,8 @@ void ceduo_words_counted(struct text *text, uint64_t rocks);
 
 /* How often what is feared at a control happens, in one sentence; "13" and "13 (9–14)" years. */
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
-void ceduo_words_every(struct text *text, struct ceduo_rate rate);
-void ceduo_words_years(struct text *text, struct ceduo_rate rate);
+void ceduo_words_every(struct text *text, struct ceduo_estimate rate);
+void ceduo_words_years(struct text *text, struct ceduo_estimate rate);
 
 /* Why energy is not judged; why options cannot be compared by what arrives. Marked for translation. */
 extern const char *const ceduo_words_unjudged, *const ceduo_words_by_index;

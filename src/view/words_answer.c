@@ -6,7 +6,7 @@
 #include "base/utf8.h"
 #include "measure.h"
 #include "plot_parts.h"
-#include "report_doubt.h"
+#include "report.h"
 #include "words.h"
 
 /* What files and people call it. */
@@ -102,8 +102,8 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
                           SHORTEST(ceduo_words_accepted(c)), ceduo_text_string(&years), SHORTEST(ceduo_accepted_return(c)));
     } else {
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
-                          WRITTEN_OF_1000(shown->exceed_probability, shown->exceed_lo, shown->exceed_hi),
-                          ceduo_words_accepted(c), CEDUO_EXCEED_MOST * 1000);
+                          WRITTEN_OF_1000(shown->exceed.mean, shown->exceed.lo, shown->exceed.hi), ceduo_words_accepted(c),
+                          CEDUO_EXCEED_MOST * 1000);
     }
     if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
         ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."),
@@ -116,20 +116,9 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
 
 /* ---- in one line ---- */
 
-static const struct ceduo_doubt_answer *answer_of(const struct ceduo_doubt_report *doubt)
+struct ceduo_outcome ceduo_report_outcome(const struct ceduo_report *report, size_t option, size_t control)
 {
-    return doubt ? doubt->answer : NULL;
-}
-
-struct ceduo_outcome ceduo_words_outcome(const struct ceduo_subject *s)
-{
-    return ceduo_outcome_of(s->result, s->verdict, answer_of(s->doubt), s->option, s->control);
-}
-
-struct ceduo_outcome ceduo_words_at_last(const struct ceduo_result *r, const struct ceduo_verdict *verdict,
-                                         const struct ceduo_doubt_report *doubt, size_t option)
-{
-    return ceduo_words_outcome(&(const struct ceduo_subject){r, verdict, doubt, option, r->last_control, false, false});
+    return ceduo_outcome_of(report->result, report->verdict, report->doubt ? report->doubt->answer : NULL, option, control);
 }
 
 const char *ceduo_words_decided(enum ceduo_judgement judgement)
@@ -166,16 +155,17 @@ static void say_count(struct text *text, const struct ceduo_outcome *o)
 /* True if a cut is due and changes the answer. */
 static bool is_due(const struct ceduo_subject *s, const struct ceduo_outcome *o)
 {
-    const struct ceduo_choice *c = s->verdict && s->option < s->verdict->n ? &s->verdict->choices[s->option] : NULL;
+    const struct ceduo_verdict *v = s->report->verdict;
+    const struct ceduo_choice *c = v && s->option < v->n ? &v->choices[s->option] : NULL;
     return o->ahead && c && c->cut > 0 && o->today != o->answer && !o->impossible;
 }
 
 /* Over the years: in how many the limit is exceeded, and by how much. */
 static void say_years(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o, enum length length)
 {
-    const struct ceduo_choice *c = &s->verdict->choices[s->option];
+    const struct ceduo_choice *c = &s->report->verdict->choices[s->option];
     const struct ceduo_years_summary *over = &c->ahead[s->control];
-    const struct ceduo_result *r = s->result;
+    const struct ceduo_result *r = s->report->result;
     const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, s->option, s->control);
     const struct ceduo_measure m = ceduo_judged(&r->scene->controls[s->control], wooded);
     const char *limit = SHORTEST(m.limit);
@@ -212,8 +202,8 @@ static void say_years(struct text *text, const struct ceduo_subject *s, const st
 /* With blocks: how often, beside what is accepted. */
 static void say_rate(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o, enum length length)
 {
-    const struct ceduo_control *c = &s->result->scene->controls[s->control];
-    const struct ceduo_arrivals *wooded = ceduo_result_wooded(s->result, s->option, s->control);
+    const struct ceduo_control *c = &s->report->result->scene->controls[s->control];
+    const struct ceduo_arrivals *wooded = ceduo_result_wooded(s->report->result, s->option, s->control);
     LOCAL_TEXT(years);
     LOCAL_TEXT(today);
     ceduo_words_years(&years, o->rate);
@@ -225,7 +215,7 @@ static void say_rate(struct text *text, const struct ceduo_subject *s, const str
     if (length <= MIDDLE)
         ceduo_text_format(text, _(" (accepted: %s)"), SHORTEST(ceduo_accepted_return(c)));
     if (length == FULL && o->ahead)
-        ceduo_text_format(text, _(", mean of %zu years"), s->verdict->choices[s->option].ahead[s->control].years);
+        ceduo_text_format(text, _(", mean of %zu years"), s->report->verdict->choices[s->option].ahead[s->control].years);
     if (length > SHORT || !o->ahead || !wooded)
         return;
     ceduo_words_every(&today, ceduo_hazard_feared(&wooded->hazard));
@@ -262,12 +252,12 @@ static void say_shares(struct text *text, const struct ceduo_measure *m, const s
 /* What follows the verdict, in so many columns; nothing where it has no room. */
 static void say_reason(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o, size_t width)
 {
-    const struct ceduo_result *r = s->result;
+    const struct ceduo_result *r = s->report->result;
     const struct ceduo_control *c = &r->scene->controls[s->control];
     const struct ceduo_arrivals *bare = &r->bare.arrivals[s->control], *wooded = ceduo_result_wooded(r, s->option, s->control);
     struct ceduo_measure m = ceduo_judged(c, wooded ? wooded : bare), without = ceduo_judged(c, bare);
     if (wooded)
-        ceduo_measure_doubt(&m, s->doubt, s->option, s->control);
+        ceduo_measure_doubt(&m, s->report->doubt, s->option, s->control);
     const char *left = WRITTEN(r->options[s->option].controls[s->control].residual * J_TO_KJ, 3);
     const char *mean = WRITTEN(bare->energy.mean * J_TO_KJ, 3);
     for (enum length i = FULL; i < LENGTHS; i++) {
@@ -284,7 +274,7 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, const s
                               i == FULL ? _("the index leaves %s of %s kJ in the mean; it knows no single rocks")
                                         : _("the index leaves %s of %s kJ"),
                               left, mean);
-        else if (r->scene->blocks_count > 0 && !isnan(o->rate.rate))
+        else if (r->scene->blocks_count > 0 && !isnan(o->rate.mean))
             say_rate(text, s, o, i);
         else if (o->answer == CEDUO_YES && o->also_bare)
             say_shares(text, &without, NULL, i);
@@ -300,7 +290,7 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, const s
 
 void ceduo_words_reason(struct text *text, const struct ceduo_subject *s)
 {
-    const struct ceduo_outcome o = ceduo_words_outcome(s);
+    const struct ceduo_outcome o = ceduo_report_outcome(s->report, s->option, s->control);
     LOCAL_TEXT(reason);
     say_reason(&reason, s, &o, SIZE_MAX);
     ceduo_text_format(text, "%s.", ceduo_text_string(&reason));
@@ -308,7 +298,7 @@ void ceduo_words_reason(struct text *text, const struct ceduo_subject *s)
 
 void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t width)
 {
-    const struct ceduo_outcome o = ceduo_words_outcome(s);
+    const struct ceduo_outcome o = ceduo_report_outcome(s->report, s->option, s->control);
     LOCAL_TEXT(verdict);
     LOCAL_TEXT(reason);
     LOCAL_TEXT(place);
@@ -326,8 +316,8 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
     if (o.answer == CEDUO_YES && o.also_bare)
         ceduo_text_put(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
-    if (s->result->scene->controls_count > 1) { /* which of them it is about */
-        ceduo_plot_control_name(&place, &s->result->scene->controls[s->control]);
+    if (s->report->result->scene->controls_count > 1) { /* which of them it is about */
+        ceduo_plot_control_name(&place, &s->report->result->scene->controls[s->control]);
         ceduo_text_put(&place, ": ");
         if (ceduo_utf8_width(place.bytes) + taken <= width) {
             ceduo_text_put(text, place.bytes);

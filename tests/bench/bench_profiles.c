@@ -14,13 +14,11 @@
 #include <string.h>
 
 #include "frame.h"
-#include "physics/line_scene.h"
 
 #define VERTICES_MOST 4000000
 #define KINDS         6
 #define MOVED         1e-3 /* m */
-#define WAVES         40   /* of the rough profile, from 40 m to its two finest segments */
-#define STEEPNESS     0.15 /* of each wave */
+#define STEEPNESS     0.15 /* of each wave of the rough profile */
 
 struct profile {
     const char *name;
@@ -46,19 +44,6 @@ static void move_vertices(struct ceduo_slope *s)
     }
 }
 
-/* Waves of all lengths, each as steep as the others. */
-static void roughen(struct ceduo_slope *s)
-{
-    struct line_random r = {.state = 2};
-    double end = s->x[s->vertices - 1], longest = 40, shortest = 2 * end / (double)(s->vertices - 1);
-    for (size_t w = 0; w < WAVES; w++) {
-        double length = longest * pow(shortest / longest, (double)w / (WAVES - 1));
-        double phase = line_uniform(&r, 0, 6.283), k = 6.283 / length;
-        for (size_t i = 1; i + 1 < s->vertices; i++)
-            s->z[i] += STEEPNESS / k * sin(k * s->x[i] + phase);
-    }
-}
-
 static void make_profiles(struct profile *p, const struct ceduo_slope *paper, size_t vertices)
 {
     p[0] = (struct profile){"13-segments", *paper};
@@ -69,7 +54,7 @@ static void make_profiles(struct profile *p, const struct ceduo_slope *paper, si
     p[4] = (struct profile){"rough", slope_cut(paper, vertices / 10)};
     p[5] = (struct profile){"rough", slope_cut(paper, vertices / 100)};
     for (size_t i = 3; i < KINDS; i++)
-        roughen(&p[i].slope);
+        roughen_slope(&p[i].slope, STEEPNESS);
 }
 
 /* ---- measuring ---- */

@@ -63,6 +63,38 @@ struct ceduo_run *fly_run(const struct ceduo_run_def *def, uint64_t rocks)
     return run;
 }
 
+/* ---- slopes ---- */
+
+#define WAVES 40
+
+void roughen_slope(struct ceduo_slope *s, double steepness)
+{
+    struct line_random r = {.state = 2};
+    double end = s->x[s->vertices - 1], longest = 40, shortest = 2 * end / (double)(s->vertices - 1);
+    for (size_t w = 0; w < WAVES; w++) {
+        double length = longest * pow(shortest / longest, (double)w / (WAVES - 1));
+        double phase = line_uniform(&r, 0, 6.283), k = 6.283 / length;
+        for (size_t i = 1; i + 1 < s->vertices; i++)
+            s->z[i] += steepness / k * sin(k * s->x[i] + phase);
+    }
+}
+
+struct ceduo_slope fine_slope(const struct ceduo_segment *ground, double metres, size_t vertices)
+{
+    struct ceduo_slope s = slope_new(vertices);
+    for (size_t i = 0; i < vertices; i++) {
+        double left = 1 - (double)i / (double)(vertices - 1);
+        s.x[i] = metres * (1 - left);
+        s.z[i] = metres * left * (0.75 + 0.1 * left);
+        if (i + 1 < vertices)
+            s.segments[i] = *ground;
+    }
+    roughen_slope(&s, 0.03);
+    return s;
+}
+
+/* ---- the plain walk ---- */
+
 struct ceduo_rock plain_rock(const struct paper_site *site)
 {
     struct ceduo_rock rock;

@@ -30,6 +30,12 @@ void timing_end(struct timing *t, size_t repeat);
 void read_scene(struct scene_file *file, const char *path);
 struct ceduo_run *fly_run(const struct ceduo_run_def *def, uint64_t rocks);
 
+/* Lay waves of all lengths over a slope, from 40 m to its two finest segments, each of this steepness. */
+void roughen_slope(struct ceduo_slope *s, double steepness);
+
+/* A slope of one ground, `metres` long, steep above and gentle below, with such waves. The caller frees it by slope_free(). */
+struct ceduo_slope fine_slope(const struct ceduo_segment *ground, double metres, size_t vertices);
+
 /* The paper's site for the plain walk, the means of its rock, and what energy it crosses the control with. Facets are drawn one after
  * another from one generator, the context. */
 struct slow_def plain_site(const struct paper_site *site, struct slow_segment segments[PAPER_SEGMENTS]);

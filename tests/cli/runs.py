@@ -31,7 +31,7 @@ ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUM
 INDEX = {"dissipated_kJ": MAYBE, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL, "measured_kJ": MAYBE}
 WOODED = {**ARRIVALS, "contacts": PAIR}
 OTHER = {"model": TEXT, "rocks": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER, "exceed_probability": MAYBE,
-         "exceed_lo": MAYBE, "exceed_hi": MAYBE, "energy_kJ": PAIR, "energy_kJ_mean": MAYBE,
+         "exceed_lo": MAYBE, "exceed_hi": MAYBE, "energy_kJ": PAIR,
          "verdict": {"answer": TEXT_OR_NULL}}  # null without stems
 TOPOGRAPHY = {"reach_angle_deg": NUMBER, "shadow_angle_deg": MAYBE}
 CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "topography": TOPOGRAPHY,

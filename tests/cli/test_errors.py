@@ -456,7 +456,7 @@ CASES = {
     "--rocks requires --batch": Words("-n", "5", "@"),
     "the terminal program opens one scene; --batch takes several": Words("@", "@"),
     "--list-profiles takes no scene: 'mine.yaml'": Words("--list-profiles", "mine.yaml"),
-    "standard input can be read only once": Words("--batch", "-", "-"),
+    "standard input can be read only once; name a file for the scene": Words("--batch", "-", "-"),
     "unknown or ambiguous option '--xyz'": Words("--xyz"),
     "'--plain' is gone: shares and means are always as counted; leave it out": Words("--plain", "x.yaml"),
     "'--shard' is gone: a scene is computed at once; ...": lambda row: [
@@ -466,16 +466,17 @@ CASES = {
     "--format: 'xml' is unknown; one of: table, csv, json": Words("--batch", "-f", "xml", "@"),
     "--rows: 'x' is unknown; one of: controls, stands": Words("--batch", "--rows", "x", "@"),
     "--plot: 'x' is unknown; one of: profile, energy, ...": Words("--plot", "x", "@"),
+    "--plot: 'adc' is gone: the page of --details has the ADC of each belt": Words("--plot", "adc", "@"),
     "--charset: 'x' is unknown; one of: braille, block, ascii": Words("--charset", "x", "@"),
     "--rocks: '1.5' is not a whole number": Words("--batch", "-n", "1.5", "@"),
     "--rocks: with blocks each rock is kept: at most 1048576 rocks": Words(
         "--batch", "-n", "1048577", "-s", "blocks=[{per_year: 1, volume_m3: [1, 2]}]", "@"),
     "--rocks: 0 is outside 1 to 10000000": Words("--batch", "-n", "0", "@"),
-    "--tolerance: 1 must lie above 0 and below 1": lambda row: (
-        Words("--batch", "-e", "1", "@")(row), Words("--batch", "-e", "0", "@")(row.replace("1 must", "0 must"))),
-    "--size: '80' is not a size; write COLUMNSxLINES, such as 80x24": Words("--plot", "adc", "--size", "80", "@"),
-    "--size: 10x5 is outside 20x6 to 1000x500": Words("--plot", "adc", "--size", "10x5", "@"),
-    "--years: '5' is not a range of years; write A:B or A:B:STEP, such as 0:25": Words("--years", "5", "@"),
+    "--tolerance: 1 is not a share; write a number between 0 and 1, such as 0.05 for 5 %": lambda row: (
+        Words("--batch", "-e", "1", "@")(row), Words("--batch", "-e", "0", "@")(row.replace("1 is", "0 is"))),
+    "--size: '80' is not COLUMNSxLINES, such as '80x24'": Words("--plot", "stand", "--size", "80", "@"),
+    "--size: 10x5 is outside 20x6 to 1000x500": Words("--plot", "stand", "--size", "10x5", "@"),
+    "--years: '5' is not A:B[:STEP], such as '0:25'": Words("--years", "5", "@"),
     "--years: 0:5000: expected at most 1000 years of 0 (the stand as filed) to 100000": lambda row: [
         Words(f"--years={words}", "@")(row.replace("0:5000", words)) for words in ("0:5000", "-5:-1", "9:1", "5:100001")],
     "--find: 'x' is not PATH=LO:HI, such as ...": Words("--find", "x", "--goal", "adc", "@"),
@@ -483,12 +484,12 @@ CASES = {
     "--find requires --goal": Words("--find", "a=1:9", "@"),
     "--goal: 'x' is unknown; one of: adc, free-run, energy, exceed": Words("--find", "a=1:9", "--goal", "x", "@"),
     "--goal: 'energy' needs a value, such as energy=50": Words("--find", "a=1:9", "--goal", "energy", "@"),
-    "--goal: 5 is not a share; write 0 to 1, such as 0.05 for 5 %": lambda row: (
+    "--goal: 5 is not a share; write a number between 0 and 1, such as 0.05 for 5 %": lambda row: (
         Words("--find", "a=1:9", "--goal", "exceed=5", "@")(row),
         Words("--find", "a=1:9", "--goal", "free-run=2", "@")(row.replace("5 is", "2 is"))),
     "--goal requires --find": Words("--batch", "--goal", "adc", "@"),
     "--sure requires --find": Words("--batch", "--sure", 0.9, "@"),
-    "--sure: 90 is not a share; write 0.9 for nine of ten cases": Words("--find", "a=1:9", "--goal", "adc", "--sure", 90, "@"),
+    "--sure: 90 is not a share; write a number between 0 and 1, such as 0.05 for 5 %": Words("--find", "a=1:9", "--goal", "adc", "--sure", 90, "@"),
     "--sure: over a rotation the mean energy is not known at each point; ...": Words(
         "--find", "options[0].forest[0].stand.cutting.rotation_years=10:30", "--goal", "energy=10", "--years", "--sure", 0.9, "--option",
         "coppice with standards", "four-systems", start="--sure: "),
@@ -497,7 +498,7 @@ CASES = {
     "--report: 'other.yaml' does not end in .html or .htm; name the page, or - for standard output, then the scenes: ...":
         Words("--report", "other.yaml", "@"),
     "--size requires --plot": Words("--batch", "--size", "80x24", "@"),
-    "--plot cannot be used with --format csv": Words("--plot", "adc", "-f", "csv", "@"),
+    "--plot cannot be used with --format csv": Words("--plot", "stand", "-f", "csv", "@"),
     "--option: no option 'x' in mine.yaml; it has: 'current'": lambda row: [
         Words(*words, "--option", "x", "@")(row.replace("mine", "scene")) for words in (
             ("--batch",), ("--check",), ("--find", "rock.diameter_m=1:2", "--goal", "adc"))],
@@ -522,17 +523,17 @@ CASES = {
                                                                   forbidden="out.csv", status=OUTPUT, start="out.csv: "),
     "--check cannot be used with --format": lambda row: [
         Words(*mode, *words, "@")(row.replace("--check", mode[0]).replace("--format", f"--{name}")) for mode, name, words in (
-            (("--find", "a=1:9", "--goal", "adc"), "plot", ("--plot", "adc")), (("--find", "a=1:9", "--goal", "adc"), "tolerance", ("-e", 0.1)),
-            (("--report", "x.html"), "format", ("-f", "json")), (("--report", "x.html"), "plot", ("--plot", "adc")),
+            (("--find", "a=1:9", "--goal", "adc"), "plot", ("--plot", "stand")), (("--find", "a=1:9", "--goal", "adc"), "tolerance", ("-e", 0.1)),
+            (("--report", "x.html"), "format", ("-f", "json")), (("--report", "x.html"), "plot", ("--plot", "stand")),
             (("--sensitivity",), "tolerance", ("-e", 0.1)), (("--calibrate", "a=1:2"), "option", ("--option", "x")))] + [
         Words("--check", *words, "@")(row.replace("--format", f"--{name}")) for name, words in (
-            ("format", ("-f", "json")), ("rocks", ("-n", 5)), ("output", ("-o", "x")), ("plot", ("--plot", "adc")),
+            ("format", ("-f", "json")), ("rocks", ("-n", 5)), ("output", ("-o", "x")), ("plot", ("--plot", "stand")),
             ("find", ("--find", "a=1:2", "--goal", "adc")), ("tolerance", ("-e", 0.1)), ("years", ("--years", "0:2")),
             ("script", ("--script", "x")), ("charset", ("--charset", "ascii")), ("rows", ("--rows", "stands")))],
     "--rows requires --format csv": lambda row: [
         Words("--batch", "--rows", "stands", *words, "@")(row) for words in ((), ("-f", "json"))],
     "--charset requires --plot": Words("--batch", "--charset", "ascii", "@"),
-    "--script cannot be used with --batch": Words("--batch", "--script", "x", "@"),
+    "--batch cannot be used with --script": Words("--batch", "--script", "x", "@"),
     "--years requires --plot rotation|tradeoff": Words("--years", "0:5", "--plot", "profile", "@"),
 }
 

@@ -189,7 +189,7 @@ def test_names_in_every_mode():
             run("--batch", "-f", form, "-o", f"{NASTY}/x", name, status=OUTPUT)
             for goal, scenes in (("adc=30", [name]), ("adc=30", [name, name]), ("adc=0.001", [name])):
                 run("--find", f"{path}=500:5000", "--goal", goal, "-f", form, *scenes, status=DONE)
-        for plot in ("profile", "energy", "height", "histogram", "adc", "rotation", "stand", "compare"):
+        for plot in ("profile", "energy", "height", "histogram", "rotation", "stand", "compare"):
             run("--plot", plot, name, status=DONE)
         for words in (("--check", f"{NASTY}0"), ("--script", f"{NASTY}0", name)):
             run(*words, status=INPUT)

@@ -268,7 +268,7 @@ def test_texts_of_files():
 
 def test_pictures():
     """Pictures have the same shape in both languages"""
-    for what in ("profile", "energy", "height", "histogram", "adc", "stand", "compare"):
+    for what in ("profile", "energy", "height", "histogram", "stand", "compare"):
         english, italian = both("--plot", what, "-n", 50, "--option", "coppice with standards", FOUR)
         expect_width(italian)
         expect_equal(len(italian.splitlines()), len(english.splitlines()), what)

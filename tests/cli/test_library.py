@@ -146,7 +146,7 @@ def test_exports():
 def test_version():
     """pkg-config knows the version of the library"""
     with Library() as place:
-        wanted = re.search(r'CEDUO_VERSION "(.*)"', (ROOT / "include/ceduo/version.h").read_text())[1]
+        wanted = re.search(r'CEDUO_VERSION "(.*)"', (ROOT / "include/ceduo/status.h").read_text())[1]
         expect_equal(place.flags("--modversion"), [wanted])
 
 

@@ -312,34 +312,10 @@ def test_a_survey_that_asks():
             given.lacks("How is the survey").has(f"{per_ha:.4g}")
 
 
-def test_starts():
-    """p in view 3 takes over the rock of another scene, or how it starts but not where, each as one edit that u takes back"""
-    with Place() as place:
-        list_, rock, start, undone, saved = place.play("""resize 120 50
-            key 3
-            key p
-            dump
-            type rock quarry
-            key Enter
-            dump
-            key p
-            type start quarry
-            key Enter
-            dump
-            key u u
-            dump
-            key Ctrl-R Ctrl-R s
-            dump""")
-        text = place.text("fast.yaml")
-        check_good(place.path, "fast.yaml")
-    list_.has("rock: ", "start: ", "quarry")
-    for name, value in (("shape", "block"), ("axes, m", "0.9 0.7 0.6"), ("diameter, m", None)):
-        found = re.search(rf"^{name} +(.*?)[*]?$", rock.body, re.M)
-        expect_equal(found and found.group(1), value, name)
-    for name, value in (("x, m", "-"), ("height, m", "2"), ("speed along, m/s", "0.5")):
-        expect(re.search(rf"^{name} +{re.escape(value)}[*]?$", start.body, re.M), f"{name} {value}", start)
-    expect(re.search(r"^shape +sphere$", undone.body, re.M) and re.search(r"^speed along, m/s +1$", undone.body, re.M), undone)
-    expect("axes_m" in text and "x_m: 0" not in text.split("slope:")[0], text)
+def test_presets_in_view_3():
+    """p in view 3 lists stands, as in the other views, and no rock of another scene"""
+    list_, = fast("resize 120 50\nkey 3\nkey p\ndump")
+    list_.has("Stand of belt 1, now 'upper'").lacks("rock: ", "start: ")
 
 
 def test_picker():

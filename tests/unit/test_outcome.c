@@ -9,7 +9,7 @@
 #include "expect.h"
 #include "study/verdict.h"
 #include "test.h"
-#include "view/report_doubt.h"
+#include "view/report.h"
 #include "view/words.h"
 
 static struct ceduo_scene scene;
@@ -32,10 +32,10 @@ static void set_share(struct ceduo_arrivals *a, double share, double lo, double 
 {
     *a = (struct ceduo_arrivals){.released = 1000,
                                  .reached = 900,
-                                 .reach_probability = .9,
-                                 .exceed_probability = share,
-                                 .exceed_lo = lo,
-                                 .exceed_hi = hi,
+                                 .reach.mean = .9,
+                                 .exceed.mean = share,
+                                 .exceed.lo = lo,
+                                 .exceed.hi = hi,
                                  .limit = .05};
     a->hazard.per_year = NAN;
 }
@@ -158,7 +158,7 @@ TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
                 {.005, .009, .002, .005, CEDUO_YES},    {.0101, .02, .0051, .01, CEDUO_NO},
                 {.0101, .02, .0049, .01, CEDUO_DEPENDS}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        years.rate = (struct ceduo_rate){(rows[i].lo + rows[i].hi) / 2, rows[i].lo, rows[i].hi};
+        years.rate = (struct ceduo_estimate){(rows[i].lo + rows[i].hi) / 2, NAN, rows[i].lo, rows[i].hi};
         set_range(CEDUO_DOUBT_MEAN, rows[i].p5, rows[i].p95);
         assert_int_equal(judge(true).answer, rows[i].answer);
     }
@@ -167,7 +167,8 @@ TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
 /* No forest holds so much, so it supports no yes; a no stands. */
 TEST_WITH(an_impossible_stand_supports_no_yes, open_site, NULL)
 {
-    const struct ceduo_subject subject = {&result, &verdict, NULL, 0, 0, false, false};
+    const struct ceduo_report report = {.result = &result, .verdict = &verdict};
+    const struct ceduo_subject subject = {.report = &report};
     LOCAL_TEXT(text);
     stand.warnings = CEDUO_WARN_BASAL_AREA;
     set_failing(0, 0, 0);
@@ -194,7 +195,8 @@ static void expect_words(const struct ceduo_subject *subject, size_t width, cons
 
 TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
 {
-    struct ceduo_subject subject = {&result, &verdict, NULL, 0, 0, false, false};
+    const struct ceduo_report report = {.result = &result, .verdict = &verdict};
+    struct ceduo_subject subject = {.report = &report};
     set_failing(17, 15, 19);
     expect_words(
         &subject, 200,

@@ -112,8 +112,8 @@ static const struct {
                {"shoots", &s.shoots.per_ha},
                {"stools", &s.belts[0].stand.stools_per_ha},
                {"accepted", &s.controls[0].accepted},
-               {"bare-exceed", &s.arrivals[0].exceed_probability},
-               {"wood-exceed", &s.wood_arrivals[0].exceed_probability},
+               {"bare-exceed", &s.arrivals[0].exceed.mean},
+               {"wood-exceed", &s.wood_arrivals[0].exceed.mean},
                {"peak", &s.envelopes[2].height.max},
                {"wood-peak", &s.wood_envelopes[2].height.p95}};
 static const struct {
@@ -174,10 +174,6 @@ static void change(const char *word)
         for (int i = 0; i < 1000; i++)
             many[i] = i < 997 ? 1e3 * (i % 50) : 1e6;
         s.energies[0] = (struct ceduo_energies){1000, many};
-    } else if (strcmp(word, "six-belts") == 0) {
-        for (int i = 0; i < 6; i++)
-            belts[i] = s.belts[i % 2];
-        set_belts(6);
     } else if (strcmp(word, "three-belts") == 0) { /* the second is short, the third bare */
         const double ends[3][2] = {{s.belts[0].from, 45}, {60, 70}, {70, 90}};
         for (int i = 0; i < 3; i++) {
@@ -193,7 +189,7 @@ static void change(const char *word)
 
 TEST(pictures_show_what_they_should)
 {
-    const char *plots = "profile|strips|histogram|adc|compare|stand";
+    const char *plots = "profile|strips|histogram|compare|stand";
     for (char section[64]; next_word(&plots, section);)
         for (TABLE(row, "unit/plots.txt", section)) {
             char words[128], name[16], charset[8], *rest = words;
@@ -540,7 +536,6 @@ TEST_BARE(titles_name_what_is_shown)
         {"kept: energy of the rocks", ", without forest"},
         {"kept: height of the rocks above the ground", ", without forest"},
         {"kept: energy at path (40 m)", ", without forest"},
-        {"kept: average distance between contacts, m", ""},
         {"kept: year by year, up to path (40 m)", ""},
         {"kept: coppice, from above", ""},
         {"Options side by side, up to path (40 m)", ""},

@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "base/grow.h"
+#include "base/must.h"
 #include "ceduo/key.h"
 #include "ceduo/other.h"
 #include "check.h"

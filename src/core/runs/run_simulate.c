@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cancel.h"
 #include "base/parallel.h"
 #include "core/walk/walk.h"
 #include "run_state.h"

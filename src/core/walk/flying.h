@@ -6,7 +6,7 @@
 
 #include <gsl/gsl_interp.h>
 
-#include "base/cancel.h"
+#include "base/parallel.h"
 #include "landing.h"
 #include "strike.h"
 

@@ -5,6 +5,8 @@
 #ifndef CEDUO_LANES_STEMS_H
 #define CEDUO_LANES_STEMS_H
 
+#include <gsl/gsl_interp.h>
+
 #include "lanes_landing.h"
 
 #ifndef TOO_FEW
@@ -27,6 +29,16 @@ struct passing {
     unsigned ended;   /* given up */
 };
 
+/* Go on, in the lanes `further` from i on, to the segment under their next stem by bisection: of a long profile it may be hundreds
+ * of segments away. */
+SELDOM void search_segments(const struct lanes *k, struct passing *p, size_t i, mask further)
+{
+    for (unsigned left = lanes_of(further) << i; left; left &= left - 1) {
+        size_t lane = (size_t)__builtin_ctz(left);
+        p->here[lane] = gsl_interp_bsearch(k->g->x, k->stem_ahead[lane], p->here[lane] - 1, p->last[lane]) + 1;
+    }
+}
+
 /* The segment under each stem at `to`, for flights that know where they land; as fly_past_stems(). */
 HOT void go_to_segment(struct form form, const struct lanes *k, struct passing *p, size_t i, real to, struct chord *on)
 {
@@ -35,9 +47,14 @@ HOT void go_to_segment(struct form form, const struct lanes *k, struct passing *
     real theta;
     mask further = mask_of(far) & at_least(to, on->x1) & more(last, here);
     while (any(further)) {
-        here = pick_ints(further, here + 1, here);
+        if (k->far) {
+            search_segments(k, p, i, further);
+            here = load_ints(&p->here[i]);
+        } else {
+            here = pick_ints(further, here + 1, here);
+            store_ints(&p->here[i], here);
+        }
         *on = look_up_chord(form, k, here, &theta);
-        store_ints(&p->here[i], here);
         store_chord(&p->on, i, *on);
         further &= at_least(to, on->x1) & more(last, here);
     }

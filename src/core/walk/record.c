@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/cancel.h"
-#include "base/grow.h"
+#include "base/must.h"
+#include "base/parallel.h"
 #include "base/real.h"
 #include "core/runs/check.h"
 

@@ -3,7 +3,7 @@
 #ifndef CEDUO_STRIKE_H
 #define CEDUO_STRIKE_H
 
-#include "ceduo/contact.h"
+#include "ceduo/scene.h"
 #include "law_arm.h"
 #include "law_crsp.h"
 #include "law_lumped.h"

@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The default kernel against the plain walk of one rock after another, on eight scenes, by turns in this one run.
+ *
+ *   bench_kernels [REPEATS [ROCKS]]        default 7, 5000
+ *
+ * CSV on stdout, one thread: medians of processor time. Exit 1 if the default kernel takes more than SLOWER_MAX times as long as
+ * the plain walk on a scene, or if the two differ in a contact, a hit or the mean energy. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "frame.h"
+
+#define SLOWER_MAX    1.1
+#define FINE_METRES   1500
+#define FINE_VERTICES (4 * FINE_METRES + 1)
+#define FINE_CONTROL  1350 /* m */
+
+struct place {
+    const char *name, *path;
+    bool fine;    /* on a profile of FINE_VERTICES instead of its own */
+    size_t first; /* option; NO_FOREST: none */
+};
+
+#define NO_FOREST SIZE_MAX
+
+static const struct place places[] = {
+    {"paper-site, bare", "profiles/scenes/paper-site.yaml", false, NO_FOREST},
+    {"paper-site", "profiles/scenes/paper-site.yaml", false, 0},
+    {"four-systems, selection", "profiles/scenes/four-systems.yaml", false, 4},
+    {"standards-in-groups", "profiles/scenes/standards-in-groups.yaml", false, 0},
+    {"blocks-above-the-road", "profiles/scenes/blocks-above-the-road.yaml", false, 0},
+    {"tschamut-arm, bare", "profiles/scenes/tschamut-arm.yaml", false, NO_FOREST},
+    {"fine profile, bare", "profiles/scenes/paper-site.yaml", true, NO_FOREST},
+    {"fine profile", "profiles/scenes/paper-site.yaml", true, 0},
+};
+
+/* The default kernel, and the plain walk. */
+struct measure {
+    enum ceduo_kernel kernel;
+    double seconds[REPEATS_MOST];
+    uint64_t contacts;
+    struct ceduo_stem_counts stems;
+    double energy; /* J, at the last control */
+};
+
+static void fly(const struct ceduo_scene *scene, const struct ceduo_option *option, struct measure *m, uint64_t rocks,
+                size_t repeat)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(scene);
+    uint64_t reached;
+    double se;
+    def.option = option;
+    def.rocks_most = rocks;
+    def.kernel = m->kernel;
+    double start = processor_s();
+    struct ceduo_run *run = fly_run(&def, rocks);
+    m->seconds[repeat] = processor_s() - start;
+    m->contacts = ceduo_run_contacts(run);
+    m->stems = ceduo_run_stems(run);
+    ceduo_run_energy(run, ceduo_scene_last_control(scene), &reached, &m->energy, &se);
+    ceduo_run_free(run);
+}
+
+static bool is_same(const struct measure *a, const struct measure *b)
+{
+    bool energy = a->energy == b->energy || (isnan(a->energy) && isnan(b->energy));
+    return a->contacts == b->contacts && a->stems.hit == b->stems.hit && a->stems.drawn == b->stems.drawn && energy;
+}
+
+static bool measure_place(const struct place *place, size_t repeats, uint64_t rocks)
+{
+    struct scene_file file;
+    read_scene(&file, place->path);
+    struct ceduo_scene scene = file.scene;
+    struct ceduo_option option = {0};
+    struct ceduo_belt belts[2];
+    struct ceduo_control control = scene.controls[0];
+    if (place->first != NO_FOREST)
+        option = scene.options[place->first];
+    if (place->fine) { /* both belts of the site as long as half of the slope */
+        scene.slope = fine_slope(&scene.slope.segments[0], FINE_METRES, FINE_VERTICES);
+        control.x = FINE_CONTROL;
+        scene.controls = &control;
+        for (size_t i = 0; i < option.belts_count; i++) {
+            belts[i] = option.belts[i];
+            belts[i].from = (double)(FINE_METRES / 2 * i);
+            belts[i].to = (double)(FINE_METRES / 2 * (i + 1));
+        }
+        option.belts = belts;
+    }
+    static struct measure best, plain;
+    best.kernel = CEDUO_KERNEL_BEST;
+    plain.kernel = CEDUO_KERNEL_SCALAR;
+    for (size_t r = 0; r < repeats; r++) {
+        fly(&scene, place->first == NO_FOREST ? NULL : &option, &best, rocks, r);
+        fly(&scene, place->first == NO_FOREST ? NULL : &option, &plain, rocks, r);
+    }
+    double best_s = median(best.seconds, repeats), plain_s = median(plain.seconds, repeats), ratio = best_s / plain_s;
+    printf("\"%s\",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.4f,%.4f,%.3f\n", place->name, rocks, best.contacts, best.stems.hit,
+           best_s, plain_s, ratio);
+    fflush(stdout);
+    if (ratio > SLOWER_MAX)
+        fprintf(stderr, "%s: the default kernel takes %.2f times as long as the plain walk\n", place->name, ratio);
+    if (!is_same(&best, &plain))
+        fprintf(stderr, "%s: the default kernel and the plain walk DISAGREE\n", place->name);
+    if (place->fine)
+        slope_free(&scene.slope);
+    ceduo_scene_release(&file);
+    return ratio <= SLOWER_MAX && is_same(&best, &plain);
+}
+
+int main(int argc, char **argv)
+{
+    (void)argc;
+    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MOST);
+    uint64_t rocks = argument(argv, 2, 5000, 1, CEDUO_ROCKS_MOST);
+    bool good = true;
+    puts("scene,rocks,contacts,stems_hit,default_seconds,plain_seconds,ratio");
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
+        good &= measure_place(&places[i], repeats, rocks);
+    return good ? 0 : 1;
+}
