@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: threads
 """The screens of the terminal program, from scripts and without any terminal: what stands on them in every size, and the
 small things of a script."""
 import re

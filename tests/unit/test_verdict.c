@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* The live verdict: it comes with the first thousand rocks, what is known stays known while figures become finer, and
  * what was clear is not taken back. */
 #include "expect.h"
