@@ -12,7 +12,6 @@
 #include "view/pane.h"
 #include "view/plot.h"
 #include "view/report.h"
-#include "view/report_doubt.h"
 
 /* The terminal program without a terminal: its state, and the calls that all its parts share. The parts stand on it in
  * layers: popups; editing of fields and lists; views; the screen, which draws them all; and the program, which handles
