@@ -276,20 +276,37 @@ static void took_document(struct app *app, const struct problems *problems)
         say_problem(app, problems->warnings.bytes);
 }
 
+/* The document that was opened takes the place of this one, of which the figures know the memory: they go first. False without a
+ * thread. */
+static bool take_opened(struct app *app, struct document *next, unsigned threads, const struct problems *problems)
+{
+    struct live live;
+    if (!ceduo_live_create(&live, threads)) {
+        ceduo_document_close(next);
+        return false;
+    }
+    ceduo_live_free(&app->live);
+    ceduo_document_forget(&app->document);
+    ceduo_document_close(&app->document);
+    app->live = live;
+    app->document = *next;
+    took_document(app, problems);
+    return true;
+}
+
 bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
                       struct problems *problems)
 {
+    struct document document;
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
-    if (!ceduo_document_open(&app->document, path ? path : "paper-site", NULL, 0, problems))
+    if (!ceduo_document_open(&document, path ? path : "paper-site", NULL, 0, problems))
         return false;
-    if (!ceduo_live_create(&app->live, threads)) { /* no thread */
-        problems->memory = true;
-        ceduo_document_close(&app->document);
-        return false;
-    }
     app->scratch = ceduo_must(calloc(1, sizeof *app->scratch));
-    took_document(app, problems);
-    return true;
+    if (take_opened(app, &document, threads, problems))
+        return true;
+    free(app->scratch);
+    problems->memory = true;
+    return false;
 }
 
 void ceduo_app_free(struct app *app)
@@ -306,24 +323,14 @@ void ceduo_app_free(struct app *app)
     *app = (struct app){0};
 }
 
-/* What was opened takes the place of this document, or the reason why not is shown. The figures know the old one's memory:
- * it is let go first. */
-static bool take_opened(struct app *app, struct document *next, bool good)
+/* Shows a document that was opened, or why it was not. */
+static bool show_opened(struct app *app, struct document *next, bool good)
 {
-    struct live live;
     if (!good) {
         say_problem(app, ceduo_text_string(&app->problems.text));
-    } else if (!ceduo_live_create(&live, app->live.threads)) { /* no thread */
-        ceduo_document_close(next);
+    } else if (!take_opened(app, next, app->live.threads, &app->problems)) {
         ceduo_app_warn(app, "%s", _("out of memory"));
         good = false;
-    } else {
-        ceduo_live_free(&app->live);
-        ceduo_document_forget(&app->document);
-        ceduo_document_close(&app->document);
-        app->live = live;
-        app->document = *next;
-        took_document(app, &app->problems);
     }
     ceduo_problems_free(&app->problems);
     return good;
@@ -332,13 +339,13 @@ static bool take_opened(struct app *app, struct document *next, bool good)
 bool ceduo_app_open(struct app *app, const char *path)
 {
     struct document next;
-    return take_opened(app, &next, ceduo_document_open(&next, path, NULL, 0, &app->problems));
+    return show_opened(app, &next, ceduo_document_open(&next, path, NULL, 0, &app->problems));
 }
 
 bool ceduo_app_open_text(struct app *app, const char *text)
 {
     struct document next;
-    return take_opened(app, &next, ceduo_document_new(&next, text, &app->problems));
+    return show_opened(app, &next, ceduo_document_new(&next, text, &app->problems));
 }
 
 void ceduo_app_resize(struct app *app, int width, int height)

@@ -192,7 +192,7 @@ bool ceduo_app_follow_rock(struct app *app);
 void ceduo_app_next_rock(struct app *app, int by);
 void ceduo_app_step_rock(struct app *app, int by);
 
-/* ---- editing the field or the item under the cursor of the form (edit.c, items.c) ---- */
+/* ---- editing the field or the item under the cursor of the form (edit.c) ---- */
 
 /* Opens the field, as a line or with the list of its choices. */
 void ceduo_edit_start(struct app *app);

@@ -85,9 +85,11 @@ struct popup_field *ceduo_popup_field(struct popup *p, const char *label, const 
     return field;
 }
 
-void ceduo_popup_choice(struct popup *p, const char *label, const char *value, popup_call *offer)
+struct popup_field *ceduo_popup_choice(struct popup *p, const char *label, const char *value, popup_call *offer)
 {
-    ceduo_popup_field(p, label, value)->offer = offer;
+    struct popup_field *field = ceduo_popup_field(p, label, value);
+    field->offer = offer;
+    return field;
 }
 
 const struct field ceduo_popup_amount = {

@@ -25,6 +25,7 @@ typedef bool popup_check(struct app *app, struct popup *popup);
 struct popup_field {
     char label[40];
     struct line line;
+    int row;             /* of the caller's table of fields, for its own use */
     popup_call *offer;   /* adds to the picker what goes with the text that is typed; NULL: nothing is offered */
     struct field *value; /* what may stand there: it is checked as the line is left; NULL: anything */
 };
@@ -66,7 +67,7 @@ void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
 void ceduo_popup_answer(struct popup *popup, char key, const char *text, const char *value);
 struct popup_field *ceduo_popup_field(struct popup *popup, const char *label, const char *value);
 /* A field with a list of what may stand in it; what matches what is typed is taken. */
-void ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_call *offer);
+struct popup_field *ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_call *offer);
 /* A number that is none of a file, from 0 on. */
 extern const struct field ceduo_popup_amount;
 /* A field for a value of a kind, of which it has a copy that the caller may change. */

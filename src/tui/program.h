@@ -9,6 +9,7 @@
 /* Same as ceduo_app_create() and ceduo_app_free(), including popups. */
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
                           struct problems *problems);
+
 void ceduo_program_free(struct app *app);
 
 void ceduo_program_key(struct app *app, int key);
