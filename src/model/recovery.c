@@ -75,8 +75,7 @@ struct recovery_copy ceduo_recovery_begin(const char *path)
     return (struct recovery_copy){.path = name.bytes, .file = -1};
 }
 
-/* Put a text in the place of the copy. The new file is locked before it has the copy's name. Return its descriptor; -1 on
- * failure. */
+/* Replace the copy. The new file is locked before it has the copy's name. Return its descriptor; -1 on failure. */
 static int replace_copy(const char *path, const struct text *text)
 {
     LOCAL_TEXT(temporary);

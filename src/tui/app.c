@@ -276,8 +276,7 @@ static void took_document(struct app *app, const struct problems *problems)
         say_problem(app, problems->warnings.bytes);
 }
 
-/* The document that was opened takes the place of this one, of which the figures know the memory: they go first. False without a
- * thread. */
+/* Replaces the document. The figures know the memory of the old one: they go first. False if no thread can be started. */
 static bool take_opened(struct app *app, struct document *next, unsigned threads, const struct problems *problems)
 {
     struct live live;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edits the value of the field under the cursor; adds, deletes, duplicates and moves items of the list under it: belts, controls,
- * segments, cohorts, classes. */
+/* Edits the field under the cursor, and the items of the list there: belts, controls, segments, cohorts, classes. */
 #include <math.h>
 #include <string.h>
 
@@ -206,8 +205,8 @@ static bool insert(struct app *app, const struct item *item, size_t index, const
 
 #define BELT_MIN 0.5 /* m: a shorter belt is not added */
 
-/* A belt in two; if the cursor is on its end, a new one after it with the same stand, if there is room. A new belt ends at the next
- * control, the next belt or the end of the slope. */
+/* A belt in two; on the end of a belt, a new one after it with the same stand, if there is room, down to the next control, the
+ * next belt or the end of the slope. */
 static bool add_belt(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
@@ -297,8 +296,8 @@ void ceduo_items_add_blocks(struct app *app)
 
 /* ---- deleting ---- */
 
-/* What goes with it: a segment and its vertex, the one behind it where it is not the last; stools with their last shoots; the ground
- * before it, or behind the first, takes the place of a ground. */
+/* Deletes with it: the vertex of a segment, the next one unless it is the last; stools with their last shoots. The ground
+ * before it, or after the first, takes the place of a ground. */
 static bool delete_item(struct app *app, const struct item *item, const char *path)
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);
@@ -408,8 +407,7 @@ void ceduo_items_move(struct app *app, int by)
 
 /* ==== a new item, field by field as the table of the scene has them ==== */
 
-/* Adds an item at the end of a list. Blocks that are one power law become the first class; the first blocks take the place of their
- * number a year. */
+/* Appends an item. A single power law of blocks becomes the first class; the first blocks replace rocks_per_year. */
 static bool append_item(struct app *app, const char *list, const struct node *now, const char *yaml)
 {
     struct changes c = {.document = &app->document};

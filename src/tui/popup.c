@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implements popups of three kinds: text to read, a list to choose from, fields to fill. A popup is closed before its
- * callback runs, because that may open another. */
+/* Popups of three kinds: text, list, fields. A popup is closed before its callback runs, because that may open another. */
 #include "popup.h"
 
 #include <assert.h>

@@ -24,8 +24,8 @@ struct rock_trajectory {
     struct ceduo_polyline line; /* what is shown of it */
 };
 
-/* Follows rock number `rock` of the scene through the forest of an option, whose run has this key, unless it is that
- * trajectory already. False without memory. */
+/* Follows a rock of the run with this key through the forest of an option, unless it was followed already. False without
+ * memory. */
 bool ceduo_rock_trajectory_follow(struct rock_trajectory *trajectory, const struct ceduo_scene *scene,
                                   const struct ceduo_option *option, uint64_t key, uint64_t rock);
 
