@@ -367,8 +367,8 @@ enum ceduo_status ceduo_preview(const struct scene_file *from, const char *path,
             const struct ceduo_arrivals *a = ceduo_result_wooded(r, option, r->last_control);
             *preview = (struct preview){.known = true,
                                         .index = *ceduo_result_last_index(r, option),
-                                        .reach = a ? a->reach_probability : NAN,
-                                        .exceed = a ? a->exceed_probability : NAN};
+                                        .reach = a ? a->reach.mean : NAN,
+                                        .exceed = a ? a->exceed.mean : NAN};
         }
         ceduo_answer_release(&answer);
     }

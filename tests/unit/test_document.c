@@ -12,7 +12,6 @@
 
 #include "ceduo/observe.h"
 #include "io/file.h"
-#include "io/notes.h"
 #include "model/document.h"
 #include "scene/value.h"
 
