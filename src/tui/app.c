@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"
 #include "base/utf8.h"
@@ -202,33 +201,6 @@ void ceduo_app_follow_belt(struct app *app)
     struct form_row *row = ceduo_form_row(ceduo_app_form(app));
     if (row && row->n > 0 && strcmp(row->list, ceduo_app_forest(app)) == 0)
         ceduo_app_show_belt(app, row->index);
-}
-
-/* ---- the trajectory of a rock ---- */
-
-bool ceduo_app_follow_rock(struct app *app)
-{
-    uint64_t key = app->live.asked;
-    hash_count(&key, app->option);
-    bool good =
-        ceduo_rock_trajectory_follow(&app->trajectory, &app->document.file.scene, ceduo_app_option(app), key, app->rock);
-    if (!good)
-        ceduo_rock_trajectory_free(&app->trajectory);
-    return good;
-}
-
-void ceduo_app_next_rock(struct app *app, int by)
-{
-    app->rock = by > 0 || app->rock > 0 ? app->rock + (uint64_t)by : 0;
-    if (ceduo_app_follow_rock(app))
-        ceduo_app_step_rock(app, 0);
-}
-
-void ceduo_app_step_rock(struct app *app, int by)
-{
-    LOCAL_TEXT(text);
-    ceduo_rock_trajectory_step(&app->trajectory, by, &app->document.file.scene, &text);
-    ceduo_app_say(app, "%s", text.bytes);
 }
 
 /* ---- edits ---- */

@@ -7,7 +7,6 @@
 #include "line.h"
 #include "model/document.h"
 #include "model/live.h"
-#include "rock_trajectory.h"
 #include "view/cells.h"
 #include "view/pane.h"
 #include "view/plot.h"
@@ -73,6 +72,25 @@ struct place {
     double x; /* m, relative */
     int zoom; /* 2^zoom times as near as the whole slope */
     bool put; /* it was moved: x holds */
+};
+
+/* A piece of a trajectory: a flight, or a roll along the ground. */
+struct rock_piece {
+    struct ceduo_piece piece;
+    size_t stems; /* that it has come to, up to its end */
+};
+
+/* The trajectory of one rock, piece by piece. */
+struct rock_trajectory {
+    uint64_t key, rock; /* of the run and the rock that they were followed for */
+    size_t n, room, at; /* pieces; how many of them are shown, 0: all */
+    struct rock_piece *pieces;
+    struct ceduo_stem_passed *stems; /* that it comes to */
+    size_t stems_count, stems_room;
+    double begun;   /* s: when the following began */
+    bool cut_short; /* it took too long to be followed to its end */
+    struct ceduo_trajectory whole;
+    struct ceduo_polyline line; /* what is shown of it */
 };
 
 #define PICTURES_MAX 3
@@ -183,12 +201,18 @@ void ceduo_app_show_belt(struct app *app, size_t belt);
 /* Shows the belt that the cursor of the form is on. */
 void ceduo_app_follow_belt(struct app *app);
 
+/* ---- the trajectory of a rock (rock_trajectory.c) ---- */
+
 /* Follows the rock that is shown through the forest of the option shown, unless that trajectory is there already. */
 bool ceduo_app_follow_rock(struct app *app);
 
 /* Shows the trajectory of the rock `by` further, or so many pieces more of it, and says what happens there. */
 void ceduo_app_next_rock(struct app *app, int by);
 void ceduo_app_step_rock(struct app *app, int by);
+
+/* Number of stems on the part that is shown. */
+size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *trajectory);
+void ceduo_rock_trajectory_free(struct rock_trajectory *trajectory);
 
 /* ---- editing the field or the item under the cursor of the form (edit.c) ---- */
 
