@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/doubt_inputs.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
 

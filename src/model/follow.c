@@ -11,7 +11,7 @@
 #include "base/must.h"
 #include "ceduo/rotation.h"
 #include "changes.h"
-#include "io/doubt_inputs.h"
+#include "io/scene_file.h"
 
 void ceduo_changes_add(struct changes *c, const char *format, ...)
 {

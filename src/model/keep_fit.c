@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "io/doubt_inputs.h"
-#include "io/emit.h"
+#include "io/scene_file.h"
 #include "scene/value.h"
 
 #define SEGMENTS "slope.segments["

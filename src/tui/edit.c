@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "io/emit.h"
 #include "popup.h"
 #include "popups.h"
 #include "view/typed.h"

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/language.h"
-#include "io/emit.h"
 #include "model/changes.h"
 #include "popup.h"
 #include "popups.h"

@@ -10,7 +10,6 @@
 #include "base/utf8.h"
 #include "ceduo/rotation.h"
 #include "ceduo/slope.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
 #include "popups.h"

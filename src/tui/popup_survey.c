@@ -4,9 +4,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "io/emit.h"
 #include "io/file.h"
-#include "io/resolve.h"
 #include "io/survey_file.h"
 #include "popup.h"
 #include "popups.h"

@@ -5,9 +5,7 @@
 
 #include "base/language.h"
 #include "ceduo/rotation.h"
-#include "io/emit.h"
 #include "io/file.h"
-#include "io/resolve.h"
 #include "model/changes.h"
 #include "popup.h"
 #include "popups.h"

@@ -4,7 +4,7 @@
 
 #include "ceduo/doubt.h"
 #include "ceduo/result.h"
-#include "io/doubt_inputs.h"
+#include "io/scene_file.h"
 #include "study/verdict.h"
 #include "words.h"
 

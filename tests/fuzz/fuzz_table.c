@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "io/doubt_inputs.h"
 #include "io/scene_file.h"
 
 #define SCENE                                                                                                                  \
