@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
+#include "ceduo/observe.h"
 #include "io/scene_file.h"
 
 #define SCENE                                                                                                                  \
