@@ -64,18 +64,18 @@ struct ceduo_stem_counts ceduo_run_stems(const struct ceduo_run *run);
 /* What arrives at a control. Means and percentiles are over the rocks that reached it. Where the scene has blocks, counts are
  * of the rocks that were drawn; shares, means and percentiles are of the blocks that come down. */
 struct ceduo_arrivals {
-    uint64_t released, reached, exceeded, unfinished;             /* unfinished: before this control */
-    uint64_t ended[CEDUO_ENDS];                                   /* that did not reach it, by how they ended: with those that
+    uint64_t released, reached, exceeded, unfinished; /* unfinished: before this control */
+    uint64_t ended[CEDUO_ENDS];                       /* that did not reach it, by how they ended: with those that
                                                        * reached it, all released */
-    double missed[CEDUO_ENDS];                                    /* shares of the same */
-    double reach_probability, reach_lo, reach_hi;                 /* hi counts the unfinished as reached */
-    double exceed_probability, exceed_lo, exceed_hi;              /* NaN without an accepted energy */
-    double limit;                                                 /* of exceed_probability: ceduo_exceed_limit() */
+    double missed[CEDUO_ENDS];                        /* shares of the same */
+    struct ceduo_estimate reach;                      /* share of the released; hi counts the unfinished as reached */
+    struct ceduo_estimate exceed;                     /* likewise, with more than is accepted; NaN if that is not given */
+    double limit;                                     /* of exceed: ceduo_exceed_limit() */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
-    double energy_per_released, energy_per_released_se;           /* J */
+    struct ceduo_estimate energy_per_released;                    /* J; no interval */
     double top_p95; /* m: 95th percentile of the height of the rocks' tops above the ground, their underside's and their mean
                      * diameter; NaN where the scene asks for no design values, or sizes differ and samples are not kept */
-    double contacts, contacts_se;       /* with stems, of those that reached; NaN: bare run */
+    struct ceduo_estimate contacts;     /* with stems, of those that reached; no interval; NaN: bare run */
     struct ceduo_hazard hazard;         /* where the scene has blocks */
     struct ceduo_topography topography; /* of the control */
     bool exact;                         /* percentiles from every sample */
@@ -103,8 +103,8 @@ void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups
 
 /* What one run brings to a control less what another brings, rock by rock of the same numbers; over all released. */
 struct ceduo_difference {
-    struct ceduo_paired reach_probability, exceed_probability;
-    struct ceduo_paired energy_per_released; /* J */
+    struct ceduo_estimate reach, exceed;       /* shares */
+    struct ceduo_estimate energy_per_released; /* J */
 };
 
 /* `run` less `baseline`: two runs of one scene (all NaN where one is NULL). Where one is longer, of the rocks that

@@ -112,10 +112,10 @@ static bool first_state(struct document *d, bool good)
     return good;
 }
 
-bool ceduo_document_open(struct document *d, const char *path, struct problems *problems)
+bool ceduo_document_open(struct document *d, const char *path, const char *const *sets, size_t n, struct problems *problems)
 {
     *d = (struct document){0};
-    if (!ceduo_scene_load(&d->file, path, NULL, 0, problems))
+    if (!ceduo_scene_load(&d->file, path, sets, n, problems))
         return first_state(d, false);
     d->raw = d->file.raw;
     d->path = strcmp(path, "-") == 0 ? NULL : ceduo_must(strdup(d->file.path));

@@ -37,20 +37,17 @@ struct document {
     struct recovery_copy recovery;
 };
 
-/* Opens a scene (as ceduo_scene_load()). False with the reason in `problems`. */
-bool ceduo_document_open(struct document *document, const char *path, struct problems *problems);
+/* Opens a scene, with n changes PATH=VALUE (as ceduo_scene_load()). False with the reason in `problems`. */
+bool ceduo_document_open(struct document *document, const char *path, const char *const *sets, size_t n,
+                         struct problems *problems);
 
 /* A new scene from text that was never on disk; `path` may be NULL. */
 bool ceduo_document_new(struct document *document, const char *text, struct problems *problems);
 void ceduo_document_close(struct document *document);
 
-/* Each edit makes a new state, or leaves the document as it was with the reason in `problems`. Paths as in --set. */
+/* Each edit makes a new state, or leaves the document as it was with the reason in `problems`. Paths as in --set, values in YAML. */
 bool ceduo_document_set(struct document *document, const char *path, const char *value, struct problems *problems);
 bool ceduo_document_delete(struct document *document, const char *path, struct problems *problems);
-/* A copy of item `list[index]` after it, and two changes (PATH=VALUE; may be NULL) to what the list is then; of an option under a
- * name of its own. */
-bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const char *first, const char *second,
-                              struct problems *problems);
 /* An item from `text` (YAML) into a list, which is made where there is none. */
 bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
                            struct problems *problems);
@@ -62,18 +59,42 @@ void ceduo_document_belts(const struct document *document, const char *stand, st
  * them. */
 bool ceduo_document_add_option(struct document *document, const char *stand, const char *name, struct problems *problems);
 
+/* Changes that are made as one edit, in their order. Starts with the document alone. */
+struct changes {
+    struct document *document;
+    size_t n, capacity;
+    struct change {
+        enum change_kind { CHANGE_SET, CHANGE_KEEP_SOURCE, CHANGE_DELETE } kind;
+        const char *path, *value;
+    } * items; /* in the document's arena */
+};
+
+/* Append: the value stands at the path. */
+void ceduo_changes_set(struct changes *changes, const char *path, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Append a change of any kind. KEEP_SOURCE: a scalar keeps the source around it, because it only follows a value that a person
+ * changes. DELETE: an entry or item is taken out if it is there; its value is NULL. */
+void ceduo_changes_add(struct changes *changes, enum change_kind kind, const char *path, const char *value);
+bool ceduo_changes_make(const struct changes *changes, const char *what, struct problems *problems);
+
+/* A copy of item `list[index]` after it, of an option under a name of its own; then the changes (may be NULL). */
+bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const struct changes *changes,
+                              struct problems *problems);
+
 /* A copy of option `index` after the last option, as one state. Its name is `name`, or that with a number if another option has
- * it. `sets`: n changes as of ceduo_document_set_all(), with paths that begin at the option: "forest[0].cut_year=1". */
-bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const char *const *sets, size_t n,
+ * it. The paths of the changes begin at the option: "forest[0].cut_year". */
+bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const struct changes *changes,
                                 struct problems *problems);
 
 /* Another name for an option; what was seen through its forest and the doubts about it go along. */
 bool ceduo_document_rename_option(struct document *document, size_t index, const char *name, struct problems *problems);
 
-/* Several changes as one state: PATH=VALUE each; or PATH:=VALUE, a scalar that keeps the source around it, for it only
- * follows what a person changes; or PATH alone: what stands there is taken out. */
-bool ceduo_document_set_all(struct document *document, const char *const *sets, size_t n, const char *what,
-                            struct problems *problems);
+/* As ceduo_document_set(), but what would then be said twice is taken out in the same state: a sphere has one of three
+ * sizes, a rock a mass or a density, the ground a roughness in m or rad, shoots a number per ha or per stool. Another
+ * shape takes the sizes out that do not belong to it and gets its own, of the same volume. Neighbours follow a border,
+ * assumed heights their diameter. What was done beside the change is added to `said`. */
+bool ceduo_document_set_alone(struct document *document, const char *path, const char *value, struct text *said,
+                              struct problems *problems);
 
 /* A vertex ([x, z]) within segment `index` of the slope, both parts of the same ground. `apart`: of a ground that was one for
  * all segments each gets its own. */

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/resolve.h"
@@ -185,22 +186,44 @@ static void put_item(struct edit *e, const char *list, size_t index, const struc
     shift_doubts(e, list, index, 0, 1);
 }
 
-/* PATH=VALUE, or PATH:=VALUE, or PATH alone: it is taken out. */
-static void change(struct edit *e, const char *set)
+/* Makes changes whose paths begin with `prefix`. */
+static void change(struct edit *e, const char *prefix, const struct changes *changes)
 {
-    const char *equals = strchr(set, '=');
-    if (!equals) {
-        take_out(e, &set);
-        return;
+    for (size_t i = 0; e->root && i < changes->n; i++) {
+        const struct change *c = &changes->items[i];
+        const char *path = ceduo_arena_format(e->arena, "%s%s", prefix, c->path);
+        const struct node *old = ceduo_resolve_at(e->root, path);
+        if (c->kind == CHANGE_DELETE) {
+            if (old)
+                take_out(e, &path);
+            continue;
+        }
+        const struct node *value = ceduo_document_parse(e->d, path, c->value, e->problems);
+        bool keeps = value && old && c->kind == CHANGE_KEEP_SOURCE;
+        put(e, path, keeps ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);
     }
-    bool keeps = equals > set && equals[-1] == ':';
-    size_t length = (size_t)(equals - set) - keeps;
-    while (length > 0 && set[length - 1] == ' ')
-        length--;
-    const char *path = ceduo_arena_copy(e->arena, set, length);
-    const struct node *value = ceduo_document_parse(e->d, path, equals + 1, e->problems);
-    const struct node *old = value && keeps ? ceduo_resolve_at(e->root, path) : NULL;
-    put(e, path, old ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);
+}
+
+void ceduo_changes_add(struct changes *c, enum change_kind kind, const char *path, const char *value)
+{
+    struct arena *arena = &c->document->file.arena;
+    c->items = ceduo_must(ceduo_arena_more(arena, c->items, c->n, 1, &c->capacity, sizeof *c->items));
+    c->items[c->n++] = (struct change){kind, ceduo_arena_string(arena, path), value ? ceduo_arena_string(arena, value) : NULL};
+}
+
+void ceduo_changes_set(struct changes *c, const char *path, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    ceduo_changes_add(c, CHANGE_SET, path, ceduo_arena_vformat(&c->document->file.arena, format, args));
+    va_end(args);
+}
+
+bool ceduo_changes_make(const struct changes *c, const char *what, struct problems *problems)
+{
+    struct edit e = begin(c->document, problems);
+    change(&e, "", c);
+    return commit(&e, what);
 }
 
 /* ---- values ---- */
@@ -210,14 +233,6 @@ bool ceduo_document_set(struct document *d, const char *path, const char *value,
     struct edit e = begin(d, problems);
     put(&e, path, ceduo_document_parse(d, path, value, problems));
     return commit(&e, path);
-}
-
-bool ceduo_document_set_all(struct document *d, const char *const *sets, size_t n, const char *what, struct problems *problems)
-{
-    struct edit e = begin(d, problems);
-    for (size_t i = 0; e.root && i < n; i++)
-        change(&e, sets[i]);
-    return commit(&e, what);
 }
 
 bool ceduo_document_delete(struct document *d, const char *path, struct problems *problems)
@@ -289,12 +304,16 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
 
 bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segment, struct problems *problems)
 {
-    struct arena *arena = &d->file.arena;
+    struct edit e = begin(d, problems);
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
-    const char *sets[] = {ceduo_arena_format(arena, "%s[%zu]", vertices_list, vertex),
-                          ceduo_arena_format(arena, "%s[%zu]", ground_list, segment)};
-    return vertices && vertices->n > 2 && vertex < vertices->n &&
-           ceduo_document_set_all(d, sets, grounds && grounds->n > 1 ? 2 : 1, vertices_list, problems);
+    const char *path = ceduo_arena_format(e.arena, "%s[%zu]", vertices_list, vertex);
+    if (!vertices || vertices->n <= 2 || vertex >= vertices->n)
+        return false;
+    take_out(&e, &path);
+    path = ceduo_arena_format(e.arena, "%s[%zu]", ground_list, segment);
+    if (e.root && grounds && grounds->n > 1)
+        take_out(&e, &path);
+    return commit(&e, vertices_list);
 }
 
 /* ---- options ---- */
@@ -352,7 +371,7 @@ bool ceduo_document_add_option(struct document *d, const char *stand, const char
     return commit(&e, stand);
 }
 
-bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const char *first, const char *second,
+bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const struct changes *changes,
                               struct problems *problems)
 {
     struct edit e = begin(d, problems);
@@ -360,14 +379,12 @@ bool ceduo_document_duplicate(struct document *d, const char *list, size_t index
     const struct node *holder = options ? need_options(&e) : ceduo_document_node(d, list);
     const struct node *item = holder && holder->kind == NODE_LIST && index < holder->n ? holder->items[index] : NULL;
     put_item(&e, list, index + 1, item && options ? with_new_name(&e, holder, item) : item);
-    if (e.root && first)
-        change(&e, first);
-    if (e.root && second)
-        change(&e, second);
+    if (changes)
+        change(&e, "", changes);
     return commit(&e, list);
 }
 
-bool ceduo_document_vary_option(struct document *d, size_t index, const char *name, const char *const *sets, size_t n,
+bool ceduo_document_vary_option(struct document *d, size_t index, const char *name, const struct changes *changes,
                                 struct problems *problems)
 {
     struct edit e = begin(d, problems);
@@ -375,8 +392,7 @@ bool ceduo_document_vary_option(struct document *d, size_t index, const char *na
     item = ceduo_node_with(e.arena, ceduo_node_without(e.arena, item, "name_it"), "name",
                            ceduo_node_scalar(e.arena, item->source, name, true));
     put_item(&e, "options", options->n, with_new_name(&e, options, item));
-    for (size_t i = 0; e.root && i < n; i++)
-        change(&e, ceduo_arena_format(e.arena, "options[%zu].%s", options->n, sets[i]));
+    change(&e, ceduo_arena_format(e.arena, "options[%zu].", options->n), changes);
     return commit(&e, name);
 }
 

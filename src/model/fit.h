@@ -3,7 +3,7 @@
 #define CEDUO_FIT_H
 
 #include "ceduo/calibrate.h"
-#include "io/scene_file.h"
+#include "document.h"
 
 /* Values of the scene of the live program, fitted to what was observed there. */
 
@@ -48,5 +48,16 @@ bool ceduo_fit_has_observations(const struct scene_file *file);
 enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request,
                                  const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *fit);
 void ceduo_fit_free(void *fit);
+
+/* What was fitted goes into a document: the best values, where they come from, and the draws as its doubt. */
+struct fit_values {
+    const struct ceduo_calibration *answer;
+    const struct ceduo_input *inputs; /* places in the document's scene; those without are left out */
+    const char *source;               /* what the fit rests on */
+    const char *draws;                /* path of the table of draws, as the document is to name it; NULL: none */
+};
+
+/* One edit, which undo takes back. A ground from materials is written out as segments. False with the reason in `problems`. */
+bool ceduo_keep_fit(struct document *document, const struct fit_values *fit, struct problems *problems);
 
 #endif

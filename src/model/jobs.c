@@ -30,7 +30,7 @@ struct job {
     struct scene_file file;
     struct ceduo_search search;
     struct fit_request fit;
-    char text[JOB_TEXT]; /* the path of the search; the change of the preview */
+    char path[JOB_TEXT], value[JOB_TEXT]; /* of the search, which has no value; of the preview */
 };
 
 struct jobs {
@@ -161,7 +161,7 @@ static uint64_t rocks_of(size_t level)
 static enum ceduo_status step_search(struct jobs *q, struct job *job, void **result)
 {
     struct search_answer *answer = *result = ceduo_must(calloc(1, sizeof *answer));
-    job->search.path = job->text;
+    job->search.path = job->path;
     enum ceduo_status status = ceduo_search(&job->file, &job->search, q->threads, &q->cancel, answer);
     ceduo_arena_free(&job->file.arena);
     answer->status = status; /* what was asked may be wrong: done, too */
@@ -171,7 +171,7 @@ static enum ceduo_status step_search(struct jobs *q, struct job *job, void **res
 static enum ceduo_status step_preview(struct jobs *q, struct job *job, void **result)
 {
     struct preview *preview = *result = ceduo_must(calloc(1, sizeof *preview));
-    return ceduo_preview(&job->file, job->text, job->option, q->threads, &q->cancel, preview);
+    return ceduo_preview(&job->file, job->path, job->value, job->option, q->threads, &q->cancel, preview);
 }
 
 struct publisher {
@@ -555,14 +555,15 @@ void ceduo_jobs_search(struct jobs *q, const struct scene_file *file, const stru
 {
     struct job job = job_of(JOB_SEARCH, file, 0, 1);
     job.search = *search;
-    snprintf(job.text, sizeof job.text, "%s", search->path);
+    snprintf(job.path, sizeof job.path, "%s", search->path);
     ask(q, &job);
 }
 
-void ceduo_jobs_preview(struct jobs *q, const struct scene_file *file, const char *set, size_t option)
+void ceduo_jobs_preview(struct jobs *q, const struct scene_file *file, const char *path, const char *value, size_t option)
 {
     struct job job = job_of(JOB_PREVIEW, file, option, 1);
-    snprintf(job.text, sizeof job.text, "%s", set);
+    snprintf(job.path, sizeof job.path, "%s", path);
+    snprintf(job.value, sizeof job.value, "%s", value);
     ask(q, &job);
 }
 

@@ -107,9 +107,9 @@ bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t sh
 /* Asks for a search; its path is copied. */
 void ceduo_jobs_search(struct jobs *jobs, const struct scene_file *file, const struct ceduo_search *search);
 
-/* Asks what a change (PATH=VALUE, shorter than JOB_TEXT bytes) would do to the lights of an option. */
+/* Asks what another value at a path would do to the lights of an option. Path and value are copied; both fit into JOB_TEXT bytes. */
 #define JOB_TEXT 1024
-void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *set, size_t option);
+void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *path, const char *value, size_t option);
 
 /* Asks what doubt does to a scene, first to option `shown` (JOB_UNCERTAINTY), or for its comparison with what was
  * observed there (JOB_COMPARISON), up to so many levels; 0: nothing. A scene whose nodes are the same is asked for

@@ -105,7 +105,7 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
     }
     for (size_t i = 0; i < n * controls; i++)
         differences[i] =
-            in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
+            in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
     if (ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(l, scene), &l->result) != CEDUO_OK)
         l->result = NULL;
     if (l->result && ceduo_verdict_make(l->result, known, NULL, &l->verdict) != CEDUO_OK) {

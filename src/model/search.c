@@ -336,24 +336,26 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
 
 /* The scene with the change, in an arena of its own; it shares the nodes and the slope of the other. Release it by its
  * arena alone. */
-static bool change_scene(const struct scene_file *from, const char *set, struct scene_file *file)
+static bool change_scene(const struct scene_file *from, const char *path, const char *value, struct scene_file *file)
 {
     LOCAL_PROBLEMS(problems);
+    LOCAL_TEXT(set);
     *file = *from;
     file->arena = (struct arena){0};
-    bool good = ceduo_scene_set(file, "preview", set, &problems);
+    ceduo_text_format(&set, "%s=%s", path, value);
+    bool good = ceduo_scene_set(file, "preview", set.bytes, &problems);
     const struct node *root = good ? ceduo_resolve_scene(&file->arena, file->root, &problems) : NULL;
     file->root = root;
     return root && problems.count == 0 && ceduo_scene_bind(file, &problems);
 }
 
-enum ceduo_status ceduo_preview(const struct scene_file *from, const char *set, size_t option, unsigned threads,
-                                const atomic_bool *cancel, struct preview *preview)
+enum ceduo_status ceduo_preview(const struct scene_file *from, const char *path, const char *value, size_t option,
+                                unsigned threads, const atomic_bool *cancel, struct preview *preview)
 {
     struct scene_file file;
     enum ceduo_status status = CEDUO_OK;
     *preview = (struct preview){.known = false};
-    if (change_scene(from, set, &file) && option < file.scene.options_count) {
+    if (change_scene(from, path, value, &file) && option < file.scene.options_count) {
         struct ceduo_question q = ceduo_question_default(&file.scene);
         struct ceduo_answer answer;
         q.rocks = q.run.rocks_most = PREVIEW_ROCKS;
@@ -367,8 +369,8 @@ enum ceduo_status ceduo_preview(const struct scene_file *from, const char *set, 
             const struct ceduo_arrivals *a = ceduo_result_wooded(r, option, r->last_control);
             *preview = (struct preview){.known = true,
                                         .index = *ceduo_result_last_index(r, option),
-                                        .reach = a ? a->reach_probability : NAN,
-                                        .exceed = a ? a->exceed_probability : NAN};
+                                        .reach = a ? a->reach.mean : NAN,
+                                        .exceed = a ? a->exceed.mean : NAN};
         }
         ceduo_answer_release(&answer);
     }
@@ -379,9 +381,7 @@ enum ceduo_status ceduo_preview(const struct scene_file *from, const char *set, 
 bool ceduo_preview_fits(const struct scene_file *from, const char *path, const char *value)
 {
     struct scene_file file;
-    LOCAL_TEXT(set);
-    ceduo_text_format(&set, "%s=%s", path, value);
-    bool good = change_scene(from, set.bytes, &file);
+    bool good = change_scene(from, path, value, &file);
     ceduo_arena_free(&file.arena);
     return good;
 }

@@ -42,10 +42,10 @@ struct preview {
     double reach, exceed;     /* shares of the released; NaN: not known */
 };
 
-/* `set`: PATH=VALUE as for --set. The file stays as it is; it may be read by others meanwhile. CEDUO_CANCELLED,
- * CEDUO_NO_MEMORY or CEDUO_OK. */
-enum ceduo_status ceduo_preview(const struct scene_file *file, const char *set, size_t option, unsigned threads,
-                                const atomic_bool *cancel, struct preview *preview);
+/* `value` in YAML at `path`, as for --set. The file stays as it is; another thread may read it. CEDUO_CANCELLED, CEDUO_NO_MEMORY
+ * or CEDUO_OK. */
+enum ceduo_status ceduo_preview(const struct scene_file *file, const char *path, const char *value, size_t option,
+                                unsigned threads, const atomic_bool *cancel, struct preview *preview);
 
 /* The row of the number at a path; of one in a list that of the list, as of one number, in the arena. NULL: there is none. */
 const struct field *ceduo_search_field(struct arena *arena, const char *path);

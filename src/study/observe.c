@@ -63,12 +63,11 @@ const struct ceduo_observed_row *ceduo_observed_row(enum ceduo_observed_kind kin
 const struct ceduo_quantity_row *ceduo_observed_quantity(enum ceduo_observed_kind kind)
 {
     static const struct ceduo_quantity_row rows[] = {
-        [CEDUO_QUANTITY_PLACE] =
-            {"m", 1, {"x_m", "distance", "distanza", "progressiva", "dist", "chainage", "entfernung", "distanz", "x"}},
-        [CEDUO_QUANTITY_COUNT] = {"", 1, {NULL}},
-        [CEDUO_QUANTITY_SPEED] = {"m/s", 1, {"speed_m_s", "speed", "velocity", "velocit\xc3\xa0"}},
-        [CEDUO_QUANTITY_HEIGHT] = {"m", 1, {"height_m", "height", "altezza", "h"}},
-        [CEDUO_QUANTITY_ENERGY] = {"kJ", 1000, {"energy_kJ", "energy", "energia"}}};
+        [CEDUO_QUANTITY_PLACE] = {"m", 1, "x_m", "distance|distanza|progressiva|dist|chainage|entfernung|distanz|x"},
+        [CEDUO_QUANTITY_COUNT] = {"", 1, NULL, NULL},
+        [CEDUO_QUANTITY_SPEED] = {"m/s", 1, "speed_m_s", "speed|velocity|velocit\xc3\xa0"},
+        [CEDUO_QUANTITY_HEIGHT] = {"m", 1, "height_m", "height|altezza|h"},
+        [CEDUO_QUANTITY_ENERGY] = {"kJ", 1000, "energy_kJ", "energy|energia"}};
     return &rows[ceduo_observed_row(kind)->quantity];
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +9,6 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "base/utf8.h"
-#include "model/changes.h"
 #include "view/typed.h"
 
 /* ---- strings ---- */
@@ -255,14 +253,6 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
     return good;
 }
 
-void ceduo_app_search(struct app *app)
-{
-    if (ceduo_form_search(ceduo_app_form(app), app->search))
-        ceduo_app_state(app)->pane = 0;
-    else
-        ceduo_app_say(app, _("'%s' is not found in this view"), app->search);
-}
-
 /* ---- opening and closing ---- */
 
 /* Shows a document that was opened, and the first value in it that is unusual. */
@@ -290,7 +280,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
                       struct problems *problems)
 {
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
-    if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))
+    if (!ceduo_document_open(&app->document, path ? path : "paper-site", NULL, 0, problems))
         return false;
     if (!ceduo_live_create(&app->live, threads)) { /* no thread */
         problems->memory = true;
@@ -342,7 +332,7 @@ static bool take_opened(struct app *app, struct document *next, bool good)
 bool ceduo_app_open(struct app *app, const char *path)
 {
     struct document next;
-    return take_opened(app, &next, ceduo_document_open(&next, path, &app->problems));
+    return take_opened(app, &next, ceduo_document_open(&next, path, NULL, 0, &app->problems));
 }
 
 bool ceduo_app_open_text(struct app *app, const char *text)

@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The value of the field under the cursor. */
-#include "edit.h"
-
-#include <stdio.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "io/emit.h"
 #include "popup.h"
-#include "popups.h"
 #include "view/typed.h"
 
 static bool set_value(struct app *app, const struct form_cell *cell, const char *value)

@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Adds, deletes, duplicates and moves items of the list under the cursor: belts, controls, segments, cohorts, classes. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "ceduo/slope.h"
-#include "edit.h"
-#include "model/changes.h"
 #include "popup.h"
-#include "popups.h"
 
 /* The item under the cursor, copied because each edit builds the form again. */
 struct item {
@@ -52,14 +48,24 @@ static double place_of(const struct app *app, const struct item *item, size_t in
     return node ? ceduo_document_place(&app->document, ceduo_node_text(node, key)) : NAN;
 }
 
+/* Copies an item. `ends`: from_m and to_m of it, then of its copy; NaN: as they are. */
+static bool copy_with(struct app *app, const struct item *item, const double ends[4])
+{
+    struct changes c = {.document = &app->document};
+    for (size_t i = 0; i < 4; i++)
+        if (!isnan(ends[i]))
+            ceduo_changes_set(&c,
+                              ceduo_app_format(app, "%s[%zu].%s", item->list, item->index + i / 2, i % 2 ? "to_m" : "from_m"),
+                              "%.10g", ends[i]);
+    return ceduo_document_duplicate(&app->document, item->list, item->index, &c, &app->problems);
+}
+
 /* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */
 static bool split_stretch(struct app *app, const struct item *item)
 {
     double middle = (place_of(app, item, item->index, "from_m") + place_of(app, item, item->index, "to_m")) / 2;
     middle = isnan(item->at) ? middle : item->at;
-    const char *first = ceduo_app_format(app, "%s[%zu].to_m=%.10g", item->list, item->index, middle);
-    const char *second = ceduo_app_format(app, "%s[%zu].from_m=%.10g", item->list, item->index + 1, middle);
-    return ceduo_document_duplicate(&app->document, item->list, item->index, first, second, &app->problems);
+    return copy_with(app, item, (const double[]){NAN, middle, middle, NAN});
 }
 
 /* A point on a segment of the profile, `at` along the slope (NAN: in its middle). */
@@ -139,9 +145,7 @@ static bool add_belt(struct app *app, const struct item *item)
     to += s->slope.origin_x;
     if (!item->there)
         return insert(app, item, 0, ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to));
-    const char *first = ceduo_app_format(app, "%s[%zu].from_m=%.10g", item->list, next, from);
-    const char *second = ceduo_app_format(app, "%s[%zu].to_m=%.10g", item->list, next, to);
-    return ceduo_document_duplicate(&app->document, item->list, item->index, first, second, &app->problems);
+    return copy_with(app, item, (const double[]){NAN, NAN, from, to});
 }
 
 /* Ground of the library, where none is said yet: that which was assumed. */
@@ -170,7 +174,7 @@ static bool add_control(struct app *app, const struct item *item)
 
 static bool copy_item(struct app *app, const struct item *item)
 {
-    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, NULL, NULL, &app->problems);
+    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, NULL, &app->problems);
 }
 
 /* A first cohort of shoots needs stools to stand on. */
@@ -178,9 +182,10 @@ static bool add_shoots(struct app *app, const struct item *item)
 {
     if (item->there)
         return copy_item(app, item);
-    struct changes c = {.d = &app->document};
-    ceduo_changes_add(&c, "%.*sstools={per_ha: 2500, spacing_m: 0.35}", (int)(item->key - item->list), item->list);
-    ceduo_changes_add(&c, "%s=[{per_stool: 3, dbh_m: 0.07, height_m: 8}]", item->list);
+    struct changes c = {.document = &app->document};
+    ceduo_changes_set(&c, ceduo_app_format(app, "%.*sstools", (int)(item->key - item->list), item->list),
+                      "{per_ha: 2500, spacing_m: 0.35}");
+    ceduo_changes_set(&c, item->list, "[{per_stool: 3, dbh_m: 0.07, height_m: 8}]");
     return ceduo_changes_make(&c, item->list, &app->problems);
 }
 
@@ -220,7 +225,7 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
-    struct changes c = {.d = &app->document};
+    struct changes c = {.document = &app->document};
     size_t n = list ? list->n : 0, index = item->index, last = vertices && vertices->n > 0 ? vertices->n - 1 : 0;
     if (strcmp(item->list, "slope.segments") == 0)
         return ceduo_document_remove_vertex(&app->document, index + (index + 1 < last), index, &app->problems);
@@ -232,13 +237,13 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
         path = item->list;
     if (strcmp(item->key, "materials") == 0 && n > 1) {
         const char *end = index == 0 ? "from_m" : "to_m";
-        ceduo_changes_add(&c, "%s[%zu].%s=%.10g", item->list, index == 0 ? 1 : index - 1, end, place_of(app, item, index, end));
+        ceduo_changes_set(&c, ceduo_app_format(app, "%s[%zu].%s", item->list, index == 0 ? 1 : index - 1, end), "%.10g",
+                          place_of(app, item, index, end));
     } else if (strcmp(item->key, "shoots") == 0 && n == 1) {
-        ceduo_changes_add(&c, "%.*s.stools", (int)(item->key - item->list) - 1, item->list);
-    } else {
-        return ceduo_document_delete(&app->document, path, &app->problems);
+        ceduo_changes_add(&c, CHANGE_DELETE,
+                          ceduo_app_format(app, "%.*s.stools", (int)(item->key - item->list) - 1, item->list), NULL);
     }
-    ceduo_changes_add(&c, "%s", path);
+    ceduo_changes_add(&c, CHANGE_DELETE, path, NULL);
     return ceduo_changes_make(&c, item->list, &app->problems);
 }
 

@@ -80,7 +80,7 @@ enum key {
     X(ZOOM, 'z', "z", K_NONE, "", 0, N_("nearer to the slope, at the cursor along it"), DO(NULL))                              \
     X(UNZOOM, 'Z', "Z", K_NONE, "", 0, N_("farther from the slope"), DO(NULL))                                                 \
     X(SEARCH, '/', "/", K_F(3), "F3", 0, N_("search"), DO(ask_for_word))                                                       \
-    X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"), DO(ceduo_app_search))                                                \
+    X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"), DO(search_again))                                                    \
     X(COMMANDS, ':', ":", K_NONE, "", 0, N_("commands by their names"), DO(list_commands))                                     \
     X(NEW, 'n', "n", K_F(7), "F7", 0, N_("new scene"), DO(ceduo_popup_new))                                                    \
     X(OPEN, 'o', "o", K_F(4), "F4", 0, N_("open a scene"), DO(ceduo_popup_open))                                               \

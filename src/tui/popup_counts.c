@@ -4,9 +4,7 @@
 
 #include "base/language.h"
 #include "io/emit.h"
-#include "model/changes.h"
 #include "popup.h"
-#include "popups.h"
 
 enum {
     COUNT_AREA,
@@ -69,31 +67,30 @@ static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
 static bool filled_counts(struct app *app, struct popup *p)
 {
     double v[COUNTS];
-    struct changes changes = {.d = &app->document}, *c = &changes;
+    struct changes changes = {.document = &app->document}, *c = &changes;
     if (!read_plot(app, p, v))
         return false;
     double area = v[COUNT_AREA] * cos(v[COUNT_ANGLE] * M_PI / 180), per = 10000 / area; /* m2, horizontal */
     const struct ceduo_stand *now = &ceduo_app_option(app)->belts[app->belt].stand;
     const char *stools = ceduo_app_format(app, "%s.stools", p->path);
     if (v[COUNT_STOOLS] > 0)
-        ceduo_changes_add(c, "%s={per_ha: %.6g, spacing_m: %.10g}", stools, v[COUNT_STOOLS] * per,
+        ceduo_changes_set(c, stools, "{per_ha: %.6g, spacing_m: %.10g}", v[COUNT_STOOLS] * per,
                           now->stools_per_ha > 0 ? now->spacing : SPACING);
     else
-        ceduo_changes_remove(c, stools);
+        ceduo_changes_add(c, CHANGE_DELETE, stools, NULL);
     for (int i = 0; i < 2; i++) { /* one class of stems in the place of those that stand there, or none */
         const double *stems = &v[i == 0 ? COUNT_SHOOTS : COUNT_TREES];
         const char *list = ceduo_app_format(app, "%s.%s", p->path, i == 0 ? "shoots" : "trees");
         if (stems[0] > 0)
-            ceduo_changes_add(c, "%s=[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", list, stems[0] * per, stems[1],
-                              stems[2]);
+            ceduo_changes_set(c, list, "[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", stems[0] * per, stems[1], stems[2]);
         else
-            ceduo_changes_remove(c, list);
+            ceduo_changes_add(c, CHANGE_DELETE, list, NULL);
     }
     if (now->system == CEDUO_BARE)
-        ceduo_changes_remove(c, ceduo_app_format(app, "%s.system", p->path));
+        ceduo_changes_add(c, CHANGE_DELETE, ceduo_app_format(app, "%s.system", p->path), NULL);
     LOCAL_TEXT(name);
     ceduo_emit_scalar(&name, _("sample plot"), true);
-    ceduo_changes_add(c, "%s.name=%s", p->path, name.bytes);
+    ceduo_changes_add(c, CHANGE_SET, ceduo_app_format(app, "%s.name", p->path), name.bytes);
     bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot"), &app->problems));
     if (good)
         ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);

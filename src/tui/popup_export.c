@@ -10,7 +10,6 @@
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
-#include "popups.h"
 #include "view/figures.h"
 #include "view/html.h"
 #include "view/page.h"

@@ -4,15 +4,13 @@
 
 #include "base/language.h"
 #include "io/emit.h"
-#include "model/changes.h"
 #include "popup.h"
-#include "popups.h"
 
 /* Adds an item at the end of a list. Blocks that are one power law become the first class; the first blocks take the place of their
  * number a year. */
 static bool append_item(struct app *app, const char *list, const struct node *now, const char *yaml)
 {
-    struct changes c = {.d = &app->document};
+    struct changes c = {.document = &app->document};
     LOCAL_TEXT(first);
     if (now && now->kind == NODE_LIST)
         return ceduo_document_insert(&app->document, list, now->n, yaml, &app->problems);
@@ -20,8 +18,8 @@ static bool append_item(struct app *app, const char *list, const struct node *no
         ceduo_emit_flow(&first, now);
     ceduo_text_put(&first, now ? ", " : "");
     if (strcmp(list, "blocks") == 0)
-        ceduo_changes_remove(&c, "rocks_per_year");
-    ceduo_changes_add(&c, "%s=[%s%s]", list, ceduo_text_string(&first), yaml);
+        ceduo_changes_add(&c, CHANGE_DELETE, "rocks_per_year", NULL);
+    ceduo_changes_set(&c, list, "[%s%s]", ceduo_text_string(&first), yaml);
     return ceduo_changes_make(&c, list, &app->problems);
 }
 

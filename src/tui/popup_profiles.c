@@ -8,12 +8,10 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/rotation.h"
 #include "ceduo/slope.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
-#include "popups.h"
 #include "scene/choices.h"
 #include "view/typed.h"
 #include "view/words.h"
@@ -139,7 +137,7 @@ static void append_lights(struct app *app, struct text *text, const struct previ
 /* What the lights would be with a value at the popup's path; it is asked for, and put once it is known. */
 static void append_change(struct app *app, struct popup *p)
 {
-    LOCAL_TEXT(set);
+    LOCAL_TEXT(value);
     if (p->ahead_known) {
         if (p->ahead.known)
             append_lights(app, &p->text, &p->ahead);
@@ -147,13 +145,13 @@ static void append_change(struct app *app, struct popup *p)
     }
     ceduo_text_put(&p->text, _("the lights: computing …\n"));
     bool all = p->chosen == chose_new_option; /* the stand in every belt */
-    ceduo_text_format(&set, "%s=", all ? ceduo_app_forest(app) : p->path);
     if (!all)
-        ceduo_emit_scalar(&set, p->value, true);
+        ceduo_emit_scalar(&value, p->value, true);
     else
-        ceduo_document_belts(&app->document, p->value, &set);
-    if (set.length < JOB_TEXT)
-        ceduo_jobs_preview(app->live.jobs, &app->document.file, set.bytes, app->option);
+        ceduo_document_belts(&app->document, p->value, &value);
+    if (value.length < JOB_TEXT)
+        ceduo_jobs_preview(app->live.jobs, &app->document.file, all ? ceduo_app_forest(app) : p->path, value.bytes,
+                           app->option);
 }
 
 static void preview_word(struct app *app, struct popup *p)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Saving, and all questions about unsaved work, that of this program and what others left behind. */
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -10,7 +11,6 @@
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
-#include "popups.h"
 
 #define ENDING ".yaml"
 

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A stand from a survey: a file is chosen, and a form asks what its table leaves open. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "io/emit.h"
 #include "io/file.h"
-#include "io/resolve.h"
 #include "io/survey_file.h"
 #include "popup.h"
-#include "popups.h"
 
 /* Questions of the form, and their answers. */
 static const struct {

@@ -19,4 +19,30 @@ void ceduo_program_wheel(struct app *app, int by);
 /* Takes the news of the jobs, and what a search found. True where the screen has changed. */
 bool ceduo_program_news(struct app *app);
 
+/* ---- a script (script.c) ---- */
+
+/* Feeds a script to the program without a terminal, a command on each line, as ceduo-terminal(7) has them. What is wrong goes to
+ * standard error. */
+enum script_end { SCRIPT_DONE, SCRIPT_WRONG, SCRIPT_UNREADABLE, SCRIPT_UNWRITTEN };
+enum script_end ceduo_script_run(struct app *app, const char *path);
+
+/* ---- a terminal (terminal.c) ---- */
+
+enum terminal_end {
+    TERMINAL_DONE,
+    TERMINAL_NONE,  /* there is no terminal that a screen can be drawn on; nothing was touched */
+    TERMINAL_FAILED /* the machine gives no pipe */
+};
+
+/* Returns NULL if there is a terminal to draw on: standard input and output are one, and TERM can address its cells.
+ * Otherwise says why there is none. */
+const char *ceduo_terminal_missing(void);
+
+/* Shows the program on the terminal until it ends; restores the terminal. A signal that ends it is raised again. */
+enum terminal_end ceduo_terminal_run(struct app *app);
+
+/* Gives the terminal back as it was, from a signal handler or any thread, just before the program ends. False if no screen
+ * is shown. */
+bool ceduo_terminal_restore(void);
+
 #endif

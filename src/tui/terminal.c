@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The only file that knows curses, colours and the signals of a terminal. */
 #define NCURSES_WIDECHAR 1
-#include "terminal.h"
+#include "program.h"
 
 #include "base/utf8.h" /* before curses, which takes the word columns */
 
@@ -19,7 +19,6 @@
 
 #include "base/clock.h"
 #include "base/language.h"
-#include "program.h"
 
 /* ---- colours ---- */
 

@@ -3,7 +3,6 @@
  * options year by year. */
 #include "base/language.h"
 #include "popup.h"
-#include "popups.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -87,7 +86,7 @@ static void next_option(struct app *app, int by)
 static void copy_option(struct app *app)
 {
     size_t at = app->option;
-    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL, NULL, &app->problems)))
+    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL, &app->problems)))
         choose(app, (long)at + 1);
 }
 

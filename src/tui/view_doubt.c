@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 7: how sure the answer is today or over the rotation, what it depends on, whether the options separate, and the ranges that
  * the scene names. */
-#include <stdio.h>
 
 #include "app.h"
 #include "base/language.h"

@@ -5,10 +5,7 @@
 
 #include "app.h"
 #include "base/language.h"
-#include "edit.h"
-#include "model/changes.h"
 #include "popup.h"
-#include "popups.h"
 #include "view/page_parts.h"
 #include "view/report_calibration.h"
 #include "view/typed.h"

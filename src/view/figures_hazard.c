@@ -31,9 +31,9 @@ static const void *intensity_item(const void *object, size_t i)
 
 VALUE(years_of, hazard, NUMBER, NUMBER(1 / *(const double *)member(f, o)))
 
-const struct ceduo_figure ceduo_rate_figures[] = {{"per_year", "1/y", "rocks a year", AT(rate, rate)},
-                                                  {"lo", "1/y", "lower end of its 95 % interval", AT(rate, lo)},
-                                                  {"hi", "1/y", "upper end of its 95 % interval", AT(rate, hi)},
+const struct ceduo_figure ceduo_rate_figures[] = {{"per_year", "1/y", "rocks a year", AT(estimate, mean)},
+                                                  {"lo", "1/y", "lower end of its 95 % interval", AT(estimate, lo)},
+                                                  {"hi", "1/y", "upper end of its 95 % interval", AT(estimate, hi)},
                                                   END};
 
 static const struct ceduo_figure exceed_rate[] = {{"energy_kJ", "kJ", "energy", AT(exceeding, energy), .scale = J_TO_KJ},
@@ -42,10 +42,10 @@ static const struct ceduo_figure exceed_rate[] = {{"energy_kJ", "kJ", "energy", 
 
 static const struct ceduo_figure returns[] = {
     {"years", "y", "return period", AT(return, years)},
-    {"energy_kJ", "kJ", "energy that is reached or exceeded once in so many years", AT(return, energy), .scale = J_TO_KJ,
+    {"energy_kJ", "kJ", "energy that is reached or exceeded once in so many years", AT(return, energy.mean), .scale = J_TO_KJ,
      .null = TOO_RARE},
-    {"lo", "kJ", "lower end of its 95 % interval", AT(return, lo), .scale = J_TO_KJ, .null = UNBOUND},
-    {"hi", "kJ", "upper end of its 95 % interval", AT(return, hi), .scale = J_TO_KJ, .null = UNBOUND},
+    {"lo", "kJ", "lower end of its 95 % interval", AT(return, energy.lo), .scale = J_TO_KJ, .null = UNBOUND},
+    {"hi", "kJ", "upper end of its 95 % interval", AT(return, energy.hi), .scale = J_TO_KJ, .null = UNBOUND},
     END};
 
 static const struct ceduo_figure matrix[] = {
@@ -65,12 +65,12 @@ const struct ceduo_figure ceduo_hazard_figures[] = {
     {"exceed_rate", "", "rocks a year that arrive with more than an energy, up to the first energy that none exceeds",
      .of = exceed_rate, .item = exceed_item, .details = true, .null = "--details is not given"},
     {"return", "", "energies of 10, 30, 100 and 300 years", .of = returns, .item = return_item, .columns = CEDUO_RETURNS},
-    {"reach_per_year", "1/y", "rocks that arrive", AT(hazard, reach.rate)},
+    {"reach_per_year", "1/y", "rocks that arrive", AT(hazard, reach.mean)},
     {"reach_years", "y", "years from one that arrives to the next", .value = years_of,
-     .offset = offsetof(struct ceduo_hazard, reach.rate), .null = NEVER},
-    {"exceed_per_year", "1/y", "rocks that arrive with more than accepted_kJ", AT(hazard, accepted.rate), .null = UNSAID},
+     .offset = offsetof(struct ceduo_hazard, reach.mean), .null = NEVER},
+    {"exceed_per_year", "1/y", "rocks that arrive with more than accepted_kJ", AT(hazard, accepted.mean), .null = UNSAID},
     {"accepted_years", "y", "years from one that does to the next", .value = years_of,
-     .offset = offsetof(struct ceduo_hazard, accepted.rate), .null = UNSAID ", or the rate is 0"},
+     .offset = offsetof(struct ceduo_hazard, accepted.mean), .null = UNSAID ", or the rate is 0"},
     {"accepted_years_lo", "y", "lower end of its 95 % interval", .value = years_of,
      .offset = offsetof(struct ceduo_hazard, accepted.hi), .null = UNSAID ", or no rock could have so much energy"},
     {"accepted_years_hi", "y", "upper end of its 95 % interval", .value = years_of,

@@ -195,7 +195,7 @@ VALUE(points_of, slope, COUNT, COUNT(o->points > 0 ? o->points : o->vertices))
 VALUE(used_of, slope, COUNT, COUNT(o->vertices))
 VALUE(law_of, scene, TEXT, WORD(ceduo_law_words.names[o->simulation.law]))
 VALUE(accepted_of, control, NUMBER, NUMBER(ceduo_words_accepted(o)))
-VALUE(reached_of, arrivals, COUNT, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
+VALUE(reached_of, arrivals, COUNT, isnan(o->reach.mean) ? NOTHING : COUNT(o->reached))
 VALUE(rule_of, stand_result, TEXT, WORD(isinf(o->adc_m) ? NULL : ceduo_rule_words.names[o->rule]))
 VALUE(region_of, compliance, TEXT, WORD(o->of->name))
 VALUE(standards_met, compliance, FLAG, o->standards_item ? IS(o->standards_met) : NOTHING)
@@ -204,7 +204,7 @@ VALUE(index_per_100m, index, NUMBER, NUMBER(o->length > 0 ? o->per_100m : NAN))
 VALUE(mean_adc, index, NUMBER, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
 VALUE(passes_contact, index, FLAG, IS(o->contact == CEDUO_PASS))
 VALUE(exhausted_of, index, FLAG, isnan(o->residual) ? NOTHING : IS(o->exhausted))
-VALUE(below_of, paired, NUMBER, NUMBER(o->below > 0 ? o->below : NAN))
+VALUE(below_of, estimate, NUMBER, NUMBER(ceduo_pairs_are_equal(o) ? o->hi : NAN))
 VALUE(share_at, simulated, NUMBER, NUMBER(o->rocks > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(missed_at, arrivals, NUMBER, NUMBER(o->released > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(stop_at, place, NUMBER, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
@@ -248,17 +248,9 @@ static const struct ceduo_figure distribution[] = {
     END};
 
 static const struct ceduo_figure paired[] = {
-    {"mean", "", "mean", AT(paired, mean), .null = "it is not known, as what exceeds without accepted_kJ"},
-    {"se", "", "its standard error", AT(paired, se), .null = "it is not known, as where no two rocks differ"},
+    {"mean", "", "mean", AT(estimate, mean), .null = "it is not known, as what exceeds without accepted_kJ"},
+    {"se", "", "its standard error", AT(estimate, se), .null = "it is not known, as where no two rocks differ"},
     END};
-
-/* Two of the means of arrivals are members side by side, as in a struct ceduo_paired. */
-#define IS_PAIRED(member)                                                                                                      \
-    _Static_assert(offsetof(struct ceduo_arrivals, member##_se) - offsetof(struct ceduo_arrivals, member) ==                   \
-                       offsetof(struct ceduo_paired, se),                                                                      \
-                   "side by side")
-IS_PAIRED(energy_per_released);
-IS_PAIRED(contacts);
 
 #define MISSED(end) .value = missed_at, .offset = offsetof(struct ceduo_arrivals, missed[end])
 static const struct ceduo_figure missed[] = {
@@ -271,13 +263,13 @@ static const struct ceduo_figure missed[] = {
 static const struct ceduo_figure arrivals[] = {
     {"rocks_reached", "", "rocks that reach the control", .value = reached_of, .null = "nothing was flown"},
     {"reach_probability", "", "share of all released that reach it; an unfinished rock counts as not reached",
-     AT(arrivals, reach_probability)},
-    {"reach_lo", "", "lower end of its 95 % interval", AT(arrivals, reach_lo)},
-    {"reach_hi", "", "upper end of its 95 % interval, where an unfinished rock counts as reached", AT(arrivals, reach_hi)},
-    {"exceed_probability", "", "share of all released that reach it with more than accepted_kJ",
-     AT(arrivals, exceed_probability), .null = UNSAID},
-    {"exceed_lo", "", "lower end of its 95 % interval", AT(arrivals, exceed_lo), .null = UNSAID},
-    {"exceed_hi", "", "upper end of its 95 % interval", AT(arrivals, exceed_hi), .null = UNSAID},
+     AT(arrivals, reach.mean)},
+    {"reach_lo", "", "lower end of its 95 % interval", AT(arrivals, reach.lo)},
+    {"reach_hi", "", "upper end of its 95 % interval, where an unfinished rock counts as reached", AT(arrivals, reach.hi)},
+    {"exceed_probability", "", "share of all released that reach it with more than accepted_kJ", AT(arrivals, exceed.mean),
+     .null = UNSAID},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(arrivals, exceed.lo), .null = UNSAID},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(arrivals, exceed.hi), .null = UNSAID},
     {"speed_m_s", "m/s", "speed of the rocks that reach it", IN(arrivals, speed, distribution)},
     {"energy_kJ", "kJ", "their energy of translation and rotation", IN(arrivals, energy, distribution), .scale = J_TO_KJ},
     {"translation_kJ", "kJ", "their energy of translation alone", IN(arrivals, translation, distribution), .scale = J_TO_KJ},
@@ -409,13 +401,13 @@ static const struct ceduo_figure other_energy[] = {
     {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
      .offset = offsetof(struct ceduo_other_energy, model)},
     {"rocks", "", "simulated under it: the first 10240 of the run, if it has more", AT(other_energy, arrivals.released)},
-    {"reach_probability", "", "share of these that reach the control", AT(other_energy, arrivals.reach_probability)},
-    {"reach_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.reach_lo)},
-    {"reach_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.reach_hi)},
+    {"reach_probability", "", "share of these that reach the control", AT(other_energy, arrivals.reach.mean)},
+    {"reach_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.reach.lo)},
+    {"reach_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.reach.hi)},
     {"exceed_probability", "", "share of these that reach it with more than accepted_kJ",
-     AT(other_energy, arrivals.exceed_probability), .null = UNSAID},
-    {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.exceed_lo), .null = UNSAID},
-    {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.exceed_hi), .null = UNSAID},
+     AT(other_energy, arrivals.exceed.mean), .null = UNSAID},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.exceed.lo), .null = UNSAID},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.exceed.hi), .null = UNSAID},
     {"energy_kJ", "kJ", "energy of the rocks that reach it", .of = other_mean, .scale = J_TO_KJ},
     {"verdict", "", "what is said of the control", .of = verdict_of_other},
     END};
@@ -565,8 +557,8 @@ static const struct ceduo_figure share_difference[] = {
     END};
 
 static const struct ceduo_figure differences[] = {
-    {"reach_probability", "", "difference of the shares that arrive", IN(difference, reach_probability, share_difference)},
-    {"exceed_probability", "", "difference of the shares that exceed", IN(difference, exceed_probability, share_difference)},
+    {"reach_probability", "", "difference of the shares that arrive", IN(difference, reach, share_difference)},
+    {"exceed_probability", "", "difference of the shares that exceed", IN(difference, exceed, share_difference)},
     {"energy_per_released_kJ", "kJ", "difference of the energies over all released",
      IN(difference, energy_per_released, paired), .scale = J_TO_KJ},
     END};

@@ -26,14 +26,14 @@ struct ceduo_measure ceduo_share(struct ceduo_portion share)
 
 struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *a)
 {
-    return of_1000(ceduo_share_arriving(a), a ? a->reach_lo : NAN, a ? a->reach_hi : NAN);
+    return of_1000(ceduo_share_arriving(a), a ? a->reach.lo : NAN, a ? a->reach.hi : NAN);
 }
 
 struct ceduo_measure ceduo_judged(const struct ceduo_control *c, const struct ceduo_arrivals *a)
 {
     if (isnan(c->accepted))
         return ceduo_arriving(a);
-    struct ceduo_measure m = of_1000(ceduo_share_exceeding(a), a ? a->exceed_lo : NAN, a ? a->exceed_hi : NAN);
+    struct ceduo_measure m = of_1000(ceduo_share_exceeding(a), a ? a->exceed.lo : NAN, a ? a->exceed.hi : NAN);
     m.limit = ceduo_words_accepted(c);
     m.names[CEDUO_HEAD] = N_("of 1000 > %s kJ");
     m.names[CEDUO_SHORT_HEAD] = N_("> %s kJ");
@@ -93,7 +93,7 @@ struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *a)
 
 struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *a)
 {
-    return energy(a ? a->energy_per_released : NAN, a ? ceduo_half_width(a->energy_per_released_se, a->released) : NAN, 3,
+    return energy(a ? a->energy_per_released.mean : NAN, a ? ceduo_half_width(a->energy_per_released.se, a->released) : NAN, 3,
                   N_("kJ a rock"), N_("energy of a rock that starts, kJ"));
 }
 

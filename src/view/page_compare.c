@@ -58,10 +58,10 @@ void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
         ceduo_page_write(page, "%s", r->scene->options[i].name);
         if (r->wooded) {
             const struct ceduo_measure share = ceduo_share(ceduo_share_at(ceduo_result_wooded(r, i, r->last_control)));
-            struct ceduo_paired to_first = ceduo_share_to_first(r, i);
+            struct ceduo_estimate to_first = ceduo_share_to_first(r, i);
             ceduo_measure_error(ceduo_page_text(page), &share, " ");
-            if (to_first.below > 0)
-                ceduo_page_write(page, "< %.0f", ceil(to_first.below * 1000));
+            if (ceduo_pairs_are_equal(&to_first))
+                ceduo_page_write(page, "< %.0f", ceil(to_first.hi * 1000));
             else if (i > 0 && to_first.mean == 0 && to_first.se == 0)
                 ceduo_page_write(page, "%s", _("the same"));
             else if (i == 0 || isnan(to_first.mean))

@@ -24,23 +24,23 @@ static const char *name_of(const struct ceduo_result *r, size_t item)
 
 /* ---- in words ---- */
 
-void ceduo_words_every(struct text *text, struct ceduo_rate rate)
+void ceduo_words_every(struct text *text, struct ceduo_estimate rate)
 {
-    if (isnan(rate.rate))
+    if (isnan(rate.mean))
         ceduo_text_char(text, '-');
-    else if (rate.rate > 0)
-        ceduo_text_put(text, WRITTEN(1 / rate.rate, 2));
+    else if (rate.mean > 0)
+        ceduo_text_put(text, WRITTEN(1 / rate.mean, 2));
     else
         ceduo_text_format(text, "> %s", WRITTEN(1 / rate.hi, 2));
 }
 
-void ceduo_words_years(struct text *text, struct ceduo_rate rate)
+void ceduo_words_years(struct text *text, struct ceduo_estimate rate)
 {
     ceduo_words_every(text, rate);
     const char *lo = WRITTEN(1 / rate.hi, 2), *hi = WRITTEN(1 / rate.lo, 2);
-    if (rate.rate > 0 && !(rate.lo > 0))
+    if (rate.mean > 0 && !(rate.lo > 0))
         ceduo_text_format(text, " (> %s)", lo);
-    else if (rate.rate > 0 && strcmp(lo, hi) != 0)
+    else if (rate.mean > 0 && strcmp(lo, hi) != 0)
         ceduo_text_format(text, " (%s\xe2\x80\x93%s)", lo, hi);
 }
 
@@ -99,8 +99,9 @@ static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, s
         ceduo_page_write(page, "%s", name_of(r, i));
         for (size_t t = 1; t < CEDUO_RETURNS; t++) {
             struct ceduo_page_cell *cell = ceduo_page_cell(page);
-            double value = h->returns[t].energy * J_TO_KJ, hi = h->returns[t].hi * J_TO_KJ;
-            double lo = isnan(h->returns[t].lo) ? 0 : h->returns[t].lo * J_TO_KJ;
+            const struct ceduo_estimate *energy = &h->returns[t].energy;
+            double value = energy->mean * J_TO_KJ, hi = energy->hi * J_TO_KJ;
+            double lo = isnan(energy->lo) ? 0 : energy->lo * J_TO_KJ;
             if (isnan(value)) {
                 ceduo_text_put(&cell->text, _("none"));
                 continue;
@@ -130,7 +131,7 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
             struct text *cell = ceduo_page_text(page); /* which of all have it at that return period, by their numbers */
             for (size_t k = 0; k <= r->scene->options_count; k++) {
                 const struct ceduo_hazard *h = hazard_of(r, k, control);
-                if (h && ceduo_intensity_of(h->returns[t].energy) == i)
+                if (h && ceduo_intensity_of(h->returns[t].energy.mean) == i)
                     ceduo_text_format(cell, cell->length > 0 ? " %zu" : "%zu", k);
             }
             ceduo_text_put(cell, cell->length == 0 ? "\xc2\xb7" : "");
@@ -162,12 +163,12 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
         const struct ceduo_hazard *h = hazard_of(r, i, control);
         if (!h)
             continue;
-        struct ceduo_rate rate = ceduo_hazard_feared(h);
+        struct ceduo_estimate rate = ceduo_hazard_feared(h);
         ceduo_page_write(page, "%s", name_of(r, i));
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
         ceduo_words_years(&cell->text, rate);
-        if (rate.rate > 0)
-            append_shorter(&cell->shorter, 1 / rate.rate, 1 / rate.hi, rate.lo > 0 ? 1 / rate.lo : NAN);
+        if (rate.mean > 0)
+            append_shorter(&cell->shorter, 1 / rate.mean, 1 / rate.hi, rate.lo > 0 ? 1 / rate.lo : NAN);
         for (size_t k = 0; k < CEDUO_INTENSITIES; k++) {
             if (isnan(h->intensity[k].left))
                 ceduo_page_write(page, "%s", _("none"));

@@ -116,13 +116,13 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, 
     ceduo_text_format(line,
                       _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
                         "slope"),
-                      a->reach_probability * 1000, missed[CEDUO_STOPPED_BY_STEMS] * 1000, missed[CEDUO_AT_REST] * 1000,
+                      a->reach.mean * 1000, missed[CEDUO_STOPPED_BY_STEMS] * 1000, missed[CEDUO_AT_REST] * 1000,
                       missed[CEDUO_LEFT_SLOPE] * 1000);
     if (a->unfinished > 0)
         ceduo_text_then(line, "; ", _("%llu of %llu never come to an end"), (unsigned long long)a->unfinished,
                         (unsigned long long)f->rocks);
     if (a->reached > 0)
-        ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts);
+        ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts.mean);
     ceduo_text_char(line, '.');
     if (last)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
@@ -151,8 +151,8 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
 /* The mean that cannot mislead: of all released; it is no energy that the place must withstand. Either may be NULL. */
 static void say_released(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
-#define RELEASED(a) WRITTEN((a)->energy_per_released *J_TO_KJ, 3)
-#define HALF(a)     WRITTEN(ceduo_half_width((a)->energy_per_released_se, (a)->released) * J_TO_KJ, 2)
+#define RELEASED(a) WRITTEN((a)->energy_per_released.mean *J_TO_KJ, 3)
+#define HALF(a)     WRITTEN(ceduo_half_width((a)->energy_per_released.se, (a)->released) * J_TO_KJ, 2)
     const struct ceduo_arrivals *first = wooded ? wooded : bare;
     if (!first)
         return;

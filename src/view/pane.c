@@ -86,7 +86,8 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
     }
     if (blocks && !nothing) { /* years from one dangerous rock to the next: what matters where blocks of all sizes come down */
         ceduo_page_write(page, "%s", _("years apart"));
-        ceduo_words_every(ceduo_page_text(page), wood ? ceduo_hazard_feared(&wood->hazard) : (struct ceduo_rate){.rate = NAN});
+        ceduo_words_every(ceduo_page_text(page),
+                          wood ? ceduo_hazard_feared(&wood->hazard) : (struct ceduo_estimate){.mean = NAN});
         ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&bare->hazard));
     }
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
@@ -152,7 +153,7 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
                      index->worst_free_run <= CEDUO_FREE_RUN_MOST ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MOST * 100);
     add_light(page, pane, index->free_run, c->over.unprotected_free_run, true);
     if (index->energy != CEDUO_UNKNOWN && wood)
-        ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed_probability, wood->limit),
+        ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed.mean, wood->limit),
                          than(index->energy, "\xe2\x89\xa4", ">"), ROUNDED(wood->limit * 100, 3));
     else
         ceduo_page_write(page, "%s",

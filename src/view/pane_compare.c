@@ -94,7 +94,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], a);
     const struct ceduo_measure today = ceduo_share(c->today); /* its error is right where rocks have weights, too */
     if (has_rates(pane))
-        ceduo_words_every(ceduo_page_text(page), a ? ceduo_hazard_feared(&a->hazard) : (struct ceduo_rate){.rate = NAN});
+        ceduo_words_every(ceduo_page_text(page), a ? ceduo_hazard_feared(&a->hazard) : (struct ceduo_estimate){.mean = NAN});
     else if (v->wooded)
         add_share(page, &today);
     else

@@ -43,10 +43,10 @@ static void draw_curve(const struct ceduo_drawing *d, size_t item)
 {
     const struct ceduo_hazard *h = hazard_of(d, item);
     const struct ceduo_frame *f = &d->frame;
-    for (size_t i = FIRST; h && i + 1 < h->energies && h->exceed[i].rate.rate > 0; i++) {
+    for (size_t i = FIRST; h && i + 1 < h->energies && h->exceed[i].rate.mean > 0; i++) {
         const struct ceduo_exceeding *a = &h->exceed[i], *b = a + 1;
-        ceduo_canvas_line(d->canvas, f, role_of(item), log_kJ(a), logarithm(a->rate.rate), log_kJ(b->rate.rate > 0 ? b : a),
-                          logarithm(b->rate.rate));
+        ceduo_canvas_line(d->canvas, f, role_of(item), log_kJ(a), logarithm(a->rate.mean), log_kJ(b->rate.mean > 0 ? b : a),
+                          logarithm(b->rate.mean));
     }
     for (size_t i = FIRST; h && item == d->picture->option + 1 && i < h->energies; i += 2) {
         const struct ceduo_exceeding *e = &h->exceed[i];
@@ -86,11 +86,11 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
         return blocks ? _("not computed yet") : _("the scene does not say which blocks come down");
     if (!ceduo_plot_chart(d, &size, items))
         return _("too narrow");
-    while (last > 0 && logarithm(bare->exceed[last - 1].rate.rate) < RAREST)
+    while (last > 0 && logarithm(bare->exceed[last - 1].rate.mean) < RAREST)
         last--;
     d->frame.x1 = last > 0 ? log10(bare->exceed[last - 1].energy * J_TO_KJ * 1.3) : 0;
     d->frame.y0 = RAREST;
-    d->frame.y1 = ceil(logarithm(bare->reach.rate) + 1e-9);
+    d->frame.y1 = ceil(logarithm(bare->reach.mean) + 1e-9);
     if (!(d->frame.x1 > 0 && d->frame.y1 > RAREST))
         return _("rocks arrive less than once in a thousand years");
     ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
@@ -114,10 +114,10 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
         char sign[24];
         size_t at = 14 + 4 * i; /* its number on the curve */
         snprintf(sign, sizeof sign, "%zu", i);
-        while (h && at > 0 && (at >= h->energies || logarithm(h->exceed[at].rate.rate) < RAREST))
+        while (h && at > 0 && (at >= h->energies || logarithm(h->exceed[at].rate.mean) < RAREST))
             at--;
         if (h)
-            ceduo_plot_sign(d, log_kJ(&h->exceed[at]), logarithm(h->exceed[at].rate.rate), false, role_of(i), sign);
+            ceduo_plot_sign(d, log_kJ(&h->exceed[at]), logarithm(h->exceed[at].rate.mean), false, role_of(i), sign);
         if ((int)i < d->legend.height)
             ceduo_plot_say(d->canvas, d->legend.left, d->legend.top + (int)i, d->legend.width, role_of(i), "%zu %s", i,
                            i == 0 ? _("without forest") : d->scene->options[i - 1].name);

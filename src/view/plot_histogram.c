@@ -56,7 +56,7 @@ struct histogram {
 /* Of 1000 released, those in bin i. */
 static double per_1000(const struct counted *c, int i)
 {
-    return c->n > 0 ? 1000 * c->arrivals->reach_probability * (double)c->counts[i] / (double)c->n : 0;
+    return c->n > 0 ? 1000 * c->arrivals->reach.mean * (double)c->counts[i] / (double)c->n : 0;
 }
 
 static void add_mark(const struct histogram *h, int i, double kj, const char *name, struct text *text)

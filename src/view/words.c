@@ -289,7 +289,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
     for (size_t i = 0; i < result->options_count; i++)
         for (size_t c = 0; c < result->scene->controls_count; c++) {
             const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
-            if (!a || !(a->exceed_lo <= a->limit && a->exceed_hi > a->limit) ||
+            if (!a || !(a->exceed.lo <= a->limit && a->exceed.hi > a->limit) ||
                 ceduo_energy_light(a) == CEDUO_UNKNOWN) /* more rocks cannot help */
                 continue;
             if (result->scene->blocks_count > 0)

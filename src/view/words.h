@@ -110,8 +110,8 @@ void ceduo_words_counted(struct text *text, uint64_t rocks);
 
 /* How often what is feared at a control happens, in one sentence; "13" and "13 (9–14)" years. */
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
-void ceduo_words_every(struct text *text, struct ceduo_rate rate);
-void ceduo_words_years(struct text *text, struct ceduo_rate rate);
+void ceduo_words_every(struct text *text, struct ceduo_estimate rate);
+void ceduo_words_years(struct text *text, struct ceduo_estimate rate);
 
 /* Why energy is not judged; why options cannot be compared by what arrives. Marked for translation. */
 extern const char *const ceduo_words_unjudged, *const ceduo_words_by_index;

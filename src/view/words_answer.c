@@ -102,8 +102,8 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
                           SHORTEST(ceduo_words_accepted(c)), ceduo_text_string(&years), SHORTEST(ceduo_accepted_return(c)));
     } else {
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
-                          WRITTEN_OF_1000(shown->exceed_probability, shown->exceed_lo, shown->exceed_hi),
-                          ceduo_words_accepted(c), CEDUO_EXCEED_MOST * 1000);
+                          WRITTEN_OF_1000(shown->exceed.mean, shown->exceed.lo, shown->exceed.hi), ceduo_words_accepted(c),
+                          CEDUO_EXCEED_MOST * 1000);
     }
     if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
         ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."),
@@ -274,7 +274,7 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, const s
                               i == FULL ? _("the index leaves %s of %s kJ in the mean; it knows no single rocks")
                                         : _("the index leaves %s of %s kJ"),
                               left, mean);
-        else if (r->scene->blocks_count > 0 && !isnan(o->rate.rate))
+        else if (r->scene->blocks_count > 0 && !isnan(o->rate.mean))
             say_rate(text, s, o, i);
         else if (o->answer == CEDUO_YES && o->also_bare)
             say_shares(text, &without, NULL, i);

@@ -188,15 +188,15 @@ void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t o
     }
     const char *mean = WRITTEN(a->energy.mean * J_TO_KJ, 3);
     const char *half = WRITTEN(ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ, 2);
-    const char *reach = WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi);
-    if (isnan(a->exceed_probability))
+    const char *reach = WRITTEN_OF_1000(a->reach.mean, a->reach.lo, a->reach.hi);
+    if (isnan(a->exceed.mean))
         ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
                           mean, half);
     else
         ceduo_text_format(text,
                           _("With the energy law %s: %s of 1000 arrive, %s with more than it withstands; the mean of those "
                             "that arrive is %s \xc2\xb1%s kJ."),
-                          law, reach, WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), mean, half);
+                          law, reach, WRITTEN_OF_1000(a->exceed.mean, a->exceed.lo, a->exceed.hi), mean, half);
     if (a->released < ceduo_result_rocks(r))
         ceduo_text_then(text, " ", _("Under this law the first %llu rocks alone were simulated."),
                         (unsigned long long)a->released);

@@ -59,7 +59,7 @@ static void say_terrain(struct text *text, const char *where, const struct ceduo
                           _("%s: %.0f of 1000 rocks arrive without forest, though it lies under a shadow angle of only "
                             "%.0f\xc2\xb0. Evans and Hungr (1993) suggest 27.5\xc2\xb0 as the smallest: check the friction of "
                             "the ground."),
-                          where, bare->reach_probability * 1000, t->shadow * DEGREES);
+                          where, bare->reach.mean * 1000, t->shadow * DEGREES);
 }
 
 /* Speeds that rocks on slopes do not have. */

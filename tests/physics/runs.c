@@ -140,8 +140,8 @@ struct followed expect_as_followed(struct ceduo_run_def def, uint64_t rocks)
     EXPECT_IS(a, (reached, found.reached), (unfinished, found.bad));
     assert_int_equal(ends_of(run).count[CEDUO_UNFINISHED], found.bad);
     if (def.option) {
-        EXPECT_NEAR(a.contacts, contacts.mean, 1e-12 * contacts.mean);
-        EXPECT_NEAR(a.contacts_se, ceduo_moments_se(&contacts), 1e-9 * a.contacts_se);
+        EXPECT_NEAR(a.contacts.mean, contacts.mean, 1e-12 * contacts.mean);
+        EXPECT_NEAR(a.contacts.se, ceduo_moments_se(&contacts), 1e-9 * a.contacts.se);
     }
     return found;
 }

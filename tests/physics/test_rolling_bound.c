@@ -179,7 +179,7 @@ static void fly(double angle, double roughness, const double *length, size_t cou
     LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, ROCKS, 2, CEDUO_EXACT_BYTES);
     for (size_t i = 0; i < count; i++) {
         struct ceduo_arrivals a = arrivals_of(run, i);
-        to[i] = (struct arrival){.speed = a.speed.mean, .share = a.reach_probability};
+        to[i] = (struct arrival){.speed = a.speed.mean, .share = a.reach.mean};
     }
 }
 

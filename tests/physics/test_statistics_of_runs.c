@@ -66,7 +66,7 @@ TEST(means_of_the_combinations_beside_table_5)
         choose(c);
         LOCAL(ceduo_run, run) = run_scene(&site.scene, c->rocks, 2);
         struct ceduo_arrivals a = arrivals_of(run, 0);
-        double p = a.reach_probability, n = (double)c->rocks;
+        double p = a.reach.mean, n = (double)c->rocks;
         ROWS(expect_mean, ("mean speed", a.speed.mean, a.speed.se, c->speed, c->speed_se, c->speed_digit),
              ("mean energy", a.energy.mean / 1e3, a.energy.se / 1e3, c->energy, c->energy_se, c->energy_digit),
              ("share that passes", 100 * p, 100 * sqrt(p * (1 - p) / n), c->pass, c->pass_se, c->pass_digit));
@@ -83,8 +83,8 @@ TEST(almost_nothing_passes_crsp_with_angles_to_both_sides)
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 20000, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     EXPECT(a.reached, <=, 3); /* 1 in 10^5: more than 3 of 20 000 has a chance of 6e-5 */
-    EXPECT(a.reach_lo, <=, 1e-5);
-    EXPECT(a.reach_hi, >=, 1e-5);
+    EXPECT(a.reach.lo, <=, 1e-5);
+    EXPECT(a.reach.hi, >=, 1e-5);
 }
 
 TEST(figures_of_an_arrival_fit_together)
@@ -104,16 +104,16 @@ TEST(figures_of_an_arrival_fit_together)
     EXPECT_NEAR(a.energy.mean / (sum / (double)n), 1, 1e-12);
     EXPECT_NEAR(a.energy.max / largest, 1, 1e-15);
     assert_int_equal(exceeded, a.exceeded);
-    EXPECT(a.exceed_probability, ==, (double)a.exceeded / 5000);
-    EXPECT_NEAR(a.energy_per_released / (sum / 5000), 1, 1e-12);
+    EXPECT(a.exceed.mean, ==, (double)a.exceeded / 5000);
+    EXPECT_NEAR(a.energy_per_released.mean / (sum / 5000), 1, 1e-12);
     double squares = 0;
     for (size_t i = 0; i < n; i++)
         squares += energies[i] * energies[i];
     double variance = (squares - sum * sum / 5000) / 4999;
-    EXPECT_NEAR(a.energy_per_released_se / sqrt(variance / 5000), 1, 1e-9);
+    EXPECT_NEAR(a.energy_per_released.se / sqrt(variance / 5000), 1, 1e-9);
     double reach = (double)a.reached / 5000, exceed = (double)a.exceeded / 5000;
-    EXPECT_IS(a, (reach_lo, ceduo_wilson(reach, reach, 5000).lo), (reach_hi, ceduo_wilson(reach, reach, 5000).hi),
-              (exceed_lo, ceduo_wilson(exceed, exceed, 5000).lo), (exceed_hi, ceduo_wilson(exceed, exceed, 5000).hi));
+    EXPECT_IS(a, (reach.lo, ceduo_wilson(reach, reach, 5000).lo), (reach.hi, ceduo_wilson(reach, reach, 5000).hi),
+              (exceed.lo, ceduo_wilson(exceed, exceed, 5000).lo), (exceed.hi, ceduo_wilson(exceed, exceed, 5000).hi));
     ROWS(EXPECT, (a.energy.p50, <=, a.energy.p95_lo), (a.energy.p95_lo, <=, a.energy.p95), (a.energy.p95, <=, a.energy.p95_hi),
          (a.energy.p95, <=, a.energy.p99), (a.energy.p99, <=, a.energy.max));
     EXPECT(a.translation.mean, ==, a.energy.mean); /* lumped: no spin */
@@ -452,11 +452,11 @@ TEST(a_control_that_nobody_reaches)
             def.exact_bytes = bytes[e];
             LOCAL(ceduo_run, run) = run_of(&def, 999);
             struct ceduo_arrivals a = arrivals_of(run, 0);
-            EXPECT_IS(a, (reached, 0), (reach_probability, 0), (reach_lo, 0));
-            ROWS(EXPECT, (a.reach_hi, >, .0038), (a.reach_hi, <, .004), (a.exceed_hi, ==, a.reach_hi));
+            EXPECT_IS(a, (reached, 0), (reach.mean, 0), (reach.lo, 0));
+            ROWS(EXPECT, (a.reach.hi, >, .0038), (a.reach.hi, <, .004), (a.exceed.hi, ==, a.reach.hi));
             ROWS(assert_true, (nothing_known(&a.speed)), (nothing_known(&a.energy)), (nothing_known(&a.translation)),
                  (nothing_known(&a.height)));
-            EXPECT_IS(a, (energy_per_released, 0), (energy_per_released_se, 0));
+            EXPECT_IS(a, (energy_per_released.mean, 0), (energy_per_released.se, 0));
             uint64_t reached;
             double mean, se, energy;
             ceduo_run_energy(run, 0, &reached, &mean, &se);
@@ -473,7 +473,7 @@ TEST(a_control_without_an_accepted_energy)
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 999, 1);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     EXPECT(a.exceeded, ==, 0);
-    EXPECT_NAN(a.exceed_probability, a.exceed_lo, a.exceed_hi);
+    EXPECT_NAN(a.exceed.mean, a.exceed.lo, a.exceed.hi);
 }
 
 TEST(unfinished_rocks_count_for_the_upper_bound)
@@ -486,7 +486,7 @@ TEST(unfinished_rocks_count_for_the_upper_bound)
     flat.scene.controls_count = 1;
     LOCAL(ceduo_run, run) = run_scene(&flat.scene, 5, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    EXPECT_IS(a, (unfinished, 5), (reached, 0), (reach_hi, 1), (reach_lo, 0), (exceed_hi, 1));
+    EXPECT_IS(a, (unfinished, 5), (reached, 0), (reach.hi, 1), (reach.lo, 0), (exceed.hi, 1));
     struct ceduo_ends ends = ends_of(run);
     assert_int_equal(ends.count[CEDUO_UNFINISHED], 5);
     EXPECT_NAN(ends.stop_p50, ends.stop_max);
@@ -530,5 +530,5 @@ TEST(unfinished_blocks_count_by_their_weights)
     double of_equal = ceduo_wilson(unfinished / all, unfinished / all, all * all / squares).hi;
     double hi = fmax(of_equal, unfinished / all + z2 / (ROCKS + z2));
     EXPECT_NEAR(a.missed[CEDUO_UNFINISHED], unfinished / all, 1e-12);
-    EXPECT_NEAR(a.reach_hi, hi, 1e-12);
+    EXPECT_NEAR(a.reach.hi, hi, 1e-12);
 }

@@ -25,7 +25,7 @@ TEST(rocks_on_the_papers_site_arrive_as_in_an_independent_implementation)
     LOCAL(ceduo_run, run) = run_option(&site.scene, &site.option, rocks, 2, CEDUO_EXACT_BYTES);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     struct ceduo_ends e = ends_of(run);
-    double n = (double)rocks, pass = a.reach_probability;
+    double n = (double)rocks, pass = a.reach.mean;
     double stopped = (double)e.count[CEDUO_STOPPED_BY_STEMS] / n;
     expect_close("kJ at 135 m", a.energy.mean / 1e3, a.energy.se / 1e3, other.energy, .1);
     /* its error is not printed: half of that of the energy, as shares go, and half a digit */
@@ -94,7 +94,7 @@ static struct pair_moments pairs_of(const struct ceduo_option *a, const struct c
     return m;
 }
 
-static void expect_pair(const char *what, const struct ceduo_paired *d, const struct ceduo_moments *m, double a, double b)
+static void expect_pair(const char *what, const struct ceduo_estimate *d, const struct ceduo_moments *m, double a, double b)
 {
     print_message("# %s: %.6g ± %.3g\n", what, d->mean, d->se);
     if (fabs(d->mean - (a - b)) > 1e-12 * (fabs(a) + fabs(b)))
@@ -116,17 +116,16 @@ TEST(differences_have_the_error_of_differences_rock_by_rock)
         struct pair_moments m = pairs_of(option, &sides.options[0], rocks);
         struct ceduo_arrivals a = arrivals_of(run, 0);
         struct ceduo_arrivals b = arrivals_of(base, 0);
-        expect_pair("difference of shares that pass", &d.reach_probability, &m.reach, a.reach_probability, b.reach_probability);
-        expect_pair("difference of shares above what is accepted", &d.exceed_probability, &m.exceed, a.exceed_probability,
-                    b.exceed_probability);
-        expect_pair("difference of J per released", &d.energy_per_released, &m.energy, a.energy_per_released,
-                    b.energy_per_released);
-        double apart = hypot(a.energy_per_released_se, b.energy_per_released_se);
+        expect_pair("difference of shares that pass", &d.reach, &m.reach, a.reach.mean, b.reach.mean);
+        expect_pair("difference of shares above what is accepted", &d.exceed, &m.exceed, a.exceed.mean, b.exceed.mean);
+        expect_pair("difference of J per released", &d.energy_per_released, &m.energy, a.energy_per_released.mean,
+                    b.energy_per_released.mean);
+        double apart = hypot(a.energy_per_released.se, b.energy_per_released.se);
         EXPECT(d.energy_per_released.se, <, (other ? 1 : .5) * apart);
     }
 }
 
-static bool same_pair(const struct ceduo_paired *a, const struct ceduo_paired *b)
+static bool same_pair(const struct ceduo_estimate *a, const struct ceduo_estimate *b)
 {
     return fabs(a->mean - b->mean) <= 1e-15 * fabs(a->mean) && fabs(a->se / b->se - 1) < 1e-9;
 }
@@ -143,14 +142,12 @@ TEST(differences_without_all_samples_are_the_same)
         struct ceduo_arrivals a = arrivals_of(run, 0);
         EXPECT(a.exact, ==, (i == 0));
         d[i] = ceduo_run_difference(run, base, 0);
-        ROWS(EXPECT, (d[i].energy_per_released.mean, ==, d[0].energy_per_released.mean),
-             (d[i].reach_probability.mean, ==, d[0].reach_probability.mean),
-             (d[i].exceed_probability.mean, ==, d[0].exceed_probability.mean));
+        ROWS(EXPECT, (d[i].energy_per_released.mean, ==, d[0].energy_per_released.mean), (d[i].reach.mean, ==, d[0].reach.mean),
+             (d[i].exceed.mean, ==, d[0].exceed.mean));
     }
     /* energies of all rocks are kept, though not all samples */
-    ROWS(assert_true, (same_pair(&d[1].energy_per_released, &d[0].energy_per_released)),
-         (same_pair(&d[1].reach_probability, &d[0].reach_probability)),
-         (same_pair(&d[1].exceed_probability, &d[0].exceed_probability)));
+    ROWS(assert_true, (same_pair(&d[1].energy_per_released, &d[0].energy_per_released)), (same_pair(&d[1].reach, &d[0].reach)),
+         (same_pair(&d[1].exceed, &d[0].exceed)));
     /* of half of them: the spread is known a little worse */
     EXPECT_NEAR(d[2].energy_per_released.se / d[0].energy_per_released.se, 1, .1);
 }
@@ -235,8 +232,8 @@ TEST(stems_hit_by_blocks)
         site.scene.simulation.seed = seed;
         struct ceduo_run *run = run_option(&site.scene, &sides.options[0], ROCKS, 1, CEDUO_EXACT_BYTES);
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        ceduo_moments_add(&over, a.contacts);
-        ceduo_moments_add(&errors, a.contacts_se);
+        ceduo_moments_add(&over, a.contacts.mean);
+        ceduo_moments_add(&errors, a.contacts.se);
         if (seed < SEEDS) {
             ceduo_run_free(run);
             continue;
@@ -263,8 +260,8 @@ TEST(stems_hit_by_blocks)
             wx += dw * dx;
             xx += dx * dx;
         }
-        expect_exact("mean contacts of blocks", a.contacts, sum / reached, 1e-12);
-        expect_exact("their error", a.contacts_se, sqrt((xx - wx * wx / ww) * ROCKS / (ROCKS - 1)) / reached, 1e-9);
+        expect_exact("mean contacts of blocks", a.contacts.mean, sum / reached, 1e-12);
+        expect_exact("their error", a.contacts.se, sqrt((xx - wx * wx / ww) * ROCKS / (ROCKS - 1)) / reached, 1e-9);
         ceduo_run_free(run);
     }
     double ratio = ceduo_moments_sd(&over) / errors.mean;
@@ -292,12 +289,12 @@ TEST(a_longer_run_keeps_its_figures)
          (result->options[1].wooded.rocks, ==, 1500));
     const struct ceduo_arrivals *a = ceduo_result_wooded(result, 1, 0);
     ROWS(EXPECT, (a->released, ==, 1500), (a->reached, ==, wanted.reached), (a->energy.mean, ==, wanted.energy.mean));
-    EXPECT_SAME(*a, wanted, exceed_hi, contacts);
+    EXPECT_SAME(*a, wanted, exceed.hi, contacts.mean);
     struct ceduo_difference d = result->options[1].differences[0], of_few = ceduo_run_difference(few[1], few[0], 0);
     EXPECT(d.energy_per_released.mean, <, 0);
     expect_exact("difference", d.energy_per_released.mean, of_few.energy_per_released.mean, 1e-9);
     expect_exact("its error", d.energy_per_released.se, of_few.energy_per_released.se, 1e-12);
-    EXPECT_NEAR(d.exceed_probability.mean, of_few.exceed_probability.mean, 1e-12);
+    EXPECT_NEAR(d.exceed.mean, of_few.exceed.mean, 1e-12);
     ceduo_run_free(alone);
     ceduo_run_free(few[0]);
     ceduo_run_free(few[1]);

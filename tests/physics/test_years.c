@@ -135,10 +135,10 @@ static void expect_same_distribution(const struct ceduo_distribution *a, const s
 static void expect_same_arrivals(const struct ceduo_arrivals *a, const struct ceduo_arrivals *b)
 {
     EXPECT_SAME(*a, *b, released, reached, exceeded, unfinished, exact);
-    EXPECT_BITS(a, b, reach_probability, reach_lo, reach_hi, exceed_probability, exceed_lo, exceed_hi);
+    EXPECT_BITS(a, b, reach.mean, reach.lo, reach.hi, exceed.mean, exceed.lo, exceed.hi);
     ROWS(expect_same_distribution, (&a->speed, &b->speed), (&a->energy, &b->energy), (&a->translation, &b->translation),
          (&a->height, &b->height));
-    EXPECT_BITS(a, b, energy_per_released, energy_per_released_se, contacts, contacts_se);
+    EXPECT_BITS(a, b, energy_per_released.mean, energy_per_released.se, contacts.mean, contacts.se);
 }
 
 static void expect_same_ends(const struct ceduo_ends *a, const struct ceduo_ends *b)
@@ -468,7 +468,7 @@ TEST(years_of_blocks)
             wx += (weights[r] - w1) * (x[r] - x1);
             xx += (x[r] - x1) * (x[r] - x1);
         }
-        struct ceduo_paired found =
+        struct ceduo_estimate found =
             of < 2 ? ceduo_years_sum(years[of], years[of]->last_control).exceed : ceduo_years_difference(years[0], years[1]);
         EXPECT_NEAR(found.mean, x1 / w1, 1e-12);
         EXPECT_NEAR(found.se, sqrt((xx - wx * wx / ww) / FEW / (FEW - 1)) / w1, 1e-12);
@@ -534,7 +534,7 @@ TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
         assert_false(years->years[i].cut);
         for (size_t c = 0; c < CONTROLS; c++) {
             struct ceduo_arrivals a = years->years[i].wooded.arrivals[c];
-            a.contacts = a.contacts_se = NAN;
+            a.contacts = CEDUO_NO_ESTIMATE;
             expect_same_arrivals(&a, &bare.arrivals[c]);
         }
     }
@@ -549,7 +549,7 @@ TEST_WITH(nothing_is_hit_in_a_bare_year, fresh, NULL)
     LOCAL(ceduo_years, years) = flown(3, 5, 1, 1, 200);
     const struct ceduo_year *y = &years->years[1];
     bool cut = y->cut && y->stands[0].bare && y->wooded.arrivals[1].reached > 0;
-    double contacts = y->wooded.arrivals[1].contacts;
+    double contacts = y->wooded.arrivals[1].contacts.mean;
     assert_true(cut);
     EXPECT(contacts, ==, 0); /* known, not unknown */
 }

@@ -239,7 +239,7 @@ def check_view(screen, view, scene, charset):
             expect(all(signs[2] == energy for signs in compared_lights(screen)), "energy lights", compared_lights(screen))
     if view in ("slope", "stand", "rock"):
         where = {"slope": "from, m: where the belt begins", "stand": "from, m: where the belt begins",
-                 "rock": "shape: shape of the rock"}[view]
+                 "rock": "shape: shape (default"}[view]
         expect(screen.note.startswith(where), f"the line above the keys does not explain the field: {screen.note!r}")
     expect("nan" not in re.sub(r"\w*nan\w+|\w+nan\w*", "", screen.text.lower()), "a nan on the", screen)
 

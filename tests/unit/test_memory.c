@@ -162,11 +162,11 @@ static bool fly_histograms(void)
 /* Now the second option is clearly worse, and by the other energy law clearly better. */
 static void turn(struct ceduo_result *r)
 {
-    const struct ceduo_paired worse = {0.5, 0.1, 0}, better = {-0.5, 0.1, 0};
-    r->options[1].differences[0].exceed_probability = worse;
+    const struct ceduo_estimate worse = {0.5, 0.1, NAN, NAN}, better = {-0.5, 0.1, NAN, NAN};
+    r->options[1].differences[0].exceed = worse;
     for (size_t i = 0; i < 2; i++)
         r->options[i].others[0] = (struct ceduo_other_energy){.known = true};
-    r->options[1].others[0].to_first.exceed_probability = better;
+    r->options[1].others[0].to_first.exceed = better;
 }
 
 /* Two options, of which one is cut in the second of the years, and blocks of other sizes. */
@@ -205,7 +205,7 @@ static bool question(void)
         add(&s.worst, sizeof s.worst);
         for (size_t i = 0; i < 2 * CEDUO_BLOCKS; i++) {
             add(&answer.blocks[i].arrivals.reached, sizeof answer.blocks[i].arrivals.reached);
-            add(&answer.blocks[i].arrivals.exceed_hi, sizeof answer.blocks[i].arrivals.exceed_hi);
+            add(&answer.blocks[i].arrivals.exceed.hi, sizeof answer.blocks[i].arrivals.exceed.hi);
         }
     }
     return is_done(status);
@@ -451,7 +451,7 @@ static bool assess(void)
     static struct ceduo_arrivals bare = {.released = 10, .reached = 10}, wooded = {.released = 10, .reached = 4};
     const struct ceduo_simulated flown[2] = {{.rocks = 10, .controls = 1, .arrivals = &bare},
                                              {.rocks = 10, .controls = 1, .arrivals = &wooded}};
-    const struct ceduo_difference difference = {.reach_probability = {-.6, .1, 0}};
+    const struct ceduo_difference difference = {.reach = {-.6, .1, NAN, NAN}};
     LOCAL(ceduo_result, result);
     enum ceduo_status status = ceduo_result_assess(&site.scene, &flown[0], &(const struct ceduo_simulated *){&flown[1]},
                                                    &difference, &(const struct ceduo_other_energy){0}, &result);

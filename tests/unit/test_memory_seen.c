@@ -69,10 +69,10 @@ static bool ask_of_blocks(void)
     enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
     if (status == CEDUO_OK) {
         const struct ceduo_arrivals *a = ceduo_result_wooded(answer.result, 0, 0);
-        assert_true(a->reach_probability > 0);
+        assert_true(a->reach.mean > 0);
         add(&a->hazard.reach, sizeof a->hazard.reach);
         add(&a->hazard.accepted, sizeof a->hazard.accepted);
-        add(&a->reach_probability, sizeof a->reach_probability);
+        add(&a->reach.mean, sizeof a->reach.mean);
     }
     return is_done(status);
 }

@@ -32,10 +32,10 @@ static void set_share(struct ceduo_arrivals *a, double share, double lo, double 
 {
     *a = (struct ceduo_arrivals){.released = 1000,
                                  .reached = 900,
-                                 .reach_probability = .9,
-                                 .exceed_probability = share,
-                                 .exceed_lo = lo,
-                                 .exceed_hi = hi,
+                                 .reach.mean = .9,
+                                 .exceed.mean = share,
+                                 .exceed.lo = lo,
+                                 .exceed.hi = hi,
                                  .limit = .05};
     a->hazard.per_year = NAN;
 }
@@ -158,7 +158,7 @@ TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
                 {.005, .009, .002, .005, CEDUO_YES},    {.0101, .02, .0051, .01, CEDUO_NO},
                 {.0101, .02, .0049, .01, CEDUO_DEPENDS}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        years.rate = (struct ceduo_rate){(rows[i].lo + rows[i].hi) / 2, rows[i].lo, rows[i].hi};
+        years.rate = (struct ceduo_estimate){(rows[i].lo + rows[i].hi) / 2, NAN, rows[i].lo, rows[i].hi};
         set_range(CEDUO_DOUBT_MEAN, rows[i].p5, rows[i].p95);
         assert_int_equal(judge(true).answer, rows[i].answer);
     }

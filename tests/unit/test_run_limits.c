@@ -158,7 +158,7 @@ TEST(differences_of_few_rocks)
     struct ceduo_arrivals a;
     assert_int_equal(ceduo_run_arrivals(runs[1][0], 0, &a), CEDUO_OK);
     assert_false(a.exact);
-    EXPECT(binned.reach_probability.se, ==, exact.reach_probability.se);
+    EXPECT(binned.reach.se, ==, exact.reach.se);
     EXPECT_NEAR(binned.energy_per_released.se, exact.energy_per_released.se, 1e-9 * exact.energy_per_released.se);
     uint16_t marks[ROCKS + 100] = {0};
     EXPECT(ceduo_run_mark(runs[1][0], 0, marks, ROCKS + 100), ==, ROCKS);
@@ -224,8 +224,8 @@ TEST(differences_of_blocks)
     struct ceduo_difference first = ceduo_run_difference(few, most, 0), second = ceduo_run_difference(many, least, 0);
     assert_memory_equal(&first, &wanted, sizeof wanted);
     assert_memory_equal(&second, &wanted, sizeof wanted);
-    assert_true(isnan(ceduo_run_difference(empty, most, 0).reach_probability.mean));
-    assert_true(isnan(ceduo_run_difference(few, empty, 0).reach_probability.mean));
+    assert_true(isnan(ceduo_run_difference(empty, most, 0).reach.mean));
+    assert_true(isnan(ceduo_run_difference(few, empty, 0).reach.mean));
     EXPECT(ceduo_run_energies(empty, 0, none, 1), ==, 0);
     assert_true(ceduo_run_values(empty, 0, CEDUO_SAMPLE_STOP, stops)); /* of nobody */
     struct ceduo_run *runs[] = {few, many, least, most, empty};
@@ -277,12 +277,12 @@ TEST(a_run_in_brief)
         struct ceduo_arrivals a;
         ceduo_run_briefs(run, 0, 1, &brief);
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        EXPECT_NEAR(brief.reach_probability, a.reach_probability, 1e-12);
+        EXPECT_NEAR(brief.reach_probability, a.reach.mean, 1e-12);
         EXPECT(isnan(brief.exceed_probability), ==, i % 2);
         if (i % 2 == 0)
-            EXPECT_NEAR(brief.exceed_probability, a.exceed_probability, 1e-12);
+            EXPECT_NEAR(brief.exceed_probability, a.exceed.mean, 1e-12);
         EXPECT_NEAR(brief.energy, a.energy.mean, 1e-12 * a.energy.mean);
-        EXPECT_NEAR(brief.energy_per_released, a.energy_per_released, 1e-12 * a.energy_per_released);
+        EXPECT_NEAR(brief.energy_per_released, a.energy_per_released.mean, 1e-12 * a.energy_per_released.mean);
     }
 }
 
@@ -299,8 +299,8 @@ TEST(what_needs_samples)
                 ceduo_run_values(exact, 0, CEDUO_SAMPLE_STOP, values));
     assert_false(ceduo_run_values(binned, 0, CEDUO_SAMPLE_SPEED, values) ||
                  ceduo_run_values(binned, 0, CEDUO_SAMPLE_STOP, values));
-    assert_true(isnan(ceduo_run_difference(exact, binned, 0).reach_probability.mean));
-    assert_true(isnan(ceduo_run_difference(binned, exact, 0).reach_probability.mean));
+    assert_true(isnan(ceduo_run_difference(exact, binned, 0).reach.mean));
+    assert_true(isnan(ceduo_run_difference(binned, exact, 0).reach.mean));
 }
 
 /* Years that were not flown yet say nothing of what arrives. */

@@ -120,9 +120,9 @@ TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
     assert_ptr_equal(o->wooded[1], o->bare);
     assert_ptr_not_equal(o->wooded[0], o->bare);
     for (size_t c = 0; c < 2; c++) {
-        EXPECT(o->differences[c].reach_probability.mean, ==, 0);
-        double more = o->bare->flown.arrivals[c].reach_probability - o->wooded[0]->flown.arrivals[c].reach_probability;
-        EXPECT_NEAR(o->differences[2 + c].reach_probability.mean, more, 1e-12);
+        EXPECT(o->differences[c].reach.mean, ==, 0);
+        double more = o->bare->flown.arrivals[c].reach.mean - o->wooded[0]->flown.arrivals[c].reach.mean;
+        EXPECT_NEAR(o->differences[2 + c].reach.mean, more, 1e-12);
     }
 }
 
@@ -156,7 +156,7 @@ TEST_WITH(what_is_not_flown_yet_is_not_known, wooded, NULL)
     assert_null(o->wooded[0]);
     assert_ptr_equal(o->wooded[1], o->bare);
     for (size_t i = 0; i < 4; i++)
-        assert_true(isnan(o->differences[i].reach_probability.mean));
+        assert_true(isnan(o->differences[i].reach.mean));
     ceduo_snapshot_free(o);
 }
 

@@ -5,16 +5,8 @@
 
 #include "run_state.h"
 
-/* A share with its 95 % interval. */
-static void set_share(struct ceduo_rate rate, double *share, double *lo, double *hi)
-{
-    *share = rate.rate;
-    *lo = rate.lo;
-    *hi = rate.hi;
-}
-
 /* Of n rocks; the upper end of its interval counts the unfinished in. */
-static struct ceduo_rate share_of(uint64_t hits, uint64_t unfinished, uint64_t n)
+static struct ceduo_estimate share_of(uint64_t hits, uint64_t unfinished, uint64_t n)
 {
     return ceduo_wilson((double)hits / (double)n, (double)(hits + unfinished) / (double)n, (double)n);
 }
@@ -112,16 +104,16 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
         weighted_sum_add(&exceed, values[i].weight, values[i].value > accepted);
         weighted_sum_add(&energy, values[i].weight, values[i].value);
     }
-    set_share(ceduo_weighted_share(&all, &reach, -1), &a->reach_probability, &a->reach_lo, &a->reach_hi);
+    a->reach = ceduo_weighted_share(&all, &reach, -1);
     if (!isnan(accepted))
-        set_share(ceduo_weighted_share(&all, &exceed, accepted), &a->exceed_probability, &a->exceed_lo, &a->exceed_hi);
-    a->energy_per_released = energy.t / all.w;
-    a->energy_per_released_se = ceduo_weighted_se(&all, &energy);
+        a->exceed = ceduo_weighted_share(&all, &exceed, accepted);
+    a->energy_per_released = (struct ceduo_estimate){energy.t / all.w, ceduo_weighted_se(&all, &energy), NAN, NAN};
     if (!run->ready.wood.bare && n > 0) { /* no sample is kept of stems hit, but sums */
-        double mean = a->contacts = s->hits.t / reach.t;
+        double mean = s->hits.t / reach.t;
         struct weighted_sum about = {.tt = s->hits.tt - mean * (2 * s->hits.tw - mean * reach.tt),
                                      .tw = s->hits.tw - mean * reach.tt};
-        a->contacts_se = n > 1 ? ceduo_weighted_se(&all, &about) * all.w / reach.t : NAN;
+        double se = n > 1 ? ceduo_weighted_se(&all, &about) * all.w / reach.t : NAN;
+        a->contacts = (struct ceduo_estimate){mean, se, NAN, NAN};
     }
     free(values);
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -144,7 +136,7 @@ static struct ceduo_difference weighted_difference(const struct ceduo_run *run, 
     struct ceduo_difference d = {ceduo_weighted_paired(&all, &reach), ceduo_weighted_paired(&all, &exceed),
                                  ceduo_weighted_paired(&all, &energy)};
     if (isnan(accepted))
-        d.exceed_probability = CEDUO_NOT_PAIRED;
+        d.exceed = CEDUO_NO_ESTIMATE;
     return d;
 }
 
@@ -210,12 +202,9 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
                                  .reached = s.of[SPEED].n,
                                  .exceeded = s.exceeded,
                                  .unfinished = s.ended[CEDUO_UNFINISHED],
-                                 .exceed_probability = NAN,
-                                 .exceed_lo = NAN,
-                                 .exceed_hi = NAN,
+                                 .exceed = CEDUO_NO_ESTIMATE,
                                  .limit = ceduo_exceed_limit(&run->ready.scene, &run->ready.scene.controls[control]),
-                                 .contacts = NAN,
-                                 .contacts_se = NAN,
+                                 .contacts = CEDUO_NO_ESTIMATE,
                                  .hazard = ceduo_hazard_none(),
                                  .topography = ceduo_prepared_topography(&run->ready, control),
                                  .exact = run->exact};
@@ -224,18 +213,15 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
         return read_weighted(run, control, &s, a);
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = (double)s.ended[e] / (double)run->rocks;
-    set_share(share_of(a->reached, a->unfinished, run->rocks), &a->reach_probability, &a->reach_lo, &a->reach_hi);
+    a->reach = share_of(a->reached, a->unfinished, run->rocks);
     if (!isnan(run->ready.scene.controls[control].accepted))
-        set_share(share_of(a->exceeded, a->unfinished, run->rocks), &a->exceed_probability, &a->exceed_lo, &a->exceed_hi);
+        a->exceed = share_of(a->exceeded, a->unfinished, run->rocks);
     const struct ceduo_moments *energy = &s.of[ENERGY]; /* of all released rocks; a rock that does not arrive counts as 0 */
     double n = (double)run->rocks, arrived = (double)energy->n / n;
     double m2 = energy->m2 + energy->mean * energy->mean * (double)energy->n * (1 - arrived);
-    a->energy_per_released = energy->mean * arrived;
-    a->energy_per_released_se = run->rocks < 2 ? NAN : sqrt(m2 / (n - 1) / n);
-    if (!run->ready.wood.bare && s.contacts.n > 0) {
-        a->contacts = s.contacts.mean;
-        a->contacts_se = ceduo_moments_se(&s.contacts);
-    }
+    a->energy_per_released = (struct ceduo_estimate){energy->mean * arrived, n < 2 ? NAN : sqrt(m2 / (n - 1) / n), NAN, NAN};
+    if (!run->ready.wood.bare && s.contacts.n > 0)
+        a->contacts = (struct ceduo_estimate){s.contacts.mean, ceduo_moments_se(&s.contacts), NAN, NAN};
     double *scratch = malloc(((size_t)run->rocks + 1) * sizeof(double));
     if (!scratch)
         return CEDUO_NO_MEMORY;
@@ -327,8 +313,8 @@ static double paired_energy(const struct ceduo_run *run, size_t control, uint64_
 
 struct ceduo_difference ceduo_no_difference(double accepted)
 {
-    const struct ceduo_paired none = {0, 0, 0};
-    return (struct ceduo_difference){none, isnan(accepted) ? CEDUO_NOT_PAIRED : none, none};
+    const struct ceduo_estimate none = {0};
+    return (struct ceduo_difference){none, isnan(accepted) ? CEDUO_NO_ESTIMATE : none, none};
 }
 
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control)
@@ -336,7 +322,7 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
     bool alike = run && baseline && run->rocks == baseline->rocks;
     if (!run || !baseline || run->rocks == 0 || baseline->rocks == 0 || control >= run->controls ||
         control >= baseline->controls || (!alike && !(run->exact && baseline->exact)))
-        return (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
+        return (struct ceduo_difference){CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
     const struct ceduo_control *at = &run->ready.scene.controls[control];
     if (alike && (run == baseline || (run->stems_from >= at->x && baseline->stems_from >= at->x)))
         return ceduo_no_difference(at->accepted);
@@ -351,19 +337,19 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
         ceduo_moments_add(&energy, (isnan(e) ? 0 : e) - (isnan(f) ? 0 : f));
     }
     uint64_t rocks = alike ? run->rocks : paired;
-    struct ceduo_difference d = {ceduo_paired_of(reach.mean, &reach, rocks), ceduo_paired_of(exceed.mean, &exceed, rocks),
-                                 ceduo_paired_of(energy.mean, &energy, rocks)};
+    double means[3] = {reach.mean, exceed.mean, energy.mean};
     if (alike) { /* the means of all rocks, where only the first are paired */
         struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
         const struct ceduo_moments *e = &s.of[ENERGY], *f = &t.of[ENERGY];
         double n = (double)run->rocks;
-        d.reach_probability.mean = ((double)e->n - (double)f->n) / n;
-        d.exceed_probability.mean = ((double)s.exceeded - (double)t.exceeded) / n;
-        d.energy_per_released.mean = (e->mean * (double)e->n - f->mean * (double)f->n) / n;
+        means[0] = ((double)e->n - (double)f->n) / n;
+        means[1] = ((double)s.exceeded - (double)t.exceeded) / n;
+        means[2] = (e->mean * (double)e->n - f->mean * (double)f->n) / n;
     }
-    if (isnan(at->accepted))
-        d.exceed_probability = CEDUO_NOT_PAIRED;
-    return d;
+    return (struct ceduo_difference){ceduo_estimate_of_pairs(means[0], &reach, rocks),
+                                     isnan(at->accepted) ? CEDUO_NO_ESTIMATE
+                                                         : ceduo_estimate_of_pairs(means[1], &exceed, rocks),
+                                     ceduo_estimate_of_pairs(means[2], &energy, rocks)};
 }
 
 uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t max)

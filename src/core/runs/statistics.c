@@ -35,9 +35,9 @@ double ceduo_moments_se(const struct ceduo_moments *m)
     return m->n < 2 ? NAN : ceduo_moments_sd(m) / sqrt((double)m->n);
 }
 
-struct ceduo_rate ceduo_wilson(double share, double max, double n)
+struct ceduo_estimate ceduo_wilson(double share, double max, double n)
 {
-    struct ceduo_rate r = {share, 0, 1};
+    struct ceduo_estimate r = {share, NAN, 0, 1};
     double z2 = CEDUO_Z95 * CEDUO_Z95, scale = 1 + z2 / n;
     if (!(n > 0))
         return r;
@@ -58,7 +58,7 @@ double ceduo_half_width_of_share(double share, double se, uint64_t n)
 {
     if (share > 0 && share < 1)
         return CEDUO_Z95 * se;
-    struct ceduo_rate all_or_none = ceduo_wilson(share > 0, share > 0, (double)n);
+    struct ceduo_estimate all_or_none = ceduo_wilson(share > 0, share > 0, (double)n);
     return all_or_none.hi - all_or_none.lo;
 }
 
@@ -67,11 +67,17 @@ double ceduo_share_se(double share, double n)
     return sqrt(share * (1 - share) / n);
 }
 
-struct ceduo_paired ceduo_paired_of(double mean, const struct ceduo_moments *m, uint64_t rocks)
+struct ceduo_estimate ceduo_estimate_by_se(double mean, double se)
+{
+    return (struct ceduo_estimate){mean, se, mean - CEDUO_Z95 * se, mean + CEDUO_Z95 * se};
+}
+
+struct ceduo_estimate ceduo_estimate_of_pairs(double mean, const struct ceduo_moments *m, uint64_t rocks)
 {
     if (m->n == 0 || m->mean != 0 || m->m2 > 0)
-        return (struct ceduo_paired){mean, ceduo_moments_sd(m) / sqrt((double)rocks), 0};
-    return (struct ceduo_paired){mean, NAN, ceduo_wilson(0, 0, (double)m->n).hi};
+        return ceduo_estimate_by_se(mean, ceduo_moments_sd(m) / sqrt((double)rocks));
+    double hi = ceduo_wilson(0, 0, (double)m->n).hi;
+    return (struct ceduo_estimate){mean, NAN, mean - hi, mean + hi};
 }
 
 size_t ceduo_quantile_rank(size_t n, double p)

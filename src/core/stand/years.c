@@ -317,7 +317,8 @@ static double share_of_years(const struct ceduo_years *years, uint64_t rock)
 }
 
 /* The mean of those shares, less those of `less` (NULL: of nothing), by the weights of the rocks. */
-static struct ceduo_paired weighted_difference(const struct ceduo_years *years, const struct ceduo_years *less, uint64_t rocks)
+static struct ceduo_estimate weighted_difference(const struct ceduo_years *years, const struct ceduo_years *less,
+                                                 uint64_t rocks)
 {
     struct released all = {.n = (double)rocks};
     struct weighted_sum sum = {0};
@@ -350,20 +351,20 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
         if (y->wooded.rocks > 0) {
             const struct ceduo_arrivals *a = &y->wooded.arrivals[control];
             double n = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;
-            double share = isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability;
-            struct ceduo_rate rate = ceduo_hazard_feared(&a->hazard);
+            double share = isnan(a->exceed.mean) ? a->reach.mean : a->exceed.mean;
+            struct ceduo_estimate rate = ceduo_hazard_feared(&a->hazard);
             s.simulated++;
-            s.failing_lo += a->exceed_lo > a->limit;
-            s.failing_hi += a->exceed_hi > a->limit;
-            s.rate.rate += rate.rate;
+            s.failing_lo += a->exceed.lo > a->limit;
+            s.failing_hi += a->exceed.hi > a->limit;
+            s.rate.mean += rate.mean;
             s.rate.lo += rate.lo;
             s.rate.hi += rate.hi;
-            s.reach.mean += a->reach_probability;
-            s.reach.se += ceduo_share_se(a->reach_probability, n);
-            s.exceed.mean += a->exceed_probability;
-            s.exceed.se += ceduo_share_se(a->exceed_probability, n);
-            s.energy_per_released.mean += a->energy_per_released;
-            s.energy_per_released.se += a->energy_per_released_se;
+            s.reach.mean += a->reach.mean;
+            s.reach.se += ceduo_share_se(a->reach.mean, n);
+            s.exceed.mean += a->exceed.mean;
+            s.exceed.se += ceduo_share_se(a->exceed.mean, n);
+            s.energy_per_released.mean += a->energy_per_released.mean;
+            s.energy_per_released.se += a->energy_per_released.se;
             if (isnan(s.worst) || share > s.worst) {
                 s.worst = share;
                 s.worst_year = y->year;
@@ -373,12 +374,12 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
             s.worst_year = y->year;
         }
     }
-    struct ceduo_paired *const means[] = {&s.reach, &s.exceed, &s.energy_per_released};
+    struct ceduo_estimate *const means[] = {&s.reach, &s.exceed, &s.energy_per_released};
     for (size_t i = 0; i < 3; i++) { /* of none NaN */
         means[i]->mean /= (double)s.simulated;
         means[i]->se /= (double)s.simulated;
     }
-    s.rate.rate /= (double)s.simulated;
+    s.rate.mean /= (double)s.simulated;
     s.rate.lo /= (double)s.simulated;
     s.rate.hi /= (double)s.simulated;
     if (years->rocks > 0 &&
@@ -395,17 +396,17 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
     return s;
 }
 
-struct ceduo_paired ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less)
+struct ceduo_estimate ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less)
 {
     if (years->rocks == 0 || less->rocks == 0 || years->scene.controls_count == 0)
-        return CEDUO_NOT_PAIRED;
+        return CEDUO_NO_ESTIMATE;
     uint64_t rocks = less->marked < years->marked ? less->marked : years->marked;
     if (years->weights)
         return weighted_difference(years, less, rocks);
     struct ceduo_moments m = {0};
     for (uint64_t r = 0; r < rocks; r++)
         ceduo_moments_add(&m, share_of_years(years, r) - share_of_years(less, r));
-    return ceduo_paired_of(m.mean, &m, rocks);
+    return ceduo_estimate_of_pairs(m.mean, &m, rocks);
 }
 
 double ceduo_years_felled(const struct ceduo_years *years)

@@ -190,8 +190,7 @@ bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, d
         prepare_segment(ground, j, radius);
         ground->theta_varies |= radius_varies && ground->given[j]->roughness_m > 0;
     }
-    if (number_roughnesses(ground) && build_levels(ground, MARGIN * size) &&
-        ceduo_ground_prepare_rolls(ground, radius, radius_varies))
+    if (number_roughnesses(ground) && build_levels(ground, MARGIN * size))
         return true;
 fail:
     ceduo_ground_release(ground);
@@ -213,12 +212,8 @@ void ceduo_ground_release(struct ground *ground)
         free(ground->segments - 1);
     free(ground->given);
     free(ground->rough);
-    free(ground->corners);
-    for (int l = 0; l < GROUND_LEVELS; l++) {
+    for (int l = 0; l < GROUND_LEVELS; l++)
         free(ground->levels[l]);
-        free(ground->rolls[0][l]);
-        free(ground->rolls[1][l]);
-    }
     memset(ground, 0, sizeof *ground);
 }
 

@@ -36,24 +36,6 @@ struct ground_block {
     double x, z, m, rise;
 };
 
-/* A vertex as a rolling rock meets it. */
-struct ground_corner {
-    double kept;      /* the share of u^2 that is left behind it: below 1 where the ground turns up */
-    double friction;  /* of the segment behind it */
-    double surely[2]; /* along +x, along -x: a rock that comes with u^2 < surely g stays on the ground */
-};
-
-/* Some neighbouring segments, each with the vertex at its end, in the order in which a rock rolls over them. With P =
- * 2g/(1+k), for P above < u^2 < g below nothing but the speed changes on the way, and at its end u^2 has become
- * kept u^2 + P gained. */
-struct ground_roll {
-    double kept, gained, above, below;
-};
-
-#ifndef ROLL_BITS
-#define ROLL_BITS 2 /* 2^2 segments are a block of these; speed and the last bits of a roll depend on it */
-#endif
-
 /* The roughness of a ground: a height, m, or an angle. */
 struct ground_roughness {
     double height, angle; /* one of them is NaN */
@@ -82,19 +64,12 @@ struct ground {
     double gravity, half_g;
     int top; /* level; level l has blocks of 2^(GROUND_BITS l) segments, from 1 on, and only whole ones */
     struct ground_block *levels[GROUND_LEVELS];
-    struct ground_corner *corners; /* n + 1; NULL where a rock that rolls seldom comes to a vertex */
-    double reach;                  /* m; corners and rolls hold for rocks of at least this radius */
-    int roll_top;
-    struct ground_roll *rolls[2][GROUND_LEVELS]; /* along +x, along -x; as the blocks above, of 2^(ROLL_BITS l) */
 };
 
 /* Builds `ground` for a checked slope; radius of the mean rock; whether radii differ. False without memory. */
 bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, double gravity, double radius,
                        bool radius_varies);
 void ceduo_ground_release(struct ground *ground);
-
-/* Sets the corners and the rolls of a ground that is ready otherwise, for rocks of this radius. False without memory. */
-bool ceduo_ground_prepare_rolls(struct ground *ground, double radius, bool radius_varies);
 
 /* The segment that x lies on, the right-hand one at a vertex. */
 size_t ceduo_ground_segment(const struct ground *ground, double x);

@@ -146,11 +146,6 @@ static __attribute__((noinline)) enum at_stem roll_to_stem(struct walker *w, str
     }
 }
 
-static inline bool knows_corners(const struct walker *w)
-{
-    return w->g->corners && w->rock.radius >= w->g->reach;
-}
-
 /* At the end of the segment: onto the next one, off the profile, or into the air. `l` is set where it takes off. */
 static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct landing *l)
 {
@@ -166,8 +161,7 @@ static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct
         r->u2 = cosine > 0 ? r->u2 * (cosine * cosine) : 0;
     }
     w->at.segment = next;
-    bool surely = knows_corners(w) && r->u2 < g->gravity * g->corners[r->dir > 0 ? next : j].surely[r->dir > 0 ? 0 : 1];
-    if (turn < 0 && !surely) {
+    if (turn < 0) {
         double u = r->dir * sqrt(r->u2);
         struct flight off = {.x = w->at.x, .z = w->at.z, .vx = u * a->c, .vz = u * a->s, .segment = next, .on_ground = true};
         *l = next_landing(g, &off);
@@ -177,77 +171,6 @@ static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct
         }
     }
     return ROLLED;
-}
-
-/* A roll from vertex to vertex. */
-struct pass {
-    size_t vertex;
-    double u2, left, pull; /* pull: 2g/(1+k) */
-};
-
-/* Over a block of segments; false where more than the speed may change. */
-HOT bool pass_block(const struct ground *g, int dir, int level, double next_x, struct pass *p)
-{
-    size_t many = (size_t)1 << (ROLL_BITS * level), i = p->vertex >> (ROLL_BITS * level);
-    if (dir > 0 && p->vertex + many > g->n)
-        return false;
-    size_t to = dir > 0 ? p->vertex + many : p->vertex - many;
-    const struct ground_roll *b = dir > 0 ? &g->rolls[0][level][i] : &g->rolls[1][level][i - 1];
-    double way = dir * (g->along[to] - g->along[p->vertex]);
-    if (!(way < p->left && p->u2 > p->pull * b->above && p->u2 < g->gravity * b->below) || (dir > 0 && next_x <= g->at[to].x))
-        return false;
-    p->u2 = b->kept * p->u2 + p->pull * b->gained;
-    p->left -= way;
-    p->vertex = to;
-    return true;
-}
-
-/* The same over one segment. */
-HOT bool pass_vertex(const struct ground *g, int dir, double next_x, struct pass *p)
-{
-    size_t to = dir > 0 ? p->vertex + 1 : p->vertex - 1, j = dir > 0 ? p->vertex : to;
-    double way = g->along[j + 1] - g->along[j], falls = dir * (g->at[j].z - g->at[j + 1].z);
-    double u2 = p->u2 + p->pull * (falls - g->corners[j].friction * (g->at[j + 1].x - g->at[j].x));
-    if (!(way < p->left && u2 > 0 && u2 < g->gravity * g->corners[to].surely[dir > 0 ? 0 : 1]) ||
-        (dir > 0 && next_x <= g->at[to].x))
-        return false;
-    p->u2 = u2 * g->corners[to].kept;
-    p->left -= way;
-    p->vertex = to;
-    return true;
-}
-
-HOT void pass_many(const struct ground *g, int dir, double next_x, struct pass *p)
-{
-    for (;;) {
-        int level = __builtin_ctzll(p->vertex | (size_t)1 << (ROLL_BITS * g->roll_top)) / ROLL_BITS;
-        while (level > 0 && !pass_block(g, dir, level, next_x, p))
-            level--;
-        if (level == 0 && !pass_vertex(g, dir, next_x, p))
-            return;
-    }
-}
-
-/* Rolls over whole segments, from the vertex that `at` is on, as long as nothing but the speed changes: what may be a
- * standstill or a flight, a mark or the end of the roll is left to others, and those who look on see each segment. */
-static void roll_over_segments(struct walker *w, struct roll *r)
-{
-    const struct ground *g = w->g;
-    if (w->stems || (w->watch && w->watch->piece) || !knows_corners(w))
-        return;
-    size_t j = w->at.segment, from = r->dir > 0 ? j : j + 1;
-    struct pass p = {.vertex = from, .u2 = r->u2, .left = r->left, .pull = 2 * g->gravity / (1 + w->k)};
-    if (r->dir > 0)
-        pass_many(g, 1, w->next_x, &p);
-    else
-        pass_many(g, -1, w->next_x, &p);
-    if (p.vertex == from)
-        return;
-    r->u2 = p.u2;
-    r->left = p.left;
-    w->at.x = g->at[p.vertex].x;
-    w->at.z = g->at[p.vertex].z;
-    w->at.segment = r->dir > 0 ? p.vertex : p.vertex - 1;
 }
 
 /* Rolls for a length R along the ground from speed u; 0: downhill. */
@@ -290,7 +213,6 @@ SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
         enum after_roll then = roll_over_vertex(w, &r, l);
         if (then != ROLLED)
             return then;
-        roll_over_segments(w, &r);
     }
 }
 
