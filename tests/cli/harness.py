@@ -282,7 +282,7 @@ class Suite:
 
     def check(self, name, function, *arguments):
         self.count += 1
-        details, word, note = "", "ok", ""
+        details, word, note, start = "", "ok", "", time.process_time() + children_seconds()
         try:
             function(*arguments)
         except Skip as skip:
@@ -293,6 +293,8 @@ class Suite:
             word, details = "not ok", traceback.format_exc()
         self.failed += word != "ok"
         print(f"{word} {self.count} - {name.replace('#', '')}{note}", flush=True)
+        if (seconds := time.process_time() + children_seconds() - start) >= 1:
+            print(f"# {seconds:.1f} s of processor")
         for line in details.splitlines()[:60]:
             print("#", "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line))
         if self.failed and os.environ.get("TEST_FIRST"):  # the first failure is enough

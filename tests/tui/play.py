@@ -15,6 +15,7 @@ VIEWS = ["slope", "stand", "rock", "results", "compare", "rotation"]
 
 # Its rocks all go the same way and meet no stem: the figures are as fine as they will be at once. They roll: at 80 m they have
 # m g (80 - 15 - 0.65 * 60 - 0.7 * 20 m) = 20 kJ of the 50 accepted, at the track m g (80 - 30 - 0.65 * 60 m) = 18 kJ of 20.
+# Nothing is in doubt: to compute what may be true takes fifty times longer than the rocks.
 FAST = """\
 # kept: the first line
 ceduo: scene/1
@@ -54,6 +55,7 @@ forest:
       trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}]
       energy: {model: brauner, u_J_m3: 100000, offset: whole}
 simulation: {rocks: 1000, contact_model: index}
+doubt: none
 """
 # The same with three ways to treat it.
 OPTIONS = FAST[:FAST.index("forest:")] + """\
@@ -74,6 +76,7 @@ options:
   - name: none left
     forest: []
 simulation: {rocks: 1000, contact_model: index}
+doubt: none
 """
 
 

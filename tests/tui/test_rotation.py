@@ -46,6 +46,7 @@ forest:
 rocks_per_year: 2
 years: {first: 0, last: 12}
 simulation: {rocks: 1000, contact_model: stems}
+doubt: none
 """
 ROTATION = WOOD.replace("years: {first: 0, last: 12}\n", "")  # the years that are shown without being asked for
 INDEX = WOOD.replace("contact_model: stems", "contact_model: index")
@@ -71,6 +72,7 @@ options:
           cutting: {rotation_years: 20, stay_per_ha: [100]}
 years: {first: 0, last: 26}
 simulation: {rocks: 1000, contact_model: index}
+doubt: none
 """
 
 
@@ -543,7 +545,7 @@ def test_find_sure():
                         ("most", "'most' is not a number"), ("", "")):
         steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in ("adc", "", sure, 6, 600)[:5 if sure in ("90", "") else 3])
         with Place() as place:
-            place.write("unsure.yaml", RESERVES + doubt)
+            place.write("unsure.yaml", RESERVES.replace("doubt: none\n", doubt))
             screen, = place.play(FIND + steps + "dump", "unsure.yaml")
         said = re.sub(r"\s+", " ", screen.popup + " " + screen.note)
         expect_in(words, said, f"{sure} of 100")
