@@ -8,7 +8,6 @@
 #include "base/language.h"
 #include "batch.h"
 #include "model/jobs.h"
-#include "output.h"
 #include "say.h"
 #include "study/effort.h"
 #include "view/words.h"

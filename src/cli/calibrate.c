@@ -11,7 +11,6 @@
 #include "io/doubt_inputs.h"
 #include "io/file.h"
 #include "model/fit.h"
-#include "output.h"
 #include "say.h"
 #include "view/figures.h"
 

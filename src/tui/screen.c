@@ -81,8 +81,8 @@ static void draw_verdict(struct app *app)
     LOCAL_TEXT(answer);
     if (!r || r->scene->controls_count == 0)
         return;
-    struct ceduo_subject subject = {ceduo_app_report(app), app->option, r->last_control, false, false};
-    enum ceduo_judgement judgement = ceduo_report_outcome(subject.report, app->option, r->last_control).answer;
+    struct ceduo_subject subject = ceduo_subject_of(ceduo_app_report(app), app->option, r->last_control);
+    enum ceduo_judgement judgement = subject.outcome.answer;
     bool open = judgement != CEDUO_NOTHING && judgement != CEDUO_UNANSWERED;
     double share = open ? ceduo_live_awaits_uncertainty(&app->live, &app->document.file, app->option) : NAN;
     const char *progress = isnan(share) ? "" : ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));

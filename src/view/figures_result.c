@@ -169,9 +169,10 @@ static struct ceduo_outcome outcome_of(const struct ceduo_place *p)
 static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
     const struct ceduo_outcome o = outcome_of(p);
+    const struct ceduo_subject subject = ceduo_subject_of(p->report, p->option, p->control);
     LOCAL_TEXT(why);
     if ((o.ahead && o.answer != CEDUO_NOTHING) || o.impossible)
-        ceduo_words_reason(&why, &(const struct ceduo_subject){p->report, p->option, p->control, false, false});
+        ceduo_words_reason(&why, &subject);
     else
         ceduo_words_because(&why, p->report->result, p->control, through_the_wood(p));
     say(context, ceduo_text_string(&why));

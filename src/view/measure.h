@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "ceduo/surface.h"
-#include "study/verdict.h"
+#include "words.h"
 
 /* A figure of an answer and what people call it: made here once, for pages, pictures, panes and the column. */
 
@@ -52,14 +52,37 @@ struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *arrivals
 struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *arrivals, enum ceduo_end end);
 struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *arrivals);
 
-/* Adds a name of a measure; its value, "-" where it is not known; "480 (453–501)"; an interval alone, "453–501". */
-void ceduo_measure_name(struct text *text, const struct ceduo_measure *m, enum ceduo_measure_name name);
-void ceduo_measure_value(struct text *text, const struct ceduo_measure *m);
-void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m);
-/* The same, shorter, "480 ±27", or "480±27" with nothing between the two; of one rock, whose error is not known, "480". */
-void ceduo_measure_error(struct text *text, const struct ceduo_measure *m, const char *between);
-void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double lo, double hi);
-/* By both errors: what may be true, and what the number of rocks leaves open, which doubt may be less than. */
-void ceduo_measure_may_be(struct text *text, const struct ceduo_measure *m);
+/* Strings of a measure, which live as long as the block that calls: a name; its value, "-" if it is not known; an interval, "453–501";
+ * both, "480 (453–501)"; shorter, "480 ±27" or "480±27" with nothing `between`, and "480" of one rock, whose error is not known. MAY_BE:
+ * the interval by both errors, as the uncertain inputs may leave less open than the number of rocks. */
+const char *ceduo_measure_name(struct ceduo_measure m, enum ceduo_measure_name name, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_value(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_interval(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_may_be(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
+#define NAMED(m, name)         ceduo_measure_name(m, name, (char[CEDUO_WORDS_ROOM]){0})
+#define VALUE_OF(m)            ceduo_measure_value(m, (char[CEDUO_WORDS_ROOM]){0})
+#define SPAN(m, lo, hi)        ceduo_measure_span(m, lo, hi, (char[CEDUO_WORDS_ROOM]){0})
+#define INTERVAL(m)            ceduo_measure_interval(m, (char[CEDUO_WORDS_ROOM]){0})
+#define WITH_ERROR(m, between) ceduo_measure_error(m, between, (char[CEDUO_WORDS_ROOM]){0})
+#define MAY_BE(m)              ceduo_measure_may_be(m, (char[CEDUO_WORDS_ROOM]){0})
+
+/* An option at a control, with what a report knows of it. */
+struct ceduo_report;
+struct ceduo_subject {
+    const struct ceduo_report *report;
+    size_t option, control;
+    const struct ceduo_control *place;
+    const struct ceduo_arrivals *bare, *wooded; /* wooded: NULL: not known */
+    const struct ceduo_index *index;
+    const struct ceduo_choice *choice; /* NULL: not known */
+    struct ceduo_outcome outcome;
+    struct ceduo_measure today,
+        mean;    /* share by which the place is judged, and its mean over the years; with what may be true */
+    bool apart;  /* the caller shows mean, worst year and today elsewhere */
+    bool so_far; /* the uncertainty is still being computed */
+};
+struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t option, size_t control);
 
 #endif

@@ -225,17 +225,11 @@ void ceduo_doubt_points(struct text *text, const struct ceduo_doubt_report *r)
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, size_t option)
 {
     const struct ceduo_measure m = ceduo_doubt_measure(r, option, NULL);
-    LOCAL_TEXT(value);
-    LOCAL_TEXT(rocks);
-    LOCAL_TEXT(doubt);
-    ceduo_measure_value(&value, &m);
-    ceduo_measure_span(&rocks, &m, m.lo, m.hi);
-    ceduo_measure_span(&doubt, &m, m.may_lo, m.may_hi);
     ceduo_text_format(text,
                       r->over                                 ? _("Over the years %s of 1000 (rocks %s; doubt %s)")
                       : r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
                                                               : _("%s kJ per released rock (rocks %s; doubt %s)"),
-                      value.bytes, rocks.bytes, doubt.bytes);
+                      VALUE_OF(m), SPAN(m, m.lo, m.hi), SPAN(m, m.may_lo, m.may_hi));
 }
 
 /* Today, or in the mean of the years with the years that fail. */
@@ -255,9 +249,9 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
     for (size_t i = 0; i < r.file->scene.options_count; i++) {
         const struct ceduo_measure m = ceduo_doubt_measure(&r, i, NULL);
         ceduo_text_safe(ceduo_page_text(page), r.file->scene.options[i].name);
-        ceduo_measure_value(ceduo_page_text(page), &m);
-        ceduo_measure_span(ceduo_page_text(page), &m, m.lo, m.hi);
-        ceduo_measure_span(ceduo_page_text(page), &m, m.may_lo, m.may_hi);
+        ceduo_page_write(page, "%s", VALUE_OF(m));
+        ceduo_page_write(page, "%s", SPAN(m, m.lo, m.hi));
+        ceduo_page_write(page, "%s", SPAN(m, m.may_lo, m.may_hi));
         if (!judged)
             continue;
         const struct ceduo_doubt_figure *years = ceduo_doubt_figure_of(r.answer, i, CEDUO_DOUBT_FAILING, false);

@@ -17,10 +17,10 @@ void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *a)
 void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, enum ceduo_measure_name otherwise)
 {
     struct ceduo_page_cell *head = ceduo_page_head(page);
-    struct ceduo_measure m = ceduo_judged(c, NULL);
+    const struct ceduo_measure m = ceduo_judged(c, NULL);
     bool kilo = fabs(c->accepted) < 1e6;
-    ceduo_measure_name(&head->text, &m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD);
-    ceduo_measure_name(&head->written, &m, CEDUO_HEAD);
+    ceduo_text_put(&head->text, NAMED(m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD));
+    ceduo_text_put(&head->written, NAMED(m, CEDUO_HEAD));
     if (!isnan(c->accepted))
         ceduo_text_format(&head->shorter, kilo ? "> %s kJ" : "> %s MJ", ROUNDED(c->accepted * (kilo ? 1e-3 : 1e-6), 3));
 }

@@ -18,13 +18,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_measure *m, e
     bar->from = fmax(1e-9, m->lo); /* what the rocks leave open takes at least one cell, at 0, too */
     bar->least = m->may_lo;
     bar->most = m->may_hi;
-    struct text *text = ceduo_page_text(page);
-    ceduo_measure_value(text, m);
-    if (isnan(m->may_lo))
-        return;
-    ceduo_text_put(text, " (");
-    ceduo_measure_may_be(text, m);
-    ceduo_text_char(text, ')');
+    ceduo_page_write(page, isnan(m->may_lo) ? "%s" : "%s (%s)", VALUE_OF(*m), MAY_BE(*m));
 }
 
 /* Returns the lines that it takes. */
@@ -38,12 +32,9 @@ static int add_options(struct ceduo_page *page, const struct ceduo_doubt_report 
     size_t first = option >= room ? option - room + 1 : 0;
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *heads = page->last->cells;
-    if (ceduo_doubt_main(r, 0)->kind != CEDUO_DOUBT_ENERGY) {
-        struct ceduo_measure judged = ceduo_judged(&scene->controls[ceduo_scene_last_control(scene)], NULL);
-        ceduo_measure_name(&heads[0].text, &judged, CEDUO_HEAD);
-    } else {
-        ceduo_text_put(&heads[0].text, _("kJ a rock"));
-    }
+    const struct ceduo_measure judged = ceduo_judged(&scene->controls[ceduo_scene_last_control(scene)], NULL);
+    bool share = ceduo_doubt_main(r, 0)->kind != CEDUO_DOUBT_ENERGY;
+    ceduo_text_put(&heads[0].text, share ? NAMED(judged, CEDUO_HEAD) : _("kJ a rock"));
     ceduo_text_put(&heads[2].text, r->over ? _("years (may be)") : _("now (may be)"));
     double end = 0; /* of the axis */
     for (size_t i = 0; i < n; i++) {

@@ -7,6 +7,7 @@
 #include "ceduo/find.h"
 #include "ceduo/years.h"
 #include "io/scene_file.h"
+#include "measure.h"
 #include "report_doubt.h"
 #include "study/goal.h"
 #include "study/snapshot.h"

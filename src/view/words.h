@@ -9,6 +9,9 @@
 
 #define J_TO_KJ 1e-3
 
+/* Bytes of a string that lives as long as the block that asks for it. */
+#define CEDUO_WORDS_ROOM 160
+
 /* Results as sentences that a forester understands. Each function adds to `text`. */
 
 /* Takes sentences one by one. */
@@ -56,17 +59,11 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement);
 void ceduo_words_because(struct text *text, const struct ceduo_result *result, size_t control,
                          const struct ceduo_arrivals *wooded); /* NULL: not known */
 
-/* An option at a control. */
-struct ceduo_report;
-struct ceduo_subject {
-    const struct ceduo_report *report;
-    size_t option, control;
-    bool apart;  /* the caller shows mean, worst year and today elsewhere */
-    bool so_far; /* the uncertainty is still being computed */
-};
+struct ceduo_subject; /* measure.h */
 
-const char *ceduo_words_decided(enum ceduo_judgement judgement);              /* "NO", translated; not of CEDUO_UNANSWERED */
-void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement); /* "✘ NO"; nothing where it is not answered */
+const char *ceduo_words_decided(enum ceduo_judgement judgement); /* "NO", translated; not of CEDUO_UNANSWERED */
+const char *ceduo_words_decision(enum ceduo_judgement judgement, char room[CEDUO_WORDS_ROOM]); /* "✘ NO"; "": not answered */
+#define DECISION(judgement) ceduo_words_decision(judgement, (char[CEDUO_WORDS_ROOM]){0})
 
 /* Why, without the verdict: "in 17 of 25 years more than 50 of 1000 rocks exceed 50 kJ: mean 190, worst 489 in year 1; today 31
  * (YES)." */
@@ -110,8 +107,10 @@ void ceduo_words_counted(struct text *text, uint64_t rocks);
 
 /* How often what is feared at a control happens, in one sentence; "13" and "13 (9–14)" years. */
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
-void ceduo_words_every(struct text *text, struct ceduo_estimate rate);
-void ceduo_words_years(struct text *text, struct ceduo_estimate rate);
+const char *ceduo_words_every(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_words_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
+#define EVERY(rate) ceduo_words_every(rate, (char[CEDUO_WORDS_ROOM]){0})
+#define YEARS(rate) ceduo_words_years(rate, (char[CEDUO_WORDS_ROOM]){0})
 
 /* Why energy is not judged; why options cannot be compared by what arrives. Marked for translation. */
 extern const char *const ceduo_words_unjudged, *const ceduo_words_by_index;
