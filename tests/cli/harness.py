@@ -18,12 +18,6 @@ import traceback
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-try:
-    import jsonschema
-except ImportError:  # another Python than the system's comes first
-    sys.path.append("/usr/lib/python3/dist-packages")
-    import jsonschema
-
 sys.dont_write_bytecode = True
 for number, usual in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
     if signal.getsignal(number) == signal.SIG_IGN:  # in the background of a shell, under nohup; the program would ignore it, too
@@ -93,13 +87,22 @@ class Result:
 SCHEMAS = {}
 
 
+def validator():
+    """The class of the validators of JSON Schema; imported here because that takes longer than most tests."""
+    try:
+        import jsonschema
+    except ImportError:  # another Python than the system's comes first
+        sys.path.append("/usr/lib/python3/dist-packages")
+        import jsonschema
+    return jsonschema.Draft202012Validator
+
+
 def expect_schema(answer):
     """An answer in JSON is as --schema says of its format."""
     name = answer["format"]
     if name not in SCHEMAS:
         schema = subprocess.run([CEDUO, "--schema", name.split("-")[1]], capture_output=True, check=True).stdout
-        jsonschema.Draft202012Validator.check_schema(json.loads(schema))
-        SCHEMAS[name] = jsonschema.Draft202012Validator(json.loads(schema))
+        SCHEMAS[name] = validator()(json.loads(schema))
     expect(SCHEMAS[name].schema["$id"].endswith(name), name)
     for wrong in SCHEMAS[name].iter_errors(answer):
         raise Failure(f"{'.'.join(map(str, wrong.absolute_path))}: {wrong.message}"[:500])

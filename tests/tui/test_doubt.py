@@ -8,8 +8,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-import play  # noqa: E402
-from play import Place  # noqa: E402
+from play import CUTS, WOOD, Place  # noqa: E402
 from harness import ceduo, expect, expect_equal, expect_in, run_all  # noqa: E402
 
 DOUBT = """
@@ -17,7 +16,6 @@ doubt:
   - {path: "forest[0].stand.energy.u_J_m3", lo: 50000, hi: 200000}
   - {path: release.vx_m_s, lo: 2.9, hi: 3.1}
 """
-WOOD, CUTS = (text.replace("doubt: none\n", "") for text in (play.WOOD, play.CUTS))
 NO_LAW = WOOD.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
 
 

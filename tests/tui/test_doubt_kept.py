@@ -9,8 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, check_good  # noqa: E402
 from harness import expect_equal, run_all  # noqa: E402
 
-PLAIN = FAST.replace("doubt: none\n", "")
-DOUBTED = PLAIN + """\
+DOUBTED = FAST + """\
 doubt:
   - {path: "forest[*].stand.energy.u_J_m3", lo: 80000, hi: 120000}
   - {path: "forest[0].stand.stools.per_ha", lo: 2700, hi: 3300}
@@ -71,7 +70,7 @@ def own_after(keys):
     """The rows of a stand in its own file, as the scene saves them; None: they are still the file's."""
     with Place() as place:
         place.write("own.yaml", OWN)
-        place.write("scene.yaml", re.sub(r"(?s)forest:.*?(?=\n\w|\Z)", "forest: [{from_m: 10, to_m: 80, stand: own.yaml}]", PLAIN))
+        place.write("scene.yaml", re.sub(r"(?s)forest:.*?(?=\n\w|\Z)", "forest: [{from_m: 10, to_m: 80, stand: own.yaml}]", FAST))
         place.play(f"{keys}\nkey s\ndump", "scene.yaml")
         check_good(place.path, "scene.yaml")
         saved = place.text("scene.yaml")

@@ -14,7 +14,6 @@ from pages import digits  # noqa: E402
 from harness import (PROFILES, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good, result,  # noqa: E402
                      run_all)
 
-ROCKS = 10240  # of each year in the terminal program
 MARKS = {"✔": "pass", "✘": "fail", "?": "unknown"}
 WOOD = """\
 ceduo: scene/1
@@ -46,7 +45,6 @@ forest:
 rocks_per_year: 2
 years: {first: 0, last: 12}
 simulation: {rocks: 1000, contact_model: stems}
-doubt: none
 """
 ROTATION = WOOD.replace("years: {first: 0, last: 12}\n", "")  # the years that are shown without being asked for
 INDEX = WOOD.replace("contact_model: stems", "contact_model: index")
@@ -72,7 +70,6 @@ options:
           cutting: {rotation_years: 20, stay_per_ha: [100]}
 years: {first: 0, last: 26}
 simulation: {rocks: 1000, contact_model: index}
-doubt: none
 """
 
 
@@ -90,7 +87,7 @@ class Place(Folder):
 
     def years(self, scene, last):
         """The first option's years as the batch gives them."""
-        return result("--years", f"0:{last}", "-n", ROCKS, self.path / scene)["options"][0]
+        return result("--years", f"0:{last}", "-n", play.ROCKS, self.path / scene)["options"][0]
 
 
 def shown(script, scene="index.yaml", **options):
@@ -188,7 +185,7 @@ def test_window():
         wait idle
         dump""", "rotation.yaml")
     with Place() as place:
-        option = result("--years", "-n", ROCKS, place.path / "rotation.yaml")["options"][0]
+        option = result("--years", "-n", play.ROCKS, place.path / "rotation.yaml")["options"][0]
     expect_equal([y["year"] for y in option["years"]], list(range(1, 21)), "the years of --years: the rotation has 8")
     for screen, count in zip(screens, (20, 20, 3, 20)):
         expect_equal(len(marks(screen, "C")), count, "years")
@@ -545,7 +542,7 @@ def test_find_sure():
                         ("most", "'most' is not a number"), ("", "")):
         steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in ("adc", "", sure, 6, 600)[:5 if sure in ("90", "") else 3])
         with Place() as place:
-            place.write("unsure.yaml", RESERVES.replace("doubt: none\n", doubt))
+            place.write("unsure.yaml", RESERVES + doubt)
             screen, = place.play(FIND + steps + "dump", "unsure.yaml")
         said = re.sub(r"\s+", " ", screen.popup + " " + screen.note)
         expect_in(words, said, f"{sure} of 100")
