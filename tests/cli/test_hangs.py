@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow
 """Nothing hangs or takes all memory: scenes that are in order end, and a signal or a key ends the program whatever a rock is doing.
 
 How soon a signal takes effect is printed by tests/bench/bench_reaction.py; here only what hangs fails."""

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* The kernels of lanes give the same bits as the scalar one, in every figure of a run; and speeds as the slow walk. */
 #include "expect.h"
 #include "local.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow threads */
 /* Runs of many rocks: their means beside those of independent implementations, and that nothing but the scene moves
  * them. */
 #include "expect.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: threads */
 /* An option year by year: beside the same stands grown, flown and assessed one by one. */
 #include "expect.h"
 #include "local.h"

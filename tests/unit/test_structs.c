@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* The library, asked with any struct that its headers allow: each number at, inside or beyond its bounds, not a number, not
  * finite, each word beyond its list. It computes or refuses, and comes to an end. */
 #include "expect.h"

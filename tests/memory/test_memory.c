@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Runs and what stands on them without memory. */
 #include "local.h"
-#include "unit/failing.h"
+#include "memory/failing.h"
 
 #include <math.h>
 
