@@ -8,10 +8,8 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "batch.h"
-#include "io/doubt_inputs.h"
 #include "io/file.h"
 #include "model/fit.h"
-#include "output.h"
 #include "say.h"
 #include "view/figures.h"
 

@@ -10,7 +10,6 @@
 #include "base/must.h"
 #include "batch.h"
 #include "ceduo/status.h"
-#include "output.h"
 #include "say.h"
 #include "tui/program.h"
 

@@ -691,8 +691,7 @@ const struct ceduo_figure ceduo_result_figures[] = {
     VERSION,
     {.of = scene},
     {"warnings", "",
-     "sentences about the whole run: tolerance not met, rocks unfinished, shares too close to call, ground "
-     "assumed, percentiles from a histogram",
+     "sentences about the whole run: tolerance not met, rocks unfinished, shares too close to call, ground assumed",
      .say = say_of_run},
     {"options", "", "an object for each option, in the scene's order; a scene with forest has one, named current", .of = option,
      .enter = enter_option},

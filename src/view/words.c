@@ -379,8 +379,6 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
     say_lost(result, say, context);
     if (remarks->ground_assumed)
         say_format(say, context, _("The slope's file says no ground: talus is assumed everywhere."));
-    if (result->scene->controls_count > 0 && !result->bare.arrivals[0].exact)
-        say_format(say, context, _("So many rocks: percentiles are read from a histogram, within 0.01 %%."));
 }
 
 /* ---- lights ---- */

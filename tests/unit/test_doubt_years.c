@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Doubt over a rotation, beside every point simulated by itself with many more rocks. */
 #include "expect.h"
 
@@ -8,7 +9,6 @@
 
 #include "ceduo/question.h"
 #include "ceduo/statistics.h"
-#include "io/doubt_inputs.h"
 #include "io/scene_file.h"
 #include "study/inputs.h"
 
