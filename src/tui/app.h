@@ -11,7 +11,6 @@
 #include "view/pane.h"
 #include "view/plot.h"
 #include "view/report.h"
-#include "view/report_doubt.h"
 
 /* The terminal program without a terminal: its state, and the calls that all its parts share. On it stand, in layers, popups,
  * editing, views, the screen and the program. The terminal shows the cells; a script dumps them. */

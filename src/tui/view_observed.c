@@ -7,7 +7,7 @@
 #include "base/language.h"
 #include "popup.h"
 #include "view/page_parts.h"
-#include "view/report_calibration.h"
+#include "view/report.h"
 #include "view/typed.h"
 
 #define PICTURE_MIN 8
