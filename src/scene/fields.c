@@ -7,15 +7,16 @@
 
 #define NAME_IT(at, more)                                                                                                      \
     ROW("name_it", FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(FIELD_TEXT, NO_RUN | (more)), NULL,                  \
-        N_("the same in Italian pages, screens and lists"), NULL, NULL, NAMED(N_("in Italian")))
+        N_("the same in Italian pages, screens and lists; without it in English"), NULL, NULL, NAMED(N_("in Italian")))
 
 /* ---- rock ---- */
 
 static const struct field rock_fields[] = {
-    WORD("shape", NAMED(N_("shape")), AT(ceduo_rock_def, shape), 0, "sphere", N_("shape"), &ceduo_shape_words),
+    WORD("shape", NAMED(N_("shape")), AT(ceduo_rock_def, shape), 0, "sphere", N_("shape of the rock"), &ceduo_shape_words),
     SPREAD("diameter_m", USUAL(N_("diameter, m"), 0.05, 15), AT(ceduo_rock_def, diameter), "m", 0, 1000, ABOVE, NULL,
            N_("diameter of a sphere or cylinder")),
-    SPREAD("height_m", USUAL(N_("height, m"), 0.05, 15), AT(ceduo_rock_def, height), "m", 0, 1000, ABOVE, NULL, N_("height")),
+    SPREAD("height_m", USUAL(N_("height, m"), 0.05, 15), AT(ceduo_rock_def, height), "m", 0, 1000, ABOVE, NULL,
+           N_("height of a cylinder")),
     NUM(FIELD_SPREADS, "axes_m", USUAL(N_("axes, m"), 0.05, 15), AT(ceduo_rock_def, axes), "m", 1, 0, 1000, ABOVE, NULL,
         N_("the three axes of an ellipsoid or block")),
     SPREAD("volume_m3", USUAL(N_("volume, m3"), 0.0001, 2000), AT(ceduo_rock_def, volume), "m3", 0, 1e6, ABOVE, NULL,
@@ -125,23 +126,24 @@ static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slo
         WORD("system", NAMED(N_("system")), AT(ceduo_regulation_item, system), NO_RUN, NULL,                                   \
              N_("silvicultural system that it is about; without it every one"), &ceduo_system_words),                          \
         least_row, most_row,                                                                                                   \
-        TEXT("article", NAMED(N_("article")), AT(ceduo_regulation_item, article), REQUIRED | NO_RUN, N_("article")),           \
+        TEXT("article", NAMED(N_("article and act that say so")), AT(ceduo_regulation_item, article), REQUIRED | NO_RUN,       \
+             N_("article")),                                                                                                   \
         NUM(FIELD_COUNT, "year", NAMED(N_("year")), AT(ceduo_regulation_item, year), "", 1, 1800, 2200, REQUIRED | NO_RUN,     \
             NULL, N_("year of that act"))
 
 static const struct field standards_fields[] = {
     ITEM_FIELDS(NUMBER("per_ha", NAMED(N_("standards per ha")), AT(ceduo_regulation_item, least), "1/ha", 0, 1e5,
-                       REQUIRED | NO_RUN, NULL, N_("the least that is allowed")),
+                       REQUIRED | NO_RUN, NULL, N_("standards that a cut must leave at least")),
                 NUMBER("most_per_ha", NAMED(N_("at most")), AT(ceduo_regulation_item, most), "1/ha", 0, 1e5, NO_RUN, NULL,
-                       N_("the most that is allowed"))),
+                       N_("standards that it may leave at most"))),
 };
 static const struct object standards_object = OBJECT(ceduo_regulation_item, standards_fields, NULL);
 
 static const struct field turns_fields[] = {
     ITEM_FIELDS(NUMBER("least_y", NAMED(N_("years at least")), AT(ceduo_regulation_item, least), "y", 0, 1000,
-                       REQUIRED | NO_RUN, NULL, N_("the least that is allowed")),
+                       REQUIRED | NO_RUN, NULL, N_("age at which shoots may be cut at the earliest")),
                 NUMBER("most_y", NAMED(N_("at most")), AT(ceduo_regulation_item, most), "y", 0, 1000, NO_RUN, NULL,
-                       N_("the most that is allowed"))),
+                       N_("age at which they may be cut at the latest"))),
 };
 static const struct object turns_object = OBJECT(ceduo_regulation_item, turns_fields, NULL);
 
@@ -151,7 +153,7 @@ static const struct field rules_fields[] = {
     TEXT("note", NAMED(N_("note")), AT(ceduo_regulation, note), NO_RUN,
          N_("what must be known beside; it is printed with the rules")),
     TEXT("note_it", NAMED(N_("in Italian")), AT(ceduo_regulation, note_it), NO_RUN,
-         N_("the same in Italian pages, screens and lists")),
+         N_("the same in Italian pages, screens and lists; without it in English")),
     ITEMS("standards", N_("standards"), LIST(ceduo_regulation, standards, standards_count), NO_RUN, &standards_object),
     ITEMS("turns", N_("rotations"), LIST(ceduo_regulation, turns, turns_count), NO_RUN, &turns_object),
 };
@@ -182,7 +184,7 @@ static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
         NUMBER("dbh_m", CENTIMETRES(N_("diameter, cm"), N_("diam. cm"), 0.01, 2), AT(ceduo_stems, dbh), "m", 0, 10,            \
                REQUIRED | ABOVE, NULL, N_("diameter at breast height")),                                                       \
         NUM(FIELD_NUMBER, "dbh_cm", SHOWN(N_("diameter, cm"), N_("diam. cm"), 1, 200), AT(ceduo_stems, dbh), "cm", 0.01, 0,    \
-            1000, ABOVE, NULL, N_("the same in centimetres")),                                                                 \
+            1000, ABOVE, NULL, N_("the same in centimetres, instead of dbh_m")),                                               \
         NUMBER("height_m", SHOWN(N_("height, m"), N_("height m"), 0.5, 50), AT(ceduo_stems, height), "m", 0, 150,              \
                REQUIRED | ABOVE, NULL, N_("height")),                                                                          \
         NUMBER("volume_m3", SHOWN(N_("volume, m3"), N_("vol. m3"), 0, 30), AT(ceduo_stems, volume), "m3", 0, 1000, ABOVE,      \
@@ -190,7 +192,7 @@ static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
         NUMBER("dbh_sd_m", CENTIMETRES(N_("spread of the diameters, cm"), N_("sd cm"), 0, 0.5), AT(ceduo_stems, dbh_sd), "m",  \
                0, 10, 0, "0", N_("standard deviation of the diameters")),                                                      \
         NUM(FIELD_NUMBER, "dbh_sd_cm", SHOWN(N_("spread of the diameters, cm"), N_("sd cm"), 0, 50), AT(ceduo_stems, dbh_sd),  \
-            "cm", 0.01, 0, 1000, 0, "0", N_("the same in centimetres")),                                                       \
+            "cm", 0.01, 0, 1000, 0, "0", N_("the same in centimetres, instead of dbh_sd_m")),                                  \
         NUMBER("age_y", SHOWN(N_("age, years"), N_("age y"), 0, 500), AT(ceduo_stems, age), "y", 0, 2000, YEARS, NULL,         \
                N_("age"))
 
@@ -221,7 +223,7 @@ static const struct field stumps_fields[] = {
     NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2), AT(ceduo_stumps, diameter), "m", 0, 10, ABOVE, NULL,
            N_("diameter of a stump")),
     NUMBER("height_m", USUAL(N_("height, m"), 0.02, 2), AT(ceduo_stumps, height), "m", 0, 20, ABOVE, NULL,
-           N_("a rock higher above the ground flies over")),
+           N_("height of a stump: a rock higher above the ground flies over")),
     NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), 0, 500), AT(ceduo_stumps, energy), "kJ", 1000, 0, 1e6, 0, NULL,
         N_("energy that a hit takes from the rock")),
 };
@@ -233,7 +235,7 @@ static const struct field logs_fields[] = {
     NUMBER("length_m", USUAL(N_("length, m"), 0.5, 40), AT(ceduo_logs, length), "m", 0, 150, ABOVE, NULL,
            N_("length of a log, which lies at a random angle")),
     NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2), AT(ceduo_logs, diameter), "m", 0, 10, ABOVE, NULL,
-           N_("a rock higher above the ground flies over")),
+           N_("diameter of a log: a rock higher above the ground flies over")),
     NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), 0, 500), AT(ceduo_logs, energy), "kJ", 1000, 0, 1e6, 0, NULL,
         N_("energy that a hit takes from the rock")),
 };
@@ -455,7 +457,7 @@ static const struct field scene_fields[] = {
     TAG("scene/1"),
     TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), NO_RUN, N_("its title")),
     TEXT("title_it", NAMED(N_("in Italian")), AT(scene_draft, scene.title_it), NO_RUN,
-         N_("the same in Italian pages, screens and lists")),
+         N_("the same in Italian pages, screens and lists; without it in English")),
     GROUP("page", N_("head of the report"), AT(scene_draft, scene.page), NO_RUN, &page_object),
     GROUP_SAID("rock", NAMED(N_("rock")), AT(scene_draft, scene.rock), REQUIRED, N_("rock"), &ceduo_rock_object),
     ITEMS_SAID("blocks", NAMED(N_("blocks that come down")), LIST(scene_draft, scene.blocks, scene.blocks_count), FIELD_OR_ONE,

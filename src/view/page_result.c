@@ -75,11 +75,10 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
 static void add_arrivals_row(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
                              const struct ceduo_arrivals *a)
 {
-    const struct ceduo_measure judged = ceduo_judged(c, a), arriving = ceduo_arriving(a);
     ceduo_page_write(page, "%s", name);
     if (!isnan(c->accepted))
-        ceduo_measure_interval(ceduo_page_text(page), &judged);
-    ceduo_measure_interval(ceduo_page_text(page), &arriving);
+        ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(c, a)));
+    ceduo_page_write(page, "%s", INTERVAL(ceduo_arriving(a)));
     ceduo_page_mean(page, a);
     ceduo_page_number(page, a->energy.p95 * J_TO_KJ, 3);
     ceduo_page_number(page, a->speed.mean, 3);
@@ -289,14 +288,13 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
         const struct ceduo_block *b = &blocks[i];
         if (!b->own && b->volume < 2 * own && 2 * b->volume > own)
             continue; /* less than an octave apart the order would be chance: the scene's own stands for it */
-        const struct ceduo_measure share = ceduo_judged(c, b->arrivals.released > 0 ? &b->arrivals : NULL);
         ceduo_page_write(page, "%s", b->own ? "  >" : "");
         ceduo_page_number(page, b->volume, 3);
         ceduo_page_number(page, b->mass, 3);
         ceduo_page_number(page, b->diameter, 3);
         ceduo_page_number(page, b->adc, 3);
         ceduo_page_number(page, b->contacts, 3);
-        ceduo_measure_interval(ceduo_page_text(page), &share);
+        ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(c, b->arrivals.released > 0 ? &b->arrivals : NULL)));
         left_out |= b->arrivals.released == 0;
     }
     if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)

@@ -5,8 +5,8 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "measure.h"
 #include "plot_parts.h"
+#include "report.h"
 
 /* Energies at a control as horizontal bars. */
 
@@ -104,7 +104,7 @@ static void say_share(struct text *text, const struct histogram *h, const struct
                       const struct ceduo_measure *bare)
 {
     ceduo_text_format(text, h->bare.arrivals ? "%.0f (\xe2\x94\x82 %.0f) " : "%.0f ", m->value, bare->value);
-    ceduo_measure_name(text, m, CEDUO_SHORT_HEAD);
+    ceduo_text_put(text, NAMED(*m, CEDUO_SHORT_HEAD));
 }
 
 /* What all rows add up to. */

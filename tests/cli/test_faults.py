@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow
 """Faults of the machine: no memory, a full disk, failing calls, a sudden death, no threads, streams that are closed.
 
 A library that is loaded before the C library (faults.c) makes one call after the other go wrong.

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: quick uncounted
 """The rooms of the house: who may know whom, what the library may reach for, what it exports."""
 import os
 import re

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: brief
 """--help, the lists, --check, and wrong usage."""
 import copy
 import json

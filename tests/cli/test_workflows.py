@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow uncounted
 """ceduo-workflows(7): each way as it stands in the page runs in an empty folder and says what the page says it does.
 
 With --readme: writes the page and the screens that README.md shows anew.

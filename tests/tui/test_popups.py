@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow
 """What lies over the views of the terminal program: presets, new scenes, files to open, search, help, counts of a plot."""
 import math
 import re

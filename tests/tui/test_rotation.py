@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow threads
 """The years between two cuts in the terminal program (view 6) and as a picture, and the key that looks for a value."""
 import re
 import sys

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: threads
 """The screens of the terminal program, from scripts and without any terminal: what stands on them in every size, and the
 small things of a script."""
 import re
@@ -158,7 +159,7 @@ MUST = {
 WIDE = {"slope": ["release", "end of the forest (135 m)", "bounce Rn slide Rt", "friction", "name", "facets against"],
         "stand": ["Energy of a contact", " height", "energy law brauner", "fracture ratio"],
         "rock": ["form of the ADC auto", "threshold, m 30", "gravity, m/s2 9.81", "seed 1", "title"],
-        "results": ["energy, kJ"],
+        "results": ["arriving kJ", "m/s"],
         "compare": ["CFE", "worst", "/ha y"]}
 # With rocks in the wood, and by the index alone.
 MUST_WOOD = {"slope": ["wood", "bare"], "stand": [], "rock": ["rocks among stems stems"],
@@ -239,7 +240,7 @@ def check_view(screen, view, scene, charset):
             expect(all(signs[2] == energy for signs in compared_lights(screen)), "energy lights", compared_lights(screen))
     if view in ("slope", "stand", "rock"):
         where = {"slope": "from, m: where the belt begins", "stand": "from, m: where the belt begins",
-                 "rock": "shape: shape (default"}[view]
+                 "rock": "shape: shape of the rock"}[view]
         expect(screen.note.startswith(where), f"the line above the keys does not explain the field: {screen.note!r}")
     expect("nan" not in re.sub(r"\w*nan\w+|\w+nan\w*", "", screen.text.lower()), "a nan on the", screen)
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Doubt over a rotation, beside every point simulated by itself with many more rocks. */
 #include "expect.h"
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow threads */
 /* The queue of jobs of the live program. */
 #include "expect.h"
 

@@ -23,7 +23,7 @@
 
 /* ---- memory that GSL asks for ---- */
 
-#ifdef __SANITIZE_ADDRESS__ /* which has its own */
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ /* which have their own */
 #define FAILS 0
 #else
 #define FAILS 1

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* The library, asked with any struct that its headers allow: each number at, inside or beyond its bounds, not a number, not
  * finite, each word beyond its list. It computes or refuses, and comes to an end. */
 #include "expect.h"
@@ -205,7 +206,6 @@ static enum ceduo_status ask_any(void)
     q.run.threads = any_threads();
     q.run.kernel = (enum ceduo_kernel)any_count(3);
     q.run.cells = draw(8) ? 0 : any_count(2);
-    q.run.exact_bytes = any_count(100000);
     q.only = draw(2) ? CEDUO_ALL_OPTIONS : any_count(1);
     q.window = any_window();
     q.years = draw(3) == 0;

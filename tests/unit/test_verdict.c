@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* The live verdict: it comes with the first thousand rocks, what is known stays known while figures become finer, and
  * what was clear is not taken back. */
 #include "expect.h"
@@ -175,6 +176,7 @@ struct made {
     struct ceduo_difference differences[OPTIONS];
     struct ceduo_other_energy others[OPTIONS];
     struct ceduo_option_result found[OPTIONS];
+    struct ceduo_stand_result stands[2]; /* of the belts of each */
     struct ceduo_result result;
     struct ceduo_year year[OPTIONS];
     struct ceduo_index index;
@@ -200,18 +202,14 @@ static void make_alike(void)
         made.differences[i] = ceduo_no_difference(50e3);
         made.others[i] = (struct ceduo_other_energy){.known = true, .stems = true, .to_first = ceduo_no_difference(50e3)};
         made.found[i] = (struct ceduo_option_result){.wooded = {.rocks = ROCKS, .controls = 1, .arrivals = &made.wooded[i]},
+                                                     .stands = made.stands,
                                                      .differences = &made.differences[i],
                                                      .others = &made.others[i]};
         made.year[i] = (struct ceduo_year){.controls = &made.index, .wooded = made.found[i].wooded};
         for (size_t r = 0; r < ROCKS; r++)
             made.marks[i][r] = r % 2;
-        made.years[i] = (struct ceduo_years){.scene = file.scene,
-                                             .window.step = 1,
-                                             .count = 1,
-                                             .years = &made.year[i],
-                                             .rocks = ROCKS,
-                                             .marked = ROCKS,
-                                             .marks = made.marks[i]};
+        made.years[i] = (struct ceduo_years){
+            .scene = file.scene, .window.step = 1, .count = 1, .years = &made.year[i], .rocks = ROCKS, .marks = made.marks[i]};
         made.of[i] = &made.years[i];
     }
     file.scene.options = made.options;

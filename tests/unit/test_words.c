@@ -200,7 +200,8 @@ static void expect_answer(double share, double may_lo, double may_hi, size_t wid
     arrivals[0].reach.hi = arrivals[0].exceed.hi = share + .01;
     LOCAL(ceduo_result, result) = assess();
     const struct ceduo_report report = {.result = result, .doubt = &doubt};
-    ceduo_words_answer(&text, &(const struct ceduo_subject){.report = &report}, width);
+    const struct ceduo_subject subject = ceduo_subject_of(&report, 0, 0);
+    ceduo_words_answer(&text, &subject, width);
     assert_string_equal(ceduo_text_string(&text), wanted);
 }
 

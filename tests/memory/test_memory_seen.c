@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Without memory: runs of blocks of all sizes, what was seen beside simulated rocks, fits, and surveys. */
 #include "local.h"
-#include "unit/failing.h"
+#include "memory/failing.h"
 
 #include <gsl/gsl_errno.h>
 #include <math.h>
@@ -357,8 +358,11 @@ TEST(surveys)
     without_memory(survey);
 }
 
-int main(void)
+static int set_up(void **state)
 {
+    (void)state;
     gsl_set_error_handler_off();
-    return test_run(NULL, NULL);
+    return 0;
 }
+
+AROUND_TESTS(set_up, NULL);
