@@ -3,6 +3,7 @@
 #include "test.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define GROUPS_MAX 100
@@ -44,17 +45,27 @@ void test_around(const char *file, CMFixtureFunction set_up, CMFixtureFunction t
     group->tear_down = tear_down;
 }
 
+/* Runs the tests of a group and returns how many failed; with TEST_FIRST in the environment none after the first that fails. */
+static int run_group(const struct group *group, const char *name)
+{
+    size_t step = getenv("TEST_FIRST") ? 1 : group->count;
+    int failed = 0;
+    for (size_t i = 0; i < group->count && failed == 0; i += step)
+        failed = _cmocka_run_group_tests(name, group->tests + i, step, group->set_up, group->tear_down);
+    return failed;
+}
+
 int main(int argc, char **argv)
 {
     (void)argc;
     const char *called = strrchr(argv[0], '/') ? strrchr(argv[0], '/') + 1 : argv[0];
     int failed = 0, run = 0;
-    for (struct group *group = groups; group < groups + groups_count; group++) {
+    for (const struct group *group = groups; group < groups + groups_count; group++) {
         const char *name = strrchr(group->file, '/') + 1;
         size_t n = strlen(called);
         if (strcmp(called, "all") != 0 && (strncmp(name, called, n) != 0 || strcmp(name + n, ".c") != 0))
             continue;
-        failed += _cmocka_run_group_tests(name, group->tests, group->count, group->set_up, group->tear_down);
+        failed += run_group(group, name);
         run++;
     }
     if (run == 0)

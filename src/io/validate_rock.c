@@ -6,7 +6,6 @@
 
 #include "base/elementary.h"
 #include "base/language.h"
-#include "resolve.h"
 #include "validator.h"
 
 /* What each shape is given by, and how that is written. A sphere has one of its keys, the others have all. */

@@ -9,9 +9,7 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "io/emit.h"
 #include "io/file.h"
-#include "io/resolve.h"
 
 /* ---- an edit under way ---- */
 

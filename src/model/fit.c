@@ -7,8 +7,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "io/doubt_inputs.h"
-#include "io/emit.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
 

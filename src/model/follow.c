@@ -10,7 +10,6 @@
 #include "base/must.h"
 #include "ceduo/rotation.h"
 #include "document.h"
-#include "io/doubt_inputs.h"
 
 /* The value that a person changes, and what goes along with it. */
 struct follow {

@@ -5,7 +5,6 @@
 #include "ceduo/calibrate.h"
 #include "ceduo/doubt.h"
 #include "fit.h"
-#include "io/doubt_inputs.h"
 #include "runs.h"
 #include "search.h"
 #include "study/seen.h"

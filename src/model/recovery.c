@@ -16,7 +16,6 @@
 #include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"
-#include "io/emit.h"
 #include "io/file.h"
 
 #define UNSAVED "# unsaved work on " /* begins the first line of a copy */

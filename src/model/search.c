@@ -7,8 +7,6 @@
 
 #include "base/language.h"
 #include "ceduo/question.h"
-#include "io/doubt_inputs.h"
-#include "io/resolve.h"
 #include "scene/schema.h"
 #include "scene/value.h"
 #include "study/inputs.h"

@@ -5,7 +5,6 @@
 
 #include "base/language.h"
 #include "ceduo/slope.h"
-#include "io/emit.h"
 #include "popup.h"
 #include "view/typed.h"
 

@@ -7,7 +7,6 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
 #include "view/figures.h"

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "io/survey_file.h"
 #include "popup.h"

@@ -8,7 +8,6 @@
 #include "base/language.h"
 #include "base/utf8.h"
 #include "ceduo/slope.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
 #include "scene/choices.h"

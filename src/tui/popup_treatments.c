@@ -5,9 +5,7 @@
 
 #include "base/language.h"
 #include "ceduo/rotation.h"
-#include "io/emit.h"
 #include "io/file.h"
-#include "io/resolve.h"
 #include "popup.h"
 
 #define FIRST_YEAR   1  /* the next year: year 0 is the stand as filed */

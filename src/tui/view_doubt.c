@@ -3,7 +3,6 @@
 
 #include "app.h"
 #include "base/language.h"
-#include "io/emit.h"
 
 static void build(struct app *app, struct form *form)
 {

@@ -5,7 +5,7 @@
 
 #include "base/language.h"
 #include "ceduo/status.h"
-#include "io/emit.h"
+#include "io/node.h"
 #include "page_parts.h"
 #include "plot_parts.h"
 #include "svg.h"

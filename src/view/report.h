@@ -8,7 +8,6 @@
 #include "ceduo/doubt.h"
 #include "ceduo/find.h"
 #include "ceduo/surface.h"
-#include "io/doubt_inputs.h"
 #include "io/scene_file.h"
 #include "study/goal.h"
 #include "study/snapshot.h"
