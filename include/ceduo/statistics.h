@@ -80,13 +80,6 @@ struct ceduo_distribution {
     double p50_lo, p50_hi, p99_lo, p99_hi;
 };
 
-/* The values of `count` ranks 1…n, which rise; ranks may be equal. */
-typedef void ceduo_ranks_fn(void *context, const size_t *ranks, size_t count, double *values);
-
-/* From the moments of n values and the values of some ranks, asked for at once. */
-struct ceduo_distribution ceduo_distribution_by(ceduo_ranks_fn *of_ranks, void *context, size_t n,
-                                                const struct ceduo_moments *m);
-
 /* From exact values, which are reordered, and their moments. */
 struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m);
 

@@ -59,7 +59,6 @@ struct ceduo_years {
     struct ceduo_year *years; /* rising */
     size_t last_control;      /* the one farthest along x */
     uint64_t rocks;           /* simulated in every year; 0: not in all of them yet */
-    uint64_t marked;          /* rocks that have a mark: all, or the first if there are very many */
     uint16_t *marks;          /* of each rock the years in which it reaches the last control with more than is
                                * accepted, or reaches it where that is not said */
     double *weights;          /* of those rocks, where the scene has blocks; otherwise NULL */

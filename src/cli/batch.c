@@ -12,8 +12,8 @@
 #include "resume.h"
 #include "say.h"
 #include "view/figures.h"
-#include "view/html.h"
 #include "view/page.h"
+#include "view/svg.h"
 
 /* All scenes, and what is printed of them. */
 struct batch {

@@ -8,7 +8,6 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "batch.h"
-#include "io/doubt_inputs.h"
 #include "io/file.h"
 #include "model/fit.h"
 #include "say.h"

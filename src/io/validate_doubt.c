@@ -10,10 +10,9 @@
 #include "base/language.h"
 #include "base/utf8.h"
 #include "csv.h"
-#include "doubt_inputs.h"
 #include "file.h"
-#include "resolve.h"
 #include "scene/value.h"
+#include "scene_file.h"
 #include "study/inputs.h"
 #include "validator.h"
 

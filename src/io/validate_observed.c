@@ -9,7 +9,6 @@
 #include "base/language.h"
 #include "csv.h"
 #include "file.h"
-#include "resolve.h"
 #include "scene_file.h"
 #include "validator.h"
 

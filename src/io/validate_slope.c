@@ -7,7 +7,6 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "csv.h"
-#include "resolve.h"
 #include "scene/ranges.h"
 #include "scene_file.h"
 #include "validator.h"

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "resolve.h"
 
 bool ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
 {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edits. Each makes a changed tree, which shares all but the nodes on the path to the change, and commits it as a new
- * state. All nodes lie in the arena of the document's file. Rows of `doubt` name values of the scene by their paths: where
- * an edit moves such a value, they go along. */
+/* Edits. Each makes a changed tree, which shares all nodes but those on the path to the change, and commits it as a new state.
+ * Rows of `doubt` name values by their paths: they follow a value that moves. */
 #include "document.h"
 
 #include <math.h>
@@ -10,9 +9,7 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "io/emit.h"
 #include "io/file.h"
-#include "io/resolve.h"
 
 /* ---- an edit under way ---- */
 
@@ -79,8 +76,7 @@ static const struct node *with_paths(struct arena *arena, const struct node *roo
     return now->n == 0 ? ceduo_node_without(arena, root, "doubt") : ceduo_node_with(arena, root, "doubt", now);
 }
 
-/* What became of an item of a list: one was put in before `from` (by 1), or that one was taken out (by -1), or moved to
- * another place (by 0). */
+/* What became of an item of a list: inserted before `from` (by 1), removed (by -1), or moved to `to` (by 0). */
 struct shift {
     const char *list;
     size_t from, to;
@@ -106,8 +102,8 @@ static const char *shift_path(struct arena *arena, const char *path, const void 
     return now == at || *end != ']' ? path : ceduo_arena_format(arena, "%s[%zu%s", s->list, now, end);
 }
 
-/* Rows about the items of a list go along with them: those of the scene, and those of the stand that the list is in. A
- * stand without rows says so, for the file that it starts from may have some. */
+/* Rows about the items of a list follow them: rows of the scene, and of the stand that the list is in. A stand without rows
+ * says so, because the file that it starts from may have some. */
 static void shift_doubts(struct edit *e, const char *list, size_t from, size_t to, int by)
 {
     const char *within = strstr(list, ".stand.");
@@ -127,8 +123,7 @@ static void shift_doubts(struct edit *e, const char *list, size_t from, size_t t
     put(e, path, now);
 }
 
-/* Another beginning of a path: rows that call an option by a name that it is to lose call it by its number; rows about the forest
- * become those of options. */
+/* Another beginning of a path: an option is named by its number, or rows about the forest become rows about options. */
 struct beginning {
     const char *from, *to;
 };
@@ -142,8 +137,8 @@ static const char *begin_path(struct arena *arena, const char *path, const void 
 
 /* ---- changes of a tree ---- */
 
-/* Takes the entry of a mapping or the item of a list out. A list that is empty then goes whole, unless it is that of
- * options: `*path` is what was taken out. */
+/* Removes an entry or an item. A list that is empty then goes whole, unless it is that of options: `*path` is what was
+ * removed. */
 static void take_out(struct edit *e, const char **path)
 {
     const char *dot = strrchr(*path, '.'), *bracket = strrchr(*path, '[');

@@ -7,8 +7,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "io/doubt_inputs.h"
-#include "io/emit.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
 
@@ -56,9 +54,8 @@ static struct range range_around(const struct scene_file *file, const char *key)
     return range;
 }
 
-/* The ground of all stretches as one (rows NULL), or each of the library that the scene names. What the one is, is known where
- * nothing was said of it: talus; otherwise it may be all that the library has, and what is near the scene's own values. Roughness as
- * an angle has no library. */
+/* Offers the ground of all stretches as one (rows NULL), or each ground of the library that the scene names. One ground has the
+ * range of talus if it is assumed, otherwise that of the whole library and of the scene's values. Angles have no library. */
 static void offer_ground(const struct scene_file *file, const struct node *rows, struct fit_request *to)
 {
     size_t n;

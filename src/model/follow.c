@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What goes along with a value that a person changes. Borders: where a belt, or a ground, ends and the next one begins
- * in the same place, moving one moves the other; where a border is moved over the next, that one gives way. Stands: a height
- * that is assumed goes along with its diameter. What would say the same in another way is taken out. */
+/* What follows a value that a person changes. A neighbour follows a border, or gives way to it. An assumed height follows its
+ * diameter. What would then be given twice is removed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +10,6 @@
 #include "base/must.h"
 #include "ceduo/rotation.h"
 #include "document.h"
-#include "io/doubt_inputs.h"
 
 /* The value that a person changes, and what goes along with it. */
 struct follow {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One thread takes the coarsest step of all jobs, works on a copy of the job without the lock, and hands the result over
- * if the job was not replaced meanwhile. A new job cancels the step under way. The queue owns results until they are
- * taken. */
+/* One thread takes the coarsest step of all jobs, works on a copy of the job without the lock, and publishes the result unless
+ * the job was replaced meanwhile. A new job cancels the step under way. The queue owns results until they are taken. */
 #include "jobs.h"
 
 #include <fcntl.h>
@@ -363,8 +362,7 @@ static bool is_wanted(const struct job *job)
     return job->level < job->levels;
 }
 
-/* Rocks of the next step, by which jobs take turns. The uncertainty of one option goes after the first figures and years, that of all
- * options after the second. Years have many forests. */
+/* Rocks of the next step: the job with the fewest is next. Years have many forests. */
 static uint64_t cost_of(const struct jobs *q, const struct job *job)
 {
     if (job->kind == JOB_SEARCH || job->kind == JOB_PREVIEW)
@@ -489,8 +487,8 @@ static void forget(struct jobs *q, enum job_kind kind)
         atomic_store(&q->cancel, true);
 }
 
-/* Puts a job in the place of the one before, whose result nobody has taken is of no use. One of the same key goes on where it is, as
- * far as is asked for now; without levels it is stopped while it is not done. True where something is to be done. */
+/* Replaces the job of its kind and drops its result. A job of the same key goes on up to the levels now asked for; without
+ * levels it is stopped. True if something is to be done. */
 static bool ask(struct jobs *q, const struct job *job)
 {
     pthread_mutex_lock(&q->lock);

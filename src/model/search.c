@@ -7,8 +7,6 @@
 
 #include "base/language.h"
 #include "ceduo/question.h"
-#include "io/doubt_inputs.h"
-#include "io/resolve.h"
 #include "scene/schema.h"
 #include "scene/value.h"
 #include "study/inputs.h"
@@ -159,8 +157,8 @@ static enum ceduo_status above_at(void *context, double value, double *above)
     return status;
 }
 
-/* How far the value found may be from that of other points and other rocks: what they leave open of the goal of so much of what may
- * be true, over its slope, which is taken across about that distance. Not known (NaN) where the slope has the wrong sign. */
+/* Sampling error of the value found: what other points and rocks leave open of the goal, over the goal's slope, which is taken
+ * across about that distance. NaN if the slope has the wrong sign. */
 static enum ceduo_status read_error(struct search *s, const struct ceduo_find_def *def, struct ceduo_sure *sure)
 {
     const struct ceduo_found *f = &sure->found;
@@ -188,8 +186,7 @@ static enum ceduo_status read_error(struct search *s, const struct ceduo_find_de
     return status;
 }
 
-/* The same search for the value that is sure; as the goal of so much of what may be true is smooth, by few values. Where nothing is
- * in doubt there is no such search. */
+/* Searches the value that reaches the goal in the wanted share of cases; few values do, because that is smooth. */
 static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_def *plain, const struct ceduo_found *found)
 {
     struct ceduo_find_def def = *plain;
@@ -334,8 +331,7 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
 
 /* ---- the preview of a change ---- */
 
-/* The scene with the change, in an arena of its own; it shares the nodes and the slope of the other. Release it by its
- * arena alone. */
+/* The scene with the change, which shares nodes and slope with the other. Release its arena alone. */
 static bool change_scene(const struct scene_file *from, const char *path, const char *value, struct scene_file *file)
 {
     LOCAL_PROBLEMS(problems);

@@ -90,7 +90,8 @@ ASKED_AT_ONCE(scars_fields);
 
 static const struct field observed_fields[] = {
     TEXT("name", NAMED(N_("name")), AT(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
-    TEXT("name_it", NAMED(N_("in Italian")), AT(observed, name_it), NO_RUN, N_("the same in Italian pages, screens and lists; without it in English")),
+    TEXT("name_it", NAMED(N_("in Italian")), AT(observed, name_it), NO_RUN,
+         N_("the same in Italian pages, screens and lists; without it in English")),
     WORD("use", NAMED(N_("use")), AT(observed, use), NO_RUN, "fit",
          N_("whether the ground is fitted to it, or it only checks the fit"), &ceduo_use_words),
     TEXT("option", NAMED(N_("option")), AT(observed, option), NO_RUN, N_("the option that stood there; without it the first")),

@@ -29,7 +29,8 @@ enum key {
     K_F10 = K_F1 + 9
 };
 
-/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word, title. */
+/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word,
+ * title. */
 #define VIEWS(V)                                                                                                               \
     V(SLOPE, slope, '1', "1", NP_("view", "slope"))                                                                            \
     V(STAND, stand, '2', "2", NP_("view", "stand"))                                                                            \
@@ -44,9 +45,8 @@ enum key {
 
 #define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help, BY(show_view, VIEW_##NAME))
 
-/* The one table of actions: keys, bar, help and manual come from it.
- * name, first key, its word, second key, its word, in the bar, what it does, and how: a function of program.c with a number, or
- * one without; NULL: views alone do it */
+/* The one table of actions, for keys, bar, help and manual: name, first key, its word, second key, its word, in the bar, what
+ * it does, and how: a function of program.c with a number, or without; NULL: views alone do it. */
 #define ACTIONS(X)                                                                                                             \
     X(UP, K_UP, "Up", 'k', "k", 0, N_("move up"), BY(move_lines, -1))                                                          \
     X(DOWN, K_DOWN, "Down", 'j', "j", 0, N_("move down"), BY(move_lines, 1))                                                   \

@@ -25,6 +25,7 @@ typedef bool popup_check(struct app *app, struct popup *popup);
 struct popup_field {
     char label[40];
     struct line line;
+    int row;             /* of the caller's table of fields, for its own use */
     popup_call *offer;   /* adds to the picker what goes with the text that is typed; NULL: nothing is offered */
     struct field *value; /* what may stand there: it is checked as the line is left; NULL: anything */
 };
@@ -66,14 +67,13 @@ void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
 void ceduo_popup_answer(struct popup *popup, char key, const char *text, const char *value);
 struct popup_field *ceduo_popup_field(struct popup *popup, const char *label, const char *value);
 /* A field with a list of what may stand in it; what matches what is typed is taken. */
-void ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_call *offer);
+struct popup_field *ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_call *offer);
 /* A number that is none of a file, from 0 on. */
 extern const struct field ceduo_popup_amount;
 /* A field for a value of a kind, of which it has a copy that the caller may change. */
 struct field *ceduo_popup_value(struct popup *popup, const char *label, const char *value, const struct field *kind);
 
-/* Whether what is typed into a line lies in the range of its kind, and is usual; otherwise that is said, or asked back. The same
- * once more is taken. */
+/* True if the typed value is in range and usual; otherwise warns, or asks once whether it is meant. */
 bool ceduo_popup_is_meant(struct app *app, const struct field *kind, struct line *line);
 
 /* Reads it as a file has it; false where it is not meant, no such value, or needed and missing, which is said. */
@@ -112,8 +112,8 @@ void ceduo_popup_copy(struct app *app);
 void ceduo_popup_find(struct app *app);
 void ceduo_popup_counts(struct app *app);
 
-/* Asks for the fields of a new item of a list, or of one group that it has (NULL: of all of it), and adds it at the end.
- * `offered`: what stands in the first fields. */
+/* Asks for the fields of a new item of a list, or of one group of it (may be NULL), and appends it. `offered`: the first n
+ * fields. */
 void ceduo_popup_item_of(struct app *app, const char *list, const char *group, const char *const *offered, size_t n);
 
 /* Treatments of the option under the cursor as items of a list. The other two return false if the item is none of them. */
@@ -153,7 +153,8 @@ void ceduo_popup_offer_files(struct app *app, struct popup *popup);
 bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *value);
 void ceduo_popup_survey(struct app *app); /* asks for that file */
 
-/* A scene of nothing but the stand, with the rock of this one; false if it is no stand. The caller releases `file` in any case. */
+/* A scene of nothing but the stand, with the rock of this one; false if it is no stand. The caller releases `file` in any
+ * case. */
 bool ceduo_popup_read_stand(const struct app *app, const char *value, struct scene_file *file);
 
 void ceduo_popup_offer_stands(struct app *app, struct popup *popup);

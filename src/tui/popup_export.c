@@ -7,12 +7,11 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
 #include "view/figures.h"
-#include "view/html.h"
 #include "view/page.h"
+#include "view/svg.h"
 
 /* The command that gives the same figures; `how`: as what. */
 static void append_command(struct app *app, struct text *text, const char *how)

@@ -7,7 +7,6 @@
 #include "base/must.h"
 #include "ceduo/slope.h"
 #include "io/csv.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
 #include "scene/choices.h"

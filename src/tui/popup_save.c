@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "base/language.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
 

@@ -5,9 +5,7 @@
 
 #include "base/language.h"
 #include "ceduo/rotation.h"
-#include "io/emit.h"
 #include "io/file.h"
-#include "io/resolve.h"
 #include "popup.h"
 
 #define FIRST_YEAR   1  /* the next year: year 0 is the stand as filed */
@@ -48,8 +46,8 @@ static const struct ceduo_belt *lent_belt(const struct lender *l)
     return &l->file.scene.options[0].belts[0];
 }
 
-/* Find the shipped stand with growth and cutting that is nearest to a species and a system: of that species, otherwise hop
- * hornbeam; of that system, otherwise any. The caller releases l->file. */
+/* Find the shipped stand with growth and cutting that is nearest to a species (otherwise hop hornbeam) and a system (otherwise
+ * any). The caller releases l->file. */
 static void find_lender(struct app *app, int species, enum ceduo_system system, struct lender *l)
 {
     const char *const *folders = ceduo_file_folders(app->scratch);

@@ -215,10 +215,10 @@ void ceduo_program_wheel(struct app *app, int lines)
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
                           struct problems *problems)
 {
-    if (!ceduo_app_create(app, path, charset, threads, no_recovery, problems))
-        return false;
-    end_input(app);
-    return true;
+    bool good = ceduo_app_create(app, path, charset, threads, no_recovery, problems);
+    if (good)
+        end_input(app);
+    return good;
 }
 
 void ceduo_program_free(struct app *app)

@@ -9,6 +9,7 @@
 /* Same as ceduo_app_create() and ceduo_app_free(), including popups. */
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
                           struct problems *problems);
+
 void ceduo_program_free(struct app *app);
 
 void ceduo_program_key(struct app *app, int key);
@@ -21,8 +22,7 @@ bool ceduo_program_news(struct app *app);
 
 /* ---- a script (script.c) ---- */
 
-/* Feeds a script to the program without a terminal, a command on each line, as ceduo-terminal(7) has them. What is wrong goes to
- * standard error. */
+/* Plays a script without a terminal, a command on each line (see ceduo-terminal(7)). Errors go to standard error. */
 enum script_end { SCRIPT_DONE, SCRIPT_WRONG, SCRIPT_UNREADABLE, SCRIPT_UNWRITTEN };
 enum script_end ceduo_script_run(struct app *app, const char *path);
 
@@ -34,15 +34,13 @@ enum terminal_end {
     TERMINAL_FAILED /* the machine gives no pipe */
 };
 
-/* Returns NULL if there is a terminal to draw on: standard input and output are one, and TERM can address its cells.
- * Otherwise says why there is none. */
+/* NULL if standard input and output are a terminal and TERM can address its cells, otherwise why not. */
 const char *ceduo_terminal_missing(void);
 
 /* Shows the program on the terminal until it ends; restores the terminal. A signal that ends it is raised again. */
 enum terminal_end ceduo_terminal_run(struct app *app);
 
-/* Gives the terminal back as it was, from a signal handler or any thread, just before the program ends. False if no screen
- * is shown. */
+/* Restores the terminal before the program ends, from a signal handler or any thread. False if no screen is shown. */
 bool ceduo_terminal_restore(void);
 
 #endif

@@ -73,8 +73,8 @@ static bool draw_title(struct app *app)
     return fits;
 }
 
-/* The answer for the option that is shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty, which may change it, is
- * computed. */
+/* The answer for the option shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty is computed, which may change
+ * it. */
 static void draw_verdict(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
@@ -112,8 +112,8 @@ static void dim(struct app *app, struct ceduo_area area, const struct ceduo_cell
         }
 }
 
-/* While the figures are those of an earlier scene, they stand there dimmed: as they are drawn, or from the last screen that had
- * any if nothing is known of the option. The answer always is that of the last screen: it belongs to the earlier scene. */
+/* Dims the figures of an earlier scene: as they are drawn, or from the last screen with figures if none of the option are
+ * known. The answer always is that of the last screen. */
 static void dim_figures(struct app *app, struct ceduo_area column)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
@@ -206,8 +206,7 @@ static void draw_bar(struct app *app)
     }
 }
 
-/* The newest figures, which stand still in every view. Warnings that have no room whole are only counted: view 4 has them.
- * `titled`: the scene's title stands above them. */
+/* The newest figures. Warnings without room are only counted: view 4 has them. `titled`: the scene's title stands above. */
 static void draw_column(struct app *app, struct ceduo_area area, bool titled)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;

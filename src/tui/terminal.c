@@ -174,8 +174,7 @@ static void catch_signal(int number)
     sigaction(number, &(struct sigaction){.sa_handler = on_signal}, NULL);
 }
 
-/* Comes before curses opens the terminal, so that curses leaves SIGTSTP alone: otherwise it ignores it while it draws, and
- * Ctrl-Z is lost now and then. */
+/* Call before curses opens the terminal, so that curses leaves SIGTSTP alone: it would ignore it while it draws. */
 static void set_handlers(void)
 {
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, others[] = {SIGTERM, SIGHUP, SIGINT, SIGCONT};
@@ -216,8 +215,8 @@ static void show(struct app *app, bool colours)
 
 /* ---- keys ---- */
 
-/* Curses makes a key of each sequence that the terminal is known for. Of any other it hands on the characters: here they are
- * swallowed whole, also if they come in pieces, and what stands between the two sequences of a paste is gathered. */
+/* Curses makes a key of each sequence that it knows, and hands on the characters of any other: these are swallowed whole, also
+ * in pieces. What stands between the two sequences of a paste is gathered. */
 static struct {
     enum { PLAIN, ESCAPED, CONTROL, STRING, STRING_ESCAPED, CHARACTERS } state;
     int number;     /* the one parameter of CSI; -1: none, 9999: more or other than that */

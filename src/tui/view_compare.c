@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 5: the silvicultural options side by side, today and over one whole rotation of each. View 6 shows the same
- * options year by year. */
+/* View 5: the silvicultural options side by side, today and over one whole rotation of each. */
 #include "base/language.h"
 #include "popup.h"
 
@@ -27,8 +26,7 @@ static void draw_picture(struct app *app, enum ceduo_plot plot, struct ceduo_are
     ceduo_app_plot(app, plot, area, &p);
 }
 
-/* The table, as much of it as holds the option under the cursor; below it what is to be said, which scrolls, and a picture where
- * that leaves room. */
+/* The table around the option under the cursor; below it words, which scroll, and a picture if there is room. */
 static void draw_table(struct app *app, struct ceduo_area area)
 {
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "measure.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/language.h"
-#include "report_doubt.h"
+#include "report.h"
 #include "words.h"
 
 static struct ceduo_measure of_1000(struct ceduo_portion share, double lo, double hi)

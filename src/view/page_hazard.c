@@ -49,7 +49,7 @@ void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t 
     const struct ceduo_hazard *wooded = hazard_of(r, option + 1, control);
     LOCAL_TEXT(place);
     LOCAL_TEXT(rock);
-    ceduo_plot_control_name(&place, c);
+    ceduo_words_place(&place, c);
     if (isnan(c->accepted))
         ceduo_text_put(&rock, _("A rock"));
     else

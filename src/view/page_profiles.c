@@ -6,8 +6,8 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "measure.h"
 #include "page_parts.h"
+#include "report.h"
 
 #define SCENE_WIDTH 32 /* columns of a scene's name */
 

@@ -5,7 +5,7 @@
 
 #include "base/language.h"
 #include "ceduo/status.h"
-#include "io/emit.h"
+#include "io/node.h"
 #include "page_parts.h"
 #include "plot_parts.h"
 #include "svg.h"
@@ -134,7 +134,7 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_report *
         return;
     for (size_t k = is_crowded(report) ? r->last_control : 0; k < r->scene->controls_count; k++) {
         LOCAL_TEXT(place);
-        ceduo_plot_control_name(&place, &r->scene->controls[k]);
+        ceduo_words_place(&place, &r->scene->controls[k]);
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_PLACE), _("At %s, with '%s'"), ceduo_text_string(&place),
                           r->scene->options[option].name);
         ceduo_page_percentiles(page, r, option, k, true);

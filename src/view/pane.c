@@ -4,10 +4,10 @@
 #include <math.h>
 
 #include "base/language.h"
-#include "measure.h"
 #include "page_parts.h"
 #include "pane.h"
 #include "plot_parts.h"
+#include "report.h"
 
 #define WIDE       34 /* columns with room for intervals */
 #define HEIGHT_MIN 18 /* lines with room for what is seen elsewhere, too, … */

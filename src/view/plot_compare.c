@@ -5,8 +5,8 @@
 
 #include "base/language.h"
 #include "ceduo/assess.h"
-#include "measure.h"
 #include "plot_parts.h"
+#include "report.h"
 
 enum { ADC, SHARE, ENERGY, BARS };
 

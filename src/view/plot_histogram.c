@@ -5,8 +5,8 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "measure.h"
 #include "plot_parts.h"
+#include "report.h"
 
 /* Energies at a control as horizontal bars. */
 

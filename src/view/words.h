@@ -23,11 +23,7 @@ void ceduo_words_points(struct text *text, const struct ceduo_slope *slope);
 /* Append "reach angle 37°, shadow angle 34°" of a control, after a comma if the text is not empty; `brief`: without "angle". */
 void ceduo_words_topography(struct text *text, const struct ceduo_topography *topography, bool brief);
 
-/* Append why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, what is usual, and what to check. */
-void ceduo_words_contradiction(struct text *text, const struct ceduo_arrivals *bare);
-
-/* Warnings of controls where more or fewer rocks arrive than the terrain suggests, or faster and higher than rocks on slopes do. */
-void ceduo_words_ground(const struct ceduo_result *result, ceduo_words_say *say, void *context);
+#define DEGREES (180 / M_PI)
 
 /* What is to be said of a belt: one sentence for each bit of its warnings, handed to `say` one by one. */
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
@@ -127,6 +123,9 @@ const char *ceduo_words_law(const char *word);
 
 /* The name of an option, a belt or a control: that of the language, but in JSON and CSV as the file has it. */
 #define NAME_OF(x) ((x)->name_given ? ceduo_in_language((x)->name_given, (x)->name) : (x)->name)
+
+/* "end of the forest (135 m)", or "135 m". */
+void ceduo_words_place(struct text *text, const struct ceduo_control *control);
 
 /* A sentence with a string in the place of its one %s. */
 void ceduo_append_with(struct text *text, const char *sentence, const char *string);

@@ -5,7 +5,6 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "measure.h"
 #include "plot_parts.h"
 #include "report.h"
 #include "words.h"
@@ -28,11 +27,29 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement)
 
 /* ---- nothing ---- */
 
+/* Appends why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, what is usual, and what to check. */
+static void say_contradiction(struct text *text, const struct ceduo_arrivals *bare)
+{
+    double reach = bare->topography.reach * DEGREES, shadow = bare->topography.shadow * DEGREES;
+    if (shadow > CEDUO_SHADOW_STEEP)
+        ceduo_text_then(
+            text, " ",
+            _("But it lies under a shadow angle of %.1f\xc2\xb0 (from the foot of the face), and rocks usually reach "
+              "places under more than %.0f\xc2\xb0."),
+            shadow, CEDUO_SHADOW_STEEP);
+    else
+        ceduo_text_then(text, " ",
+                        _("But it lies under a reach angle of %.1f\xc2\xb0 (from the release), and rocks usually reach places "
+                          "under more than %.0f\xc2\xb0."),
+                        reach, CEDUO_REACH_STEEP);
+    ceduo_text_then(text, " ", "%s", _("Check roughness and friction of the ground, the law of impact and the profile."));
+}
+
 void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t control)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     LOCAL_TEXT(where);
-    ceduo_plot_control_name(&where, &r->scene->controls[control]);
+    ceduo_words_place(&where, &r->scene->controls[control]);
     ceduo_text_format(text, _("Nothing can be said of the forest above %s: of %llu rocks %llu arrive, even without forest."),
                       ceduo_text_string(&where), (unsigned long long)bare->released, (unsigned long long)bare->reached);
     /* where rocks start without forest, and how far they come */
@@ -57,7 +74,7 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
             _("The ground is steeper than 45\xc2\xb0 from %.10g m on: if they start there, write release.x_m: %.10g."),
             face + s->origin_x, face + s->origin_x);
     else if (ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS)
-        ceduo_words_contradiction(text, bare);
+        say_contradiction(text, bare);
     else if (!(farthest > s->x[ceduo_slope_segment(s, start) + 1]))
         ceduo_text_then(text, " ", "%s",
                         _("Write where they start (release.x_m), or what sets them in motion (release.height_m, vx_m_s)."));
@@ -309,7 +326,7 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
         ceduo_text_put(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
     if (s->report->result->scene->controls_count > 1) { /* the one that it is about */
-        ceduo_plot_control_name(&place, s->place);
+        ceduo_words_place(&place, s->place);
         ceduo_text_put(&place, ": ");
         if (ceduo_utf8_width(place.bytes) + taken <= width) {
             ceduo_text_put(text, place.bytes);

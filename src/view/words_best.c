@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/language.h"
-#include "measure.h"
+#include "report.h"
 #include "scene/choices.h"
 #include "words.h"
 

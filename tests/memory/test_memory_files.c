@@ -13,8 +13,6 @@
 #include "base/must.h"
 #include "ceduo/key.h"
 #include "folder.h"
-#include "io/doubt_inputs.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "io/scene_file.h"
 #include "io/survey_file.h"

@@ -168,7 +168,7 @@ static void drop(double accepted)
 
 static struct ceduo_run *fly(const struct ceduo_option *option)
 {
-    return run_option(&flat.scene, option, 20, 1, CEDUO_EXACT_BYTES);
+    return run_option(&flat.scene, option, 20, 1);
 }
 
 static struct ceduo_arrivals arrive(double accepted)
@@ -233,13 +233,13 @@ TEST(one_rock_of_twenty_may_exceed)
             site.scene.simulation.law = (enum ceduo_law)law;
             site.control.x = 40; /* which all reach */
             site.control.accepted = 0;
-            LOCAL(ceduo_run, all) = run_option(&site.scene, NULL, 20, 1, CEDUO_EXACT_BYTES);
+            LOCAL(ceduo_run, all) = run_option(&site.scene, NULL, 20, 1);
             assert_int_equal(ceduo_run_energies(all, 0, energies, 20), 20);
             qsort(energies, 20, sizeof *energies, by_value);
             EXPECT(energies[17], <, energies[18]);
             EXPECT(energies[18], <, energies[19]);
             site.control.accepted = more ? next_below(energies[18]) : energies[18];
-            LOCAL(ceduo_run, run) = run_option(&site.scene, NULL, 20, 1, CEDUO_EXACT_BYTES);
+            LOCAL(ceduo_run, run) = run_option(&site.scene, NULL, 20, 1);
             struct ceduo_arrivals a = arrivals_of(run, 0);
             assert_int_equal(a.exceeded, more ? 2 : 1);
             assert_int_equal(ceduo_energy_light(&a), more ? CEDUO_FAIL : CEDUO_PASS);

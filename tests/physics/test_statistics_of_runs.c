@@ -74,7 +74,6 @@ TEST(means_of_the_combinations_beside_table_5)
         if (i == 0)
             expect_mean("sd of speed", a.speed.sd, a.speed.sd / sqrt(2 * n), 4.78, 4.78 / sqrt(2e6), .01);
         EXPECT_IS(a, (released, c->rocks), (unfinished, 0));
-        assert_true(a.exact);
     }
 }
 
@@ -119,9 +118,8 @@ TEST(figures_of_an_arrival_fit_together)
          (a.energy.p95, <=, a.energy.p99), (a.energy.p99, <=, a.energy.max));
     EXPECT(a.translation.mean, ==, a.energy.mean); /* lumped: no spin */
     uint64_t reached;
-    double mean, se;
-    ceduo_run_energy(run, 0, &reached, &mean, &se);
-    ROWS(EXPECT, (reached, ==, a.reached), (mean, ==, a.energy.mean), (se, ==, a.energy.se));
+    struct ceduo_estimate mean = ceduo_run_energy(run, 0, &reached);
+    ROWS(EXPECT, (reached, ==, a.reached), (mean.mean, ==, a.energy.mean), (mean.se, ==, a.energy.se));
     struct ceduo_ends ends = ends_of(run);
     assert_int_equal(ends.count[CEDUO_AT_REST] + ends.count[CEDUO_LEFT_SLOPE] + ends.count[CEDUO_UNFINISHED], 5000);
     assert_int_equal(ends.stop_x.n, ends.count[CEDUO_AT_REST]);
@@ -139,25 +137,23 @@ TEST(a_run_flies_the_rocks_that_can_be_followed)
 
 static const double cells[] = {1, 20, 70, 134.5, 135, 150};
 
-static struct ceduo_run_def def_with_cells(unsigned threads, size_t exact_bytes)
+static struct ceduo_run_def def_with_cells(unsigned threads)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.threads = threads;
     def.cells = LENGTH(cells);
     def.cell_x = cells;
-    def.exact_bytes = exact_bytes;
     return def;
 }
 
 TEST(the_same_bits_with_any_number_of_threads_and_steps)
 {
-    static const size_t rows[] = {0, 3, 5}, bytes[] = {CEDUO_EXACT_BYTES, 1000};
-    for (size_t r = 0; r < LENGTH(rows); r++)
-        for (size_t e = 0; e < LENGTH(bytes); e++) {
-            choose(&combinations[rows[r]]);
-            site.scene.simulation.rocks = 20000;
-            expect_same_however(def_with_cells(1, bytes[e]), 20000);
-        }
+    static const size_t rows[] = {0, 3, 5};
+    for (size_t r = 0; r < LENGTH(rows); r++) {
+        choose(&combinations[rows[r]]);
+        site.scene.simulation.rocks = 20000;
+        expect_same_however(def_with_cells(1), 20000);
+    }
 }
 
 TEST(a_run_is_no_longer_than_asked_for)
@@ -185,43 +181,6 @@ TEST(other_seeds_are_other_rocks)
     expect_mean("mean speed", a.speed.mean, a.speed.se, b.speed.mean, b.speed.se, 0);
 }
 
-/* ---- histograms ---- */
-
-static void expect_distribution_within(const struct ceduo_distribution *a, const struct ceduo_distribution *b)
-{
-    EXPECT_SAME(*a, *b, mean, sd, se, max);
-    ROWS(expect_relative, (a->p50, b->p50, 1e-4), (a->p95, b->p95, 1e-4), (a->p95_lo, b->p95_lo, 1e-4),
-         (a->p95_hi, b->p95_hi, 1e-4), (a->p99, b->p99, 1e-4));
-}
-
-TEST(percentiles_of_histograms_are_those_of_all_samples)
-{
-    static const size_t rows[] = {0, 5}; /* without and with spin */
-    for (size_t r = 0; r < LENGTH(rows); r++) {
-        choose(&combinations[rows[r]]);
-        site.scene.simulation.rocks = 50000;
-        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        def.threads = 2;
-        LOCAL(ceduo_run, all) = run_of(&def, 50000);
-        def.exact_bytes = 100000; /* from the first thousands on */
-        LOCAL(ceduo_run, some) = run_of(&def, 1000);
-        assert_true(arrivals_of(some, 0).exact);
-        assert_int_equal(ceduo_run_extend(some, 50000), CEDUO_OK);
-        struct ceduo_arrivals a = arrivals_of(some, 0), b = arrivals_of(all, 0);
-        assert_false(a.exact);
-        assert_true(b.exact);
-        ROWS(expect_distribution_within, (&a.speed, &b.speed), (&a.energy, &b.energy), (&a.translation, &b.translation),
-             (&a.height, &b.height));
-        double none[1];
-        assert_int_equal(ceduo_run_energies(some, 0, none, 1), 0);
-        struct ceduo_ends p = ends_of(some);
-        struct ceduo_ends q = ends_of(all);
-        expect_relative(p.stop_p50, q.stop_p50, 1e-4);
-        expect_relative(p.stop_p95, q.stop_p95, 1e-4);
-        EXPECT(p.stop_max, ==, q.stop_max);
-    }
-}
-
 /* ---- envelopes ---- */
 
 static void expect_spread(const struct ceduo_spread_of_cell *s)
@@ -233,7 +192,7 @@ TEST(envelopes_agree_with_the_control_at_the_same_place)
 {
     choose(&combinations[5]);
     site.scene.simulation.rocks = 20000;
-    struct ceduo_run_def def = def_with_cells(2, CEDUO_EXACT_BYTES);
+    struct ceduo_run_def def = def_with_cells(2);
     struct ceduo_run *run = run_of(&def, 20000);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     uint64_t before = 20000;
@@ -439,32 +398,29 @@ static bool nothing_known(const struct ceduo_distribution *d)
 
 TEST(a_control_that_nobody_reaches)
 {
-    static const size_t bytes[] = {CEDUO_EXACT_BYTES, 0};
-    for (int law = 0; law < CEDUO_LAW_COUNT; law++)
-        for (size_t e = 0; e < LENGTH(bytes); e++) {
-            choose(&combinations[0]);
-            site.scene.simulation.law = (enum ceduo_law)law;
-            for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
-                site.segments[j].friction = 5;
-                site.segments[j].rt = ceduo_number(.1);
-            }
-            site.scene.simulation.rocks = 999;
-            struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-            def.exact_bytes = bytes[e];
-            LOCAL(ceduo_run, run) = run_of(&def, 999);
-            struct ceduo_arrivals a = arrivals_of(run, 0);
-            EXPECT_IS(a, (reached, 0), (reach.mean, 0), (reach.lo, 0));
-            ROWS(EXPECT, (a.reach.hi, >, .0038), (a.reach.hi, <, .004), (a.exceed.hi, ==, a.reach.hi));
-            ROWS(assert_true, (nothing_known(&a.speed)), (nothing_known(&a.energy)), (nothing_known(&a.translation)),
-                 (nothing_known(&a.height)));
-            EXPECT_IS(a, (energy_per_released.mean, 0), (energy_per_released.se, 0));
-            uint64_t reached;
-            double mean, se, energy;
-            ceduo_run_energy(run, 0, &reached, &mean, &se);
-            EXPECT(reached, ==, 0);
-            EXPECT_NAN(mean, se);
-            assert_int_equal(ceduo_run_energies(run, 0, &energy, 1), 0);
+    for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
+        choose(&combinations[0]);
+        site.scene.simulation.law = (enum ceduo_law)law;
+        for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
+            site.segments[j].friction = 5;
+            site.segments[j].rt = ceduo_number(.1);
         }
+        site.scene.simulation.rocks = 999;
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        LOCAL(ceduo_run, run) = run_of(&def, 999);
+        struct ceduo_arrivals a = arrivals_of(run, 0);
+        EXPECT_IS(a, (reached, 0), (reach.mean, 0), (reach.lo, 0));
+        ROWS(EXPECT, (a.reach.hi, >, .0038), (a.reach.hi, <, .004), (a.exceed.hi, ==, a.reach.hi));
+        ROWS(assert_true, (nothing_known(&a.speed)), (nothing_known(&a.energy)), (nothing_known(&a.translation)),
+             (nothing_known(&a.height)));
+        EXPECT_IS(a, (energy_per_released.mean, 0), (energy_per_released.se, 0));
+        uint64_t reached;
+        double energy;
+        struct ceduo_estimate mean = ceduo_run_energy(run, 0, &reached);
+        EXPECT(reached, ==, 0);
+        EXPECT_NAN(mean.mean, mean.se);
+        assert_int_equal(ceduo_run_energies(run, 0, &energy, 1), 0);
+    }
 }
 
 TEST(a_control_without_an_accepted_energy)
@@ -515,7 +471,7 @@ TEST(unfinished_blocks_count_by_their_weights)
     LOCAL(ceduo_run, run) = run_scene(&flat.scene, ROCKS, 2);
     LOCAL(ceduo_follower, f) = ceduo_follower_create(&flat.scene, NULL);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    const double *weights = ceduo_run_weights(run);
+    const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
     double all = 0, squares = 0, unfinished = 0;
     for (uint64_t r = 0; r < ROCKS; r++) {
         struct ceduo_trajectory way;

@@ -9,7 +9,6 @@
 
 #include "ceduo/question.h"
 #include "ceduo/statistics.h"
-#include "io/doubt_inputs.h"
 #include "io/scene_file.h"
 #include "study/inputs.h"
 

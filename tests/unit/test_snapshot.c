@@ -27,14 +27,13 @@ static int by_index(void **state)
 }
 
 /* The runs of the scene, flown; with the cells where `pictures`. */
-static struct ceduo_pool *pool_of(uint64_t rocks, bool pictures, bool kept)
+static struct ceduo_pool *pool_of(uint64_t rocks, bool pictures)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&s.scene);
     struct ceduo_pool *pool;
     def.rocks_most = 5000;
     def.cells = pictures ? cells : 0;
     def.cell_x = x;
-    def.exact_bytes = kept ? CEDUO_EXACT_BYTES : 0;
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, rocks), CEDUO_OK);
@@ -92,7 +91,7 @@ static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ce
 
 TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, true, true);
+    LOCAL(ceduo_pool, pool) = pool_of(300, true);
     LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){
         .scene = &s.scene, .figures = pool, .pictures = pool, .cells = cells, .cell_x = x, .trajectories = 20});
     assert_int_equal(o->cells, cells);
@@ -114,7 +113,7 @@ TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
 /* Without stems the rocks are those without forest: the same sight, and it is flown once. */
 TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, false, true);
+    LOCAL(ceduo_pool, pool) = pool_of(300, false);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     assert_int_equal(ceduo_pool_work(pool).runs, 2);
     assert_ptr_equal(o->wooded[1], o->bare);
@@ -129,7 +128,7 @@ TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
 /* With the contact model index there is one sight, that of all options. */
 TEST_WITH(the_index_looks_at_the_bare_slope, by_index, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, false, true);
+    LOCAL(ceduo_pool, pool) = pool_of(300, false);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     assert_int_equal(ceduo_pool_work(pool).runs, 1);
     assert_null(o->wooded[0]);
@@ -163,8 +162,8 @@ TEST_WITH(what_is_not_flown_yet_is_not_known, wooded, NULL)
 /* Figures come from the longer run, curves from the one that keeps them. */
 TEST_WITH(figures_come_from_the_longer_run, wooded, NULL)
 {
-    LOCAL(ceduo_pool, figures) = pool_of(600, false, true);
-    LOCAL(ceduo_pool, pictures) = pool_of(300, true, true);
+    LOCAL(ceduo_pool, figures) = pool_of(600, false);
+    LOCAL(ceduo_pool, pictures) = pool_of(300, true);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
     struct ceduo_snapshot *o = snapshot_of(&def);
     assert_int_equal(o->wooded[0]->flown.rocks, 600);
@@ -181,7 +180,7 @@ TEST_WITH(figures_come_from_the_longer_run, wooded, NULL)
 /* Figures do not wait for pictures; and where the run of the pictures alone has grown, all is read again. */
 TEST_WITH(pictures_may_be_behind, wooded, NULL)
 {
-    LOCAL(ceduo_pool, figures) = pool_of(600, false, true), *pictures;
+    LOCAL(ceduo_pool, figures) = pool_of(600, false), *pictures;
     struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
     run_def.cells = cells;
     run_def.cell_x = x;
@@ -210,7 +209,7 @@ TEST_WITH(a_changed_forest_shows_what_it_was, wooded, NULL)
 {
     static struct site b;
     wooded_site_init(&b);
-    LOCAL(ceduo_pool, pool) = pool_of(100, false, true);
+    LOCAL(ceduo_pool, pool) = pool_of(100, false);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     struct ceduo_option options[4] = {b.options[0], b.options[1], s.options[0], b.options[0]};
     b.scene.options = options;
@@ -232,7 +231,7 @@ TEST(sights_are_taken_over)
         wooded_site_init(&b);
         b.belts[1].stand = b.belts[0].stand; /* trees where the other has none */
         b.belts[1].stand.shoots_count = 0;
-        struct ceduo_pool *pool = pool_of(300, false, true);
+        struct ceduo_pool *pool = pool_of(300, false);
         struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 5};
         struct ceduo_snapshot *first = snapshot_of(&def);
         ceduo_pool_turn(pool, &b.scene);
@@ -262,7 +261,7 @@ TEST(sights_are_taken_over)
 
 TEST_WITH(longer_runs_are_read_again, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, false, true);
+    LOCAL(ceduo_pool, pool) = pool_of(300, false);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
     LOCAL(ceduo_snapshot, first) = snapshot_of(&def);
     assert_int_equal(ceduo_pool_extend(pool, 301), CEDUO_OK);
@@ -273,35 +272,10 @@ TEST_WITH(longer_runs_are_read_again, wooded, NULL)
     assert_int_equal(second->wooded[0]->flown.rocks, 301);
 }
 
-static void expect_same_energies(const struct ceduo_run_snapshot *a, const struct ceduo_run_snapshot *b)
-{
-    for (size_t c = 0; c < 2; c++) {
-        assert_false(b->flown.arrivals[c].exact);
-        EXPECT(a->energies[c].n, >, 0);
-        assert_int_equal(a->energies[c].n, b->energies[c].n);
-        for (size_t i = 0; i < a->energies[c].n; i++)
-            EXPECT_NEAR(a->energies[c].values[i], b->energies[c].values[i], 1e-9 * a->energies[c].values[i]);
-    }
-}
-
-/* Runs too long for their samples: the energies come from rocks flown once more, the same ones; of very long runs some are
- * enough. */
-TEST_WITH(energies_are_flown_where_they_were_not_kept, wooded, NULL)
-{
-    static const uint64_t rocks[][2] = {{300, 300}, {4000, 4500}};
-    for (size_t i = 0; i < LENGTH(rocks); i++) {
-        LOCAL(ceduo_pool, kept) = pool_of(rocks[i][0], false, true), *binned = pool_of(rocks[i][1], false, false);
-        LOCAL(ceduo_snapshot, a) = snapshot_at(kept, 0);
-        LOCAL(ceduo_snapshot, b) = snapshot_at(binned, 0);
-        expect_same_energies(a->bare, b->bare);
-        expect_same_energies(a->wooded[0], b->wooded[0]);
-    }
-}
-
 /* Starts and ends where the rock does, never far below the ground, and never jumps. */
 TEST_WITH(trajectories_follow_the_rocks, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(20, false, true);
+    LOCAL(ceduo_pool, pool) = pool_of(20, false);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 20);
     uint64_t hit = 0;
     for (uint64_t i = 0; i < 40; i++) {
@@ -327,7 +301,7 @@ TEST_WITH(flights_are_sampled_finely, by_index, NULL)
 {
     s.scene.release.vx = ceduo_number(10);
     s.scene.release.vz = ceduo_number(10);
-    LOCAL(ceduo_pool, pool) = pool_of(1, false, true);
+    LOCAL(ceduo_pool, pool) = pool_of(1, false);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     size_t checked = 0;
@@ -354,7 +328,7 @@ static int endless(void **state)
 
 TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(1, false, true);
+    LOCAL(ceduo_pool, pool) = pool_of(1, false);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     struct ceduo_trajectory way;
@@ -369,7 +343,7 @@ TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
 TEST_WITH(nobody_waits_for_an_endless_trajectory, endless, NULL)
 {
     atomic_bool cancel = true;
-    LOCAL(ceduo_pool, pool) = pool_of(1, false, true);
+    LOCAL(ceduo_pool, pool) = pool_of(1, false);
     struct ceduo_snapshot_def def = {
         .scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1, .cancel = &cancel};
     LOCAL(ceduo_snapshot, o);

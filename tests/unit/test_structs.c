@@ -206,7 +206,6 @@ static enum ceduo_status ask_any(void)
     q.run.threads = any_threads();
     q.run.kernel = (enum ceduo_kernel)any_count(3);
     q.run.cells = draw(8) ? 0 : any_count(2);
-    q.run.exact_bytes = any_count(100000);
     q.only = draw(2) ? CEDUO_ALL_OPTIONS : any_count(1);
     q.window = any_window();
     q.years = draw(3) == 0;

@@ -208,13 +208,8 @@ static void make_alike(void)
         made.year[i] = (struct ceduo_year){.controls = &made.index, .wooded = made.found[i].wooded};
         for (size_t r = 0; r < ROCKS; r++)
             made.marks[i][r] = r % 2;
-        made.years[i] = (struct ceduo_years){.scene = file.scene,
-                                             .window.step = 1,
-                                             .count = 1,
-                                             .years = &made.year[i],
-                                             .rocks = ROCKS,
-                                             .marked = ROCKS,
-                                             .marks = made.marks[i]};
+        made.years[i] = (struct ceduo_years){
+            .scene = file.scene, .window.step = 1, .count = 1, .years = &made.year[i], .rocks = ROCKS, .marks = made.marks[i]};
         made.of[i] = &made.years[i];
     }
     file.scene.options = made.options;

@@ -127,19 +127,17 @@ struct ceduo_distribution ceduo_weighted_distribution(const struct released *all
         d.se = ceduo_weighted_se(all, &about) * all->w / w;
     }
     d.max = values[n - 1].value;
-    const struct {
-        double p, *at, *lo, *hi;
-    } percentiles[] = {
-        {0.5, &d.p50, &d.p50_lo, &d.p50_hi}, {0.95, &d.p95, &d.p95_lo, &d.p95_hi}, {0.99, &d.p99, &d.p99_lo, &d.p99_hi}};
-    for (size_t k = 0; k < 3; k++) { /* the share below one is a mean over the n values, whose error moves it up and down */
-        double p = percentiles[k].p, at = ceduo_weighted_quantile(values, n, p);
+    for (size_t k = 0; k < PERCENTILES;
+         k++) { /* the share below one is a mean over the n values, whose error moves it up and down */
+        struct percentile to = ceduo_percentile_of(&d, k);
+        double p = to.p, at = ceduo_weighted_quantile(values, n, p);
         struct weighted_sum below = {0};
         for (size_t i = 0; i < n; i++)
             weighted_sum_add(&below, values[i].weight, (values[i].value <= at) - p);
         double half = CEDUO_Z95 * ceduo_weighted_se(all, &below) * all->w / w;
-        *percentiles[k].at = at;
-        *percentiles[k].lo = p - half > 0 ? ceduo_weighted_quantile(values, n, p - half) : NAN;
-        *percentiles[k].hi = p + half < 1 ? ceduo_weighted_quantile(values, n, p + half) : NAN;
+        *to.value = at;
+        *to.lo = p - half > 0 ? ceduo_weighted_quantile(values, n, p - half) : NAN;
+        *to.hi = p + half < 1 ? ceduo_weighted_quantile(values, n, p + half) : NAN;
     }
     return d;
 }

@@ -10,6 +10,13 @@
  * known (Cochran 1977): what only says that heavy rocks were drawn a little too often is no error. Where all weights are
  * equal, these are the plain statistics. */
 
+/* One percentile of a distribution. */
+#define PERCENTILES 3
+struct percentile {
+    double p, *value, *lo, *hi;
+};
+struct percentile ceduo_percentile_of(struct ceduo_distribution *distribution, size_t k);
+
 /* All rocks released. */
 struct released {
     double n, w, ww; /* the sums of weights and of their squares */

@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A stand from what a sample plot counts and measures. */
+/* A stand that was measured: from what a sample plot counts, or from a survey in a CSV file. */
 #include <math.h>
+#include <string.h>
 
 #include "base/language.h"
-#include "io/emit.h"
+#include "io/file.h"
+#include "io/survey_file.h"
 #include "popup.h"
+
+/* ==== a sample plot ==== */
 
 enum {
     COUNT_AREA,
@@ -131,4 +135,137 @@ void ceduo_popup_counts(struct app *app)
         own->hi = rows[i].path ? own->hi : rows[i].most;
         own->meaning = rows[i].meaning;
     }
+}
+
+/* ==== a survey ==== */
+
+/* Questions of the form, and their answers. */
+static const struct {
+    const char *label, *answers[2];
+} questions[SURVEY_QUESTIONS] = {
+    [SURVEY_SLOPES] = {N_("slopes are in"), {N_("degrees"), N_("percent")}},
+    [SURVEY_DIAMETERS] = {N_("diameters or circumferences are in"), {N_("cm"), N_("mm")}},
+    [SURVEY_AREAS] = {N_("areas of plots are in m2"), {N_("yes"), NULL}},
+    [SURVEY_HEIGHTS] = {N_("heights are"), {N_("heights of stems, m"), N_("altitudes")}},
+};
+
+/* ---- reading ---- */
+
+/* Reads a survey: its stand on one line, as a change takes it, and how its table was understood. */
+static bool read_survey(const char *path, struct survey_answers *answers, struct text *value, struct text *understood,
+                        struct problems *problems)
+{
+    LOCAL_ARENA(arena);
+    struct survey_file file;
+    LOCAL_TEXT(yaml);
+    if (!ceduo_survey_read(&file, &arena, path, answers, problems) || !ceduo_survey_stand(&file, &yaml, problems))
+        return false;
+    const struct source source = {.name = path, .bytes = yaml.bytes, .length = yaml.length};
+    const struct node *root = ceduo_yaml_read(&arena, &source, problems);
+    if (root) {
+        ceduo_emit_flow(value, root);
+        ceduo_text_put(understood, file.understood);
+    }
+    return root != NULL;
+}
+
+static void take_stand(struct app *app, const char *path, const char *value, const char *understood)
+{
+    app->message[0] = '\0';
+    if (!ceduo_popup_replace_stand(app, path, value))
+        return;
+    if (app->message[0])
+        ceduo_app_say(app, "%s; %s", ceduo_app_format(app, "%s", app->message), understood);
+    else
+        ceduo_app_say(app,
+                      ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
+                          ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
+                          : _("the stand of the survey; it has no growth and cutting; %s"),
+                      understood);
+}
+
+static void open_form(struct app *app, const char *path, const char *survey, const struct survey_answers *answers);
+
+/* Reads a survey and takes its stand, or asks what its table leaves open, or says why it is refused. */
+static void try_survey(struct app *app, const char *path, const char *survey, struct survey_answers *answers)
+{
+    LOCAL_TEXT(value);
+    LOCAL_TEXT(understood);
+    bool asked = false;
+    if (read_survey(survey, answers, &value, &understood, &app->problems)) {
+        take_stand(app, path, ceduo_text_string(&value), ceduo_text_string(&understood));
+        return;
+    }
+    for (int q = 0; q < SURVEY_QUESTIONS; q++)
+        asked |= answers->asked[q];
+    if (asked)
+        open_form(app, path, survey, answers);
+    else
+        ceduo_app_edited(app, false);
+}
+
+/* ---- the form: the row of a field is its question ---- */
+
+static void offer_answers(struct app *app, struct popup *p)
+{
+    (void)app;
+    const char *const *answers = questions[p->fields[p->at].row].answers;
+    for (int i = 0; i < 2 && answers[i]; i++)
+        ceduo_popup_item(p, _(answers[i]), _(answers[i]));
+}
+
+static bool filled_form(struct app *app, struct popup *p)
+{
+    struct survey_answers answers = {0};
+    for (const struct popup_field *f = p->fields; f < p->fields + p->fields_count; f++) {
+        for (int i = 0; i < 2 && questions[f->row].answers[i]; i++)
+            if (strcmp(f->line.text, _(questions[f->row].answers[i])) == 0)
+                answers.given[f->row] = i + 1;
+        if (answers.given[f->row] == 0) {
+            ceduo_app_warn(app, _("%s: choose an answer, or Esc and name the column with its unit"), f->label);
+            return false;
+        }
+    }
+    try_survey(app, p->path, p->kept, &answers);
+    return true;
+}
+
+static void open_form(struct app *app, const char *path, const char *survey, const struct survey_answers *answers)
+{
+    const char *why = ceduo_text_string(&app->problems.text);
+    struct popup *p = ceduo_popup_fields(app, _("How is the survey to be read?"), path, filled_form);
+    p->kept = ceduo_arena_string(&p->arena, survey);
+    ceduo_text_add(&p->text, why, strcspn(why, "\n"));
+    ceduo_problems_free(&app->problems);
+    for (int q = 0; q < SURVEY_QUESTIONS; q++)
+        if (answers->asked[q] || answers->given[q])
+            ceduo_popup_choice(p, _(questions[q].label),
+                               answers->given[q] ? _(questions[q].answers[answers->given[q] - 1]) : "", offer_answers)
+                ->row = q;
+}
+
+/* ---- the file ---- */
+
+static void offer_surveys(struct app *app, struct popup *p)
+{
+    const char *shipped = ceduo_file_find(&p->arena, "surveys/six-plots.csv", NULL, "surveys");
+    ceduo_popup_offer_files(app, p);
+    if (shipped && !ceduo_picker_has(&p->picker, shipped))
+        ceduo_popup_item(p, _("six-plots.csv: an example, made up"), shipped);
+}
+
+static void chose_survey(struct app *app, struct popup *p)
+{
+    try_survey(app, p->path, p->value, &(struct survey_answers){0});
+}
+
+void ceduo_popup_survey(struct app *app)
+{
+    struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem, or for each class"),
+                                       ceduo_app_stand(app), chose_survey);
+    ceduo_text_put(&p->text,
+                   _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, status; "
+                     "see ceduo-stand(5)."));
+    p->fields[0].offer = offer_surveys;
+    p->endings = ".csv .txt";
 }
