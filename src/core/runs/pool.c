@@ -183,7 +183,6 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
     /* of the other law arrivals are asked for alone, and a few samples that give the errors of differences */
     struct ceduo_run_def def = pool->def;
     def.arrivals_only = true;
-    def.cells = 0;
     def.exact_bytes /= 4;
     def.rocks_most = def.rocks_most > CEDUO_OTHER_ROCKS ? CEDUO_OTHER_ROCKS : def.rocks_most;
     struct ceduo_scene other = {0};

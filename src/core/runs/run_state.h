@@ -3,7 +3,6 @@
 #define CEDUO_RUN_STATE_H
 
 #include "ceduo/run.h"
-#include "core/walk/envelope.h"
 #include "core/walk/lanes.h"
 #include "core/walk/prepared.h"
 #include "histogram.h"
@@ -67,7 +66,6 @@ struct ceduo_run {
     uint64_t pairs_room;    /* where samples are not kept: the first rocks' energies, for differences */
     double *pairs;          /* [control][pairs_room], NaN where a rock did not arrive */
     struct histogram *bins; /* [control][quantity], then one of the stops */
-    struct envelope_cell *cells;
 };
 
 /* NULL where there are none: before the first rock, or beyond what is kept. */

@@ -294,7 +294,6 @@ enum ceduo_status ceduo_years_simulate_apart(struct ceduo_years *years, const st
     struct years_run r = {.years = years, .bare = bare, .rocks = rocks};
     a.def.threads = 1;
     a.def.rocks_most = rocks;
-    a.def.cells = 0;
     enum ceduo_status status = a.scenes && a.runs && clear_marks(years, rocks) ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = (enum ceduo_status)ceduo_parallel(&(const struct parallel){years->count, def->threads, simulate_apart, &a});
