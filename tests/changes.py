@@ -1,14 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Do the tests notice when a line is wrong? tests/changes.py [WORD...] puts each change of changes.txt (those whose block holds a
-word) into a copy of the tree, builds it and runs the tests named, until one fails. Fails where none does. The tests must pass
-before: one that fails already seems to notice everything."""
+word) into a copy of the tree, builds what depends on it and runs the tests named, until one test fails. Fails where none does. The
+tests must pass before: one that fails already seems to notice everything. Each core has a copy; changes of a file follow each other
+in the same one, so that what is built for one change serves the next."""
+import itertools
 import os
+import queue
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -19,7 +24,7 @@ def failing(tree, test):
     """The first test that fails in this file; make builds what it needs."""
     tap = tree / TAPS / f"{test}.tap"
     tap.unlink(missing_ok=True)
-    done = subprocess.run(["make", "-j2", f"{TAPS}/{test}.tap"], cwd=tree, check=False, text=True, stdout=subprocess.PIPE,
+    done = subprocess.run(["make", f"{TAPS}/{test}.tap"], cwd=tree, check=False, text=True, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, env=os.environ | {"TEST_FIRST": "1"})
     if not tap.exists():
         return "it cannot be built:\n" + done.stdout[-2000:]
@@ -50,17 +55,31 @@ def changes():
             yield [re.sub(r"^[-+] ", "", line) for line in block.splitlines()]
 
 
-def main():
-    missed = 0
-    with tempfile.TemporaryDirectory(prefix="ceduo-changes-") as folder:
-        tree = Path(folder) / "tree"
-        shutil.copytree(ROOT, tree, symlinks=True, ignore=shutil.ignore_patterns(".git", "asan", "cov", "fuzz", "tsan"))
-        for name, old, new, tests in changes():
-            if not any(word in " ".join((name, old, new, tests)) for word in sys.argv[1:] or [""]):
-                continue
+def try_file(trees, changes_of_file):
+    """Tries the changes of one file in a tree that is free; returns how many no test noticed."""
+    tree, missed = trees.get(), 0
+    try:
+        for name, old, new, tests in changes_of_file:
+            start = time.monotonic()
             good, why = noticed(tree, name, old, new, tests)
             missed += not good
-            print(f"{name}: + {new}\n    {why}", flush=True)
+            print(f"{name}: + {new}\n    {why} ({time.monotonic() - start:.0f} s)", flush=True)
+    finally:
+        trees.put(tree)
+    return missed
+
+
+def main():
+    wanted = sorted(change for change in changes() if any(word in " ".join(change) for word in sys.argv[1:] or [""]))
+    files = [list(found) for _, found in itertools.groupby(wanted, key=lambda change: change[0])]
+    cores, trees, start = os.cpu_count() or 1, queue.Queue(), time.monotonic()
+    with tempfile.TemporaryDirectory(prefix="ceduo-changes-") as folder, ThreadPoolExecutor(cores) as pool:
+        for core in range(min(cores, len(files))):
+            tree = Path(folder) / f"tree-{core}"
+            shutil.copytree(ROOT, tree, symlinks=True, ignore=shutil.ignore_patterns(".git", "asan", "cov", "fuzz", "tsan"))
+            trees.put(tree)
+        missed = sum(pool.map(try_file, itertools.repeat(trees), files))
+    print(f"{len(wanted)} changes, {missed} not noticed, {time.monotonic() - start:.0f} s")
     sys.exit(1 if missed else 0)
 
 

@@ -402,7 +402,7 @@ class Program:
         try:
             done = subprocess.run([tool, *map(str, words)], executable=self.paths[tool], input=case.stdin,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder,
-                                  env={**play.home(folder / "home"), **case.env}, timeout=PATIENCE, check=False)
+                                  env={**play.home(folder / "home", rocks=None), **case.env}, timeout=PATIENCE, check=False)
         except subprocess.TimeoutExpired:
             return "hangs", b"", b""
         return done.returncode, done.stdout, done.stderr

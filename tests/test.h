@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* TEST(name) { … } is a test of cmocka; a program runs all of its tests in the order of the source. */
+/* TEST(name) { … } is a test of cmocka; the tests of a file are run in the order of the source. */
 #ifndef TEST_H
 #define TEST_H
 
@@ -12,16 +12,24 @@
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 
-/* Run all, with functions that are called before the first and after the last. */
-int test_run(CMFixtureFunction set_up, CMFixtureFunction tear_down);
-void test_add(const char *name, CMUnitTestFunction test, CMFixtureFunction set_up, CMFixtureFunction tear_down);
+void test_add(const char *file, const char *name, CMUnitTestFunction test, CMFixtureFunction set_up,
+              CMFixtureFunction tear_down);
+void test_around(const char *file, CMFixtureFunction set_up, CMFixtureFunction tear_down);
 
-/* With functions that are called before and after it. */
+/* Calls `set_up` before the first test of the file, and `tear_down` after the last. */
+#define AROUND_TESTS(set_up, tear_down)                                                                                        \
+    __attribute__((constructor)) static void add_around(void)                                                                  \
+    {                                                                                                                          \
+        test_around(__FILE__, set_up, tear_down);                                                                              \
+    }                                                                                                                          \
+    struct around_needs_a_semicolon
+
+/* With functions that are called before and after the test. */
 #define TEST_WITH(name, set_up, tear_down)                                                                                     \
     static void name(void **state);                                                                                            \
     __attribute__((constructor)) static void add_##name(void)                                                                  \
     {                                                                                                                          \
-        test_add(#name, name, set_up, tear_down);                                                                              \
+        test_add(__FILE__, #name, name, set_up, tear_down);                                                                    \
     }                                                                                                                          \
     static void name(__attribute__((unused)) void **unused)
 

@@ -94,7 +94,7 @@ enum ceduo_judgement { CEDUO_UNANSWERED, CEDUO_YES, CEDUO_NO, CEDUO_NOT_DECIDED,
 enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded);
 
 /* Judge whether a share is at most a limit; CEDUO_NOT_DECIDED if its interval holds the limit. */
-enum ceduo_judgement ceduo_judge_share(double share, double lo, double hi, double limit);
+enum ceduo_judgement ceduo_judge_share(struct ceduo_estimate share, double limit);
 
 /* A belt by itself. */
 struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt);

@@ -10,10 +10,10 @@
 /* How often, and with how much: what arrives at a control in a year where the scene says which blocks come down. Energies
  * in J, rates in events a year, each with its 95 % interval. */
 
-/* The energy that is reached or exceeded once in so many years; NaN where the sample does not reach so far. */
+/* Energy that is reached or exceeded once in some years; NaN if the sample does not reach so far. */
 struct ceduo_return {
     unsigned years;
-    double energy, lo, hi;
+    struct ceduo_estimate energy; /* se: NaN */
 };
 
 /* Classes of intensity and of return period of Swiss practice: below 30 kJ, 30 to 300 kJ, above 300 kJ (BAFU 2016); to 30,
@@ -29,7 +29,7 @@ int ceduo_intensity_of(double energy);
 struct ceduo_intensity {
     const char *word;              /* weak, medium, strong */
     double from, to;               /* J; to: infinite of the last */
-    struct ceduo_rate within;      /* rocks of this intensity a year */
+    struct ceduo_estimate within;  /* rocks of this intensity a year */
     double left;                   /* share of those without forest; NaN: there are none */
     bool of_return[CEDUO_RETURNS]; /* whether the energy of that return period is of this intensity */
 };
@@ -41,7 +41,7 @@ double ceduo_hazard_energy(size_t i);
 /* Rocks that arrive with more than an energy. */
 struct ceduo_exceeding {
     double energy;
-    struct ceduo_rate rate;
+    struct ceduo_estimate rate;
 };
 
 struct ceduo_hazard {
@@ -50,10 +50,10 @@ struct ceduo_hazard {
     size_t energies;  /* of the curve, up to the first that no rock exceeds */
     struct ceduo_exceeding exceed[CEDUO_HAZARD_ENERGIES];
     struct ceduo_return returns[CEDUO_RETURNS];
-    struct ceduo_rate reach;    /* rocks that arrive */
-    struct ceduo_rate accepted; /* rocks that arrive with more than is accepted; NaN where that is not said */
-    double accepted_return;     /* years: ceduo_accepted_return() of the control */
-    double left;                /* share of the rate without forest of what is feared; NaN: it is 0 there, or not known */
+    struct ceduo_estimate reach;    /* rocks that arrive */
+    struct ceduo_estimate accepted; /* rocks that arrive with more than is accepted; NaN where that is not said */
+    double accepted_return;         /* years: ceduo_accepted_return() of the control */
+    double left;                    /* share of the rate without forest of what is feared; NaN: it is 0 there, or not known */
     struct ceduo_intensity intensity[CEDUO_INTENSITIES];
 };
 
@@ -61,7 +61,7 @@ struct ceduo_hazard {
 struct ceduo_hazard ceduo_hazard_none(void);
 
 /* The rate of what is feared at a place: more than it accepts, or any rock where that is not said. */
-struct ceduo_rate ceduo_hazard_feared(const struct ceduo_hazard *hazard);
+struct ceduo_estimate ceduo_hazard_feared(const struct ceduo_hazard *hazard);
 
 /* Sets what is left of the rates of `bare`, which may be the same. */
 void ceduo_hazard_compare(struct ceduo_hazard *hazard, const struct ceduo_hazard *bare);

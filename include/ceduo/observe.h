@@ -15,9 +15,9 @@ struct ceduo_observed_row {
 };
 
 struct ceduo_quantity_row {
-    const char *unit;        /* in files and for people; "": of a count */
-    double scale;            /* SI per unit */
-    const char *columns[20]; /* of a table that holds the values, ended by NULL */
+    const char *unit;          /* in files and for people; "": of a count */
+    double scale;              /* SI per unit */
+    const char *column, *also; /* name of the column of a table that holds the values; other names, separated by | */
 };
 
 const struct ceduo_observed_row *ceduo_observed_row(enum ceduo_observed_kind kind);

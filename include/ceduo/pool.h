@@ -8,8 +8,7 @@
  * the same rocks with the same random numbers, so that their differences are those of the forests. */
 struct ceduo_pool;
 
-/* A pool for the scene of `def`, whose `option` is not looked at, and whose exact_bytes the scene's runs share.
- * CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
+/* A pool for the scene of `def`, whose `option` is not looked at. CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
 enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct ceduo_pool **pool);
 void ceduo_pool_free(struct ceduo_pool *pool);
 
@@ -38,7 +37,7 @@ enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks);
 #define CEDUO_FEW_ROCKS 100 /* arrivals below which a mean is not waited for */
 
 /* Whether the 95 % half-width of a mean of so many arrivals is at most `tolerance` of it, or they are too few to wait for. */
-bool ceduo_mean_is_precise(uint64_t reached, double mean, double se, double tolerance);
+bool ceduo_mean_is_precise(uint64_t reached, struct ceduo_estimate mean, double tolerance);
 
 /* Makes them longer, from one block on by an eighth each time, until the 95 % half-width of the mean energy of every run at every
  * control that at least CEDUO_FEW_ROCKS of its rocks reach is below `tolerance` of it, or `max` rocks are done. `*met`:
@@ -51,7 +50,8 @@ enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, ui
 void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene);
 
 /* Frees runs that the scene does not need, as those of years, the oldest first, until the samples of all runs take no
- * more than CEDUO_EXACT_BYTES. */
+ * more than CEDUO_POOL_BYTES. */
+#define CEDUO_POOL_BYTES ((size_t)256 * 1024 * 1024)
 void ceduo_pool_trim(struct ceduo_pool *pool);
 
 /* What was done so far. */

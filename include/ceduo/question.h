@@ -11,7 +11,7 @@
  *     struct ceduo_answer answer;
  *     question.rocks = question.run.rocks_most = 10000;
  *     if (ceduo_ask(&question, NULL, &answer) == CEDUO_OK)
- *         printf("%g\n", answer.result->options[0].wooded.arrivals[0].reach_probability);
+ *         printf("%g\n", answer.result->options[0].wooded.arrivals[0].reach.mean);
  *     ceduo_answer_release(&answer); */
 struct ceduo_question {
     struct ceduo_run_def run;   /* the scene, and how its rocks are simulated; its option is not looked at */

@@ -16,7 +16,6 @@ struct ceduo_run;
 
 #define CEDUO_BLOCK_ROCKS  1024 /* rocks summed as one */
 #define CEDUO_THREADS_MOST 1024
-#define CEDUO_EXACT_BYTES  ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
 
 /* How rocks are simulated: one by one, or 32 at once in the lanes of wide registers. All give the same bits.
  * Where the machine lacks such registers, rocks are simulated one by one. */
@@ -29,14 +28,13 @@ struct ceduo_run_def {
     enum ceduo_kernel kernel;          /* nor on this */
     uint64_t rocks_most;               /* no longer than this will it be made; at most CEDUO_ROCKS_MOST */
     bool arrivals_only;                /* trajectories stop behind the last control: their ends are not known */
-    size_t exact_bytes;                /* beyond this percentiles come from a histogram */
     bool other_energy;                 /* of a pool: each forest under the other energy law as well, see other.h */
     const ceduo_flag *cancel;          /* may be NULL; raised by another thread: the call returns soon */
     void (*progress)(void *context, uint64_t rocks); /* may be NULL; called now and then by a worker, one at a time */
     void *context;
 };
 
-/* No forest, one thread, the scene's rocks, CEDUO_EXACT_BYTES. */
+/* No forest, one thread, the scene's rocks. */
 struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene);
 
 /* A run without rocks yet. CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or what ceduo_scene_check() says. */
@@ -62,21 +60,20 @@ struct ceduo_stem_counts ceduo_run_stems(const struct ceduo_run *run);
 /* What arrives at a control. Means and percentiles are over the rocks that reached it. Where the scene has blocks, counts are
  * of the rocks that were drawn; shares, means and percentiles are of the blocks that come down. */
 struct ceduo_arrivals {
-    uint64_t released, reached, exceeded, unfinished;             /* unfinished: before this control */
-    uint64_t ended[CEDUO_ENDS];                                   /* that did not reach it, by how they ended: with those that
+    uint64_t released, reached, exceeded, unfinished; /* unfinished: before this control */
+    uint64_t ended[CEDUO_ENDS];                       /* that did not reach it, by how they ended: with those that
                                                        * reached it, all released */
-    double missed[CEDUO_ENDS];                                    /* shares of the same */
-    double reach_probability, reach_lo, reach_hi;                 /* hi counts the unfinished as reached */
-    double exceed_probability, exceed_lo, exceed_hi;              /* NaN without an accepted energy */
-    double limit;                                                 /* of exceed_probability: ceduo_exceed_limit() */
+    double missed[CEDUO_ENDS];                        /* shares of the same */
+    struct ceduo_estimate reach;                      /* share of the released; hi counts the unfinished as reached */
+    struct ceduo_estimate exceed;                     /* likewise, with more than is accepted; NaN if that is not given */
+    double limit;                                     /* of exceed: ceduo_exceed_limit() */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
-    double energy_per_released, energy_per_released_se;           /* J */
+    struct ceduo_estimate energy_per_released;                    /* J; no interval */
     double top_p95; /* m: 95th percentile of the height of the rocks' tops above the ground, their underside's and their mean
-                     * diameter; NaN where the scene asks for no design values, or sizes differ and samples are not kept */
-    double contacts, contacts_se;       /* with stems, of those that reached; NaN: bare run */
+                     * diameter; NaN where the scene asks for no design values, or no rock arrives */
+    struct ceduo_estimate contacts;     /* with stems, of those that reached; no interval; NaN: bare run */
     struct ceduo_hazard hazard;         /* where the scene has blocks */
     struct ceduo_topography topography; /* of the control */
-    bool exact;                         /* percentiles from every sample */
 };
 
 /* Return the share of the released rocks that may arrive with more than the accepted energy: CEDUO_EXCEED_MOST. With blocks it is
@@ -87,11 +84,11 @@ double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_co
 /* CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK. `control` counts in the scene's order. */
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals);
 
-/* Only the moments, without percentiles: cheap. */
-void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se);
+/* Return the mean energy (J) of the rocks that reach a control, without interval, and set how many do. It is cheap. */
+struct ceduo_estimate ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached);
 
-/* As cheap: shares of all released, and means (J), of each of so many groups of rocks, as large as each other or one larger, in
- * their order: of a run whose samples are kept, and with as many rocks at least. */
+/* As cheap: shares of all released, and means (J), of each of n groups of rocks, which are equal or one larger, in their order.
+ * Requires at least n rocks. */
 struct ceduo_brief {
     double reach_probability, exceed_probability; /* exceed: NaN without an accepted energy */
     double energy;                                /* of those that reached; NaN where none did */
@@ -101,24 +98,16 @@ void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups
 
 /* What one run brings to a control less what another brings, rock by rock of the same numbers; over all released. */
 struct ceduo_difference {
-    struct ceduo_paired reach_probability, exceed_probability;
-    struct ceduo_paired energy_per_released; /* J */
+    struct ceduo_estimate reach, exceed;       /* shares */
+    struct ceduo_estimate energy_per_released; /* J */
 };
 
-/* `run` less `baseline`: two runs of one scene (all NaN where one is NULL). Where one is longer, of the rocks that
- * both have, if their samples are kept, otherwise all NaN. Both simulate the same rocks, so the more alike the
- * forests, the smaller the error of the difference. In runs too long to keep their samples the standard error comes
- * from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept as far as exact_bytes goes. */
-#define CEDUO_PAIRED_ROCKS ((uint64_t)1 << 20)
+/* Return `run` less `baseline`, two runs of one scene; all NaN if one is NULL. If one is longer, only rocks that both have count.
+ * Both simulate the same rocks, so the more alike the forests, the smaller the error of the difference. */
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control);
 
 /* Between two that are the same: 0, without an error. `accepted` NaN: what exceeds it is not known. */
 struct ceduo_difference ceduo_no_difference(double accepted);
-
-/* Adds 1 to the mark of each rock that reaches a control with more than is accepted there, or reaches it where that
- * is not said. Returns how many rocks were looked at, at most `max`: fewer than all where samples are kept of the
- * first only. */
-uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t max);
 
 #define CEDUO_EARLY_M 10.0
 
@@ -136,17 +125,16 @@ struct ceduo_ends {
 /* In a run of arrivals only all counts are 0 and all places NaN. */
 enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends);
 
-/* The weights of the rocks, where the scene has blocks; otherwise NULL. */
-const double *ceduo_run_weights(const struct ceduo_run *run);
+/* Values of single rocks, in the order of the rocks. Speed (m/s), height (m) and energy (J) are NaN if a rock does not reach the
+ * control. The place where it stops (m) is NaN if it does not stop; the weight is NULL if the scene has no blocks. */
+enum ceduo_sample { CEDUO_SAMPLE_SPEED, CEDUO_SAMPLE_HEIGHT, CEDUO_SAMPLE_ENERGY, CEDUO_SAMPLE_STOP, CEDUO_SAMPLE_WEIGHT };
 
-/* Energies (J) of the rocks that reached a control, in the order of the rocks, for a histogram: at most `max` of them,
- * the first. Returns how many were written; 0 where the samples are not kept. Where rocks have weights, energies are
- * taken as often as their weights say. */
+/* Return one value for each rock, or NULL if there is none. It is valid until the run is extended or freed. `control` is not used
+ * for stops and weights. */
+const double *ceduo_run_samples(const struct ceduo_run *run, size_t control, enum ceduo_sample quantity);
+
+/* Write energies (J) of the rocks that reach a control, in the order of the rocks, for a histogram: the first `max` of them. With
+ * blocks an energy is written as often as its weight says. Return how many were written. */
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t max);
-
-/* What each rock brought to a control, in the order of the rocks, NaN where it did not arrive; and where each stopped (m), NaN
- * where it did not, whatever the control. False where samples are not kept. */
-enum ceduo_sample { CEDUO_SAMPLE_SPEED, CEDUO_SAMPLE_HEIGHT, CEDUO_SAMPLE_ENERGY, CEDUO_SAMPLE_STOP };
-bool ceduo_run_values(const struct ceduo_run *run, size_t control, enum ceduo_sample what, double *to);
 
 #endif

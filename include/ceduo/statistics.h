@@ -29,6 +29,14 @@ void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments 
 double ceduo_moments_sd(const struct ceduo_moments *m);
 double ceduo_moments_se(const struct ceduo_moments *m);
 
+/* A value with its sampling error. */
+struct ceduo_estimate {
+    double mean;   /* NaN: not known */
+    double se;     /* standard error; NaN: not known */
+    double lo, hi; /* 95 % interval; NaN: not known */
+};
+#define CEDUO_NO_ESTIMATE ((struct ceduo_estimate){NAN, NAN, NAN, NAN})
+
 /* Half the width of the 95 % interval of a mean of n values, by Student's law with n - 1 degrees of freedom, from its standard
  * error in any unit; NaN for n < CEDUO_FEW, of which it would say too little. */
 #define CEDUO_FEW 10
@@ -41,25 +49,22 @@ double ceduo_share_se(double share, double n);
  * error is 0. Also of the difference of two such shares that are alike. */
 double ceduo_half_width_of_share(double share, double se, uint64_t n);
 
-/* A share or a rate with its 95 % interval. */
-struct ceduo_rate {
-    double rate, lo, hi;
-};
+/* Return the estimate of a share of n rocks with its interval after Wilson (1927); se is NaN. n need not be whole. The upper end is
+ * that of `max`, which counts in the rocks whose end is unknown. The interval is [0, 1] for n = 0. */
+struct ceduo_estimate ceduo_wilson(double share, double max, double n);
 
-/* The interval of a share of n (Wilson 1927), which need not be whole: as sure as a share of so many. Its upper end is that of
- * `max`, which counts in whatever is not known; without that it is the share. [0, 1] for n = 0. */
-struct ceduo_rate ceduo_wilson(double share, double max, double n);
+/* Return the estimate of a mean with its interval by the normal law. */
+struct ceduo_estimate ceduo_estimate_by_se(double mean, double se);
 
-/* The mean of differences between pairs: the same rocks under two conditions. */
-struct ceduo_paired {
-    double mean, se; /* NaN where it does not exist; se: or where no pair differs */
-    /* shares: where no pair differs, the share of pairs that may differ all the same (Wilson, 95 %); otherwise 0 */
-    double below;
-};
-#define CEDUO_NOT_PAIRED ((struct ceduo_paired){NAN, NAN, 0})
+/* Return the estimate of a mean difference between pairs of rocks, with the spread of the pairs in `m`. If no pair differs, se is
+ * NaN and the interval goes to the share of pairs that may differ all the same (Wilson). */
+struct ceduo_estimate ceduo_estimate_of_pairs(double mean, const struct ceduo_moments *m, uint64_t rocks);
 
-/* `mean` of `rocks` pairs, with the spread of those in `m`. */
-struct ceduo_paired ceduo_paired_of(double mean, const struct ceduo_moments *m, uint64_t rocks);
+/* True if no pair of such an estimate differs. */
+static inline bool ceduo_pairs_are_equal(const struct ceduo_estimate *difference)
+{
+    return isnan(difference->se) && difference->hi > 0;
+}
 
 /* The one rule for quantiles, type 1 of Hyndman and Fan 1996: quantile p of n values is that of rank k (1…n), the smallest with
  * k >= pn. So each is a value that was found. NaN of none. */
@@ -74,13 +79,6 @@ struct ceduo_distribution {
     double mean, se, sd, p50, p95, p95_lo, p95_hi, p99, max;
     double p50_lo, p50_hi, p99_lo, p99_hi;
 };
-
-/* The values of `count` ranks 1…n, which rise; ranks may be equal. */
-typedef void ceduo_ranks_fn(void *context, const size_t *ranks, size_t count, double *values);
-
-/* From the moments of n values and the values of some ranks, asked for at once. */
-struct ceduo_distribution ceduo_distribution_by(ceduo_ranks_fn *of_ranks, void *context, size_t n,
-                                                const struct ceduo_moments *m);
 
 /* From exact values, which are reordered, and their moments. */
 struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m);

@@ -7,6 +7,7 @@
 
 #include "naslund.h"
 #include "stand.h"
+#include "statistics.h"
 #include "status.h"
 
 /* From the stems on sample plots to a stand. Each plot gives its own figures per hectare; a stand has their mean, and the
@@ -54,11 +55,6 @@ double ceduo_survey_horizontal(double area, double slope_rad);
 /* The basal area per hectare of a species (-1: not said), or of CEDUO_SURVEY_ALL, stumps left out, summed over the plots: for shares
  * of it. In m2 of the squares of the diameters, per m2. */
 double ceduo_survey_basal(const struct ceduo_survey *survey, int species);
-
-/* A mean with its standard error and its 95 % interval (Student). With one value these are NaN. */
-struct ceduo_estimate {
-    double mean, se, lo, hi;
-};
 
 #define CEDUO_SURVEY_CLASS   0.05 /* m of dbh: the width of a class */
 #define CEDUO_SURVEY_SPACING 0.35 /* m between the shoots of a stool where nobody measured it: assumed, as in the presets */

@@ -59,7 +59,6 @@ struct ceduo_years {
     struct ceduo_year *years; /* rising */
     size_t last_control;      /* the one farthest along x */
     uint64_t rocks;           /* simulated in every year; 0: not in all of them yet */
-    uint64_t marked;          /* rocks that have a mark: all, or the first if there are very many */
     uint16_t *marks;          /* of each rock the years in which it reaches the last control with more than is
                                * accepted, or reaches it where that is not said */
     double *weights;          /* of those rocks, where the scene has blocks; otherwise NULL */
@@ -98,19 +97,19 @@ struct ceduo_years_summary {
     size_t thick_contact, thick_free_run; /* and where only stems from CEDUO_THICK_DBH on count */
     size_t failing_lo, failing_hi;        /* years whose 95 % interval of the energy's share lies above the limit; whose upper
                                         * end does */
-    struct ceduo_rate rate;               /* with blocks: ceduo_hazard_feared() a year; its interval is at most this wide */
-    struct ceduo_paired reach, exceed;    /* of the released */
-    struct ceduo_paired energy_per_released;  /* J */
-    unsigned worst_year;                      /* with the largest share that exceeds, or where that is not said arrives; by the
+    struct ceduo_estimate rate;           /* with blocks: ceduo_hazard_feared() a year; its interval is at most this wide */
+    struct ceduo_estimate reach, exceed;  /* of the released */
+    struct ceduo_estimate energy_per_released; /* J */
+    unsigned worst_year;                       /* with the largest share that exceeds, or where that is not said arrives; by the
                                         * index the one with the largest ADC */
-    double worst;                             /* that share, or that ADC in m */
-    double passes_per_year, exceeds_per_year; /* expected, where the scene says how many rocks come down a year */
+    double worst;                              /* that share, or that ADC in m */
+    double passes_per_year, exceeds_per_year;  /* expected, where the scene says how many rocks come down a year */
 };
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control);
 
 /* The mean share of the released that is marked, of one option less that of another, rock by rock over the rocks that
  * both have. NaN where it is not known. */
-struct ceduo_paired ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less);
+struct ceduo_estimate ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less);
 
 /* Metres of belts that are felled in the years computed, each time they are: square metres for each metre of width. */
 double ceduo_years_felled(const struct ceduo_years *years);

@@ -8,7 +8,6 @@
 #include "base/language.h"
 #include "batch.h"
 #include "model/jobs.h"
-#include "output.h"
 #include "say.h"
 #include "study/effort.h"
 #include "view/words.h"
@@ -85,8 +84,6 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
     for (const struct source *s = file->arena.sources; s && status != EXIT_OUTPUT; s = s->before)
         if (ceduo_output_is(a, s->path))
             status = EXIT_OUTPUT;
-    if (status == EXIT_DONE && file->scene.blocks_count > 0 && a->rocks > CEDUO_SIZED_ROCKS_MOST)
-        status = ceduo_usage("rocks", _("with blocks each rock is kept: at most %s rocks"), SHORTEST(CEDUO_SIZED_ROCKS_MOST));
     return status == EXIT_DONE && a->mode != MODE_FIND && a->mode != MODE_CALIBRATE ? choose(a, file) : status;
 }
 

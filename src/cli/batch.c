@@ -8,14 +8,12 @@
 #include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"
-#include "columns.h"
 #include "each.h"
-#include "output.h"
 #include "resume.h"
 #include "say.h"
 #include "view/figures.h"
-#include "view/html.h"
 #include "view/page.h"
+#include "view/svg.h"
 
 /* All scenes, and what is printed of them. */
 struct batch {

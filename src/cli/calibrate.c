@@ -8,11 +8,8 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "batch.h"
-#include "io/doubt_inputs.h"
 #include "io/file.h"
-#include "model/changes.h"
 #include "model/fit.h"
-#include "output.h"
 #include "say.h"
 #include "view/figures.h"
 
@@ -110,10 +107,8 @@ static bool fill_scene(const struct job *j, const struct ceduo_calibration_repor
     LOCAL_TEXT(source);
     ceduo_calibration_sources(&source, r);
     const struct fit_values fit = {r->answer, r->inputs, ceduo_text_string(&source), draws->temporary};
-    bool good = ceduo_document_open(&document, a->scenes[0], &problems);
+    bool good = ceduo_document_open(&document, a->scenes[0], (const char *const *)a->sets.items, a->sets.n, &problems);
     ceduo_recovery_end(&document.recovery); /* a batch run keeps no copy of unsaved work */
-    if (good && a->sets.n > 0)
-        good = ceduo_document_set_all(&document, (const char *const *)a->sets.items, a->sets.n, "", &problems);
     good = good && ceduo_keep_fit(&document, &fit, &problems);
     if (good) {
         const char *mark = draws->temporary + strlen(draws->target);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines of CSV: the cells that --each copies, then those of the result; with --columns some of both. */
-#include "columns.h"
+#include "each.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -8,7 +8,6 @@
 #include "io/file.h"
 #include "io/node.h"
 #include "io/survey_file.h"
-#include "output.h"
 #include "say.h"
 #include "scene/schema.h"
 #include "view/figures.h"

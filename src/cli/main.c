@@ -10,11 +10,8 @@
 #include "base/must.h"
 #include "batch.h"
 #include "ceduo/status.h"
-#include "output.h"
 #include "say.h"
 #include "tui/program.h"
-#include "tui/script.h"
-#include "tui/terminal.h"
 
 /* Ends the program without memory, from any thread; nothing here allocates. What a person has edited is in the recovery
  * copy already, which each edit writes; a file is put in its place whole or not at all. */

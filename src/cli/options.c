@@ -124,12 +124,12 @@ static enum exit_status set_share(struct arguments *a, const struct option_row *
 
 static enum exit_status set_plot(struct arguments *a, const struct option_row *row, char *value)
 {
-    if (strcmp(value, "adc") == 0)
-        return ceduo_usage(row->name, _("'%s' is gone: %s"), value, _("the page of --details has the ADC of each belt"));
     a->plot = ceduo_plot_find(value);
-    if (a->plot == CEDUO_PLOT_NONE)
-        return ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_plot_names);
-    return EXIT_DONE;
+    if (a->plot != CEDUO_PLOT_NONE)
+        return EXIT_DONE;
+    const char *remedy = ceduo_gone(value);
+    return remedy ? ceduo_usage(row->name, _("'%s' is gone: %s"), value, _(remedy))
+                  : ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_plot_names);
 }
 
 /* Numbers with a separator between them, `least` to `most`; those that are missing stay as they were. */

@@ -9,8 +9,8 @@
 #include "model/search.h"
 #include "say.h"
 #include "view/figures.h"
-#include "view/html.h"
 #include "view/page.h"
+#include "view/svg.h"
 
 #define BLOCK_ROCKS 512 /* of each other size at the most: their intervals stand beside them */
 

@@ -179,8 +179,8 @@ static bool may_begin(struct csv_cell head, char letter)
     return first >= 0x80 || (unsigned char)letter >= 0x80 || tolower(first) == letter;
 }
 
-/* True if a head is a name, alone or with a unit. `wanted`: the folded name. */
-static bool is_head(struct csv_cell head, const char *name, const char *wanted, const char *units)
+/* True if a head is a name of n bytes, alone or with a unit. `wanted`: the folded name. */
+static bool is_head(struct csv_cell head, const char *name, size_t length, const char *wanted, const char *units)
 {
     char given[FOLDED_MAX];
     size_t before = 0;
@@ -190,7 +190,7 @@ static bool is_head(struct csv_cell head, const char *name, const char *wanted, 
         before++;
     ceduo_utf8_fold(head.p, before, given, sizeof given);
     size_t n = strlen(wanted);
-    if (ceduo_csv_is(head, name))
+    if (head.n == length && strncasecmp(head.p, name, length) == 0)
         return true;
     if (n == 0 || strncmp(given, wanted, n) != 0)
         return false;
@@ -199,19 +199,27 @@ static bool is_head(struct csv_cell head, const char *name, const char *wanted, 
     return !given[n] || (units && ceduo_csv_among(given + n, strlen(given + n), units));
 }
 
-size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const char *units)
+/* Column with a name of n bytes, as ceduo_csv_column(). */
+static size_t find_name(const struct csv *csv, const char *name, size_t n, const char *units)
 {
-    for (int k = 0; names[k]; k++) {
-        char wanted[FOLDED_MAX];
-        size_t found = CEDUO_CSV_NONE;
-        ceduo_utf8_fold(names[k], strlen(names[k]), wanted, sizeof wanted);
-        for (size_t i = 0; i < csv->heads_count; i++)
-            if (is_head(csv->heads[i], names[k], wanted, units))
-                found = found == CEDUO_CSV_NONE ? i : CEDUO_CSV_TWICE;
-        if (found != CEDUO_CSV_NONE)
-            return found;
+    char wanted[FOLDED_MAX];
+    size_t found = CEDUO_CSV_NONE;
+    ceduo_utf8_fold(name, n, wanted, sizeof wanted);
+    for (size_t i = 0; i < csv->heads_count; i++)
+        if (is_head(csv->heads[i], name, n, wanted, units))
+            found = found == CEDUO_CSV_NONE ? i : CEDUO_CSV_TWICE;
+    return found;
+}
+
+size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, const char *units)
+{
+    size_t found = head->name ? find_name(csv, head->name, strlen(head->name), units) : CEDUO_CSV_NONE;
+    for (const char *also = head->also ? head->also : ""; *also && found == CEDUO_CSV_NONE; also += *also == '|') {
+        size_t n = strcspn(also, "|");
+        found = find_name(csv, also, n, units);
+        also += n;
     }
-    return CEDUO_CSV_NONE;
+    return found;
 }
 
 /* Make the present record the head. */
@@ -241,7 +249,7 @@ static size_t count_known(const struct csv *csv, const struct csv_head *heads, s
 {
     size_t known = 0;
     for (size_t i = 0; i < n; i++)
-        known += ceduo_csv_column(csv, heads[i].names, heads[i].units) != CEDUO_CSV_NONE;
+        known += ceduo_csv_column(csv, &heads[i], heads[i].units) != CEDUO_CSV_NONE;
     return known;
 }
 
@@ -325,13 +333,13 @@ void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, siz
         take_heads(csv);
     take_units(csv);
     for (size_t i = 0; i < n; i++) {
-        columns[i] = ceduo_csv_column(csv, heads[i].names, heads[i].units);
+        columns[i] = ceduo_csv_column(csv, &heads[i], heads[i].units);
         csv->source->foreign &= columns[i] == CEDUO_CSV_NONE;
     }
     for (size_t i = 0; i < n; i++)
         if (columns[i] == CEDUO_CSV_TWICE)
             ceduo_problem(csv->problems, csv->source, csv->head_place.line, 1,
-                          _("the column '%s' is there twice; rename all but one"), _(heads[i].names[0]));
+                          _("the column '%s' is there twice; rename all but one"), _(heads[i].name));
 }
 
 bool ceduo_csv_first(struct csv *csv)

@@ -64,9 +64,10 @@ enum csv_unit {
     CSV_UNIT_OTHER  /* mm, percent */
 };
 
-/* Names of a column, the best first, ended by NULL, and its units, separated by |. */
+/* Names and units of a column. Those of `also` and the units are separated by |. */
 struct csv_head {
-    const char *names[40];
+    const char *name;  /* the best; NULL: no column is meant */
+    const char *also;  /* other names, the best first; NULL: none */
     const char *units; /* NULL: any unit in brackets is ignored */
     const char *other; /* among them: those of another scale; NULL: none */
     const char *unit;  /* for messages; its translation is marked */
@@ -75,7 +76,7 @@ struct csv_head {
 
 /* Column with one of n known heads; CEDUO_CSV_NONE; CEDUO_CSV_TWICE. Case, blanks and punctuation do not matter. A unit may
  * follow the name, in brackets or without. Earlier names win. */
-size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const char *units);
+size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, const char *units);
 
 /* Find the head of a table: the line among the first 20, and the separator, with most of n known heads. Reads a row of units
  * below it. Sets columns[i] for each head. Reports columns that occur twice. The file is foreign until a head is known. */

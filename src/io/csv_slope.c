@@ -32,18 +32,15 @@ enum column { DISTANCE, ELEVATION, EAST, NORTH, LAYER, WKT, LABEL, COLUMNS };
 /* Names of a column, the best first. */
 #define METRES "m|mt|metri|metro|metres|meters|meter|m slm|m sm|m asl|m amsl|m \xc3\xbcm|m \xc3\xbc nn|m nn|m nhn"
 static const struct csv_head heads[COLUMNS] = {
-    [DISTANCE] = {{"distance", "distanza", "dist", "chainage", "progressiva", "distanza progressiva", "progr", "entfernung",
-                   "distanz", "station", "stazione"},
-                  METRES},
-    [ELEVATION] = {{"elevation", "quota", "altitude", "altitudine", "elevazione", "alt", "height", "h\xc3\xb6he", "hoehe", "z",
-                    "value", "quota terreno", "elev"},
+    [DISTANCE] = {"distance",
+                  "distanza|dist|chainage|progressiva|distanza progressiva|progr|entfernung|distanz|station|stazione", METRES},
+    [ELEVATION] = {"elevation", "quota|altitude|altitudine|elevazione|alt|height|h\xc3\xb6he|hoehe|z|value|quota terreno|elev",
                    METRES},
-    [EAST] = {{"x", "est", "east", "easting", "e"}, METRES},
-    [NORTH] = {{"y", "nord", "north", "northing", "n"}, METRES},
-    [LAYER] = {{"layer", "layer name", "livello", "nome layer", "line", "linea", "line id", "profile", "profilo", "track"},
-               NULL},
-    [WKT] = {{"wkt", "wkt_geom", "geometry", "geom", "the_geom", "shape"}, NULL},
-    [LABEL] = {{"name", "nome", "id", "fid"}, NULL},
+    [EAST] = {"x", "est|east|easting|e", METRES},
+    [NORTH] = {"y", "nord|north|northing|n", METRES},
+    [LAYER] = {"layer", "layer name|livello|nome layer|line|linea|line id|profile|profilo|track"},
+    [WKT] = {"wkt", "wkt_geom|geometry|geom|the_geom|shape"},
+    [LABEL] = {"name", "nome|id|fid"},
 };
 
 /* A point as its file has it. */
@@ -293,14 +290,14 @@ static bool check_units(struct reader *r)
 {
     bool good = true;
     for (enum column c = DISTANCE; c <= ELEVATION; c++) {
-        size_t column = r->columns[c] == CEDUO_CSV_NONE ? ceduo_csv_column(&r->csv, heads[c].names, NULL) : CEDUO_CSV_NONE;
+        size_t column = r->columns[c] == CEDUO_CSV_NONE ? ceduo_csv_column(&r->csv, &heads[c], NULL) : CEDUO_CSV_NONE;
         if (column >= CEDUO_CSV_TWICE || (c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NONE))
             continue;
         r->csv.source->foreign = false;
         good = ceduo_csv_complain(&r->csv, r->csv.heads[column],
                                   _("its values must be in m; convert them and name the "
                                     "column '%s'"),
-                                  heads[c].names[0]);
+                                  heads[c].name);
     }
     return good;
 }
@@ -369,10 +366,10 @@ static bool read_rows(struct reader *r)
         if (r->columns[WKT] != CEDUO_CSV_NONE) {
             const struct csv_cell wkt = ceduo_csv_cell(csv, r->columns[WKT]), label = ceduo_csv_cell(csv, r->columns[LABEL]);
             r->map = true;
-            if (!is_wkt(wkt.p, wkt.n))
-                ceduo_csv_complain(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
-            else
+            if (is_wkt(wkt.p, wkt.n))
                 read_wkt(r, wkt.p, wkt.p + wkt.n, ceduo_csv_line(csv, wkt), name.n > 0 ? name : label);
+            else if (!csv->headless)
+                ceduo_csv_complain(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
             continue;
         }
         if (r->columns[LAYER] != CEDUO_CSV_NONE)
@@ -664,7 +661,7 @@ static void understand(struct reader *r, struct points *p, const char *path)
                       p->n, p->x[p->n - 1] - p->x[0], fabs(rise));
     if (r->layers_count > 1)
         ceduo_text_format(&line, _("; line '%.100s' of %zu"), r->layers[r->raw[0].layer], r->layers_count);
-    if (csv->headless)
+    if (csv->headless && !wkt)
         ceduo_text_put(&line, _("; no head: taken as distance and elevation"));
     for (size_t i = 0; table && i < n; i++) {
         ceduo_text_put(&line, i > 0 ? ", " : n > 1 ? _("; columns ") : _("; column "));
@@ -686,19 +683,11 @@ static bool read_points(struct reader *r)
         begin++;
     if (!is_wkt(begin, (size_t)(end - begin)))
         return find_columns(r) && read_rows(r);
-    r->map = true;
     for (size_t c = 0; c < COLUMNS; c++)
-        r->columns[c] = CEDUO_CSV_NONE;
-    r->columns[WKT] = 0;
+        r->columns[c] = c == WKT ? 0 : CEDUO_CSV_NONE;
     r->csv.source->foreign = false;
-    size_t line = 1;
-    for (const char *p = begin; p < end; line++) {
-        size_t n = strcspn(p, "\n");
-        if (is_wkt(p, n) && !read_wkt(r, p, p + n, line, (struct csv_cell){.p = ""}))
-            return false;
-        p += n + (p + n < end);
-    }
-    return true;
+    ceduo_csv_headless(&r->csv, '\n'); /* each line is one cell */
+    return read_rows(r);
 }
 
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *layer, struct points *points,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which values of a scene are in doubt. The table of keys and the scene's document are followed together; a value that is
  * marked as assumed and has a range becomes a place of an input. Places with the same origin are one input. */
-#include "doubt_inputs.h"
+#include "scene_file.h"
 
 #include <math.h>
 #include <stdio.h>

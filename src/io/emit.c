@@ -2,7 +2,7 @@
 /* Writes a tree as YAML: in brackets where that fits on a line, otherwise in blocks. A changed document is patched:
  * only the bytes of values that differ are replaced, and the result must read back as the tree; otherwise it is laid
  * out anew. */
-#include "emit.h"
+#include "node.h"
 
 #include <string.h>
 #include <strings.h>

@@ -73,4 +73,51 @@ struct problem_place ceduo_node_place(const struct node *node, const char *path)
 /* Whether two values say the same, wherever they stand. */
 bool ceduo_node_equal(const struct node *a, const struct node *b);
 
+/* ---- references and paths (resolve.c) ---- */
+
+/* Puts in place of each path that a scene refers to what its file holds, and merges stands into their bases. NULL where that
+ * fails; what is wrong is in `problems`. */
+const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *root, struct problems *problems);
+
+/* The file that a node names, in the arena; NULL where there is none. A path is looked for beside the file that it was read
+ * from, what was set or typed beside the scene and then in the current folder. */
+const char *ceduo_resolve_path(struct arena *arena, const struct node *node, const char *folder);
+
+/* Puts `value` at `path` below root, through references. `set` is the whole PATH=VALUE, for messages. */
+const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set, size_t path_length,
+                                     const struct node *value, struct problems *problems);
+
+struct path_step;
+
+/* The item of a list that a bracket means: by its place, or the first of its name. False where there is none. */
+bool ceduo_resolve_item(const struct node *list, const struct path_step *step, size_t *index);
+
+/* The deepest node along `path` that exists; `*within` is the part of the path from its file's root on,
+ * `*used` how many bytes of the path led to it. */
+const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **within, size_t *used);
+
+/* The node at a path; NULL where there is none, or no root. */
+const struct node *ceduo_resolve_at(const struct node *root, const char *path);
+
+/* ---- writing (emit.c) ---- */
+
+/* A tree as YAML text: a mapping or list that is not empty. */
+void ceduo_emit(struct text *text, const struct node *root);
+
+/* The tree as it is to be written to the scene's own file: what came from another file and is unchanged is its path
+ * again, a changed stand starts from its file by `base`, a changed slope is written out. For the
+ * program, where no arena fails. */
+const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *root);
+
+/* Writes `root` (unresolved) as the text of `source`, whose tree is `old`, with the changed values alone put in place, so
+ * that comments and layout stay. False where more than values has changed: then nothing is added. For the program, where no text
+ * fails for want of memory. */
+bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old, const struct node *root);
+
+/* Adds any tree on one line. */
+void ceduo_emit_flow(struct text *text, const struct node *node);
+
+/* One scalar as it is written in YAML. */
+void ceduo_emit_scalar(struct text *text, const char *value, bool quoted);
+
 #endif

@@ -2,7 +2,7 @@
 /* Follows references: a reference is replaced by the tree of its file, which remembers what was written in its place;
  * a stand is merged over its base. Then paths: walking along one, and setting a value, which copies the nodes from
  * the root to it. All nodes lie in the arena of the caller; none is changed once it was handed out. */
-#include "resolve.h"
+#include "bind.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -12,7 +12,6 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "file.h"
-#include "resolve.h"
 #include "validator.h"
 
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)

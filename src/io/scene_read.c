@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/language.h"
-#include "doubt_inputs.h"
+#include "scene_file.h"
 
 struct memory {
     struct scene_file file;

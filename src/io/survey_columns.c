@@ -24,124 +24,69 @@
 #define VAGUE "h|d|n|nr|num|numero|alt|r"
 
 const struct csv_head ceduo_survey_heads[COLUMNS] = {
-    [PLOT] = {{N_("plot"), "saggio", "n saggio", "num saggio", "numero saggio", "area di saggio", "n area di saggio",
-               "numero area di saggio", "ads", "n ads", "id saggio", "plot id", "plot no", "plot number", "id plot",
-               "probefläche", "probekreis", "parzelle"},
-              NULL},
-    [AREA] = {{N_("area_m2"), "plot area", "area saggio", "area del saggio", "area ads", "superficie saggio",
-               "superficie del saggio", "superficie ads", "sup saggio", "probeflächengröße", "area", "superficie", "sup",
-               "fläche"},
-              AREA_UNITS,
-              .unit = N_("m2"),
-              .lo = 1,
-              .hi = 1e6},
-    [RADIUS] =
-        {{N_("radius_m"), "radius", "plot radius", "raggio", "raggio saggio", "r"}, "m", .unit = N_("m"), .lo = 0.5, .hi = 500},
-    [SLOPE] = {{N_("slope_deg"), "slope", "pendenza", "pend", "pendenza media", "inclinazione", "neigung", "hangneigung"},
-               DEGREES "|" PERCENT,
-               .other = PERCENT,
-               .unit = N_("degrees or %")},
-    [STOOLS] = {{N_("stools"), "ceppaie", "n ceppaie", "num ceppaie", "numero ceppaie", "n di ceppaie", "stool count",
-                 "number of stools", "no of stools", "anzahl stöcke", "stöcke"},
-                NULL,
-                .unit = N_("stools"),
-                .hi = STEMS_MAX},
-    [SPECIES] = {{N_("species"), "specie", "essenza", "spp", "baumart", "holzart"}, NULL},
-    [GENUS] = {{N_("genus"), "genere", "gattung"}, NULL},
-    [KIND] = {{N_("kind"), "stem type", "tipo fusto", "tipo di fusto", "tipo", "origine", "p/m", "typ"}, NULL},
-    [STOOL] = {{N_("stool"), "ceppaia", "n ceppaia", "num ceppaia", "numero ceppaia", "ceppaia n", "id ceppaia", "stool id",
-                "stool no", "stool number", "stock", "stock nr"},
-               NULL},
-    [DBH] = {{N_("dbh_cm"),
-              "dbh",
-              "dap",
-              "diametro",
-              "diam",
-              "diametro a 1,30 m",
-              "diametro a 1,30",
-              "diam a 1,30",
-              "diam a 1,30 m",
-              "diam 1,30",
-              "d130",
-              "diametro medio",
-              "diam medio",
-              "d medio",
-              "classe diam",
-              "classe diametrica",
-              "classe di diametro",
-              "diameter",
-              "mean dbh",
-              "mean diameter",
-              "dbh class",
-              "diameter class",
-              "bhd",
-              "brusthöhendurchmesser",
-              "mitteldurchmesser",
-              "durchmesser",
-              "Ø",
-              "⌀",
-              "d"},
-             "cm|mm",
-             .other = "mm",
-             .unit = N_("cm or mm"),
-             .lo = 0.1,
-             .hi = 1e6},
-    [CIRCUMFERENCE] = {{N_("circumference_cm"), "circumference", "circonferenza", "circonferenza a 1,30",
-                        "circonferenza a 1,30 m", "circ", "circ a 1,30", "c130", "girth", "gbh", "cbh", "umfang",
-                        "brusthöhenumfang"},
-                       "cm|mm",
-                       .other = "mm",
-                       .unit = N_("cm or mm"),
-                       .lo = 0.3,
-                       .hi = 3e6},
-    [HEIGHT] = {{N_("height_m"), "height", "total height", "altezza", "altezza totale", "altezza media", "mean height", "h tot",
-                 "ht", "h media", "h medio", "höhe", "baumhöhe", "h", "alt"},
-                "m|mt|metri",
-                .unit = N_("m"),
-                .hi = 150},
-    [SPACING] = {{N_("spacing_m"), "spacing", "distanza", "distanza polloni", "abstand"},
-                 "m|mt|metri",
-                 .unit = N_("m"),
-                 .lo = 0.01,
+    [PLOT] = {N_("plot"),
+              "saggio|n saggio|num saggio|numero saggio|area di saggio|n area di saggio|numero area di saggio|ads|n ads|"
+              "id saggio|plot id|plot no|plot number|id plot|probefläche|probekreis|parzelle"},
+    [AREA] = {N_("area_m2"),
+              "plot area|area saggio|area del saggio|area ads|superficie saggio|superficie del saggio|superficie ads|"
+              "sup saggio|probeflächengröße|area|superficie|sup|fläche",
+              AREA_UNITS, .unit = N_("m2"), .lo = 1, .hi = 1e6},
+    [RADIUS] = {N_("radius_m"), "radius|plot radius|raggio|raggio saggio|r", "m", .unit = N_("m"), .lo = 0.5, .hi = 500},
+    [SLOPE] = {N_("slope_deg"), "slope|pendenza|pend|pendenza media|inclinazione|neigung|hangneigung", DEGREES "|" PERCENT,
+               .other = PERCENT, .unit = N_("degrees or %")},
+    [STOOLS] = {N_("stools"),
+                "ceppaie|n ceppaie|num ceppaie|numero ceppaie|n di ceppaie|stool count|number of stools|no of stools|"
+                "anzahl stöcke|stöcke",
+                .unit = N_("stools"), .hi = STEMS_MAX},
+    [SPECIES] = {N_("species"), "specie|essenza|spp|baumart|holzart"},
+    [GENUS] = {N_("genus"), "genere|gattung"},
+    [KIND] = {N_("kind"), "stem type|tipo fusto|tipo di fusto|tipo|origine|p/m|typ"},
+    [STOOL] =
+        {N_("stool"),
+         "ceppaia|n ceppaia|num ceppaia|numero ceppaia|ceppaia n|id ceppaia|stool id|stool no|stool number|stock|stock nr"},
+    [DBH] = {N_("dbh_cm"),
+             "dbh|dap|diametro|diam|diametro a 1,30 m|diametro a 1,30|diam a 1,30|diam a 1,30 m|diam 1,30|d130|"
+             "diametro medio|diam medio|d medio|classe diam|classe diametrica|classe di diametro|diameter|mean dbh|"
+             "mean diameter|dbh class|diameter class|bhd|brusthöhendurchmesser|mitteldurchmesser|durchmesser|Ø|⌀|d",
+             "cm|mm", .other = "mm", .unit = N_("cm or mm"), .lo = 0.1, .hi = 1e6},
+    [CIRCUMFERENCE] = {N_("circumference_cm"),
+                       "circumference|circonferenza|circonferenza a 1,30|circonferenza a 1,30 m|circ|circ a 1,30|c130|girth|"
+                       "gbh|cbh|umfang|brusthöhenumfang",
+                       "cm|mm", .other = "mm", .unit = N_("cm or mm"), .lo = 0.3, .hi = 3e6},
+    [HEIGHT] =
+        {N_("height_m"),
+         "height|total height|altezza|altezza totale|altezza media|mean height|h tot|ht|h media|h medio|höhe|baumhöhe|h|alt",
+         "m|mt|metri", .unit = N_("m"), .hi = 150},
+    [SPACING] = {N_("spacing_m"), "spacing|distanza|distanza polloni|abstand", "m|mt|metri", .unit = N_("m"), .lo = 0.01,
                  .hi = 20},
-    [ENERGY] = {{N_("energy_kJ"), "energy", "energia", "energie"}, "kJ", .unit = N_("kJ"), .hi = 1e6},
-    [COUNT] = {{N_("count"),  "n fusti",       "num fusti", "numero fusti", "numero di fusti", "n piante",
-                "num piante", "numero piante", "n stems",   "no of stems",  "number of stems", "stems",
-                "stem count", "tree count",    "freq",      "frequenza",    "frequency",       "conteggio",
-                "anzahl",     "stammzahl",     "n",         "num",          "numero",          "nr"},
-               NULL,
-               .unit = N_("stems"),
-               .hi = STEMS_MAX},
-    [SHOOTS] = {{N_("shoots"), "polloni", "n polloni", "num polloni", "numero polloni", "n di polloni", "number of shoots",
-                 "no of shoots", "n shoots", "stockausschläge", "loden"},
-                NULL,
-                .unit = N_("stems"),
-                .hi = STEMS_MAX},
-    [STANDARDS] = {{N_("standards"), "matricine", "n matricine", "num matricine", "numero matricine", "number of standards",
-                    "no of standards", "n standards", "überhälter", "lassreitel"},
-                   NULL,
-                   .unit = N_("stems"),
-                   .hi = STEMS_MAX},
-    [TREES] = {{N_("trees"), "alberi", "n alberi", "num alberi", "numero alberi", "number of trees", "no of trees", "n trees",
-                "bäume"},
-               NULL,
-               .unit = N_("stems"),
-               .hi = STEMS_MAX},
-    [STATUS] = {{N_("status"), "vitalità", "vitalita", "stato", "condizione", "condizioni", "condition", "health", "statuscd",
-                 "status cd", "live/dead", "vivo/morto", "v/m", "zustand", "vitalität"},
-                NULL},
-    [ID] = {{N_("id"), "n pianta", "num pianta", "numero pianta", "pianta", "id pianta", "id pollone", "n pollone", "id fusto",
-             "n fusto", "n albero", "id albero", "tree", "tree id", "tree no", "tree number", "stem id", "baum nr",
-             "baumnummer"},
-            NULL},
-    [YEAR] = {{N_("year"), "anno", "anno rilievo", "survey year", "measurement year", "invyr", "jahr", "aufnahmejahr"}, NULL},
-    [SITE] = {{N_("site"), "sito", "località", "localita", "locality", "location", "standort", "ort"}, NULL},
-    [SITE + 1] = {{N_("stand"), "popolamento", "soprassuolo", "bestand"}, NULL},
-    [SITE + 2] = {{N_("compresa")}, NULL},
-    [SITE + 3] = {{N_("compartment"), "particella", "particella forestale", "part for", "abteilung"}, NULL},
-    [SITE + 4] = {{N_("subcompartment"), "sottoparticella", "sub", "unterabteilung"}, NULL},
-    [SITE + 5] = {{N_("stratum"), "strato", "strata"}, NULL},
-    [SITE + 6] = {{N_("county"), "countycd", "county cd"}, NULL},
+    [ENERGY] = {N_("energy_kJ"), "energy|energia|energie", "kJ", .unit = N_("kJ"), .hi = 1e6},
+    [COUNT] = {N_("count"),
+               "n fusti|num fusti|numero fusti|numero di fusti|n piante|num piante|numero piante|n stems|no of stems|"
+               "number of stems|stems|stem count|tree count|freq|frequenza|frequency|conteggio|anzahl|stammzahl|n|num|numero|"
+               "nr",
+               .unit = N_("stems"), .hi = STEMS_MAX},
+    [SHOOTS] = {N_("shoots"),
+                "polloni|n polloni|num polloni|numero polloni|n di polloni|number of shoots|no of shoots|n shoots|"
+                "stockausschläge|loden",
+                .unit = N_("stems"), .hi = STEMS_MAX},
+    [STANDARDS] = {N_("standards"),
+                   "matricine|n matricine|num matricine|numero matricine|number of standards|no of standards|n standards|"
+                   "überhälter|lassreitel",
+                   .unit = N_("stems"), .hi = STEMS_MAX},
+    [TREES] = {N_("trees"), "alberi|n alberi|num alberi|numero alberi|number of trees|no of trees|n trees|bäume",
+               .unit = N_("stems"), .hi = STEMS_MAX},
+    [STATUS] = {N_("status"), "vitalità|vitalita|stato|condizione|condizioni|condition|health|statuscd|status cd|live/dead|"
+                              "vivo/morto|v/m|zustand|vitalität"},
+    [ID] = {N_("id"), "n pianta|num pianta|numero pianta|pianta|id pianta|id pollone|n pollone|id fusto|n fusto|n albero|"
+                      "id albero|tree|tree id|tree no|tree number|stem id|baum nr|baumnummer"},
+    [YEAR] = {N_("year"), "anno|anno rilievo|survey year|measurement year|invyr|jahr|aufnahmejahr"},
+    [SITE] = {N_("site"), "sito|località|localita|locality|location|standort|ort"},
+    [SITE + 1] = {N_("stand"), "popolamento|soprassuolo|bestand"},
+    [SITE + 2] = {N_("compresa")},
+    [SITE + 3] = {N_("compartment"), "particella|particella forestale|part for|abteilung"},
+    [SITE + 4] = {N_("subcompartment"), "sottoparticella|sub|unterabteilung"},
+    [SITE + 5] = {N_("stratum"), "strato|strata"},
+    [SITE + 6] = {N_("county"), "countycd|county cd"},
 };
 
 /* ---- words ---- */
@@ -265,8 +210,8 @@ bool ceduo_survey_is_vague(const struct csv *csv, size_t column)
 static bool check_foreign_unit(const struct csv *csv, enum column c)
 {
     const struct csv_head *head = &ceduo_survey_heads[c];
-    size_t found = ceduo_csv_column(csv, head->names, NULL);
-    found = found == CEDUO_CSV_NONE ? ceduo_csv_column(csv, head->names, FOREIGN_UNITS) : found;
+    size_t found = ceduo_csv_column(csv, head, NULL);
+    found = found == CEDUO_CSV_NONE ? ceduo_csv_column(csv, head, FOREIGN_UNITS) : found;
     if (found >= CEDUO_CSV_TWICE)
         return true;
     const struct csv_cell cell = csv->heads[found];
@@ -278,7 +223,7 @@ static bool check_foreign_unit(const struct csv *csv, enum column c)
     LOCAL_TEXT(name);
     ceduo_text_safe_n(&name, cell.p, cell.n);
     return ceduo_csv_complain(csv, cell, _("'%s': its values must be in %s; convert them and name the column '%s'"),
-                              ceduo_text_string(&name), _(head->unit), _(head->names[0]));
+                              ceduo_text_string(&name), _(head->unit), _(head->name));
 }
 
 /* Refuse a table without a column, with the names of the columns that it has unless it is foreign. */

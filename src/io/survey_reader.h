@@ -39,9 +39,9 @@ enum column {
 
 #define SITES (SITE_LAST - SITE + 1)
 
-/* Heads of each column. The first name is the name in the manual and in messages, marked for translation. */
+/* Heads of each column. The name is that in the manual and in messages, marked for translation. */
 extern const struct csv_head ceduo_survey_heads[COLUMNS];
-#define HEAD(c) _(ceduo_survey_heads[c].names[0])
+#define HEAD(c) _(ceduo_survey_heads[c].name)
 
 /* Kinds of stems, in the order of enum ceduo_survey_kind. */
 extern const struct choices ceduo_survey_kind_words;

@@ -8,8 +8,7 @@
 
 #include "base/language.h"
 #include "base/text.h"
-#include "emit.h"
-#include "resolve.h"
+#include "node.h"
 #include "scene/schema.h"
 #include "survey_file.h"
 

@@ -10,10 +10,9 @@
 #include "base/language.h"
 #include "base/utf8.h"
 #include "csv.h"
-#include "doubt_inputs.h"
 #include "file.h"
-#include "resolve.h"
 #include "scene/value.h"
+#include "scene_file.h"
 #include "study/inputs.h"
 #include "validator.h"
 
@@ -438,7 +437,7 @@ static void add_draws(struct validator *v)
 {
     struct draws t = {.v = v};
     if (v->draws->kind != NODE_SCALAR) {
-        ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"), _("expected the path of a table"));
+        ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"), _("expected a path to a file"));
         return;
     }
     const char *path = ceduo_resolve_path(v->arena, v->draws, "scenes");

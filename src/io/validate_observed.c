@@ -9,7 +9,6 @@
 #include "base/language.h"
 #include "csv.h"
 #include "file.h"
-#include "resolve.h"
 #include "scene_file.h"
 #include "validator.h"
 
@@ -157,14 +156,13 @@ static bool find_columns(const struct place *p, struct table *t)
 {
     const struct ceduo_quantity_row *quantity = ceduo_observed_quantity(p->kind);
     struct csv *csv = &t->csv;
-    struct csv_head heads[COLUMNS] = {[VALUES] = {.units = quantity->unit},
-                                      [MAP] = {{"y_m", "y", "northing", "north", "nord"}, "m"},
-                                      [NAMED] = {{p->values->column}, ""},
-                                      [ONLY] = {{t->only_name}, ""}};
+    const struct csv_head heads[COLUMNS] = {[VALUES] = {quantity->column, quantity->also, quantity->unit},
+                                            [MAP] = {"y_m", "y|northing|north|nord", "m"},
+                                            [NAMED] = {p->values->column, NULL, ""},
+                                            [ONLY] = {t->only_name, NULL, ""}};
     const struct csv_place begin = csv->next;
     LOCAL_TEXT(all);
     double number;
-    memcpy(heads[VALUES].names, quantity->columns, sizeof quantity->columns);
     ceduo_csv_find(csv, heads, COLUMNS, t->columns);
     csv->source->foreign = t->columns[VALUES] == CEDUO_CSV_NONE; /* any file has some column that a scene may name */
     size_t *column = &t->columns[p->values->column ? NAMED : VALUES];

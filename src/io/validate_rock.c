@@ -6,7 +6,6 @@
 
 #include "base/elementary.h"
 #include "base/language.h"
-#include "resolve.h"
 #include "validator.h"
 
 /* What each shape is given by, and how that is written. A sphere has one of its keys, the others have all. */
@@ -143,9 +142,6 @@ void ceduo_validate_blocks(struct validator *v)
     if (blocks->kind == NODE_MAP && !ceduo_is_given(v, "blocks", "exponent"))
         ceduo_complain(v, "blocks", "",
                        _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
-    if (scene->simulation.rocks > CEDUO_SIZED_ROCKS_MOST)
-        ceduo_complain(v, "simulation.rocks", "", _("with blocks each rock is kept: at most %s rocks"),
-                       NUMERAL(CEDUO_SIZED_ROCKS_MOST));
     if (r->shape == CEDUO_SPHERE && spreads && ceduo_is_sound(v, "rock")) /* whose proportions are always the same */
         ceduo_complain(v, "rock", "", _("blocks say how large the rocks are; remove the size, or give it without a spread"));
     if (ceduo_is_too_long(v, "blocks", n) || !ceduo_is_sound(v, "blocks"))

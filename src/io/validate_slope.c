@@ -7,7 +7,6 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "csv.h"
-#include "resolve.h"
 #include "scene/ranges.h"
 #include "scene_file.h"
 #include "validator.h"
@@ -16,11 +15,11 @@
 
 /* ---- the profile ---- */
 
-/* Line of the file that is wanted; NULL: the only one. */
-static const char *layer_of(struct validator *v)
+/* Read the table that a slope names; `path`: of the file, or NULL. */
+static bool read_table(struct validator *v, const char *path, struct points *p, struct problems *problems)
 {
-    const struct node *layer = ceduo_node_get(ceduo_node_get(v->root, "slope"), "layer");
-    return layer && layer->kind == NODE_SCALAR ? layer->text : NULL;
+    const char *layer = ceduo_node_text(ceduo_node_get(v->root, "slope"), "layer");
+    return path && ceduo_csv_slope_read(v->arena, path, layer, p, problems);
 }
 
 static bool read_vertices(struct validator *v, struct points *p)
@@ -37,7 +36,7 @@ static bool read_vertices(struct validator *v, struct points *p)
     if (!path)
         ceduo_complain(v, "slope.csv", "", _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
                        node->text);
-    bool good = path && ceduo_csv_slope_read(v->arena, path, layer_of(v), p, v->problems);
+    bool good = read_table(v, path, p, v->problems);
     if (good && p->understood)
         ceduo_understand(v, "slope.csv", p->understood);
     return good;
@@ -154,23 +153,16 @@ static void make_segments(struct validator *v)
         s->segments[i] = all;
 }
 
-/* Ground of the library; `belt` may be NULL: with what it says instead. */
+/* Ground of the library, with the values of the belt that are given instead. */
 static struct ceduo_segment segment_of(const struct ceduo_material *row, const struct material_belt *belt)
 {
     struct ceduo_segment segment = ceduo_segment_default();
-    segment.rn = ceduo_number(row->rn);
-    segment.rt = ceduo_number(row->rt);
-    segment.roughness_m = row->roughness;
+    segment.rn = ceduo_number(isnan(belt->rn) ? row->rn : belt->rn);
+    segment.rt = ceduo_number(isnan(belt->rt) ? row->rt : belt->rt);
+    segment.roughness_m = isnan(belt->roughness) ? row->roughness : belt->roughness;
     segment.roughness_rad = NAN;
-    segment.friction = row->friction;
-    segment.mu = row->mu;
-    if (!belt)
-        return segment;
-    segment.rn = isnan(belt->rn) ? segment.rn : ceduo_number(belt->rn);
-    segment.rt = isnan(belt->rt) ? segment.rt : ceduo_number(belt->rt);
-    segment.roughness_m = isnan(belt->roughness) ? segment.roughness_m : belt->roughness;
-    segment.friction = isnan(belt->friction) ? segment.friction : belt->friction;
-    segment.mu = isnan(belt->mu) ? segment.mu : belt->mu;
+    segment.friction = isnan(belt->friction) ? row->friction : belt->friction;
+    segment.mu = isnan(belt->mu) ? row->mu : belt->mu;
     return segment;
 }
 
@@ -252,20 +244,18 @@ double ceduo_validate_end(void *validator)
     const struct node *slope = ceduo_node_get(v->root, "slope"), *csv = ceduo_node_get(slope, "csv");
     const struct node *list = ceduo_node_get(slope, "vertices_m");
     const struct ceduo_slope *before = slope && v->previous->slope_node == slope ? &v->previous->scene.slope : NULL;
-    struct problems problems = {0}; /* they are reported when the slope is validated */
+    LOCAL_PROBLEMS(problems); /* they are reported when the slope is validated */
     struct points p = {0};
     double end = NAN;
     if (before)
         return before->origin_x + before->x[before->vertices - 1];
     if (csv && csv->kind == NODE_SCALAR) {
-        const char *path = ceduo_resolve_path(v->arena, csv, "slopes");
-        if (path && ceduo_csv_slope_read(v->arena, path, layer_of(v), &p, &problems) && p.n > 1)
+        if (read_table(v, ceduo_resolve_path(v->arena, csv, "slopes"), &p, &problems) && p.n > 1)
             end = p.x[p.n - 1];
     } else if (list && list->n > 1) {
         const struct node *last = list->items[list->n - 1];
         end = last->n == 2 ? ceduo_node_item_number(last, 0) : NAN;
     }
-    ceduo_problems_free(&problems);
     return ceduo_schema_in_range(ceduo_schema_at("slope.vertices_m"), end) ? end : NAN;
 }
 
@@ -304,8 +294,9 @@ void ceduo_validate_slope(struct validator *v)
         ceduo_assume(v, "slope", _("talus everywhere, its roughness and friction too"));
         assume_mu(v, "slope");
         s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);
+        const struct material_belt all = {.rn = NAN, .rt = NAN, .roughness = NAN, .friction = NAN, .mu = NAN};
         for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
-            s->segments[j] = segment_of(ceduo_material_talus(), NULL);
+            s->segments[j] = segment_of(ceduo_material_talus(), &all);
     }
     if (s->segments && ceduo_slope_check(s) != CEDUO_OK)
         ceduo_complain(v, "slope", "", _("two vertices lie too close together for their distance from the first"));

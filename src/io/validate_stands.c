@@ -5,7 +5,6 @@
 
 #include "base/language.h"
 #include "ceduo/rotation.h"
-#include "resolve.h"
 #include "validator.h"
 
 #define SHOOTS_MAX 10000 /* on a stool */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads the events of libyaml into nodes, by recursion, and refuses what a scene does not need: aliases, tags, deep
- * nesting. Entries are collected on the heap and copied into the arena once their number is known. The first problem
- * stops. */
+ * nesting. The first problem stops. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,25 +158,19 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
 
 static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth);
 
-/* Items as they come; copied into the arena once their number is known. */
-struct pile {
-    const struct node **items;
-    size_t n, room;
-};
-
-/* One entry of a mapping whose key is `event`. */
-static struct node *read_entry(struct reader *r, const yaml_event_t *event, const struct pile *pile, int depth)
+/* One entry of a mapping whose key is `event`. `map`: the entries so far. */
+static struct node *read_entry(struct reader *r, const yaml_event_t *event, const struct node *map, int depth)
 {
     const char *key = (const char *)event->data.scalar.value;
     yaml_event_t value;
     if (event->type != YAML_SCALAR_EVENT || strlen(key) != event->data.scalar.length)
         return STOP(r, event->start_mark, _("a key must be a plain word"));
-    if (pile->n >= KEYS_MOST)
+    if (map->n >= KEYS_MOST)
         return STOP(r, event->start_mark, _("more than %d keys in one mapping"), KEYS_MOST);
-    for (size_t i = 0; i < pile->n; i++)
-        if (strcmp(pile->items[i]->key, key) == 0) {
+    for (size_t i = 0; i < map->n; i++)
+        if (strcmp(map->items[i]->key, key) == 0) {
             ceduo_problem(r->problems, r->source, line_of(event->start_mark), column_of(r, event->start_mark),
-                          _("%s: given twice, first on line %u; keep one"), key, (unsigned)pile->items[i]->key_line);
+                          _("%s: given twice, first on line %u; keep one"), key, (unsigned)map->items[i]->key_line);
             return stop(r);
         }
     if (!next_event(r, &value))
@@ -198,7 +191,8 @@ static struct node *read_entries(struct reader *r, const yaml_event_t *start, in
     bool list = start->type == YAML_SEQUENCE_START_EVENT;
     yaml_event_type_t last = list ? YAML_SEQUENCE_END_EVENT : YAML_MAPPING_END_EVENT;
     struct node *node = new_node(r, list ? NODE_LIST : NODE_MAP, start->start_mark);
-    struct pile pile = {0};
+    size_t room = 0;
+    const struct node **items = NULL;
     if (!node)
         return NULL;
     node->flow = list ? start->data.sequence_start.style == YAML_FLOW_SEQUENCE_STYLE
@@ -210,24 +204,15 @@ static struct node *read_entries(struct reader *r, const yaml_event_t *start, in
         end = event.type == last;
         if (end)
             note_end(r, node, &event);
-        const struct node *item = end ? NULL : list ? read_value(r, &event, depth) : read_entry(r, &event, &pile, depth);
+        const struct node *item = end ? NULL : list ? read_value(r, &event, depth) : read_entry(r, &event, node, depth);
         yaml_event_delete(&event);
-        const struct node **items = item ? ceduo_grow(pile.items, pile.n, &pile.room, sizeof *items) : NULL;
-        if (items) {
-            pile.items = items;
-            pile.items[pile.n++] = item;
-        } else if (item) {
-            stop(r);
-        }
+        if (!item)
+            continue;
+        node->items = items = ceduo_arena_more(r->arena, items, node->n, 1, &room, sizeof *items);
+        if (!items)
+            return stop(r);
+        items[node->n++] = item;
     }
-    const struct node **items = r->stopped ? NULL : ceduo_arena_take(r->arena, (pile.n + 1) * sizeof *items);
-    if (items && pile.n > 0)
-        memcpy(items, pile.items, pile.n * sizeof *items);
-    else if (!items && !r->stopped)
-        stop(r);
-    free(pile.items);
-    node->items = items;
-    node->n = pile.n;
     return r->stopped ? NULL : node;
 }
 
@@ -257,7 +242,7 @@ static unsigned half_at(const char *p, size_t n, unsigned lo)
 
 static void note_joined(struct reader *r, size_t line, size_t column)
 {
-    struct joined *all = ceduo_grow(r->joined, r->joined_count, &r->joined_capacity, sizeof *all);
+    struct joined *all = ceduo_arena_more(r->arena, r->joined, r->joined_count, 1, &r->joined_capacity, sizeof *all);
     if (!all) {
         stop(r);
         return;
@@ -361,7 +346,6 @@ const struct node *ceduo_yaml_read_value(struct arena *arena, const struct sourc
     yaml_parser_set_input_string(&r.parser, (const unsigned char *)r.bytes, r.length);
     const struct node *root = read_document(&r);
     yaml_parser_delete(&r.parser);
-    free(r.joined);
     return root;
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene, every state that it was in, opening and closing. Edits are in document_edit.c, the file in
- * document_save.c.  A state is a tree; trees share what they have in common, and all lie in the arena of the scene's
- * file, which is freed when the document closes. What is shown is the scene bound from one of them. */
+/* The scene and the states it was in. A state is a tree; trees share nodes in the arena of the scene's file, which is freed
+ * when the document closes. */
 #include "document.h"
 
 #include <stdlib.h>
@@ -10,7 +9,6 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "io/file.h"
-#include "io/resolve.h"
 
 /* ---- states ---- */
 
@@ -25,8 +23,8 @@ static void push_state(struct document *d, const struct node *root, const char *
     d->at = d->count++;
 }
 
-/* History may grow by DOCUMENT_HISTORY_BYTES: then the older half of it is forgotten. What memory it took is given back
- * only when the document closes, so the limit is on states, measured by what the arena has grown since. */
+/* Forgets the older half of the history once the arena has grown by DOCUMENT_HISTORY_BYTES. The memory is freed with the
+ * document. */
 static void trim_history(struct document *d)
 {
     if (d->file.arena.bytes - d->trimmed < DOCUMENT_HISTORY_BYTES || d->count < 4)
@@ -112,10 +110,10 @@ static bool first_state(struct document *d, bool good)
     return good;
 }
 
-bool ceduo_document_open(struct document *d, const char *path, struct problems *problems)
+bool ceduo_document_open(struct document *d, const char *path, const char *const *sets, size_t n, struct problems *problems)
 {
     *d = (struct document){0};
-    if (!ceduo_scene_load(&d->file, path, NULL, 0, problems))
+    if (!ceduo_scene_load(&d->file, path, sets, n, problems))
         return first_state(d, false);
     d->raw = d->file.raw;
     d->path = strcmp(path, "-") == 0 ? NULL : ceduo_must(strdup(d->file.path));

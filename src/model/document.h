@@ -37,46 +37,67 @@ struct document {
     struct recovery_copy recovery;
 };
 
-/* Opens a scene (as ceduo_scene_load()). False with the reason in `problems`. */
-bool ceduo_document_open(struct document *document, const char *path, struct problems *problems);
+/* Opens a scene, with n changes PATH=VALUE (as ceduo_scene_load()). False with the reason in `problems`. */
+bool ceduo_document_open(struct document *document, const char *path, const char *const *sets, size_t n,
+                         struct problems *problems);
 
 /* A new scene from text that was never on disk; `path` may be NULL. */
 bool ceduo_document_new(struct document *document, const char *text, struct problems *problems);
 void ceduo_document_close(struct document *document);
 
-/* Each edit makes a new state, or leaves the document as it was with the reason in `problems`. Paths as in --set. */
+/* Each edit makes a new state, or leaves the document as it was with the reason in `problems`. Paths as in --set, values in
+ * YAML. */
 bool ceduo_document_set(struct document *document, const char *path, const char *value, struct problems *problems);
 bool ceduo_document_delete(struct document *document, const char *path, struct problems *problems);
-/* A copy of item `list[index]` after it, and two changes (PATH=VALUE; may be NULL) to what the list is then; of an option under a
- * name of its own. */
-bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const char *first, const char *second,
-                              struct problems *problems);
 /* An item from `text` (YAML) into a list, which is made where there is none. */
 bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
                            struct problems *problems);
 bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to, struct problems *problems);
-/* Append the belts of the first option and the years of their cuts as YAML, each with the stand named `stand`, which is quoted
- * here. Without belts: one belt down to the first control. */
+/* Append the belts of the first option as YAML, each with this stand and its year of a cut. Without belts: one down to the
+ * first control. */
 void ceduo_document_belts(const struct document *document, const char *stand, struct text *yaml);
-/* A new option after the last, with those belts. A scene that has only a forest gets options first, "current" the first of
+/* A new option after the last, with those belts. A scene with a forest alone first gets options, "current" the first of
  * them. */
 bool ceduo_document_add_option(struct document *document, const char *stand, const char *name, struct problems *problems);
 
-/* A copy of option `index` after the last option, as one state. Its name is `name`, or that with a number if another option has
- * it. `sets`: n changes as of ceduo_document_set_all(), with paths that begin at the option: "forest[0].cut_year=1". */
-bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const char *const *sets, size_t n,
+/* Changes that are made as one edit, in their order. Starts with the document alone. */
+struct changes {
+    struct document *document;
+    size_t n, capacity;
+    struct change {
+        enum change_kind { CHANGE_SET, CHANGE_KEEP_SOURCE, CHANGE_DELETE } kind;
+        const char *path, *value;
+    } * items; /* in the document's arena */
+};
+
+/* Append: the value stands at the path. */
+void ceduo_changes_set(struct changes *changes, const char *path, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Append a change of any kind. KEEP_SOURCE: a scalar keeps the source around it, because it follows a value that a person
+ * changes. DELETE: an entry or item is removed if it is there; `value` is NULL. */
+void ceduo_changes_add(struct changes *changes, enum change_kind kind, const char *path, const char *value);
+bool ceduo_changes_make(const struct changes *changes, const char *what, struct problems *problems);
+
+/* A copy of item `list[index]` after it, of an option under a name of its own; then the changes (may be NULL). */
+bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const struct changes *changes,
+                              struct problems *problems);
+
+/* A copy of option `index` after the last, named `name`, or that with a number if the name is taken. The paths of the changes
+ * begin at the option: "forest[0].cut_year". */
+bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const struct changes *changes,
                                 struct problems *problems);
 
 /* Another name for an option; what was seen through its forest and the doubts about it go along. */
 bool ceduo_document_rename_option(struct document *document, size_t index, const char *name, struct problems *problems);
 
-/* Several changes as one state: PATH=VALUE each; or PATH:=VALUE, a scalar that keeps the source around it, for it only
- * follows what a person changes; or PATH alone: what stands there is taken out. */
-bool ceduo_document_set_all(struct document *document, const char *const *sets, size_t n, const char *what,
-                            struct problems *problems);
+/* As ceduo_document_set(), but removes what would then be given twice: a size or the mass of the rock, a roughness, a number of
+ * shoots. Another shape gets sizes of the same volume. Neighbours follow a border, assumed heights their diameter. Appends to
+ * `said` what was changed besides. */
+bool ceduo_document_set_alone(struct document *document, const char *path, const char *value, struct text *said,
+                              struct problems *problems);
 
-/* A vertex ([x, z]) within segment `index` of the slope, both parts of the same ground. `apart`: of a ground that was one for
- * all segments each gets its own. */
+/* A vertex ([x, z]) within segment `index`, both parts of the same ground. `apart`: one ground of all segments becomes one for
+ * each. */
 bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool apart,
                                   struct problems *problems);
 
@@ -87,8 +108,8 @@ bool ceduo_document_remove_vertex(struct document *document, size_t vertex, size
 bool ceduo_document_undo_or_redo(struct document *document, int by);
 bool ceduo_document_unsaved(const struct document *document);
 
-/* Writes the scene to `path`. Comments stay where only values changed; `*laid_out_anew` says when they could not (where
- * it takes the place of its own old file, a copy of that is then kept as PATH.bak). False with errno set. */
+/* Writes the scene to `path`, with the comments of the file if only values changed. Otherwise `*laid_out_anew` is true, and the
+ * scene's own old file is kept as PATH.bak. False with errno set. */
 bool ceduo_document_save(struct document *document, const char *path, bool *laid_out_anew);
 
 /* Whether a path leads to a file of the program's own, which is never written. */
@@ -114,16 +135,15 @@ double ceduo_document_place(const struct document *document, const char *written
 
 /* ---- recovery ---- */
 
-/* Copies of unsaved work lie in the user's state folder ($XDG_STATE_HOME/ceduo, ~/.local/state/ceduo), one for each scene and
- * program. The program locks its copy with flock() and keeps it open. If a copy is not locked, its program has ended; this also
- * holds if two machines share the folder. */
+/* Copies of unsaved work lie in $XDG_STATE_HOME/ceduo or ~/.local/state/ceduo, one for each scene and program. The program
+ * locks its copy with flock(): an unlocked copy is left behind, also if two machines share the folder. */
 
-/* Name the copy that this program would write of a scene; nothing is written yet. `path` NULL: a scene without a file. The path
- * in the result is NULL if there is no folder. */
+/* Name the copy of a scene (NULL: without a file); nothing is written yet. The path of the result is NULL if there is no
+ * folder. */
 struct recovery_copy ceduo_recovery_begin(const char *path);
 
-/* Write and lock the copy, readable by its owner alone. The scene's path stands in a first comment line. False on failure: the
- * copy of before stays. */
+/* Write and lock the copy, readable by its owner alone, with the scene's path in its first line. False: the copy of before
+ * stays. */
 bool ceduo_recovery_write(struct recovery_copy *copy, const char *path, const char *bytes, size_t n);
 
 /* Delete the copy; it may be written again. */

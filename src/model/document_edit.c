@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edits. Each makes a changed tree, which shares all but the nodes on the path to the change, and commits it as a new
- * state. All nodes lie in the arena of the document's file. Rows of `doubt` name values of the scene by their paths: where
- * an edit moves such a value, they go along. */
+/* Edits. Each makes a changed tree, which shares all nodes but those on the path to the change, and commits it as a new state.
+ * Rows of `doubt` name values by their paths: they follow a value that moves. */
 #include "document.h"
 
 #include <math.h>
@@ -9,9 +8,8 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "io/emit.h"
+#include "base/must.h"
 #include "io/file.h"
-#include "io/resolve.h"
 
 /* ---- an edit under way ---- */
 
@@ -78,8 +76,7 @@ static const struct node *with_paths(struct arena *arena, const struct node *roo
     return now->n == 0 ? ceduo_node_without(arena, root, "doubt") : ceduo_node_with(arena, root, "doubt", now);
 }
 
-/* What became of an item of a list: one was put in before `from` (by 1), or that one was taken out (by -1), or moved to
- * another place (by 0). */
+/* What became of an item of a list: inserted before `from` (by 1), removed (by -1), or moved to `to` (by 0). */
 struct shift {
     const char *list;
     size_t from, to;
@@ -105,8 +102,8 @@ static const char *shift_path(struct arena *arena, const char *path, const void 
     return now == at || *end != ']' ? path : ceduo_arena_format(arena, "%s[%zu%s", s->list, now, end);
 }
 
-/* Rows about the items of a list go along with them: those of the scene, and those of the stand that the list is in. A
- * stand without rows says so, for the file that it starts from may have some. */
+/* Rows about the items of a list follow them: rows of the scene, and of the stand that the list is in. A stand without rows
+ * says so, because the file that it starts from may have some. */
 static void shift_doubts(struct edit *e, const char *list, size_t from, size_t to, int by)
 {
     const char *within = strstr(list, ".stand.");
@@ -126,8 +123,7 @@ static void shift_doubts(struct edit *e, const char *list, size_t from, size_t t
     put(e, path, now);
 }
 
-/* Another beginning of a path: rows that call an option by a name that it is to lose call it by its number; rows about the forest
- * become those of options. */
+/* Another beginning of a path: an option is named by its number, or rows about the forest become rows about options. */
 struct beginning {
     const char *from, *to;
 };
@@ -141,8 +137,8 @@ static const char *begin_path(struct arena *arena, const char *path, const void 
 
 /* ---- changes of a tree ---- */
 
-/* Takes the entry of a mapping or the item of a list out. A list that is empty then goes whole, unless it is that of
- * options: `*path` is what was taken out. */
+/* Removes an entry or an item. A list that is empty then goes whole, unless it is that of options: `*path` is what was
+ * removed. */
 static void take_out(struct edit *e, const char **path)
 {
     const char *dot = strrchr(*path, '.'), *bracket = strrchr(*path, '[');
@@ -185,22 +181,44 @@ static void put_item(struct edit *e, const char *list, size_t index, const struc
     shift_doubts(e, list, index, 0, 1);
 }
 
-/* PATH=VALUE, or PATH:=VALUE, or PATH alone: it is taken out. */
-static void change(struct edit *e, const char *set)
+/* Makes changes whose paths begin with `prefix`. */
+static void change(struct edit *e, const char *prefix, const struct changes *changes)
 {
-    const char *equals = strchr(set, '=');
-    if (!equals) {
-        take_out(e, &set);
-        return;
+    for (size_t i = 0; e->root && i < changes->n; i++) {
+        const struct change *c = &changes->items[i];
+        const char *path = ceduo_arena_format(e->arena, "%s%s", prefix, c->path);
+        const struct node *old = ceduo_resolve_at(e->root, path);
+        if (c->kind == CHANGE_DELETE) {
+            if (old)
+                take_out(e, &path);
+            continue;
+        }
+        const struct node *value = ceduo_document_parse(e->d, path, c->value, e->problems);
+        bool keeps = value && old && c->kind == CHANGE_KEEP_SOURCE;
+        put(e, path, keeps ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);
     }
-    bool keeps = equals > set && equals[-1] == ':';
-    size_t length = (size_t)(equals - set) - keeps;
-    while (length > 0 && set[length - 1] == ' ')
-        length--;
-    const char *path = ceduo_arena_copy(e->arena, set, length);
-    const struct node *value = ceduo_document_parse(e->d, path, equals + 1, e->problems);
-    const struct node *old = value && keeps ? ceduo_resolve_at(e->root, path) : NULL;
-    put(e, path, old ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);
+}
+
+void ceduo_changes_add(struct changes *c, enum change_kind kind, const char *path, const char *value)
+{
+    struct arena *arena = &c->document->file.arena;
+    c->items = ceduo_must(ceduo_arena_more(arena, c->items, c->n, 1, &c->capacity, sizeof *c->items));
+    c->items[c->n++] = (struct change){kind, ceduo_arena_string(arena, path), value ? ceduo_arena_string(arena, value) : NULL};
+}
+
+void ceduo_changes_set(struct changes *c, const char *path, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    ceduo_changes_add(c, CHANGE_SET, path, ceduo_arena_vformat(&c->document->file.arena, format, args));
+    va_end(args);
+}
+
+bool ceduo_changes_make(const struct changes *c, const char *what, struct problems *problems)
+{
+    struct edit e = begin(c->document, problems);
+    change(&e, "", c);
+    return commit(&e, what);
 }
 
 /* ---- values ---- */
@@ -210,14 +228,6 @@ bool ceduo_document_set(struct document *d, const char *path, const char *value,
     struct edit e = begin(d, problems);
     put(&e, path, ceduo_document_parse(d, path, value, problems));
     return commit(&e, path);
-}
-
-bool ceduo_document_set_all(struct document *d, const char *const *sets, size_t n, const char *what, struct problems *problems)
-{
-    struct edit e = begin(d, problems);
-    for (size_t i = 0; e.root && i < n; i++)
-        change(&e, sets[i]);
-    return commit(&e, what);
 }
 
 bool ceduo_document_delete(struct document *d, const char *path, struct problems *problems)
@@ -289,12 +299,16 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
 
 bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segment, struct problems *problems)
 {
-    struct arena *arena = &d->file.arena;
+    struct edit e = begin(d, problems);
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
-    const char *sets[] = {ceduo_arena_format(arena, "%s[%zu]", vertices_list, vertex),
-                          ceduo_arena_format(arena, "%s[%zu]", ground_list, segment)};
-    return vertices && vertices->n > 2 && vertex < vertices->n &&
-           ceduo_document_set_all(d, sets, grounds && grounds->n > 1 ? 2 : 1, vertices_list, problems);
+    const char *path = ceduo_arena_format(e.arena, "%s[%zu]", vertices_list, vertex);
+    if (!vertices || vertices->n <= 2 || vertex >= vertices->n)
+        return false;
+    take_out(&e, &path);
+    path = ceduo_arena_format(e.arena, "%s[%zu]", ground_list, segment);
+    if (e.root && grounds && grounds->n > 1)
+        take_out(&e, &path);
+    return commit(&e, vertices_list);
 }
 
 /* ---- options ---- */
@@ -352,7 +366,7 @@ bool ceduo_document_add_option(struct document *d, const char *stand, const char
     return commit(&e, stand);
 }
 
-bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const char *first, const char *second,
+bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const struct changes *changes,
                               struct problems *problems)
 {
     struct edit e = begin(d, problems);
@@ -360,14 +374,12 @@ bool ceduo_document_duplicate(struct document *d, const char *list, size_t index
     const struct node *holder = options ? need_options(&e) : ceduo_document_node(d, list);
     const struct node *item = holder && holder->kind == NODE_LIST && index < holder->n ? holder->items[index] : NULL;
     put_item(&e, list, index + 1, item && options ? with_new_name(&e, holder, item) : item);
-    if (e.root && first)
-        change(&e, first);
-    if (e.root && second)
-        change(&e, second);
+    if (changes)
+        change(&e, "", changes);
     return commit(&e, list);
 }
 
-bool ceduo_document_vary_option(struct document *d, size_t index, const char *name, const char *const *sets, size_t n,
+bool ceduo_document_vary_option(struct document *d, size_t index, const char *name, const struct changes *changes,
                                 struct problems *problems)
 {
     struct edit e = begin(d, problems);
@@ -375,8 +387,7 @@ bool ceduo_document_vary_option(struct document *d, size_t index, const char *na
     item = ceduo_node_with(e.arena, ceduo_node_without(e.arena, item, "name_it"), "name",
                            ceduo_node_scalar(e.arena, item->source, name, true));
     put_item(&e, "options", options->n, with_new_name(&e, options, item));
-    for (size_t i = 0; e.root && i < n; i++)
-        change(&e, ceduo_arena_format(e.arena, "options[%zu].%s", options->n, sets[i]));
+    change(&e, ceduo_arena_format(e.arena, "options[%zu].", options->n), changes);
     return commit(&e, name);
 }
 

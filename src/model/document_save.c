@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Saving, and the copy of unsaved work that survives a crash. References are written as they were given, the rest as
- * a patch of the old text where that is possible. */
+/* Saving: references are written as they were given, the rest as a patch of the old text if possible. */
 #include "document.h"
 
 #include <errno.h>
@@ -10,9 +9,7 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "io/emit.h"
 #include "io/file.h"
-#include "io/resolve.h"
 
 /* ---- the file on disk ---- */
 
@@ -61,9 +58,8 @@ bool ceduo_document_changed_on_disk(const struct document *d)
 
 /* ---- saving ---- */
 
-/* A path to a file as it must be written in a scene that lies at `to`: as it is where it leads to the same file from
- * there, otherwise whole. It stays a path of the file that it was read from, wherever the scene was saved since. A table of
- * draws lies beside the scene that was written with it: then its bare name is enough. */
+/* A path to a file for a scene at `to`: as it is if it leads to the same file from there, otherwise whole. A table of draws
+ * lies beside the scene that was written with it: then its bare name is enough. */
 static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
 {
     const struct source *s = node->source;

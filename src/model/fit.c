@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/doubt_inputs.h"
+#include "base/language.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
 
@@ -54,9 +54,8 @@ static struct range range_around(const struct scene_file *file, const char *key)
     return range;
 }
 
-/* The ground of all stretches as one (rows NULL), or each of the library that the scene names. What the one is, is known where
- * nothing was said of it: talus; otherwise it may be all that the library has, and what is near the scene's own values. Roughness as
- * an angle has no library. */
+/* Offers the ground of all stretches as one (rows NULL), or each ground of the library that the scene names. One ground has the
+ * range of talus if it is assumed, otherwise that of the whole library and of the scene's values. Angles have no library. */
 static void offer_ground(const struct scene_file *file, const struct node *rows, struct fit_request *to)
 {
     size_t n;
@@ -153,4 +152,143 @@ void ceduo_fit_free(void *fit)
     ceduo_calibration_free(&f->answer);
     ceduo_arena_free(&f->file.arena);
     free(f);
+}
+
+/* ---- a fit into a document ---- */
+
+#define SEGMENTS "slope.segments["
+
+/* ---- ground that stands in no list of segments ---- */
+
+static void put_number(struct text *t, const char *before, double value)
+{
+    ceduo_text_format(t, "%s%s", before, NUMERAL(value));
+}
+
+/* True for a row of doubt about ground or points that the written scene no longer has. */
+static bool is_of_library(const struct node *row)
+{
+    const char *path = ceduo_node_text(row, "path");
+    return path && (strcmp(path, "slope.tolerance_m") == 0 || strncmp(path, "slope.materials[", 16) == 0);
+}
+
+/* Rows of doubt, NULL if there is no list; `list`: its path. */
+static const struct node *doubt_rows(const struct document *d, const char **list)
+{
+    const struct node *doubt = ceduo_node_get(d->file.root, "doubt");
+    bool map = doubt && doubt->kind == NODE_MAP;
+    const struct node *rows = map ? ceduo_node_get(doubt, "rows") : doubt;
+    *list = map ? "doubt.rows" : "doubt";
+    return rows && rows->kind == NODE_LIST ? rows : NULL;
+}
+
+static void add_ground(struct changes *c, const struct document *d)
+{
+    const char *list;
+    const struct node *rows = doubt_rows(d, &list);
+    for (size_t i = rows ? rows->n : 0; i-- > 0;)
+        if (is_of_library(rows->items[i]))
+            ceduo_changes_add(c, CHANGE_DELETE, ceduo_arena_format(&c->document->file.arena, "%s[%zu]", list, i), NULL);
+    static const char *const gone[] = {"slope.materials", "slope.csv", "slope.reversed",
+                                       "slope.tolerance_m"}; /* vertices are written as they are simulated */
+    const struct ceduo_slope *s = &d->file.scene.slope;
+    LOCAL_TEXT(vertices);
+    LOCAL_TEXT(segments);
+    for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
+        ceduo_changes_add(c, CHANGE_DELETE, gone[i], NULL);
+    for (size_t i = 0; i < s->vertices; i++) {
+        put_number(&vertices, i == 0 ? "[[" : ", [", s->x[i] + s->origin_x);
+        put_number(&vertices, ", ", s->z[i] + s->origin_z);
+        ceduo_text_put(&vertices, "]");
+    }
+    ceduo_text_put(&vertices, "]");
+    ceduo_changes_add(c, CHANGE_SET, "slope.vertices_m", vertices.bytes);
+    for (size_t i = 0; i + 1 < s->vertices; i++) {
+        const struct ceduo_segment *g = &s->segments[i];
+        bool angle = isnan(g->roughness_m);
+        put_number(&segments, i == 0 ? "[{rn: " : ", {rn: ", g->rn.mean);
+        put_number(&segments, ", rt: ", g->rt.mean);
+        put_number(&segments, angle ? ", roughness_rad: " : ", roughness_m: ", angle ? g->roughness_rad : g->roughness_m);
+        put_number(&segments, ", friction: ", g->friction);
+        ceduo_text_put(&segments, "}");
+    }
+    ceduo_text_put(&segments, "]");
+    ceduo_changes_add(c, CHANGE_SET, "slope.segments", segments.bytes);
+}
+
+/* ---- values ---- */
+
+/* Say once for the holder of a value where that comes from; a value of the scene itself has none. */
+static void add_source(struct changes *c, const char *place, const char *source)
+{
+    const char *dot = strrchr(place, '.');
+    if (!dot)
+        return;
+    const char *path = ceduo_arena_format(&c->document->file.arena, "%.*s.source", (int)(dot - place), place);
+    for (size_t i = 0; i < c->n; i++)
+        if (strcmp(c->items[i].path, path) == 0)
+            return;
+    LOCAL_TEXT(t);
+    ceduo_text_put(&t, "{kind: calibrated, text: ");
+    ceduo_emit_scalar(&t, source, true);
+    ceduo_text_put(&t, "}");
+    ceduo_changes_add(c, CHANGE_SET, path, t.bytes);
+}
+
+/* Whether a row of doubt is about a fitted value. */
+static bool is_fitted(const struct document *d, const struct fit_values *fit, const struct node *row)
+{
+    const char *path = ceduo_node_text(row, "path");
+    for (size_t i = 0; path && i < d->file.inputs_of_scene; i++)
+        for (size_t k = 0; strcmp(d->file.inputs[i].path, path) == 0 && k < fit->answer->parameters_count; k++)
+            if (ceduo_input_shares(&d->file.inputs[i], &fit->inputs[k]))
+                return true;
+    return false;
+}
+
+/* The table of draws beside the rows of doubt that there are; what they say of fitted values no longer holds. */
+static void add_draws(struct changes *c, const struct document *d, const struct fit_values *fit, bool of_library)
+{
+    const char *list;
+    const struct node *rows = doubt_rows(d, &list);
+    LOCAL_TEXT(t);
+    bool some = false;
+    ceduo_text_put(&t, "{draws: ");
+    ceduo_emit_scalar(&t, fit->draws, true);
+    for (size_t i = 0; rows && i < rows->n; i++) {
+        if (is_fitted(d, fit, rows->items[i]) || (of_library && is_of_library(rows->items[i])))
+            continue;
+        ceduo_text_put(&t, some ? ", " : ", rows: [");
+        ceduo_emit_flow(&t, rows->items[i]);
+        some = true;
+    }
+    ceduo_text_put(&t, some ? "]}" : "}");
+    ceduo_changes_add(c, CHANGE_SET, "doubt", t.bytes);
+}
+
+bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct problems *problems)
+{
+    struct changes c = {.document = d};
+    bool of_segments = false;
+    for (size_t i = 0; i < fit->answer->parameters_count; i++)
+        for (size_t k = 0; k < fit->inputs[i].places_count; k++)
+            of_segments |= strncmp(fit->inputs[i].places[k], SEGMENTS, sizeof SEGMENTS - 1) == 0;
+    bool of_library = of_segments && d->file.scene.slope.segments_given == 0;
+    if (of_library)
+        add_ground(&c, d);
+    for (size_t i = 0; i < fit->answer->parameters_count; i++)
+        for (size_t k = 0; k < fit->inputs[i].places_count; k++) {
+            const char *place = fit->inputs[i].places[k];
+            struct value v;
+            bool spread = ceduo_value_find(&d->file.scene, place, &v) && v.field->type == FIELD_SPREAD &&
+                          ((const struct ceduo_number *)v.at)->spread > 0;
+            ceduo_changes_add(&c, CHANGE_SET, spread ? ceduo_arena_format(&d->file.arena, "%s.mean", place) : place,
+                              NUMERAL(fit->answer->parameters[i].best));
+        }
+    for (size_t i = 0; i < fit->answer->parameters_count; i++)
+        for (size_t k = 0; k < fit->inputs[i].places_count; k++)
+            add_source(&c, fit->inputs[i].places[k], fit->source);
+    if (fit->draws)
+        add_draws(&c, d, fit, of_library);
+    return ceduo_changes_make(&c, _("fitted values"), problems);
 }

@@ -3,7 +3,7 @@
 #define CEDUO_FIT_H
 
 #include "ceduo/calibrate.h"
-#include "io/scene_file.h"
+#include "document.h"
 
 /* Values of the scene of the live program, fitted to what was observed there. */
 
@@ -19,8 +19,7 @@ struct fit_request {
     uint64_t rocks; /* of each evaluation */
 };
 
-/* Values that what was observed does not hold, each by itself, as a short first fit tells: to fix them is quicker, and says as
- * much. */
+/* Values that the observations do not hold, by a short first fit: a fit without them is quicker and as informative. */
 struct fit_loose {
     size_t n;
     bool loose[CEDUO_CALIBRATION_MOST]; /* of the request */
@@ -36,17 +35,27 @@ struct fit {
     struct ceduo_calibration answer;
 };
 
-/* What may be fitted: values whose range the scene names under `doubt`, or where it names none rn, rt, roughness and
- * friction of its grounds with the ranges of the library of grounds. */
+/* What may be fitted: values with a range of the scene, otherwise rn, rt, roughness and friction with ranges of the library. */
 void ceduo_fit_offer(const struct scene_file *file, struct fit_request *offer);
 
 /* Whether something was observed that a fit may rest on. */
 bool ceduo_fit_has_observations(const struct scene_file *file);
 
-/* Fits, with the threads and the progress of `how`; `*loose` is told before the fit itself begins. `file` must have an arena of its
- * own, which is the answer's from then on. To be freed in any case. */
+/* Fits with the threads and the progress of `how`; sets `*loose` before the fit itself begins. The answer takes over the arena
+ * of `file`. The caller frees the fit in any case. */
 enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request,
                                  const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *fit);
 void ceduo_fit_free(void *fit);
+
+/* What was fitted goes into a document: the best values, where they come from, and the draws as its doubt. */
+struct fit_values {
+    const struct ceduo_calibration *answer;
+    const struct ceduo_input *inputs; /* places in the document's scene; those without are left out */
+    const char *source;               /* what the fit rests on */
+    const char *draws;                /* path of the table of draws, as the document is to name it; NULL: none */
+};
+
+/* One edit, which undo takes back. A ground from materials is written out as segments. False with the reason in `problems`. */
+bool ceduo_keep_fit(struct document *document, const struct fit_values *fit, struct problems *problems);
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One thread takes the coarsest step of all jobs, works on a copy of the job without the lock, and hands the result over
- * if the job was not replaced meanwhile. A new job cancels the step under way. The queue owns results until they are
- * taken. */
+/* One thread takes the coarsest step of all jobs, works on a copy of the job without the lock, and publishes the result unless
+ * the job was replaced meanwhile. A new job cancels the step under way. The queue owns results until they are taken. */
 #include "jobs.h"
 
 #include <fcntl.h>
@@ -9,6 +8,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -30,7 +30,7 @@ struct job {
     struct scene_file file;
     struct ceduo_search search;
     struct fit_request fit;
-    char text[JOB_TEXT]; /* the path of the search; the change of the preview */
+    char path[JOB_TEXT], value[JOB_TEXT]; /* of the search, which has no value; of the preview */
 };
 
 struct jobs {
@@ -40,7 +40,8 @@ struct jobs {
     pthread_cond_t changed;
     int pipe[2];
     atomic_bool cancel;
-    struct runs *runs; /* the thread's own */
+    struct runs *runs;  /* the thread's own */
+    uint64_t rocks_max; /* of a level; 0: unlimited */
     /* under the lock */
     bool quit;
     enum job_kind working; /* JOB_KINDS: on none */
@@ -153,15 +154,17 @@ static void publish(struct jobs *q, const struct job *job, void *result)
 
 /* ---- steps ---- */
 
-static uint64_t rocks_of(size_t level)
+/* Number of rocks of a level. */
+static uint64_t rocks_of(const struct jobs *q, size_t level)
 {
-    return RUNS_FIRST * (level > 1 ? 100 : level > 0 ? 10 : 1);
+    uint64_t rocks = RUNS_FIRST * (level > 1 ? 100 : level > 0 ? 10 : 1);
+    return q->rocks_max > 0 && rocks > q->rocks_max ? q->rocks_max : rocks;
 }
 
 static enum ceduo_status step_search(struct jobs *q, struct job *job, void **result)
 {
     struct search_answer *answer = *result = ceduo_must(calloc(1, sizeof *answer));
-    job->search.path = job->text;
+    job->search.path = job->path;
     enum ceduo_status status = ceduo_search(&job->file, &job->search, q->threads, &q->cancel, answer);
     ceduo_arena_free(&job->file.arena);
     answer->status = status; /* what was asked may be wrong: done, too */
@@ -171,7 +174,7 @@ static enum ceduo_status step_search(struct jobs *q, struct job *job, void **res
 static enum ceduo_status step_preview(struct jobs *q, struct job *job, void **result)
 {
     struct preview *preview = *result = ceduo_must(calloc(1, sizeof *preview));
-    return ceduo_preview(&job->file, job->text, job->option, q->threads, &q->cancel, preview);
+    return ceduo_preview(&job->file, job->path, job->value, job->option, q->threads, &q->cancel, preview);
 }
 
 struct publisher {
@@ -195,7 +198,7 @@ static enum ceduo_status step_snapshot(struct jobs *q, struct job *job, void **r
     struct publisher publisher = {.queue = q, .job = job};
     struct runs_step step = {.scene = &job->file.scene,
                              .shown = job->option,
-                             .rocks = rocks_of(job->level),
+                             .rocks = rocks_of(q, job->level),
                              .publish = publish_snapshot,
                              .context = &publisher};
     enum ceduo_status status = ceduo_runs_figures(q->runs, &step);
@@ -209,7 +212,7 @@ static enum ceduo_status step_others(struct jobs *q, struct job *job, void **res
     struct others *others = *result = ceduo_must(calloc(1, sizeof *others + options * controls * sizeof others->items[0]));
     others->options = options;
     others->controls = controls;
-    return ceduo_runs_others(q->runs, &job->file.scene, rocks_of(job->level), others->items);
+    return ceduo_runs_others(q->runs, &job->file.scene, rocks_of(q, job->level), others->items);
 }
 
 static enum ceduo_status step_years(struct jobs *q, struct job *job, void **result)
@@ -220,7 +223,7 @@ static enum ceduo_status step_years(struct jobs *q, struct job *job, void **resu
     for (size_t k = 0; k < n && status == CEDUO_OK; k++) {
         struct years_known *years = *result = ceduo_must(calloc(1, sizeof *years + n * sizeof years->items[0]));
         size_t option = (job->option + k) % n;
-        *years = (struct years_known){.n = n, .done = k + 1, .rocks = rocks_of(job->level)};
+        *years = (struct years_known){.n = n, .done = k + 1, .rocks = rocks_of(q, job->level)};
         status = ceduo_runs_years(q->runs, scene, option, years->rocks, &years->items[option]);
         if (status == CEDUO_OK && k + 1 < n)
             publish(q, job, years);
@@ -359,20 +362,19 @@ static bool is_wanted(const struct job *job)
     return job->level < job->levels;
 }
 
-/* Rocks of the next step, by which jobs take turns. The uncertainty of one option goes after the first figures and years, that of all
- * options after the second. Years have many forests. */
-static uint64_t cost_of(const struct job *job)
+/* Rocks of the next step: the job with the fewest is next. Years have many forests. */
+static uint64_t cost_of(const struct jobs *q, const struct job *job)
 {
     if (job->kind == JOB_SEARCH || job->kind == JOB_PREVIEW)
         return 0;
-    return rocks_of(job->level) * (job->kind == JOB_YEARS && job->level > 0 ? 2 : 1);
+    return rocks_of(q, job->level) * (job->kind == JOB_YEARS && job->level > 0 ? 2 : 1);
 }
 
 static enum job_kind next_kind(const struct jobs *q)
 {
     enum job_kind next = JOB_KINDS;
     for (enum job_kind k = 0; k < JOB_KINDS; k++)
-        if (is_wanted(&q->jobs[k]) && (next == JOB_KINDS || cost_of(&q->jobs[k]) < cost_of(&q->jobs[next])))
+        if (is_wanted(&q->jobs[k]) && (next == JOB_KINDS || cost_of(q, &q->jobs[k]) < cost_of(q, &q->jobs[next])))
             next = k;
     return next;
 }
@@ -429,6 +431,8 @@ struct jobs *ceduo_jobs_create(unsigned threads)
     struct jobs *q = ceduo_must(calloc(1, sizeof *q));
     q->threads = threads;
     q->working = JOB_KINDS;
+    const char *most = getenv("CEDUO_ROCKS"); /* set by tests of the screen: most of them read no figure */
+    q->rocks_max = most ? strtoull(most, NULL, 10) : 0;
     q->runs = ceduo_runs_create(threads, &q->cancel);
     q->pipe[0] = -1;
     pthread_mutex_init(&q->lock, NULL);
@@ -483,8 +487,8 @@ static void forget(struct jobs *q, enum job_kind kind)
         atomic_store(&q->cancel, true);
 }
 
-/* Puts a job in the place of the one before, whose result nobody has taken is of no use. One of the same key goes on where it is, as
- * far as is asked for now; without levels it is stopped while it is not done. True where something is to be done. */
+/* Replaces the job of its kind and drops its result. A job of the same key goes on up to the levels now asked for; without
+ * levels it is stopped. True if something is to be done. */
 static bool ask(struct jobs *q, const struct job *job)
 {
     pthread_mutex_lock(&q->lock);
@@ -555,14 +559,15 @@ void ceduo_jobs_search(struct jobs *q, const struct scene_file *file, const stru
 {
     struct job job = job_of(JOB_SEARCH, file, 0, 1);
     job.search = *search;
-    snprintf(job.text, sizeof job.text, "%s", search->path);
+    snprintf(job.path, sizeof job.path, "%s", search->path);
     ask(q, &job);
 }
 
-void ceduo_jobs_preview(struct jobs *q, const struct scene_file *file, const char *set, size_t option)
+void ceduo_jobs_preview(struct jobs *q, const struct scene_file *file, const char *path, const char *value, size_t option)
 {
     struct job job = job_of(JOB_PREVIEW, file, option, 1);
-    snprintf(job.text, sizeof job.text, "%s", set);
+    snprintf(job.path, sizeof job.path, "%s", path);
+    snprintf(job.value, sizeof job.value, "%s", value);
     ask(q, &job);
 }
 

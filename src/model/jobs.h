@@ -5,15 +5,13 @@
 #include "ceduo/calibrate.h"
 #include "ceduo/doubt.h"
 #include "fit.h"
-#include "io/doubt_inputs.h"
 #include "runs.h"
 #include "search.h"
 #include "study/seen.h"
 
-/* The queue of jobs of the live program: one thread in the background computes on a snapshot of the scene. A job goes in
- * levels from coarse to fine, and the coarsest step of all jobs is next. There is one job of a kind: a new one replaces
- * the one before, and any new one interrupts the step under way, which is repeated later. What a step computes goes into
- * the slot of its kind, from which the program takes it. */
+/* The queue of jobs of the live program: one thread computes on a snapshot of the scene. A job goes in levels from coarse to
+ * fine; the coarsest step of all jobs is next. A new job replaces that of its kind and interrupts the step under way, which is
+ * repeated later. A result lies in the slot of its kind until the program takes it. */
 
 /* The kinds, the first first where two steps are as coarse: name, slot, what it holds, by what that is freed. */
 #define JOBS(X)                                                                                                                \
@@ -73,8 +71,7 @@ struct comparison {
     struct ceduo_seen_stops *stops;    /* likewise: empty for all that is no list of stops */
 };
 
-/* Uncertainty of the scene of the live program, in levels: first of one option alone, as fine as it will be, so that no figure moves;
- * then of all options. Both are of today and of the years ahead. */
+/* Uncertainty of the scene, of today and of the years ahead. Levels: one option alone, at full precision; then all options. */
 #define UNCERTAINTY_LEVELS 2
 
 struct uncertainty {
@@ -97,23 +94,23 @@ void ceduo_jobs_free(struct jobs *jobs);
 /* A number for all that decides the runs of a scene: two scenes of one number have the same figures. */
 uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
 
-/* ---- requests: all copy the scene as it is now. What it points to must stay until the jobs are freed (an arena that is
- * never emptied). True where something is to be done. ---- */
+/* ---- requests: all copy the scene; what it points to must stay until the jobs are freed. True if something is to be done.
+ * ---- */
 
-/* Asks for the figures of a scene, those of option `shown` and without forest first, then those of all options and their years as
- * well. Runs of forests that have not changed since the last request are kept; what asks for the same runs changes nothing. */
+/* Asks for the figures of a scene, first those of option `shown` and without forest, then those of all options and their years.
+ * Runs of unchanged forests are kept; a request for the same runs changes nothing. */
 bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t shown);
 
 /* Asks for a search; its path is copied. */
 void ceduo_jobs_search(struct jobs *jobs, const struct scene_file *file, const struct ceduo_search *search);
 
-/* Asks what a change (PATH=VALUE, shorter than JOB_TEXT bytes) would do to the lights of an option. */
+/* Asks what another value at a path would do to the lights of an option. Path and value are copied; both fit into JOB_TEXT
+ * bytes. */
 #define JOB_TEXT 1024
-void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *set, size_t option);
+void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *path, const char *value, size_t option);
 
-/* Asks what doubt does to a scene, first to option `shown` (JOB_UNCERTAINTY), or for its comparison with what was
- * observed there (JOB_COMPARISON), up to so many levels; 0: nothing. A scene whose nodes are the same is asked for
- * once; what is no longer asked for is stopped. Figures and years of as many rocks go before it. */
+/* Asks for the uncertainty (option `shown` first) or the comparison with observations, up to n levels; 0: stops it. A scene
+ * with the same nodes is asked for once. Figures and years of as many rocks go first. */
 bool ceduo_jobs_ask(struct jobs *jobs, enum job_kind kind, const struct scene_file *file, size_t shown, size_t levels);
 
 /* Asks for a fit of a scene to what was observed there. What interrupts it lets it begin again. */

@@ -67,8 +67,7 @@ const struct fit *ceduo_live_fitted(const struct live *l)
 
 /* ---- the scene as it is, by what is known ---- */
 
-/* The other energy law as far as it fits: what was known before an edit stays until better is, but for that of another
- * law. */
+/* The other energy law if it fits: figures from before an edit stay until better ones come, unless they are of another law. */
 static const struct ceduo_other_energy *fitting_others(struct live *l, const struct ceduo_scene *scene)
 {
     struct others *o = l->results.others;
@@ -79,8 +78,8 @@ static const struct ceduo_other_energy *fitting_others(struct live *l, const str
     return o->items;
 }
 
-/* Assesses the scene by what was simulated through the forests of each option, and judges by its years as it is now: those of an
- * earlier one are shown, but do not count. */
+/* Assesses the scene by its simulated forests, and judges it by its years; years of an earlier scene are shown, but do not
+ * count. */
 static void refresh(struct live *l, const struct ceduo_scene *scene)
 {
     const struct ceduo_snapshot *o = ceduo_live_snapshot(l, scene);
@@ -105,7 +104,7 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
     }
     for (size_t i = 0; i < n * controls; i++)
         differences[i] =
-            in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
+            in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
     if (ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(l, scene), &l->result) != CEDUO_OK)
         l->result = NULL;
     if (l->result && ceduo_verdict_make(l->result, known, NULL, &l->verdict) != CEDUO_OK) {

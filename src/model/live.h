@@ -5,8 +5,8 @@
 #include "jobs.h"
 #include "study/verdict.h"
 
-/* The figures of the scene while it is edited. After an edit they are assessed again at once; runs are asked for only
- * where the edit changes what the rocks meet. */
+/* The figures of the scene while it is edited, assessed again after each edit. Runs are requested only if the rocks meet other
+ * things. */
 struct live {
     struct jobs *jobs;
     union results results;        /* newest of each kind; what the scene has no longer stays until better is known */

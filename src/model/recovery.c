@@ -16,7 +16,6 @@
 #include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"
-#include "io/emit.h"
 #include "io/file.h"
 
 #define UNSAVED "# unsaved work on " /* begins the first line of a copy */
@@ -75,8 +74,7 @@ struct recovery_copy ceduo_recovery_begin(const char *path)
     return (struct recovery_copy){.path = name.bytes, .file = -1};
 }
 
-/* Put a text in the place of the copy. The new file is locked before it has the copy's name. Return its descriptor; -1 on
- * failure. */
+/* Replace the copy. The new file is locked before it has the copy's name. Return its descriptor; -1 on failure. */
 static int replace_copy(const char *path, const struct text *text)
 {
     LOCAL_TEXT(temporary);
@@ -184,29 +182,23 @@ static int newest_first(const void *a, const void *b)
     return x < y ? 1 : x > y ? -1 : 0;
 }
 
+static const struct node *read_yaml(struct arena *arena, const char *text)
+{
+    LOCAL_PROBLEMS(problems);
+    const struct source source = {.name = "", .bytes = text, .length = strlen(text)};
+    return ceduo_yaml_read(arena, &source, &problems);
+}
+
 /* Path of the scene, from the first line of a copy; NULL if the scene had no file. */
 static const char *read_scene(struct arena *arena, const char *text)
 {
-    LOCAL_PROBLEMS(problems);
     LOCAL_TEXT(line);
     size_t n = strlen(UNSAVED);
     if (strncmp(text, UNSAVED, n) != 0)
         return NULL;
     ceduo_text_format(&line, "scene: %.*s", (int)strcspn(text + n, "\n"), text + n);
-    const struct source source = {.name = "", .bytes = line.bytes, .length = line.length};
-    const char *scene = ceduo_node_text(ceduo_yaml_read(arena, &source, &problems), "scene");
+    const char *scene = ceduo_node_text(read_yaml(arena, line.bytes), "scene");
     return scene && scene[0] == '/' ? scene : NULL;
-}
-
-/* Title of the scene in a copy; "" if there is none. */
-static const char *read_title(struct arena *arena, const char *text)
-{
-    LOCAL_PROBLEMS(problems);
-    LOCAL_ARENA(own);
-    const struct source source = {.name = "", .bytes = text, .length = strlen(text)};
-    const struct node *root = ceduo_yaml_read(&own, &source, &problems);
-    const char *title = ceduo_node_text(root, "title");
-    return ceduo_arena_string(arena, ceduo_in_language(title ? title : "", ceduo_node_text(root, "title_it")));
 }
 
 struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
@@ -221,9 +213,11 @@ struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
         char *text = stat(name.bytes, &st) == 0 ? ceduo_recovery_text(name.bytes) : NULL;
         if (!text)
             continue;
+        const struct node *root = read_yaml(arena, text);
+        const char *title = ceduo_node_text(root, "title");
         list[(*n)++] = (struct recovery){.file = ceduo_arena_string(arena, name.bytes),
                                          .scene = read_scene(arena, text),
-                                         .title = read_title(arena, text),
+                                         .title = ceduo_in_language(title ? title : "", ceduo_node_text(root, "title_it")),
                                          .when = st.st_mtime};
         free(text);
     }

@@ -65,7 +65,7 @@ static bool is_precise(const struct ceduo_run_snapshot *s)
 {
     for (size_t i = 0; s && i < s->flown.controls; i++) {
         const struct ceduo_arrivals *a = &s->flown.arrivals[i];
-        if (!ceduo_mean_is_precise(a->reached, a->energy.mean, a->energy.se, RUNS_TOLERANCE))
+        if (!ceduo_mean_is_precise(a->reached, (struct ceduo_estimate){a->energy.mean, a->energy.se, NAN, NAN}, RUNS_TOLERANCE))
             return false;
     }
     return true;

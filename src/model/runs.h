@@ -5,8 +5,7 @@
 #include "ceduo/years.h"
 #include "study/snapshot.h"
 
-/* The runs that the live program keeps from request to request, simulated in steps from coarse to fine. Those of years
- * hold only what arrives. */
+/* Runs that the live program keeps, simulated in steps from coarse to fine. Those of years hold only arrivals. */
 struct runs;
 
 #define RUNS_FIRST     1024   /* rocks of the first level; each further one simulates ten times as many */
@@ -35,8 +34,8 @@ struct runs_step {
 /* CEDUO_CANCELLED: the next call continues. */
 enum ceduo_status ceduo_runs_figures(struct runs *runs, struct runs_step *step);
 
-/* One step of the other energy law: so many rocks through every option under it. To `others`, one for each option and
- * control, in rows by option. */
+/* One step of the other energy law: n rocks through every option. Sets `others`, one for each option and control, in rows by
+ * option. */
 enum ceduo_status ceduo_runs_others(struct runs *runs, const struct ceduo_scene *scene, uint64_t rocks,
                                     struct ceduo_other_energy *others);
 

@@ -7,8 +7,6 @@
 
 #include "base/language.h"
 #include "ceduo/question.h"
-#include "io/doubt_inputs.h"
-#include "io/resolve.h"
 #include "scene/schema.h"
 #include "scene/value.h"
 #include "study/inputs.h"
@@ -159,8 +157,8 @@ static enum ceduo_status above_at(void *context, double value, double *above)
     return status;
 }
 
-/* How far the value found may be from that of other points and other rocks: what they leave open of the goal of so much of what may
- * be true, over its slope, which is taken across about that distance. Not known (NaN) where the slope has the wrong sign. */
+/* Sampling error of the value found: what other points and rocks leave open of the goal, over the goal's slope, which is taken
+ * across about that distance. NaN if the slope has the wrong sign. */
 static enum ceduo_status read_error(struct search *s, const struct ceduo_find_def *def, struct ceduo_sure *sure)
 {
     const struct ceduo_found *f = &sure->found;
@@ -188,8 +186,7 @@ static enum ceduo_status read_error(struct search *s, const struct ceduo_find_de
     return status;
 }
 
-/* The same search for the value that is sure; as the goal of so much of what may be true is smooth, by few values. Where nothing is
- * in doubt there is no such search. */
+/* Searches the value that reaches the goal in the wanted share of cases; few values do, because that is smooth. */
 static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_def *plain, const struct ceduo_found *found)
 {
     struct ceduo_find_def def = *plain;
@@ -334,26 +331,27 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
 
 /* ---- the preview of a change ---- */
 
-/* The scene with the change, in an arena of its own; it shares the nodes and the slope of the other. Release it by its
- * arena alone. */
-static bool change_scene(const struct scene_file *from, const char *set, struct scene_file *file)
+/* The scene with the change, which shares nodes and slope with the other. Release its arena alone. */
+static bool change_scene(const struct scene_file *from, const char *path, const char *value, struct scene_file *file)
 {
     LOCAL_PROBLEMS(problems);
+    LOCAL_TEXT(set);
     *file = *from;
     file->arena = (struct arena){0};
-    bool good = ceduo_scene_set(file, "preview", set, &problems);
+    ceduo_text_format(&set, "%s=%s", path, value);
+    bool good = ceduo_scene_set(file, "preview", set.bytes, &problems);
     const struct node *root = good ? ceduo_resolve_scene(&file->arena, file->root, &problems) : NULL;
     file->root = root;
     return root && problems.count == 0 && ceduo_scene_bind(file, &problems);
 }
 
-enum ceduo_status ceduo_preview(const struct scene_file *from, const char *set, size_t option, unsigned threads,
-                                const atomic_bool *cancel, struct preview *preview)
+enum ceduo_status ceduo_preview(const struct scene_file *from, const char *path, const char *value, size_t option,
+                                unsigned threads, const atomic_bool *cancel, struct preview *preview)
 {
     struct scene_file file;
     enum ceduo_status status = CEDUO_OK;
     *preview = (struct preview){.known = false};
-    if (change_scene(from, set, &file) && option < file.scene.options_count) {
+    if (change_scene(from, path, value, &file) && option < file.scene.options_count) {
         struct ceduo_question q = ceduo_question_default(&file.scene);
         struct ceduo_answer answer;
         q.rocks = q.run.rocks_most = PREVIEW_ROCKS;
@@ -367,8 +365,8 @@ enum ceduo_status ceduo_preview(const struct scene_file *from, const char *set, 
             const struct ceduo_arrivals *a = ceduo_result_wooded(r, option, r->last_control);
             *preview = (struct preview){.known = true,
                                         .index = *ceduo_result_last_index(r, option),
-                                        .reach = a ? a->reach_probability : NAN,
-                                        .exceed = a ? a->exceed_probability : NAN};
+                                        .reach = a ? a->reach.mean : NAN,
+                                        .exceed = a ? a->exceed.mean : NAN};
         }
         ceduo_answer_release(&answer);
     }
@@ -379,9 +377,7 @@ enum ceduo_status ceduo_preview(const struct scene_file *from, const char *set, 
 bool ceduo_preview_fits(const struct scene_file *from, const char *path, const char *value)
 {
     struct scene_file file;
-    LOCAL_TEXT(set);
-    ceduo_text_format(&set, "%s=%s", path, value);
-    bool good = change_scene(from, set.bytes, &file);
+    bool good = change_scene(from, path, value, &file);
     ceduo_arena_free(&file.arena);
     return good;
 }

@@ -8,9 +8,8 @@
 #include "io/scene_file.h"
 #include "study/goal.h"
 
-/* The value of one parameter of a scene for which one option reaches a goal at its worst control: reserves per ha, a
- * rotation, the length of a belt … Every value is tried with the same rocks, so that the answer is the same each
- * time. */
+/* The value of one parameter of a scene for which one option reaches a goal at its worst control. Every value is tried with the
+ * same rocks, so the answer is reproducible. */
 
 /* What a search came to. */
 struct search_answer {
@@ -25,10 +24,9 @@ struct search_answer {
     struct problems problems;
 };
 
-/* Looks for it; with `sure` then for the value that reaches the goal in so much of what may be true. At each value the doubt is
- * that of the scene with it, at the same points and with the same rocks, but for the value itself: who sets it knows it. The scene
- * is left at the last value. A wrong path or range is reported in `problems`, which are to be freed. CEDUO_OK also where nothing
- * is found. `cancel` may be NULL. */
+/* Searches the value; with `sure` then the one that reaches the goal in that share of plausible cases, in which the value
+ * itself is certain. Leaves the scene at the last value. Reports a wrong path or range in `answer->problems`, which the caller
+ * frees. CEDUO_OK also if nothing is found. `cancel` may be NULL. */
 enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *search, unsigned threads,
                                const atomic_bool *cancel, struct search_answer *answer);
 
@@ -42,10 +40,9 @@ struct preview {
     double reach, exceed;     /* shares of the released; NaN: not known */
 };
 
-/* `set`: PATH=VALUE as for --set. The file stays as it is; it may be read by others meanwhile. CEDUO_CANCELLED,
- * CEDUO_NO_MEMORY or CEDUO_OK. */
-enum ceduo_status ceduo_preview(const struct scene_file *file, const char *set, size_t option, unsigned threads,
-                                const atomic_bool *cancel, struct preview *preview);
+/* `value` is YAML. The file stays as it is; another thread may read it. CEDUO_CANCELLED, CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_preview(const struct scene_file *file, const char *path, const char *value, size_t option,
+                                unsigned threads, const atomic_bool *cancel, struct preview *preview);
 
 /* The row of the number at a path; of one in a list that of the list, as of one number, in the arena. NULL: there is none. */
 const struct field *ceduo_search_field(struct arena *arena, const char *path);

@@ -67,6 +67,7 @@ const char *ceduo_gone(const char *name)
         {"--plain", N_("shares and means are always as counted; leave it out")},
         {"--shard", N_("a scene is computed at once; give each machine scenes of its own, see man ceduo-workflows")},
         {"--merge", N_("results of several scenes are printed together; see man ceduo-workflows")},
+        {"adc", N_("the page of --details has the ADC of each belt")},
         {"glancing", N_("this key is gone: a hit takes what its law says, however slightly it touches; leave it out")},
         {"green_density_kg_m3", N_("this key is gone with the energy law inertia that it belonged to; leave it out")},
         {"poisson", N_("poisson is gone; leave contact_model out: every stem is hit by itself")},

@@ -15,6 +15,16 @@ extern const struct choices ceduo_shape_words, ceduo_facets_words, ceduo_system_
     ceduo_flag_words, ceduo_quality_words, ceduo_law_words, ceduo_rule_words, ceduo_contact_model_words, ceduo_spread_words,
     ceduo_use_words, ceduo_species_words, ceduo_material_words;
 
+/* A library from an X-macro of rows: name, other words for it, members of struct ceduo_KIND after the name. Makes KIND_rows, their names
+ * and ceduo_KIND_words; `also` makes all words of a row from its arguments. */
+#define LIBRARY(kind, LIST, also)                                                                                              \
+    static const struct ceduo_##kind kind##_rows[] = {LIST(LIBRARY_ROW)};                                                      \
+    static const char *const kind##_names[] = {LIST(LIBRARY_NAME)};                                                            \
+    static const char *const kind##_also[] = {LIST(also)};                                                                     \
+    const struct choices ceduo_##kind##_words = {kind##_names, sizeof kind##_names / sizeof kind##_names[0], kind##_also}
+#define LIBRARY_ROW(name, also, ...) {name, __VA_ARGS__},
+#define LIBRARY_NAME(name, ...)      name,
+
 /* The value that a word stands for, -1 where it is none of them. Of words that have others beside them, case, blanks and hyphens do
  * not matter. */
 int ceduo_choice_find(const struct choices *choices, const char *word);

@@ -7,15 +7,16 @@
 
 #define NAME_IT(at, more)                                                                                                      \
     ROW("name_it", FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(FIELD_TEXT, NO_RUN | (more)), NULL,                  \
-        N_("the same in Italian pages, screens and lists"), NULL, NULL, NAMED(N_("in Italian")))
+        N_("the same in Italian pages, screens and lists; without it in English"), NULL, NULL, NAMED(N_("in Italian")))
 
 /* ---- rock ---- */
 
 static const struct field rock_fields[] = {
-    WORD("shape", NAMED(N_("shape")), AT(ceduo_rock_def, shape), 0, "sphere", N_("shape"), &ceduo_shape_words),
+    WORD("shape", NAMED(N_("shape")), AT(ceduo_rock_def, shape), 0, "sphere", N_("shape of the rock"), &ceduo_shape_words),
     SPREAD("diameter_m", USUAL(N_("diameter, m"), 0.05, 15), AT(ceduo_rock_def, diameter), "m", 0, 1000, ABOVE, NULL,
            N_("diameter of a sphere or cylinder")),
-    SPREAD("height_m", USUAL(N_("height, m"), 0.05, 15), AT(ceduo_rock_def, height), "m", 0, 1000, ABOVE, NULL, N_("height")),
+    SPREAD("height_m", USUAL(N_("height, m"), 0.05, 15), AT(ceduo_rock_def, height), "m", 0, 1000, ABOVE, NULL,
+           N_("height of a cylinder")),
     NUM(FIELD_SPREADS, "axes_m", USUAL(N_("axes, m"), 0.05, 15), AT(ceduo_rock_def, axes), "m", 1, 0, 1000, ABOVE, NULL,
         N_("the three axes of an ellipsoid or block")),
     SPREAD("volume_m3", USUAL(N_("volume, m3"), 0.0001, 2000), AT(ceduo_rock_def, volume), "m3", 0, 1e6, ABOVE, NULL,
@@ -32,7 +33,7 @@ const struct object ceduo_rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL
 static const struct field block_fields[] = {
     NUMBER("per_year", SHOWN(N_("blocks per year"), N_("per year"), 0.0001, 1000), AT(ceduo_block_class, per_year), "1/y", 0,
            1e6, REQUIRED | ABOVE, NULL, N_("blocks of these sizes that come down in a year")),
-    NUM(FIELD_NUMBERS, "volume_m3", SHOWN(N_("volumes, m3"), N_("m3"), 0.0001, 2000),
+    NUM(FIELD_NUMBERS, "volume_m3", SHOWN(N_("volume, m3"), N_("m3"), 0.0001, 2000),
         LIST(ceduo_block_class, volumes, volumes_count), "m3", 1, 0, 1e6, REQUIRED | ABOVE, NULL,
         N_("the smallest and the largest: [lo, hi]")),
     NUMBER("exponent", USUAL(N_("exponent"), 0.2, 2), AT(ceduo_block_class, exponent), "", 0, 10, FIELD_ZERO, NULL,
@@ -101,10 +102,8 @@ static const struct field slope_fields[] = {
          N_("which way the ground's small facets are turned"), &ceduo_facets_words),
     NUM(FIELD_POINTS, "vertices_m", NAMED(N_("point of the profile")), POINTS(ceduo_slope, x, vertices), "m", 1, -FAR, FAR, 0,
         NULL, N_("the profile: pairs [x, z], x rising")),
-    ITEMS("segments", NAMED(N_("ground")), LIST(ceduo_slope, segments, segments_given), FIELD_DRAFT,
-          N_("the ground: one for each segment, or one for all"), &segment_object),
-    ITEMS("materials", NAMED(N_("ground")), OF_SLOPE(materials, materials_count), FIELD_DRAFT,
-          N_("the ground from the library, instead of segments"), &material_object),
+    ITEMS("segments", N_("ground"), LIST(ceduo_slope, segments, segments_given), FIELD_DRAFT, &segment_object),
+    ITEMS("materials", N_("ground"), OF_SLOPE(materials, materials_count), FIELD_DRAFT, &material_object),
     OTHER(FIELD_FILE, "csv", NAMED(N_("file")), NOWHERE, FIELD_NOWHERE, NULL,
           N_("the profile from a CSV file with distance and elevation, instead of vertices_m"), NULL, NULL),
     TEXT("layer", NAMED(N_("line")), NOWHERE, FIELD_NOWHERE, N_("line of the CSV file, if the file holds several")),
@@ -127,23 +126,24 @@ static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slo
         WORD("system", NAMED(N_("system")), AT(ceduo_regulation_item, system), NO_RUN, NULL,                                   \
              N_("silvicultural system that it is about; without it every one"), &ceduo_system_words),                          \
         least_row, most_row,                                                                                                   \
-        TEXT("article", NAMED(N_("article")), AT(ceduo_regulation_item, article), REQUIRED | NO_RUN, N_("article")),           \
+        TEXT("article", NAMED(N_("article and act that say so")), AT(ceduo_regulation_item, article), REQUIRED | NO_RUN,       \
+             N_("article")),                                                                                                   \
         NUM(FIELD_COUNT, "year", NAMED(N_("year")), AT(ceduo_regulation_item, year), "", 1, 1800, 2200, REQUIRED | NO_RUN,     \
             NULL, N_("year of that act"))
 
 static const struct field standards_fields[] = {
     ITEM_FIELDS(NUMBER("per_ha", NAMED(N_("standards per ha")), AT(ceduo_regulation_item, least), "1/ha", 0, 1e5,
-                       REQUIRED | NO_RUN, NULL, N_("the least that is allowed")),
+                       REQUIRED | NO_RUN, NULL, N_("standards that a cut must leave at least")),
                 NUMBER("most_per_ha", NAMED(N_("at most")), AT(ceduo_regulation_item, most), "1/ha", 0, 1e5, NO_RUN, NULL,
-                       N_("the most that is allowed"))),
+                       N_("standards that it may leave at most"))),
 };
 static const struct object standards_object = OBJECT(ceduo_regulation_item, standards_fields, NULL);
 
 static const struct field turns_fields[] = {
     ITEM_FIELDS(NUMBER("least_y", NAMED(N_("years at least")), AT(ceduo_regulation_item, least), "y", 0, 1000,
-                       REQUIRED | NO_RUN, NULL, N_("the least that is allowed")),
+                       REQUIRED | NO_RUN, NULL, N_("age at which shoots may be cut at the earliest")),
                 NUMBER("most_y", NAMED(N_("at most")), AT(ceduo_regulation_item, most), "y", 0, 1000, NO_RUN, NULL,
-                       N_("the most that is allowed"))),
+                       N_("age at which they may be cut at the latest"))),
 };
 static const struct object turns_object = OBJECT(ceduo_regulation_item, turns_fields, NULL);
 
@@ -153,13 +153,9 @@ static const struct field rules_fields[] = {
     TEXT("note", NAMED(N_("note")), AT(ceduo_regulation, note), NO_RUN,
          N_("what must be known beside; it is printed with the rules")),
     TEXT("note_it", NAMED(N_("in Italian")), AT(ceduo_regulation, note_it), NO_RUN,
-         N_("the same in Italian pages, screens and lists")),
-    ITEMS("standards", NAMED(N_("standards")), LIST(ceduo_regulation, standards, standards_count), NO_RUN,
-          N_("standards that a cut must leave; the first row that fits applies, a row without species fits all"),
-          &standards_object),
-    ITEMS("turns", NAMED(N_("rotations")), LIST(ceduo_regulation, turns, turns_count), NO_RUN,
-          N_("ages at which shoots may be cut; the first row that fits applies, a row without species fits all"),
-          &turns_object),
+         N_("the same in Italian pages, screens and lists; without it in English")),
+    ITEMS("standards", N_("standards"), LIST(ceduo_regulation, standards, standards_count), NO_RUN, &standards_object),
+    ITEMS("turns", N_("rotations"), LIST(ceduo_regulation, turns, turns_count), NO_RUN, &turns_object),
 };
 static const struct object rules_object = OBJECT(ceduo_regulation, rules_fields, "rules");
 
@@ -217,7 +213,7 @@ static const struct object groups_object = OBJECT(ceduo_stems, groups_fields, NU
 
 static const struct field trees_fields[] = {
     STEM_ROWS(REQUIRED),
-    GROUP("groups", NAMED(N_("groups")), SAME, 0, N_("trees kept in groups; per_ha still counts trees"), &groups_object),
+    GROUP("groups", N_("groups"), SAME, 0, &groups_object),
 };
 static const struct object trees_object = OBJECT(ceduo_stems, trees_fields, NULL);
 
@@ -229,7 +225,7 @@ static const struct field stumps_fields[] = {
     NUMBER("height_m", USUAL(N_("height, m"), 0.02, 2), AT(ceduo_stumps, height), "m", 0, 20, ABOVE, NULL,
            N_("height of a stump: a rock higher above the ground flies over")),
     NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), 0, 500), AT(ceduo_stumps, energy), "kJ", 1000, 0, 1e6, 0, NULL,
-        N_("energy that a hit of a stump takes from the rock")),
+        N_("energy that a hit takes from the rock")),
 };
 static const struct object stumps_object = OBJECT(ceduo_stumps, stumps_fields, NULL);
 
@@ -241,7 +237,7 @@ static const struct field logs_fields[] = {
     NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2), AT(ceduo_logs, diameter), "m", 0, 10, ABOVE, NULL,
            N_("diameter of a log: a rock higher above the ground flies over")),
     NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), 0, 500), AT(ceduo_logs, energy), "kJ", 1000, 0, 1e6, 0, NULL,
-        N_("energy that a hit of a log takes from the rock")),
+        N_("energy that a hit takes from the rock")),
 };
 static const struct object logs_object = OBJECT(ceduo_logs, logs_fields, NULL);
 
@@ -301,8 +297,8 @@ static const struct field curve_fields[] = {
 static const struct object curve_object = OBJECT(ceduo_curve, curve_fields, NULL);
 
 static const struct field growth_fields[] = {
-    GROUP("shoots", NAMED(N_("shoots")), AT(ceduo_growth, shoots), 0, N_("growth"), &curve_object),
-    GROUP("trees", NAMED(N_("trees")), AT(ceduo_growth, trees), 0, N_("growth"), &curve_object),
+    GROUP("shoots", N_("shoots"), AT(ceduo_growth, shoots), 0, &curve_object),
+    GROUP("trees", N_("trees"), AT(ceduo_growth, trees), 0, &curve_object),
     NUMBER("shoots_young", NAMED(N_("shoots when young")), AT(ceduo_growth, shoots_young), "", 1, 1000, ZERO | YEARS, NULL,
            N_("shoots that come up on a stool after a cut")),
     NUMBER("shoots_old", NAMED(N_("shoots when old")), AT(ceduo_growth, shoots_old), "", 1, 1000, ZERO | YEARS, NULL,
@@ -339,19 +335,15 @@ static const struct field stand_fields[] = {
          N_("silvicultural system; without it derived from the stems"), &ceduo_system_words),
     WORD("species", NAMED(N_("species")), AT(ceduo_stand, species), YEARS, NULL,
          N_("main species: volume of its stems and work of breaking"), &ceduo_species_words),
-    GROUP("stools", NAMED(N_("stools")), SAME, 0, N_("stools"), &stools_object),
-    ITEMS("shoots", NAMED(N_("shoots")), LIST(ceduo_stand, shoots, shoots_count), 0, N_("cohorts of shoots on the stools"),
-          &stems_object),
-    ITEMS("trees", NAMED(N_("trees")), LIST(ceduo_stand, trees, trees_count), 0,
-          N_("classes of single trees: standards, reserves"), &trees_object),
-    GROUP("stumps", NAMED(N_("stumps")), AT(ceduo_stand, stumps), 0, N_("stumps that a cut leaves"), &stumps_object),
-    GROUP("logs", NAMED(N_("logs")), AT(ceduo_stand, logs), 0, N_("logs that lie about"), &logs_object),
-    GROUP("energy", NAMED(N_("energy")), SAME, 0, N_("energy of a contact"), &energy_object),
-    GROUP("growth", NAMED(N_("growth")), AT(ceduo_stand, growth), 0, N_("how it grows; without it the stand stays as it is"),
-          &growth_object),
-    GROUP("cutting", NAMED(N_("cutting")), SAME, 0, N_("how it is cut; without it never"), &cutting_object),
-    ITEMS("doubt", NAMED(N_("doubt")), NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED,
-          N_("what is not known of the stand, for --sensitivity; paths begin at the stand: stools.per_ha"), &doubt_object),
+    GROUP("stools", N_("stools"), SAME, 0, &stools_object),
+    ITEMS("shoots", N_("shoots"), LIST(ceduo_stand, shoots, shoots_count), 0, &stems_object),
+    ITEMS("trees", N_("trees"), LIST(ceduo_stand, trees, trees_count), 0, &trees_object),
+    GROUP("stumps", N_("stumps"), AT(ceduo_stand, stumps), 0, &stumps_object),
+    GROUP("logs", N_("logs"), AT(ceduo_stand, logs), 0, &logs_object),
+    GROUP("energy", N_("energy"), SAME, 0, &energy_object),
+    GROUP("growth", N_("growth"), AT(ceduo_stand, growth), 0, &growth_object),
+    GROUP("cutting", N_("cutting"), SAME, 0, &cutting_object),
+    ITEMS("doubt", N_("doubt"), NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED, &doubt_object),
 };
 static const struct object stand_object = OBJECT(ceduo_stand, stand_fields, "stands");
 
@@ -364,16 +356,15 @@ static const struct field belt_fields[] = {
            NULL, N_("where the belt ends")),
     NUMBER("cut_year", BRIEF(N_("cut in year"), N_("cut year")), AT(ceduo_belt, cut_year), "y", -1000, 1000, YEARS, NULL,
            N_("a year in which it is cut, counted from the stand as filed; without it as soon as it is old enough")),
-    GROUP("stand", BRIEF(N_("stand"), NP_("head", "stand")), AT(ceduo_belt, stand), REQUIRED | FIELD_FOLLOWS,
-          N_("a file, or what such a file holds"), &stand_object),
+    GROUP_SAID("stand", BRIEF(N_("stand"), NP_("head", "stand")), AT(ceduo_belt, stand), REQUIRED | FIELD_FOLLOWS,
+               N_("a file, or what such a file holds"), &stand_object),
 };
 static const struct object belt_object = OBJECT(ceduo_belt, belt_fields, NULL);
 
 static const struct field option_fields[] = {
     TEXT("name", NAMED(N_("name")), AT(ceduo_option, name_given), REQUIRED | NO_RUN, N_("its name")),
     NAME_IT(AT(ceduo_option, name), 0),
-    ITEMS("forest", NAMED(N_("belt")), LIST(ceduo_option, belts, belts_count), 0, N_("belts of forest, rising along x"),
-          &belt_object),
+    ITEMS("forest", N_("belt"), LIST(ceduo_option, belts, belts_count), 0, &belt_object),
 };
 static const struct object option_object = OBJECT(ceduo_option, option_fields, NULL);
 
@@ -466,41 +457,31 @@ static const struct field scene_fields[] = {
     TAG("scene/1"),
     TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), NO_RUN, N_("its title")),
     TEXT("title_it", NAMED(N_("in Italian")), AT(scene_draft, scene.title_it), NO_RUN,
-         N_("the same in Italian pages, screens and lists")),
-    GROUP("page", NAMED(N_("head of the report")), AT(scene_draft, scene.page), NO_RUN,
-          N_("what stands at the head of a report; all of it may be left out"), &page_object),
-    GROUP("rock", NAMED(N_("rock")), AT(scene_draft, scene.rock), REQUIRED, N_("rock"), &ceduo_rock_object),
-    ITEMS("blocks", NAMED(N_("blocks that come down")), LIST(scene_draft, scene.blocks, scene.blocks_count), FIELD_OR_ONE,
-          N_("sizes of the blocks that come down and how many a year; of one class, a mapping instead of the list"),
-          &block_object),
-    GROUP("release", NAMED(N_("release")), AT(scene_draft, scene.release), 0, N_("how the rock starts"), &ceduo_release_object),
-    GROUP("slope", NAMED(N_("slope")), AT(scene_draft, scene.slope), REQUIRED | FIELD_FOLLOWS,
-          N_("a file, or what such a file holds"), &slope_object),
-    ITEMS("controls", NAMED(N_("control")), LIST(scene_draft, scene.controls, scene.controls_count), 0,
-          N_("places where passing rocks are counted"), &control_object),
+         N_("the same in Italian pages, screens and lists; without it in English")),
+    GROUP("page", N_("head of the report"), AT(scene_draft, scene.page), NO_RUN, &page_object),
+    GROUP_SAID("rock", NAMED(N_("rock")), AT(scene_draft, scene.rock), REQUIRED, N_("rock"), &ceduo_rock_object),
+    ITEMS_SAID("blocks", NAMED(N_("blocks that come down")), LIST(scene_draft, scene.blocks, scene.blocks_count), FIELD_OR_ONE,
+               N_("sizes of the blocks that come down and how many a year; of one class, a mapping instead of the list"),
+               &block_object),
+    GROUP("release", N_("release"), AT(scene_draft, scene.release), 0, &ceduo_release_object),
+    GROUP_SAID("slope", NAMED(N_("slope")), AT(scene_draft, scene.slope), REQUIRED | FIELD_FOLLOWS,
+               N_("a file, or what such a file holds"), &slope_object),
+    ITEMS("controls", N_("control"), LIST(scene_draft, scene.controls, scene.controls_count), 0, &control_object),
     NUM(FIELD_NUMBERS, "controls_m", NAMED(N_("counted at, m")), LIST(scene_draft, controls_m, controls_m_count), "m", 1, -FAR,
         FAR, FIELD_DRAFT, NULL, N_("the same by their x alone")),
-    ITEMS("forest", NAMED(N_("belt")), LIST(scene_draft, belts, belts_count), FIELD_DRAFT | FIELD_WOOD,
-          N_("belts of forest, rising along x"), &belt_object),
-    ITEMS("options", NAMED(N_("option")), LIST(scene_draft, scene.options, scene.options_count), FIELD_WOOD,
-          N_("silvicultural options to compare, instead of forest; the first is the baseline"), &option_object),
-    GROUP("simulation", NAMED(N_("simulation")), AT(scene_draft, scene.simulation), 0, N_("how the scene is computed"),
-          &simulation_object),
+    ITEMS("forest", N_("belt"), LIST(scene_draft, belts, belts_count), FIELD_DRAFT | FIELD_WOOD, &belt_object),
+    ITEMS("options", N_("option"), LIST(scene_draft, scene.options, scene.options_count), FIELD_WOOD, &option_object),
+    GROUP("simulation", N_("simulation"), AT(scene_draft, scene.simulation), 0, &simulation_object),
     NUMBER("rocks_per_year", NAMED(N_("rocks per year")), AT(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, NO_RUN, NULL,
            N_("rocks that come down in a year, to print how many to expect")),
-    ITEMS("doubt", NAMED(N_("doubt")), LIST(scene_draft, doubts, doubts_count),
-          FIELD_DRAFT | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED,
-          N_("what is not known, for --sensitivity; values that are marked as assumed have ranges of their own; none: nothing"),
+    ITEMS("doubt", N_("doubt"), LIST(scene_draft, doubts, doubts_count), FIELD_DRAFT | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED,
           &doubt_object),
-    ITEMS("observed", NAMED(N_("seen")), LIST(scene_draft, observed, observed_count), FIELD_DRAFT | NO_RUN | FIELD_SETTLED,
-          N_("what was seen of real rocks, for --calibrate; each row is of one kind"), &ceduo_observed_object),
-    GROUP("design", NAMED(N_("design values")), AT(scene_draft, scene.design), 0, N_("prints the design values of UNI 11211-4"),
-          &design_object),
-    GROUP("minimum", NAMED(N_("minimum")), SAME, 0, N_("what a forest must keep"), &minimum_object),
-    GROUP("rules", NAMED(N_("rules")), AT(scene_draft, scene.rules), FIELD_FOLLOWS | NO_RUN,
-          N_("what the forest regulation asks: a file, or what such a file holds"), &rules_object),
-    GROUP("years", NAMED(N_("years")), SAME, FIELD_SETTLED,
-          N_("years to look at; the default is one whole rotation of each option after its first cut"), &window_object),
+    ITEMS("observed", N_("seen"), LIST(scene_draft, observed, observed_count), FIELD_DRAFT | NO_RUN | FIELD_SETTLED,
+          &ceduo_observed_object),
+    GROUP("design", N_("design values"), AT(scene_draft, scene.design), 0, &design_object),
+    GROUP("minimum", N_("minimum"), SAME, 0, &minimum_object),
+    GROUP("rules", N_("rules"), AT(scene_draft, scene.rules), FIELD_FOLLOWS | NO_RUN, &rules_object),
+    GROUP("years", N_("years"), SAME, FIELD_SETTLED, &window_object),
 };
 static const struct object scene_object = OBJECT(scene_draft, scene_fields, "scenes");
 

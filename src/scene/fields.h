@@ -49,10 +49,15 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
     ROW(key, kind, at, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(kind, flags), value, meaning, choices, object, says)
 #define WORD(key, says, at, flags, value, meaning, choices)                                                                    \
     ROW(key, FIELD_CHOICE, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, NULL, says)
-#define GROUP(key, says, at, flags, meaning, object)                                                                           \
+/* A mapping, a list of mappings: the label is its meaning, unless a message or popup says more of it. */
+#define GROUP_SAID(key, says, at, flags, meaning, object)                                                                      \
     ROW(key, FIELD_GROUP, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says)
-#define ITEMS(key, says, at, flags, meaning, object)                                                                           \
+#define ITEMS_SAID(key, says, at, flags, meaning, object)                                                                      \
     ROW(key, FIELD_LIST, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says)
+#define GROUP(key, label, at, flags, object)                                                                                   \
+    ROW(key, FIELD_GROUP, at, "", 1, -INFINITY, INFINITY, flags, NULL, label, NULL, object, NAMED(label))
+#define ITEMS(key, label, at, flags, object)                                                                                   \
+    ROW(key, FIELD_LIST, at, "", 1, -INFINITY, INFINITY, flags, NULL, label, NULL, object, NAMED(label))
 #define TEXT(key, says, at, flags, meaning)                                                                                    \
     ROW(key, FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(FIELD_TEXT, flags), NULL, meaning, NULL, NULL, says)
 #define TAG(value)                                                                                                             \

@@ -60,8 +60,8 @@ static const struct field sample_fields[] = {
 static const struct object sample_object = OBJECT(observed_values, sample_fields, NULL);
 
 static const struct field largest_fields[] = {
-    GROUP("speed_m_s", NAMED(N_("largest speed")), OF_KIND(LARGEST_SPEED), 0, N_("largest speed"), &sample_object),
-    GROUP("height_m", NAMED(N_("largest height")), OF_KIND(LARGEST_HEIGHT), 0, N_("largest height"), &sample_object),
+    GROUP("speed_m_s", N_("largest speed"), OF_KIND(LARGEST_SPEED), 0, &sample_object),
+    GROUP("height_m", N_("largest height"), OF_KIND(LARGEST_HEIGHT), 0, &sample_object),
 };
 static const struct object largest_object = OBJECT(observed, largest_fields, NULL);
 
@@ -70,16 +70,16 @@ static const struct field way_fields[] = {
            N_("where it begins")),
     NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), AT(observed, way_to), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
            N_("where it ends")),
-    GROUP("speed_m_s", NAMED(N_("mean speed")), OF_KIND(WAY_SPEED), 0, N_("mean speed"), &sample_object),
-    GROUP("height_m", NAMED(N_("mean height")), OF_KIND(WAY_HEIGHT), 0, N_("mean height"), &sample_object),
-    GROUP("energy_kJ", NAMED(N_("mean energy")), OF_KIND(WAY_ENERGY), 0, N_("mean energy"), &sample_object),
+    GROUP("speed_m_s", N_("mean speed"), OF_KIND(WAY_SPEED), 0, &sample_object),
+    GROUP("height_m", N_("mean height"), OF_KIND(WAY_HEIGHT), 0, &sample_object),
+    GROUP("energy_kJ", N_("mean energy"), OF_KIND(WAY_ENERGY), 0, &sample_object),
 };
 static const struct object way_object = OBJECT(observed, way_fields, NULL);
 
 static const struct field scars_fields[] = {
     POSITION("from_m", N_("from, m"), from, REQUIRED, N_("where it begins")),
     POSITION("to_m", N_("to, m"), to, REQUIRED, N_("where it ends")),
-    VALUES("height_m", N_("heights"), N_("heights of the middles of scars above the ground")),
+    VALUES("height_m", N_("height"), N_("heights of the middles of scars above the ground")),
     TABLE,
     RELEASED,
     NUMBER("share_seen", NAMED(N_("share seen")), AT(observed_values, share_seen), "", 0, 1, ABOVE | NO_RUN, NULL,
@@ -90,22 +90,22 @@ ASKED_AT_ONCE(scars_fields);
 
 static const struct field observed_fields[] = {
     TEXT("name", NAMED(N_("name")), AT(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
-    TEXT("name_it", NAMED(N_("in Italian")), AT(observed, name_it), NO_RUN, N_("the same in Italian pages, screens and lists")),
+    TEXT("name_it", NAMED(N_("in Italian")), AT(observed, name_it), NO_RUN,
+         N_("the same in Italian pages, screens and lists; without it in English")),
     WORD("use", NAMED(N_("use")), AT(observed, use), NO_RUN, "fit",
          N_("whether the ground is fitted to it, or it only checks the fit"), &ceduo_use_words),
     TEXT("option", NAMED(N_("option")), AT(observed, option), NO_RUN, N_("the option that stood there; without it the first")),
-    GROUP("rock", NAMED(N_("rock")), AT(observed, rock), 0, N_("how it differs from the scene's"), &ceduo_rock_object),
-    GROUP("release", NAMED(N_("release")), AT(observed, release), 0, N_("how it differs from the scene's"),
-          &ceduo_release_object),
-    GROUP("stops", NAMED(N_("stops")), OF_KIND(STOPS), 0, N_("where rocks stopped"), &stops_object),
-    GROUP("passed", NAMED(N_("passed")), OF_KIND(PASSED), 0, N_("how many passed a place"), &passed_object),
-    GROUP("speed", NAMED(N_("speed")), OF_KIND(SPEED), 0, N_("speed of those that passed a place, m/s"), &crossing_object),
-    GROUP("height", NAMED(N_("height")), OF_KIND(HEIGHT), 0, N_("height of their underside above the ground there, m"),
-          &crossing_object),
-    GROUP("energy", NAMED(N_("energy")), OF_KIND(ENERGY), 0, N_("their energy there, kJ"), &crossing_object),
-    GROUP("largest", NAMED(N_("largest")), SAME, 0, N_("largest value of each rock on its way"), &largest_object),
-    GROUP("on_the_way", NAMED(N_("on the way")), SAME, 0, N_("mean of each rock along a stretch, metre by metre"), &way_object),
-    GROUP("scars", NAMED(N_("scars")), OF_KIND(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
+    GROUP("rock", N_("rock"), AT(observed, rock), 0, &ceduo_rock_object),
+    GROUP("release", N_("release"), AT(observed, release), 0, &ceduo_release_object),
+    GROUP_SAID("stops", NAMED(N_("stops")), OF_KIND(STOPS), 0, N_("where rocks stopped"), &stops_object),
+    GROUP_SAID("passed", NAMED(N_("passed")), OF_KIND(PASSED), 0, N_("how many passed a place"), &passed_object),
+    GROUP_SAID("speed", NAMED(N_("speed")), OF_KIND(SPEED), 0, N_("speed of those that passed a place, m/s"), &crossing_object),
+    GROUP_SAID("height", NAMED(N_("height")), OF_KIND(HEIGHT), 0, N_("height of their underside above the ground there, m"),
+               &crossing_object),
+    GROUP_SAID("energy", NAMED(N_("energy")), OF_KIND(ENERGY), 0, N_("their energy there, kJ"), &crossing_object),
+    GROUP("largest", N_("largest"), SAME, 0, &largest_object),
+    GROUP("on_the_way", N_("on the way"), SAME, 0, &way_object),
+    GROUP_SAID("scars", NAMED(N_("scars")), OF_KIND(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
 };
 const struct object ceduo_observed_object = OBJECT(observed, observed_fields, NULL);
 

@@ -36,33 +36,16 @@
     X(N_("pavement-v4"), "asfalto-v4", N_("smooth hard surfaces and paving"), 0.80, 0.60, 1.00, 0.95, 0.90, 1.00, PAVED,       \
       false, CRSP4)
 
-static const struct ceduo_material materials[] = {
-#define X(name, also, ...) {name, __VA_ARGS__},
-    MATERIALS(X)
-#undef X
-};
-
-static const char *const names[] = {
-#define X(name, ...) name,
-    MATERIALS(X)
-#undef X
-};
-
-static const char *const also[] = {
-#define X(name, also, ...) name "|" also,
-    MATERIALS(X)
-#undef X
-};
-
-const struct choices ceduo_material_words = {names, sizeof names / sizeof names[0], also};
+#define ALSO(name, also, ...) name "|" also,
+LIBRARY(material, MATERIALS, ALSO);
 
 const struct ceduo_material *ceduo_materials(size_t *count)
 {
     *count = ceduo_material_words.n;
-    return materials;
+    return material_rows;
 }
 
 const struct ceduo_material *ceduo_material_talus(void)
 {
-    return &materials[ceduo_choice_find(&ceduo_material_words, "talus")];
+    return &material_rows[ceduo_choice_find(&ceduo_material_words, "talus")];
 }

@@ -14,8 +14,6 @@
 #define COUNTS N_("shoots counted on stools of known age")
 #define PULLED N_("pulling tests on such stems")
 
-#define FULL_SCALE N_("full-scale tests on such stems")
-
 #define SEGMENT "slope.segments[0]."
 #define STAND   "forest[0].stand."
 #define STEMS   "forest[0].stand.trees[0]."
@@ -25,6 +23,13 @@
 #define ROW(of_kind, of_path, from, to, from_source, by)                                                                       \
     {                                                                                                                          \
         .path = of_path, .kind = CEDUO_INPUT_##of_kind, .lo = from, .hi = to, .source = from_source, .measured = by            \
+    }
+
+/* A word that only research decides, or dorren. */
+#define ROW_WORDS(of_path, word, from_source)                                                                                  \
+    {                                                                                                                          \
+        .path = of_path, .kind = CEDUO_INPUT_WORDS, .lo = NAN, .hi = NAN, .words = {word, "dorren"}, .source = from_source,    \
+        .measured = N_("full-scale tests on such stems"), .research = true                                                     \
     }
 
 static const struct range ranges[] = {
@@ -54,22 +59,8 @@ static const struct range ranges[] = {
     ROW(FACTOR, GROWTH "shoots_old", 0.75, 1.25, ASSUMED, COUNTS),
     ROW(FACTOR, GROWTH "sdi_most", 0.8, 1.2, ASSUMED, N_("plots of full stands of this kind")),
     ROW(FACTOR, GROWTH "trees_sdi_most", 0.5, 2, ASSUMED, N_("plots of full stands of this kind")),
-    {.path = STAND "energy.model",
-     .kind = CEDUO_INPUT_WORDS,
-     .lo = NAN,
-     .hi = NAN,
-     .words = {"brauner", "dorren"},
-     .source = N_("two published laws (Brauner et al. 2005; Dorren et al. 2006)"),
-     .measured = FULL_SCALE,
-     .research = true},
-    {.path = STAND "energy.offset",
-     .kind = CEDUO_INPUT_WORDS,
-     .lo = NAN,
-     .hi = NAN,
-     .words = {"whole", "dorren"},
-     .source = N_("two published choices (Ciabocco et al. 2009; Dorren et al. 2006)"),
-     .measured = FULL_SCALE,
-     .research = true},
+    ROW_WORDS(STAND "energy.model", "brauner", N_("two published laws (Brauner et al. 2005; Dorren et al. 2006)")),
+    ROW_WORDS(STAND "energy.offset", "whole", N_("two published choices (Ciabocco et al. 2009; Dorren et al. 2006)")),
 };
 
 const struct range *ceduo_ranges(size_t *n)

@@ -115,3 +115,20 @@ size_t ceduo_scene_last_control(const struct ceduo_scene *scene)
             last = c;
     return last;
 }
+
+const char *ceduo_status_text(enum ceduo_status status)
+{
+    switch (status) {
+#define X(NAME, text)                                                                                                          \
+    case CEDUO_##NAME:                                                                                                         \
+        return text;
+        CEDUO_STATUSES(X)
+#undef X
+    }
+    return "unknown status";
+}
+
+const char *ceduo_version(void)
+{
+    return CEDUO_VERSION;
+}

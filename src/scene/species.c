@@ -31,30 +31,13 @@
       false, 2.7)                                                                                                              \
     X("picea-abies", "abete rosso|peccio|fichte", N_("spruce"), -9.1298, 0.034866, 1.4633, 5, 40, 6, 70, U_SPRUCE, true, 0.9)
 
-static const struct ceduo_species species[] = {
-#define X(name, also, ...) {name, __VA_ARGS__},
-    SPECIES(X)
-#undef X
-};
-
-static const char *const names[] = {
-#define X(name, ...) name,
-    SPECIES(X)
-#undef X
-};
-
-static const char *const also[] = {
-#define X(name, also, common, ...) name "|" also "|" common,
-    SPECIES(X)
-#undef X
-};
-
-const struct choices ceduo_species_words = {names, sizeof names / sizeof names[0], also};
+#define ALSO(name, also, common, ...) name "|" also "|" common,
+LIBRARY(species, SPECIES, ALSO);
 
 const struct ceduo_species *ceduo_species_list(size_t *count)
 {
     *count = ceduo_species_words.n;
-    return species;
+    return species_rows;
 }
 
 int ceduo_species_find(const char *name)
@@ -66,13 +49,13 @@ double ceduo_stand_u(const struct ceduo_stand *stand)
 {
     if (!isnan(stand->u))
         return stand->u;
-    return stand->species >= 0 ? species[stand->species].u : U_BEECH;
+    return stand->species >= 0 ? species_rows[stand->species].u : U_BEECH;
 }
 
 double ceduo_stand_fracture_ratio(const struct ceduo_stand *stand)
 {
     double ratio = stand->fracture_ratio;
     if (isnan(ratio) && stand->species >= 0)
-        ratio = species[stand->species].fracture_ratio;
+        ratio = species_rows[stand->species].fracture_ratio;
     return isnan(ratio) ? 1 : ratio;
 }

@@ -366,17 +366,11 @@ static bool wants_more(const struct rows *r)
 
 /* ---- the scene as it is ---- */
 
-static void set_sampling(struct ceduo_doubt_figure *f, double value, double lo, double hi)
+static void set_sampling(struct ceduo_doubt_figure *f, struct ceduo_estimate estimate)
 {
-    f->value = value;
-    f->sampling_lo = lo;
-    f->sampling_hi = hi;
-}
-
-static void set_difference(struct ceduo_doubt_figure *f, struct ceduo_paired d)
-{
-    double half = d.below > 0 ? d.below : CEDUO_Z95 * d.se;
-    set_sampling(f, d.mean, d.mean - half, d.mean + half);
+    f->value = estimate.mean;
+    f->sampling_lo = estimate.lo;
+    f->sampling_hi = estimate.hi;
 }
 
 static void set_years(const struct rows *r, struct ceduo_years *const *years, bool judges)
@@ -389,22 +383,26 @@ static void set_years(const struct rows *r, struct ceduo_years *const *years, bo
         struct ceduo_years_summary s = ceduo_years_sum(years[i], control);
         struct ceduo_doubt_figure *f = &answer->figures[i * CEDUO_DOUBT_KINDS],
                                   *d = &answer->figures[figure_at(options, i, CEDUO_DOUBT_REACH, i > 0)];
-        struct ceduo_paired mean = judges ? s.exceed : s.reach;
-        double counts[3] = {0}, half = CEDUO_Z95 * mean.se;
-        set_sampling(&f[CEDUO_DOUBT_MEAN], mean.mean, fmax(0, mean.mean - half), fmin(1, mean.mean + half));
+        struct ceduo_estimate mean = judges ? s.exceed : s.reach;
+        double counts[3] = {0};
+        mean = ceduo_estimate_by_se(mean.mean, mean.se);
+        mean.lo = fmax(0, mean.lo);
+        mean.hi = fmin(1, mean.hi);
+        set_sampling(&f[CEDUO_DOUBT_MEAN], mean);
         if (i > 0)
-            set_difference(&d[CEDUO_DOUBT_MEAN], ceduo_years_difference(years[i], years[0]));
+            set_sampling(&d[CEDUO_DOUBT_MEAN], ceduo_years_difference(years[i], years[0]));
         if (!judges)
             continue;
         for (size_t k = 0; k < years[i]->count; k++) { /* by the ends of their intervals, and by their shares */
             const struct ceduo_arrivals *a = &years[i]->years[k].wooded.arrivals[control];
-            counts[0] += each * (a->exceed_lo > a->limit);
-            counts[1] += each * (a->exceed_probability > a->limit);
-            counts[2] += each * (a->exceed_hi > a->limit);
+            counts[0] += each * (a->exceed.lo > a->limit);
+            counts[1] += each * (a->exceed.mean > a->limit);
+            counts[2] += each * (a->exceed.hi > a->limit);
         }
-        set_sampling(&f[CEDUO_DOUBT_FAILING], counts[1], counts[0], counts[2]);
+        set_sampling(&f[CEDUO_DOUBT_FAILING], (struct ceduo_estimate){counts[1], NAN, counts[0], counts[2]});
         if (i > 0)
-            set_sampling(&d[CEDUO_DOUBT_FAILING], counts[1] - first[1], counts[0] - first[2], counts[2] - first[0]);
+            set_sampling(&d[CEDUO_DOUBT_FAILING],
+                         (struct ceduo_estimate){counts[1] - first[1], NAN, counts[0] - first[2], counts[2] - first[0]});
         else
             memcpy(first, counts, sizeof first);
     }
@@ -432,24 +430,25 @@ static enum ceduo_status read_sampling(struct rows *rows)
         const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, i, r->last_control);
         const struct ceduo_arrivals *a = wooded ? wooded : &r->bare.arrivals[r->last_control];
         struct ceduo_doubt_figure *f = &answer->figures[i * CEDUO_DOUBT_KINDS];
-        set_sampling(&f[CEDUO_DOUBT_REACH], a->reach_probability, a->reach_lo, a->reach_hi);
-        set_sampling(&f[CEDUO_DOUBT_EXCEED], a->exceed_probability, a->exceed_lo, a->exceed_hi);
-        double half = ceduo_half_width(a->energy_per_released_se, a->released);
-        set_sampling(&f[CEDUO_DOUBT_ENERGY], a->energy_per_released, a->energy_per_released - half,
-                     a->energy_per_released + half);
+        set_sampling(&f[CEDUO_DOUBT_REACH], a->reach);
+        set_sampling(&f[CEDUO_DOUBT_EXCEED], a->exceed);
+        struct ceduo_estimate energy = a->energy_per_released;
+        double half = ceduo_half_width(energy.se, a->released);
+        set_sampling(&f[CEDUO_DOUBT_ENERGY],
+                     (struct ceduo_estimate){energy.mean, energy.se, energy.mean - half, energy.mean + half});
         if (i == 0)
             continue;
         f = &answer->figures[figure_at(options, i, CEDUO_DOUBT_REACH, true)];
         const struct ceduo_difference *d = &r->options[i].differences[r->last_control];
-        set_difference(&f[CEDUO_DOUBT_REACH], d->reach_probability);
-        set_difference(&f[CEDUO_DOUBT_EXCEED], d->exceed_probability);
-        set_difference(&f[CEDUO_DOUBT_ENERGY], d->energy_per_released);
+        set_sampling(&f[CEDUO_DOUBT_REACH], d->reach);
+        set_sampling(&f[CEDUO_DOUBT_EXCEED], d->exceed);
+        set_sampling(&f[CEDUO_DOUBT_ENERGY], d->energy_per_released);
     }
     if (status == CEDUO_OK) {
         bool judges = !isnan(answer->figures[CEDUO_DOUBT_EXCEED].value);
         answer->main = judges ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_ENERGY;
         rows->judged = judges ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_REACH;
-        rows->released = is->result->bare.arrivals[is->result->last_control].energy_per_released;
+        rows->released = is->result->bare.arrivals[is->result->last_control].energy_per_released.mean;
         if (rows->years)
             set_years(rows, is->years, judges);
     }
@@ -535,7 +534,7 @@ static enum ceduo_status open_answer(struct rows *r)
         struct ceduo_doubt_figure *f = &a->figures[a->figures_count];
         f->at = at + a->figures_count * n;
         f->order = order + a->figures_count * n;
-        set_sampling(f, NAN, NAN, NAN);
+        set_sampling(f, CEDUO_NO_ESTIMATE);
         f->fit.p5 = f->fit.p95 = NAN;
         for (size_t i = 0; i < n; i++)
             f->at[i][0] = f->at[i][1] = NAN;

@@ -65,8 +65,8 @@ static double value_at(enum ceduo_goal goal, const struct ceduo_index *index, co
     const struct ceduo_arrivals *arrivals = wooded ? wooded : bare;
     return goal == CEDUO_GOAL_ADC            ? index->worst_adc
            : goal == CEDUO_GOAL_FREE_RUN     ? index->worst_free_run
-           : ceduo_goal_needs_accepted(goal) ? arrivals->exceed_probability
-           : ceduo_goal_is_share(goal)       ? arrivals->reach_probability
+           : ceduo_goal_needs_accepted(goal) ? arrivals->exceed.mean
+           : ceduo_goal_is_share(goal)       ? arrivals->reach.mean
            : arrivals->reached == 0          ? 0 /* where no rock arrives all is well */
                                              : (wooded ? arrivals->energy.mean : index->residual) * 1e-3;
 }

@@ -63,12 +63,11 @@ const struct ceduo_observed_row *ceduo_observed_row(enum ceduo_observed_kind kin
 const struct ceduo_quantity_row *ceduo_observed_quantity(enum ceduo_observed_kind kind)
 {
     static const struct ceduo_quantity_row rows[] = {
-        [CEDUO_QUANTITY_PLACE] =
-            {"m", 1, {"x_m", "distance", "distanza", "progressiva", "dist", "chainage", "entfernung", "distanz", "x"}},
-        [CEDUO_QUANTITY_COUNT] = {"", 1, {NULL}},
-        [CEDUO_QUANTITY_SPEED] = {"m/s", 1, {"speed_m_s", "speed", "velocity", "velocit\xc3\xa0"}},
-        [CEDUO_QUANTITY_HEIGHT] = {"m", 1, {"height_m", "height", "altezza", "h"}},
-        [CEDUO_QUANTITY_ENERGY] = {"kJ", 1000, {"energy_kJ", "energy", "energia"}}};
+        [CEDUO_QUANTITY_PLACE] = {"m", 1, "x_m", "distance|distanza|progressiva|dist|chainage|entfernung|distanz|x"},
+        [CEDUO_QUANTITY_COUNT] = {"", 1, NULL, NULL},
+        [CEDUO_QUANTITY_SPEED] = {"m/s", 1, "speed_m_s", "speed|velocity|velocit\xc3\xa0"},
+        [CEDUO_QUANTITY_HEIGHT] = {"m", 1, "height_m", "height|altezza|h"},
+        [CEDUO_QUANTITY_ENERGY] = {"kJ", 1000, "energy_kJ", "energy|energia"}};
     return &rows[ceduo_observed_row(kind)->quantity];
 }
 
@@ -268,15 +267,14 @@ static double *values_of(const struct flown *f, const struct plan *p, size_t *n)
     for (size_t i = 0; values && of_blows && i < all; i++)
         if (on_stretch(&f->record.blows[i], p))
             values[(*n)++] = f->record.blows[i].height;
-    if (f->run && values)
-        ceduo_run_values(f->run, p->control,
-                         p->row->where == CEDUO_WHERE_AT_REST ? CEDUO_SAMPLE_STOP
-                         : quantity == CEDUO_QUANTITY_HEIGHT  ? CEDUO_SAMPLE_HEIGHT
-                         : quantity == CEDUO_QUANTITY_ENERGY  ? CEDUO_SAMPLE_ENERGY
-                                                              : CEDUO_SAMPLE_SPEED,
-                         values);
+    const double *samples = f->run ? ceduo_run_samples(f->run, p->control,
+                                                       p->row->where == CEDUO_WHERE_AT_REST ? CEDUO_SAMPLE_STOP
+                                                       : quantity == CEDUO_QUANTITY_HEIGHT  ? CEDUO_SAMPLE_HEIGHT
+                                                       : quantity == CEDUO_QUANTITY_ENERGY  ? CEDUO_SAMPLE_ENERGY
+                                                                                            : CEDUO_SAMPLE_SPEED)
+                                   : NULL;
     for (size_t i = 0; i < *n && !of_blows; i++) {
-        values[i] = f->run ? values[i] : of_record(f, i, p);
+        values[i] = samples ? samples[i] : of_record(f, i, p);
         if (p->row->where == CEDUO_WHERE_AT_REST && values[i] < p->seen->from)
             values[i] = NAN;
     }

@@ -89,47 +89,18 @@ static size_t place_cells(const struct ceduo_scene *scene, double *x)
 
 /* ---- one run ---- */
 
-#define FLOWN_MOST 4000 /* rocks simulated once more where a run is too long to keep its samples */
-
-static enum ceduo_status fly_energies(struct ceduo_follower *follower, struct tracer *tracer, struct ceduo_run_snapshot *s)
+static enum ceduo_status read_energies(const struct ceduo_run *run, struct ceduo_run_snapshot *s)
 {
-    const struct ceduo_watch watch = {.enough = is_cancelled, .context = tracer};
-    size_t controls = s->flown.controls;
-    uint64_t rocks = s->flown.rocks < FLOWN_MOST ? s->flown.rocks : FLOWN_MOST;
-    struct ceduo_crossing *crossings = calloc(controls + 1, sizeof *crossings);
-    enum ceduo_status status = crossings ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (uint64_t rock = 0; rock < rocks && status == CEDUO_OK; rock++) {
-        struct ceduo_trajectory way;
-        status = ceduo_follower_follow(follower, rock, &watch, &way, crossings);
-        for (size_t c = 0; c < controls && status == CEDUO_OK; c++) {
-            const struct ceduo_crossing *at = &crossings[c];
-            double energy =
-                0.5 * way.rock.mass * (at->vx * at->vx + at->vz * at->vz) + 0.5 * way.rock.moment * (at->spin * at->spin);
-            if (at->reached)
-                s->energies[c].values[s->energies[c].n++] = energy;
-        }
-    }
-    free(crossings);
-    return status;
-}
-
-static enum ceduo_status read_energies(struct ceduo_follower *follower, const struct ceduo_run *run, struct tracer *tracer,
-                                       struct ceduo_run_snapshot *s)
-{
-    bool kept = true;
     for (size_t c = 0; c < s->flown.controls; c++) {
         struct ceduo_energies *e = &s->energies[c];
         uint64_t reached = s->flown.arrivals[c].reached;
-        size_t most = reached < CEDUO_SNAPSHOT_SAMPLE ? (size_t)reached : CEDUO_SNAPSHOT_SAMPLE;
-        e->values = ceduo_arena_take(&s->memory, (most > FLOWN_MOST ? most : FLOWN_MOST) * sizeof *e->values);
+        size_t max = reached < CEDUO_SNAPSHOT_SAMPLE ? (size_t)reached : CEDUO_SNAPSHOT_SAMPLE;
+        e->values = ceduo_arena_take(&s->memory, (max + 1) * sizeof *e->values);
         if (!e->values)
             return CEDUO_NO_MEMORY;
-        e->n = ceduo_run_energies(run, c, e->values, most);
-        kept &= e->n > 0 || reached == 0;
+        e->n = ceduo_run_energies(run, c, e->values, max);
     }
-    for (size_t c = 0; c < s->flown.controls && !kept; c++)
-        s->energies[c].n = 0;
-    return kept ? CEDUO_OK : fly_energies(follower, tracer, s);
+    return CEDUO_OK;
 }
 
 static void let_go(struct ceduo_run_snapshot *s)
@@ -196,7 +167,7 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
     if (status == CEDUO_OK)
         status = read_envelopes(def, o, option, s);
     if (status == CEDUO_OK)
-        status = read_energies(follower, run, tracer, s);
+        status = read_energies(run, s);
     for (size_t i = 0; i < trajectories && status == CEDUO_OK; i++)
         status = trace(follower, i, tracer, &s->memory, &s->trajectories[s->trajectories_count++]);
     free(tracer);

@@ -10,40 +10,40 @@
 
 double ceduo_share_of(const struct ceduo_arrivals *arrivals)
 {
-    return isnan(arrivals->exceed_probability) ? arrivals->reach_probability : arrivals->exceed_probability;
+    return isnan(arrivals->exceed.mean) ? arrivals->reach.mean : arrivals->exceed.mean;
 }
 
-/* Half the interval lo to hi if rocks have weights, otherwise by the number of rocks. */
-static struct ceduo_portion portion_between(const struct ceduo_arrivals *a, double share, double lo, double hi)
+/* Half the interval if rocks have weights, otherwise by the number of rocks. */
+static struct ceduo_portion portion_of(const struct ceduo_arrivals *a, struct ceduo_estimate share)
 {
-    double half = isnan(a->hazard.per_year)
-                      ? ceduo_half_width_of_share(share, ceduo_share_se(share, (double)a->released), a->released)
-                      : (hi - lo) / 2;
-    return (struct ceduo_portion){share, half};
+    double p = share.mean, half = isnan(a->hazard.per_year)
+                                      ? ceduo_half_width_of_share(p, ceduo_share_se(p, (double)a->released), a->released)
+                                      : (share.hi - share.lo) / 2;
+    return (struct ceduo_portion){p, half};
 }
 
 struct ceduo_portion ceduo_share_arriving(const struct ceduo_arrivals *a)
 {
-    return a ? portion_between(a, a->reach_probability, a->reach_lo, a->reach_hi) : (struct ceduo_portion){NAN, NAN};
+    return a ? portion_of(a, a->reach) : (struct ceduo_portion){NAN, NAN};
 }
 
 struct ceduo_portion ceduo_share_exceeding(const struct ceduo_arrivals *a)
 {
-    return a ? portion_between(a, a->exceed_probability, a->exceed_lo, a->exceed_hi) : (struct ceduo_portion){NAN, NAN};
+    return a ? portion_of(a, a->exceed) : (struct ceduo_portion){NAN, NAN};
 }
 
 struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *a)
 {
-    return a && isnan(a->exceed_probability) ? ceduo_share_arriving(a) : ceduo_share_exceeding(a);
+    return a && isnan(a->exceed.mean) ? ceduo_share_arriving(a) : ceduo_share_exceeding(a);
 }
 
 /* The difference of what is compared. */
-static struct ceduo_paired compared(const struct ceduo_result *r, const struct ceduo_difference *d)
+static struct ceduo_estimate compared(const struct ceduo_result *r, const struct ceduo_difference *d)
 {
-    return isnan(r->scene->controls[r->last_control].accepted) ? d->reach_probability : d->exceed_probability;
+    return isnan(r->scene->controls[r->last_control].accepted) ? d->reach : d->exceed;
 }
 
-struct ceduo_paired ceduo_share_to_first(const struct ceduo_result *r, size_t option)
+struct ceduo_estimate ceduo_share_to_first(const struct ceduo_result *r, size_t option)
 {
     return compared(r, &r->options[option].differences[r->last_control]);
 }
@@ -51,11 +51,11 @@ struct ceduo_paired ceduo_share_to_first(const struct ceduo_result *r, size_t op
 /* ---- which is best ---- */
 
 /* A figure of one option less that of another, with its standard error. */
-typedef struct ceduo_paired difference_of(const void *context, size_t option, size_t less);
+typedef struct ceduo_estimate difference_of(const void *context, size_t option, size_t less);
 
 static bool is_clearly_worse(difference_of *difference, const void *context, size_t option, size_t than)
 {
-    struct ceduo_paired d = difference(context, option, than);
+    struct ceduo_estimate d = difference(context, option, than);
     return d.mean > CEDUO_CLEAR * d.se;
 }
 
@@ -72,30 +72,31 @@ static void find_best(difference_of *difference, const void *context, size_t n, 
 }
 
 /* One difference to the first option less another. Where no pair differs the error is not known: it is as good as 0. */
-static struct ceduo_paired beside_first(struct ceduo_paired a, struct ceduo_paired b)
+static struct ceduo_estimate beside_first(struct ceduo_estimate a, struct ceduo_estimate b)
 {
-    return (struct ceduo_paired){a.mean - b.mean, hypot(a.below > 0 ? 0 : a.se, b.below > 0 ? 0 : b.se), 0};
+    double se = hypot(ceduo_pairs_are_equal(&a) ? 0 : a.se, ceduo_pairs_are_equal(&b) ? 0 : b.se);
+    return (struct ceduo_estimate){a.mean - b.mean, se, NAN, NAN};
 }
 
 /* From the differences to the first option: the error of a difference of two of them is rather too large. */
-static struct ceduo_paired difference_today(const void *context, size_t option, size_t less)
+static struct ceduo_estimate difference_today(const void *context, size_t option, size_t less)
 {
-    struct ceduo_paired a = ceduo_share_to_first(context, option), b = ceduo_share_to_first(context, less);
+    struct ceduo_estimate a = ceduo_share_to_first(context, option), b = ceduo_share_to_first(context, less);
     return beside_first(a, b);
 }
 
-static struct ceduo_paired difference_by_other_law(const void *context, size_t option, size_t less)
+static struct ceduo_estimate difference_by_other_law(const void *context, size_t option, size_t less)
 {
     const struct ceduo_result *r = context;
     const struct ceduo_other_energy *one = &r->options[option].others[r->last_control];
     const struct ceduo_other_energy *two = &r->options[less].others[r->last_control];
     bool alike = one->known && two->known && (one->model == two->model || !one->stems || !two->stems);
     if (!alike)
-        return CEDUO_NOT_PAIRED;
+        return CEDUO_NO_ESTIMATE;
     return beside_first(compared(r, &one->to_first), compared(r, &two->to_first));
 }
 
-static struct ceduo_paired difference_over_years(const void *context, size_t option, size_t less)
+static struct ceduo_estimate difference_over_years(const void *context, size_t option, size_t less)
 {
     struct ceduo_years *const *years = context;
     return ceduo_years_difference(years[option], years[less]);
@@ -105,7 +106,7 @@ static struct ceduo_paired difference_over_years(const void *context, size_t opt
 
 struct ceduo_portion ceduo_share_over_years(const struct ceduo_years *years, const struct ceduo_years_summary *s)
 {
-    struct ceduo_paired mean = isnan(s->exceed.mean) ? s->reach : s->exceed;
+    struct ceduo_estimate mean = isnan(s->exceed.mean) ? s->reach : s->exceed;
     return (struct ceduo_portion){mean.mean, ceduo_half_width_of_share(mean.mean, mean.se, years->rocks)};
 }
 
@@ -180,7 +181,7 @@ static bool is_beaten(struct ceduo_years *const *years, const struct ceduo_verdi
 /* How many standard errors worse than `better` an option is. */
 static double errors_worse(difference_of *difference, const void *context, size_t option, size_t better)
 {
-    struct ceduo_paired d = difference(context, option, better);
+    struct ceduo_estimate d = difference(context, option, better);
     return d.mean / d.se;
 }
 
@@ -244,7 +245,7 @@ static enum ceduo_judgement judge_today(const struct ceduo_result *r, const stru
     if (judgement == CEDUO_NOTHING || judgement == CEDUO_UNANSWERED || !wooded || !doubt || control != r->last_control)
         return judgement;
     const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(doubt, option, CEDUO_DOUBT_EXCEED, false)->fit;
-    double share = wooded->exceed_probability; /* the range holds it */
+    double share = wooded->exceed.mean; /* the range holds it */
     return fmin(fit->p5, share) <= wooded->limit && fmax(fit->p95, share) > wooded->limit ? CEDUO_DEPENDS : judgement;
 }
 
@@ -295,7 +296,7 @@ struct ceduo_outcome ceduo_outcome_of(const struct ceduo_result *r, const struct
                               .today = today,
                               .ahead = s && s->simulated > 0 && c->window.kind != CEDUO_WINDOW_ALIKE,
                               .also_bare = ceduo_judge(&r->bare.arrivals[control], NULL) == CEDUO_YES,
-                              .rate = {NAN, NAN, NAN}};
+                              .rate = CEDUO_NO_ESTIMATE};
     bool years = last && doubt && doubt->rotation;
     if (today == CEDUO_UNANSWERED || today == CEDUO_NOTHING)
         return o;

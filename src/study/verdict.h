@@ -32,7 +32,7 @@ struct ceduo_portion ceduo_share_exceeding(const struct ceduo_arrivals *arrivals
 struct ceduo_portion ceduo_share_over_years(const struct ceduo_years *years, const struct ceduo_years_summary *summary);
 
 /* The same of an option less that of the first option; NaN also where the two have not as many rocks. */
-struct ceduo_paired ceduo_share_to_first(const struct ceduo_result *result, size_t option);
+struct ceduo_estimate ceduo_share_to_first(const struct ceduo_result *result, size_t option);
 
 /* What is known of one option. */
 struct ceduo_choice {
@@ -85,9 +85,9 @@ struct ceduo_outcome {
     bool also_bare;  /* the slope keeps within the limit without forest, today */
     bool impossible; /* a stand has more stems than a forest can hold: it supports no yes */
     double failing, failing_lo,
-        failing_hi;         /* years above the limit: 90 % range over uncertain inputs, otherwise of the rocks */
-    bool doubted;           /* the range is of uncertain inputs */
-    struct ceduo_rate rate; /* with blocks: a year, with both errors; otherwise NaN */
+        failing_hi;             /* years above the limit: 90 % range over uncertain inputs, otherwise of the rocks */
+    bool doubted;               /* the range is of uncertain inputs */
+    struct ceduo_estimate rate; /* with blocks: a year, with both errors; otherwise NaN */
 };
 
 /* Judge an option at a control. `verdict` may be NULL (today alone), and `doubt` NULL (sampling error alone).

@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"
 #include "base/utf8.h"
-#include "model/changes.h"
 #include "view/typed.h"
 
 /* ---- strings ---- */
@@ -206,33 +203,6 @@ void ceduo_app_follow_belt(struct app *app)
         ceduo_app_show_belt(app, row->index);
 }
 
-/* ---- the trajectory of a rock ---- */
-
-bool ceduo_app_follow_rock(struct app *app)
-{
-    uint64_t key = app->live.asked;
-    hash_count(&key, app->option);
-    bool good =
-        ceduo_rock_trajectory_follow(&app->trajectory, &app->document.file.scene, ceduo_app_option(app), key, app->rock);
-    if (!good)
-        ceduo_rock_trajectory_free(&app->trajectory);
-    return good;
-}
-
-void ceduo_app_next_rock(struct app *app, int by)
-{
-    app->rock = by > 0 || app->rock > 0 ? app->rock + (uint64_t)by : 0;
-    if (ceduo_app_follow_rock(app))
-        ceduo_app_step_rock(app, 0);
-}
-
-void ceduo_app_step_rock(struct app *app, int by)
-{
-    LOCAL_TEXT(text);
-    ceduo_rock_trajectory_step(&app->trajectory, by, &app->document.file.scene, &text);
-    ceduo_app_say(app, "%s", text.bytes);
-}
-
 /* ---- edits ---- */
 
 bool ceduo_app_edited(struct app *app, bool good)
@@ -253,14 +223,6 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
     if (good && said.length > 0)
         ceduo_app_say(app, "%s", said.bytes);
     return good;
-}
-
-void ceduo_app_search(struct app *app)
-{
-    if (ceduo_form_search(ceduo_app_form(app), app->search))
-        ceduo_app_state(app)->pane = 0;
-    else
-        ceduo_app_say(app, _("'%s' is not found in this view"), app->search);
 }
 
 /* ---- opening and closing ---- */
@@ -286,20 +248,36 @@ static void took_document(struct app *app, const struct problems *problems)
         say_problem(app, problems->warnings.bytes);
 }
 
+/* Replaces the document. The figures know the memory of the old one: they go first. False if no thread can be started. */
+static bool take_opened(struct app *app, struct document *next, unsigned threads, const struct problems *problems)
+{
+    struct live live;
+    if (!ceduo_live_create(&live, threads)) {
+        ceduo_document_close(next);
+        return false;
+    }
+    ceduo_live_free(&app->live);
+    ceduo_document_forget(&app->document);
+    ceduo_document_close(&app->document);
+    app->live = live;
+    app->document = *next;
+    took_document(app, problems);
+    return true;
+}
+
 bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
                       struct problems *problems)
 {
+    struct document document;
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
-    if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))
+    if (!ceduo_document_open(&document, path ? path : "paper-site", NULL, 0, problems))
         return false;
-    if (!ceduo_live_create(&app->live, threads)) { /* no thread */
-        problems->memory = true;
-        ceduo_document_close(&app->document);
-        return false;
-    }
     app->scratch = ceduo_must(calloc(1, sizeof *app->scratch));
-    took_document(app, problems);
-    return true;
+    if (take_opened(app, &document, threads, problems))
+        return true;
+    free(app->scratch);
+    problems->memory = true;
+    return false;
 }
 
 void ceduo_app_free(struct app *app)
@@ -316,24 +294,14 @@ void ceduo_app_free(struct app *app)
     *app = (struct app){0};
 }
 
-/* What was opened takes the place of this document, or the reason why not is shown. The figures know the old one's memory:
- * it is let go first. */
-static bool take_opened(struct app *app, struct document *next, bool good)
+/* Shows a document that was opened, or why it was not. */
+static bool show_opened(struct app *app, struct document *next, bool good)
 {
-    struct live live;
     if (!good) {
         say_problem(app, ceduo_text_string(&app->problems.text));
-    } else if (!ceduo_live_create(&live, app->live.threads)) { /* no thread */
-        ceduo_document_close(next);
+    } else if (!take_opened(app, next, app->live.threads, &app->problems)) {
         ceduo_app_warn(app, "%s", _("out of memory"));
         good = false;
-    } else {
-        ceduo_live_free(&app->live);
-        ceduo_document_forget(&app->document);
-        ceduo_document_close(&app->document);
-        app->live = live;
-        app->document = *next;
-        took_document(app, &app->problems);
     }
     ceduo_problems_free(&app->problems);
     return good;
@@ -342,13 +310,13 @@ static bool take_opened(struct app *app, struct document *next, bool good)
 bool ceduo_app_open(struct app *app, const char *path)
 {
     struct document next;
-    return take_opened(app, &next, ceduo_document_open(&next, path, &app->problems));
+    return show_opened(app, &next, ceduo_document_open(&next, path, NULL, 0, &app->problems));
 }
 
 bool ceduo_app_open_text(struct app *app, const char *text)
 {
     struct document next;
-    return take_opened(app, &next, ceduo_document_new(&next, text, &app->problems));
+    return show_opened(app, &next, ceduo_document_new(&next, text, &app->problems));
 }
 
 void ceduo_app_resize(struct app *app, int width, int height)

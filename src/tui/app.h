@@ -7,16 +7,13 @@
 #include "line.h"
 #include "model/document.h"
 #include "model/live.h"
-#include "rock_trajectory.h"
 #include "view/cells.h"
 #include "view/pane.h"
 #include "view/plot.h"
 #include "view/report.h"
-#include "view/report_doubt.h"
 
-/* The terminal program without a terminal: its state, and the calls that all its parts share. The parts stand on it in
- * layers: popups; editing of fields and lists; views; the screen, which draws them all; and the program, which handles
- * keys. The terminal shows the cells; a script dumps them. */
+/* The terminal program without a terminal: its state, and the calls that all its parts share. On it stand, in layers, popups,
+ * editing, views, the screen and the program. The terminal shows the cells; a script dumps them. */
 
 enum view_number {
 #define V(NAME, name, key, word, help) VIEW_##NAME,
@@ -74,6 +71,25 @@ struct place {
     double x; /* m, relative */
     int zoom; /* 2^zoom times as near as the whole slope */
     bool put; /* it was moved: x holds */
+};
+
+/* A piece of a trajectory: a flight, or a roll along the ground. */
+struct rock_piece {
+    struct ceduo_piece piece;
+    size_t stems; /* that it has come to, up to its end */
+};
+
+/* The trajectory of one rock, piece by piece. */
+struct rock_trajectory {
+    uint64_t key, rock; /* of the run and the rock that they were followed for */
+    size_t n, room, at; /* pieces; how many of them are shown, 0: all */
+    struct rock_piece *pieces;
+    struct ceduo_stem_passed *stems; /* that it comes to */
+    size_t stems_count, stems_room;
+    double begun;   /* s: when the following began */
+    bool cut_short; /* it took too long to be followed to its end */
+    struct ceduo_trajectory whole;
+    struct ceduo_polyline line; /* what is shown of it */
 };
 
 #define PICTURES_MAX 3
@@ -170,20 +186,21 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report);
 /* What a pane of so many lines shows, until the next key. */
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height);
 
-/* The path of the forest of the option shown, "forest" or "options[2].forest"; of the stand of the belt shown. Until the next
- * key. */
+/* Path of the forest of the option shown, "options[2].forest"; of the stand of the belt shown. Until the next key. */
 const char *ceduo_app_forest(const struct app *app);
 const char *ceduo_app_stand(const struct app *app);
 const struct ceduo_option *ceduo_app_option(const struct app *app);
 
-/* What arrives at the last control in the column on the right: through the forest of the option shown, by the index on
- * the bare slope; NULL before the first rocks. */
+/* Arrivals of the column on the right: through the forest of the option shown, by the index on the bare slope. NULL before the
+ * first rocks. */
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app);
 
 void ceduo_app_show_belt(struct app *app, size_t belt);
 
 /* Shows the belt that the cursor of the form is on. */
 void ceduo_app_follow_belt(struct app *app);
+
+/* ---- the trajectory of a rock (rock_trajectory.c) ---- */
 
 /* Follows the rock that is shown through the forest of the option shown, unless that trajectory is there already. */
 bool ceduo_app_follow_rock(struct app *app);
@@ -192,13 +209,34 @@ bool ceduo_app_follow_rock(struct app *app);
 void ceduo_app_next_rock(struct app *app, int by);
 void ceduo_app_step_rock(struct app *app, int by);
 
-/* Moves the cursor of the form to the next line that holds what is searched for. */
-void ceduo_app_search(struct app *app);
+/* Number of stems on the part that is shown. */
+size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *trajectory);
+void ceduo_rock_trajectory_free(struct rock_trajectory *trajectory);
+
+/* ---- editing the field or the item under the cursor of the form (edit.c) ---- */
+
+/* Opens the field, as a line or with the list of its choices. */
+void ceduo_edit_start(struct app *app);
+/* Handles a key while the line is open. */
+void ceduo_edit_key(struct app *app, int key);
+/* Changes the value by one step up (+1) or down (-1). */
+void ceduo_edit_step(struct app *app, int direction);
+
+void ceduo_items_add(struct app *app);
+/* Splits item `index` of a list `at` a place along the slope, m as given, or adds a control there. */
+void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at);
+/* The stretch between points of the profile that holds x, both as the file of the slope has them. */
+size_t ceduo_items_stretch_of(const struct app *app, double x_written);
+/* Asks for a class of blocks, wherever the cursor is. */
+void ceduo_items_add_blocks(struct app *app);
+void ceduo_items_delete(struct app *app);
+void ceduo_items_duplicate(struct app *app);
+void ceduo_items_move(struct app *app, int by);
 
 /* ---- drawing ---- */
 
-/* Draws everything on app->cells (screen.c): titles of the views, the open view, the column of figures, the explanation of the
- * field under the cursor, the bar of keys, and the popup over them. */
+/* Draws everything on app->cells (screen.c): view titles, the view, figures, explanation of the field, keys, and the popup over
+ * them. */
 void ceduo_screen_draw(struct app *app);
 
 /* Returns the view whose title stands in this column of the top row; VIEW_COUNT if there is none. */
@@ -218,8 +256,8 @@ void ceduo_app_hint(struct app *app, const char *text);
 
 #define ALL_LINES 100000 /* a step of so many lines goes to the first or the last one */
 
-/* Number of lines above a viewport after a step of `by` lines. The number of all lines is known only when the text is drawn, and
- * several keys may come before that: lines from the end are counted as -1, -2, … until ceduo_scroll_clamp(). */
+/* Lines above a viewport after a step of `by` lines. Lines from the end are -1, -2, … until ceduo_scroll_clamp(): several keys
+ * may come before the text is drawn and its length known. */
 int ceduo_scroll_by(int scroll, int by);
 
 /* The same from 0 to `max`. */
@@ -228,7 +266,8 @@ int ceduo_scroll_clamp(int scroll, int max);
 /* Scrolls the view by so many lines. */
 void ceduo_app_read_on(struct app *app, int by);
 
-/* Draws a page from line `*scroll` on, limited to the page, and frees it; a mark stands to the right where more follows below. */
+/* Draws a page from line `*scroll` on, limited to the page, and frees it; a mark stands to the right where more follows
+ * below. */
 void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll);
 
 /* Draws a text, shortened to its area, and frees it. */

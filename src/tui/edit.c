@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The value of the field under the cursor. */
-#include "edit.h"
-
-#include <stdio.h>
+/* Edits the field under the cursor, and the items of the list there: belts, controls, segments, cohorts, classes. */
+#include <math.h>
 #include <string.h>
 
 #include "base/language.h"
-#include "io/emit.h"
+#include "ceduo/slope.h"
 #include "popup.h"
-#include "popups.h"
 #include "view/typed.h"
 
 static bool set_value(struct app *app, const struct form_cell *cell, const char *value)
@@ -82,4 +79,394 @@ void ceduo_edit_step(struct app *app, int direction)
         ceduo_app_say(app, "%s", _("the limit of its range"));
     else
         set_value(app, cell, value.bytes);
+}
+
+/* ==== items ==== */
+
+/* The item under the cursor, copied because each edit builds the form again. */
+struct item {
+    const char *list; /* path of its list */
+    const char *key;  /* last word of that path */
+    size_t index;
+    bool there;        /* false: the list is empty */
+    const char *group; /* that alone of it; NULL: all */
+    double at;         /* where along the slope, m, as given; NAN: in the middle of what is split */
+};
+
+static struct item item_of(const struct app *app, const char *list, size_t index)
+{
+    list = ceduo_app_format(app, "%s", list);
+    const char *dot = strrchr(list, '.');
+    return (struct item){.list = list, .key = dot ? dot + 1 : list, .index = index, .there = true, .at = NAN};
+}
+
+/* `there`: an item must be under the cursor, not the line of an empty list. */
+static bool find_item(struct app *app, struct item *item, bool there)
+{
+    const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
+    bool seen = row && row->list[0] && ceduo_app_state(app)->pane == 0;
+    if (!seen || (there && row->n == 0)) {
+        ceduo_app_say(app, "%s", _("this works on an item of a list: put the cursor on one"));
+        return false;
+    }
+    *item = item_of(app, row->list, row->index);
+    item->there = row->n > 0;
+    item->group = row->group;
+    return true;
+}
+
+/* ---- splitting ---- */
+
+/* The place at `list[index].key`; NaN where there is none. */
+static double place_of(const struct app *app, const struct item *item, size_t index, const char *key)
+{
+    const struct node *node = ceduo_document_node(&app->document, ceduo_app_format(app, "%s[%zu]", item->list, index));
+    return node ? ceduo_document_place(&app->document, ceduo_node_text(node, key)) : NAN;
+}
+
+/* Copies an item. `ends`: from_m and to_m of it, then of its copy; NaN: as they are. */
+static bool copy_with(struct app *app, const struct item *item, const double ends[4])
+{
+    struct changes c = {.document = &app->document};
+    for (size_t i = 0; i < 4; i++)
+        if (!isnan(ends[i]))
+            ceduo_changes_set(&c,
+                              ceduo_app_format(app, "%s[%zu].%s", item->list, item->index + i / 2, i % 2 ? "to_m" : "from_m"),
+                              "%.10g", ends[i]);
+    return ceduo_document_duplicate(&app->document, item->list, item->index, &c, &app->problems);
+}
+
+/* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */
+static bool split_stretch(struct app *app, const struct item *item)
+{
+    double middle = (place_of(app, item, item->index, "from_m") + place_of(app, item, item->index, "to_m")) / 2;
+    middle = isnan(item->at) ? middle : item->at;
+    return copy_with(app, item, (const double[]){NAN, middle, middle, NAN});
+}
+
+/* A point on a segment of the profile, `at` along the slope (NAN: in its middle). */
+static bool split_at(struct app *app, size_t segment, bool apart, double at)
+{
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    if (!vertices || segment + 1 >= vertices->n) {
+        ceduo_app_warn(app, "%s", _("the profile comes from a CSV file: its points are edited there"));
+        return false;
+    }
+    double x[2], z[2];
+    for (size_t i = 0; i < 2; i++) {
+        x[i] = ceduo_node_item_number(vertices->items[segment + i], 0);
+        z[i] = ceduo_node_item_number(vertices->items[segment + i], 1);
+    }
+    if (isnan(x[0] + x[1] + z[0] + z[1]))
+        return false;
+    double share = isnan(at) ? 0.5 : (at - x[0]) / (x[1] - x[0]);
+    const char *vertex =
+        ceduo_app_format(app, "[%.10g, %.10g]", isnan(at) ? (x[0] + x[1]) / 2 : at, z[0] + share * (z[1] - z[0]));
+    return ceduo_document_split_segment(&app->document, segment, vertex, apart, &app->problems);
+}
+
+size_t ceduo_items_stretch_of(const struct app *app, double x_written)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    size_t j = ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x);
+    if (!vertices) /* a CSV file */
+        return s->reversed ? s->vertices - 2 - j : j;
+    for (j = 0; j + 2 < vertices->n && x_written >= ceduo_node_item_number(vertices->items[j + 1], 0);)
+        j++;
+    return j;
+}
+
+/* A segment in two, each with a ground of its own; of one ground for all segments that in the middle of the slope. */
+static bool split_segment(struct app *app, const struct item *item)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
+    double at = isnan(item->at) ? s->origin_x + s->x[s->vertices - 1] / 2 : item->at;
+    size_t segment = segments && segments->n == 1 ? ceduo_items_stretch_of(app, at) : item->index;
+    return split_at(app, segment, true, item->at);
+}
+
+/* A point between this one and the next, or before the last. */
+static bool split_point(struct app *app, const struct item *item)
+{
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    bool last = vertices && item->index > 0 && item->index + 1 == vertices->n;
+    return split_at(app, item->index - last, false, item->at);
+}
+
+/* ---- adding ---- */
+
+static bool insert(struct app *app, const struct item *item, size_t index, const char *yaml)
+{
+    return ceduo_document_insert(&app->document, item->list, index, yaml, &app->problems);
+}
+
+#define BELT_MIN 0.5 /* m: a shorter belt is not added */
+
+/* A belt in two; on the end of a belt, a new one after it with the same stand, if there is room, down to the next control, the
+ * next belt or the end of the slope. */
+static bool add_belt(struct app *app, const struct item *item)
+{
+    const struct ceduo_scene *s = &app->document.file.scene;
+    const struct ceduo_option *o = ceduo_app_option(app);
+    size_t next = item->there ? item->index + 1 : 0;
+    double from = item->there ? o->belts[item->index].to : s->release.x.mean;
+    double to = next < o->belts_count ? o->belts[next].from : s->slope.x[s->slope.vertices - 1];
+    if (item->there && !(to - from > BELT_MIN && ceduo_app_form(app)->column == 1))
+        return split_stretch(app, item);
+    for (size_t i = 0; i < s->controls_count; i++)
+        to = s->controls[i].x - from > BELT_MIN ? fmin(to, s->controls[i].x) : to;
+    from += s->slope.origin_x;
+    to += s->slope.origin_x;
+    if (!item->there)
+        return insert(app, item, 0, ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to));
+    return copy_with(app, item, (const double[]){NAN, NAN, from, to});
+}
+
+/* Ground of the library, where none is said yet: that which was assumed. */
+static bool add_ground(struct app *app, const struct item *item)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    if (item->there)
+        return split_stretch(app, item);
+    return insert(app, item, 0,
+                  ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, material: %s}", s->origin_x,
+                                   s->origin_x + s->x[s->vertices - 1], ceduo_material_talus()->name));
+}
+
+static bool add_control(struct app *app, const struct item *item)
+{
+    const struct ceduo_scene *s = &app->document.file.scene;
+    double last = s->controls[0].x, end = s->slope.x[s->slope.vertices - 1];
+    for (size_t i = 1; i < s->controls_count; i++)
+        last = s->controls[i].x > last ? s->controls[i].x : last;
+    double start = s->release.x.mean + s->release.x.spread * 3;
+    double x = (last < end ? (last + end) / 2 : (start + s->controls[0].x) / 2) + s->slope.origin_x;
+    bool plain = strcmp(item->key, "controls_m") == 0;
+    x = isnan(item->at) ? x : item->at;
+    return insert(app, item, 1000000, plain ? ceduo_app_format(app, "%.6g", x) : ceduo_app_format(app, "{x_m: %.6g}", x));
+}
+
+static bool copy_item(struct app *app, const struct item *item)
+{
+    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, NULL, &app->problems);
+}
+
+/* A first cohort of shoots needs stools to stand on. */
+static bool add_shoots(struct app *app, const struct item *item)
+{
+    if (item->there)
+        return copy_item(app, item);
+    struct changes c = {.document = &app->document};
+    ceduo_changes_set(&c, ceduo_app_format(app, "%.*sstools", (int)(item->key - item->list), item->list),
+                      "{per_ha: 2500, spacing_m: 0.35}");
+    ceduo_changes_set(&c, item->list, "[{per_stool: 3, dbh_m: 0.07, height_m: 8}]");
+    return ceduo_changes_make(&c, item->list, &app->problems);
+}
+
+static bool add_trees(struct app *app, const struct item *item)
+{
+    return item->there ? copy_item(app, item) : insert(app, item, 0, "{per_ha: 60, dbh_m: 0.2, height_m: 12}");
+}
+
+/* A class of blocks larger than those there are, ten times as rare, is offered; where there are none, nothing is. */
+static bool ask_for_blocks(struct app *app, const struct item *item)
+{
+    const struct ceduo_scene *s = &app->document.file.scene;
+    const struct ceduo_block_class *largest = NULL;
+    for (size_t i = 0; i < s->blocks_count; i++)
+        if (s->blocks[i].volumes[1] > (largest ? largest->volumes[1] : 0))
+            largest = &s->blocks[i];
+    const char *const offered[] = {
+        largest ? ceduo_number_spoken(ceduo_app_format(app, "%.4g", largest->per_year / 10)) : "",
+        largest ? ceduo_number_spoken(ceduo_app_format(app, "%.10g %.10g", largest->volumes[1], 10 * largest->volumes[1]))
+                : ""};
+    ceduo_popup_item_of(app, item->list, NULL, offered, 2);
+    app->popup->title = _("A class of blocks that come down");
+    return false;
+}
+
+void ceduo_items_add_blocks(struct app *app)
+{
+    const struct item item = item_of(app, "blocks", 0);
+    ask_for_blocks(app, &item);
+}
+
+/* ---- deleting ---- */
+
+/* Deletes with it: the vertex of a segment, the next one unless it is the last; stools with their last shoots. The ground
+ * before it, or after the first, takes the place of a ground. */
+static bool delete_item(struct app *app, const struct item *item, const char *path)
+{
+    const struct node *list = ceduo_document_node(&app->document, item->list);
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    struct changes c = {.document = &app->document};
+    size_t n = list ? list->n : 0, index = item->index, last = vertices && vertices->n > 0 ? vertices->n - 1 : 0;
+    if (strcmp(item->list, "slope.segments") == 0)
+        return ceduo_document_remove_vertex(&app->document, index + (index + 1 < last), index, &app->problems);
+    if (list && list == vertices)
+        return ceduo_document_remove_vertex(&app->document, index, index - (index > 0 && index >= last), &app->problems);
+    if (item->group && list && list->items[index]->n > 1 + !!ceduo_node_get(list->items[index], "name"))
+        path = ceduo_app_format(app, "%s.%s", path, item->group);
+    else if ((item->group || strcmp(item->list, "blocks") == 0 || strcmp(item->key, "shoots") == 0) && n == 1)
+        path = item->list;
+    if (strcmp(item->key, "materials") == 0 && n > 1) {
+        const char *end = index == 0 ? "from_m" : "to_m";
+        ceduo_changes_set(&c, ceduo_app_format(app, "%s[%zu].%s", item->list, index == 0 ? 1 : index - 1, end), "%.10g",
+                          place_of(app, item, index, end));
+    } else if (strcmp(item->key, "shoots") == 0 && n == 1) {
+        ceduo_changes_add(&c, CHANGE_DELETE,
+                          ceduo_app_format(app, "%.*s.stools", (int)(item->key - item->list) - 1, item->list), NULL);
+    }
+    ceduo_changes_add(&c, CHANGE_DELETE, path, NULL);
+    return ceduo_changes_make(&c, item->list, &app->problems);
+}
+
+/* ---- the actions ---- */
+
+typedef bool item_function(struct app *app, const struct item *item);
+
+/* How items are added and duplicated, where not by a copy of the one under the cursor. */
+static const struct {
+    const char *key;
+    item_function *add, *duplicate;
+} kinds[] = {{"forest", add_belt, split_stretch},        {"controls", add_control, add_control},
+             {"controls_m", add_control, add_control},   {"materials", add_ground, split_stretch},
+             {"segments", split_segment, split_segment}, {"vertices_m", split_point, split_point},
+             {"shoots", add_shoots, copy_item},          {"trees", add_trees, copy_item},
+             {"blocks", ask_for_blocks, copy_item}};
+
+/* Adds or duplicates. The cursor goes to the new item, or the last where it was put before others. */
+static void make(struct app *app, const struct item *item, bool add)
+{
+    item_function *function = copy_item;
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (strcmp(kinds[i].key, item->key) == 0)
+            function = add ? kinds[i].add : kinds[i].duplicate;
+    bool good = function(app, item);
+    if (!good && app->problems.count == 0 && !app->problems.memory && (app->message[0] || app->popup))
+        return; /* it is said already, or asked for */
+    if (ceduo_app_edited(app, good))
+        ceduo_form_go(ceduo_app_form(app), item->list, item->there ? item->index + 1 : 0);
+}
+
+void ceduo_items_add(struct app *app)
+{
+    struct item item;
+    if (!find_item(app, &item, false))
+        return;
+    make(app, &item, true);
+    if (strcmp(item.key, "forest") == 0 && !app->message[0])
+        ceduo_app_say(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
+}
+
+void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at)
+{
+    struct item item = item_of(app, list, index);
+    item.at = at;
+    make(app, &item, false);
+}
+
+void ceduo_items_delete(struct app *app)
+{
+    struct item item;
+    if (!find_item(app, &item, true))
+        return;
+    const struct node *list = ceduo_document_node(&app->document, item.list);
+    if (list && list->n == 1 && strcmp(item.list, "controls") == 0) {
+        ceduo_app_say(app, "%s", _("the only place where rocks are counted stays"));
+        return;
+    }
+    const char *path = ceduo_app_format(app, "%s[%zu]", item.list, item.index);
+    if (ceduo_app_edited(app, delete_item(app, &item, path))) {
+        const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
+        if (row && strcmp(row->list, item.list) != 0) /* another d would delete in the next list what nobody meant */
+            ceduo_form_move(ceduo_app_form(app), -1, 0);
+        ceduo_app_say(app, _("deleted: %s; u brings it back"), ceduo_app_path(app, path));
+    }
+}
+
+void ceduo_items_duplicate(struct app *app)
+{
+    struct item item;
+    if (find_item(app, &item, true))
+        make(app, &item, false);
+}
+
+void ceduo_items_move(struct app *app, int by)
+{
+    struct item item;
+    if (!find_item(app, &item, true) || (by < 0 && item.index == 0))
+        return;
+    size_t to = item.index + (size_t)by;
+    if (ceduo_app_edited(app, ceduo_document_move(&app->document, item.list, item.index, to, &app->problems)))
+        ceduo_form_move(ceduo_app_form(app), by, 0);
+}
+
+/* ==== a new item, field by field as the table of the scene has them ==== */
+
+/* Appends an item. A single power law of blocks becomes the first class; the first blocks replace rocks_per_year. */
+static bool append_item(struct app *app, const char *list, const struct node *now, const char *yaml)
+{
+    struct changes c = {.document = &app->document};
+    LOCAL_TEXT(first);
+    if (now && now->kind == NODE_LIST)
+        return ceduo_document_insert(&app->document, list, now->n, yaml, &app->problems);
+    if (now)
+        ceduo_emit_flow(&first, now);
+    ceduo_text_put(&first, now ? ", " : "");
+    if (strcmp(list, "blocks") == 0)
+        ceduo_changes_add(&c, CHANGE_DELETE, "rocks_per_year", NULL);
+    ceduo_changes_set(&c, list, "[%s%s]", ceduo_text_string(&first), yaml);
+    return ceduo_changes_make(&c, list, &app->problems);
+}
+
+/* The path is that of the list; a group is kept. */
+static bool filled_item(struct app *app, struct popup *p)
+{
+    const char *list = p->path;
+    LOCAL_TEXT(item);
+    ceduo_text_put(&item, "{");
+    for (size_t i = 0; i < p->fields_count; i++) {
+        const struct field *f = p->fields[i].value;
+        LOCAL_TEXT(value);
+        if (!ceduo_popup_read(app, f, &p->fields[i].line, &value))
+            return false;
+        if (value.length > 0)
+            ceduo_text_format(&item, "%s%s: %s", item.length > 1 ? ", " : "", f->key, value.bytes);
+    }
+    ceduo_text_put(&item, "}");
+    bool counted = strcmp(list, "blocks") == 0 && ceduo_document_node(&app->document, "rocks_per_year");
+    const char *yaml =
+        p->kept ? ceduo_app_format(app, "{%s: %s}", p->kept, item.bytes) : ceduo_app_format(app, "%s", item.bytes);
+    const struct node *now = ceduo_document_node(&app->document, list);
+    size_t n = !now ? 0 : now->kind == NODE_LIST ? now->n : 1;
+    if (!ceduo_app_edited(app, append_item(app, list, now, yaml))) {
+        const char *said = ceduo_app_format(app, "%s", app->message), *colon = strstr(said, ": ");
+        if (colon && strncmp(said, list, strlen(list)) == 0) /* a path of what is not there */
+            ceduo_app_warn(app, "%s", colon + 2);
+        return false;
+    }
+    ceduo_form_go(ceduo_app_form(app), list, n);
+    ceduo_app_say(
+        app, "%s",
+        counted ? _("taken over; blocks say how many rocks a year come down, so rocks_per_year is removed; u takes it back")
+                : _("taken over; u takes it back"));
+    return true;
+}
+
+void ceduo_popup_item_of(struct app *app, const char *list, const char *group, const char *const *offered, size_t n)
+{
+    const struct field *of = ceduo_schema_row(list);
+    of = group ? ceduo_schema_field(of->object, group) : of;
+    struct popup *p = ceduo_popup_fields(app, _(of->meaning), list, filled_item);
+    p->kept = group ? of->key : NULL;
+    ceduo_text_put(&p->text, _("Several numbers with blanks between them, decimals with a dot or a comma: 41 44.5 52."));
+    for (const struct field *f = of->object->fields; f < of->object->fields + of->object->n; f++) {
+        if (f->type != FIELD_NUMBER && f->type != FIELD_NUMBERS && f->type != FIELD_COUNT && f->type != FIELD_SPREAD)
+            continue; /* files of values are named in the scene's file */
+        ceduo_text_format(&p->text, "\n%s: %s", _(f->shown.label), _(f->meaning));
+        ceduo_popup_value(p, _(f->shown.label), p->fields_count < n ? offered[p->fields_count] : "", f);
+    }
 }

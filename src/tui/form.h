@@ -51,13 +51,11 @@ void ceduo_form_field(struct form *form, const char *path, const char *label);
 /* A line for each of some keys, with blanks between, behind a prefix that ends in a dot or is "". */
 void ceduo_form_fields(struct form *form, const char *prefix, const char *keys);
 
-/* A line for each field of a group (such as growth.shoots) that has none yet: what the table of the scene has and a view
- * does not name. */
+/* A line for each field of a group (such as growth.shoots) that has none yet. */
 void ceduo_form_rest(struct form *form, const char *group);
 
-/* A table of the items of a list: a line of column names, a line for each item; keys with blanks between. With a group: of
- * those items that have it, such as the stops among what was observed; the keys are its own. An empty list has a line that
- * says how to add to it. */
+/* A table of the items of a list: column names, then a line for each item; keys with blanks between. With a group: only items
+ * that have it; the keys are its own. An empty list has a line that explains how to add to it. */
 void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys);
 
 /* A line for each point of a list of points. */
@@ -77,8 +75,7 @@ void ceduo_form_go(struct form *form, const char *list, size_t index);
 struct form_cell *ceduo_form_cell(struct form *form);
 struct form_row *ceduo_form_row(struct form *form);
 
-/* Draws the lines into a rectangle, scrolled so that the cursor is seen. `edit`: text to show in the cell under the
- * cursor instead of its own (NULL: none). */
+/* Draws the lines, scrolled to the cursor. `edit`: text in the cell under the cursor instead of its own; may be NULL. */
 void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit);
 
 /* Moves the cursor to the line and cell at a place of the screen; false where there is none. */

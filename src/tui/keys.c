@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/text.h"
 #include "base/utf8.h"
 
 const struct action_info ceduo_actions[ACTION_COUNT] = {

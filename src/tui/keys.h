@@ -29,7 +29,8 @@ enum key {
     K_F10 = K_F1 + 9
 };
 
-/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word, title. */
+/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word,
+ * title. */
 #define VIEWS(V)                                                                                                               \
     V(SLOPE, slope, '1', "1", NP_("view", "slope"))                                                                            \
     V(STAND, stand, '2', "2", NP_("view", "stand"))                                                                            \
@@ -44,9 +45,8 @@ enum key {
 
 #define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help, BY(show_view, VIEW_##NAME))
 
-/* The one table of actions: keys, bar, help and manual come from it.
- * name, first key, its word, second key, its word, in the bar, what it does, and how: a function of program.c with a number, or
- * one without; NULL: views alone do it */
+/* The one table of actions, for keys, bar, help and manual: name, first key, its word, second key, its word, in the bar, what
+ * it does, and how: a function of program.c with a number, or without; NULL: views alone do it. */
 #define ACTIONS(X)                                                                                                             \
     X(UP, K_UP, "Up", 'k', "k", 0, N_("move up"), BY(move_lines, -1))                                                          \
     X(DOWN, K_DOWN, "Down", 'j', "j", 0, N_("move down"), BY(move_lines, 1))                                                   \
@@ -80,7 +80,7 @@ enum key {
     X(ZOOM, 'z', "z", K_NONE, "", 0, N_("nearer to the slope, at the cursor along it"), DO(NULL))                              \
     X(UNZOOM, 'Z', "Z", K_NONE, "", 0, N_("farther from the slope"), DO(NULL))                                                 \
     X(SEARCH, '/', "/", K_F(3), "F3", 0, N_("search"), DO(ask_for_word))                                                       \
-    X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"), DO(ceduo_app_search))                                                \
+    X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"), DO(search_again))                                                    \
     X(COMMANDS, ':', ":", K_NONE, "", 0, N_("commands by their names"), DO(list_commands))                                     \
     X(NEW, 'n', "n", K_F(7), "F7", 0, N_("new scene"), DO(ceduo_popup_new))                                                    \
     X(OPEN, 'o', "o", K_F(4), "F4", 0, N_("open a scene"), DO(ceduo_popup_open))                                               \

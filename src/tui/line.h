@@ -18,8 +18,8 @@ void ceduo_line_set(struct line *line, const char *text);
 /* What is said where a paste does not fit. */
 #define CEDUO_LINE_FULL N_("what was pasted is too long for this line, which stays as it was")
 
-/* Types a text that was pasted: line ends and tabs as a blank, none at either end; without control characters. False if it
- * does not fit: the line stays as it was. */
+/* Types a pasted text: line ends and tabs as one blank, no control characters. False if it does not fit: the line stays as it
+ * was. */
 bool ceduo_line_paste(struct line *line, const char *text);
 
 /* Handles a key; false where the key means nothing to it. */

@@ -6,8 +6,7 @@
 #include "line.h"
 #include "view/canvas.h"
 
-/* The one list to choose from: what is typed leaves those that match, the best first. It knows nothing of what it
- * lists. */
+/* A list to choose from: typing leaves the items that match, the best first. */
 
 struct pick {
     const char *text, *value;
@@ -28,8 +27,7 @@ struct picker {
 
 void ceduo_picker_clear(struct picker *picker);
 
-/* Adds an item; a text that is not safe to print is shown with \xHH. What is typed is searched for in `name` alone, not in what
- * is said of it. `now`: the cursor goes there. */
+/* Adds an item; unsafe bytes are shown as \xHH. What is typed is searched for in `name` alone. `now`: the cursor goes there. */
 void ceduo_picker_add(struct picker *picker, const char *text, const char *name, const char *value, bool now);
 
 /* Whether a value is there already. */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implements popups of three kinds: text to read, a list to choose from, fields to fill. A popup is closed before its
- * callback runs, because that may open another. */
+/* Popups of three kinds: text, list, fields. A popup is closed before its callback runs, because that may open another. */
 #include "popup.h"
 
 #include <assert.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -84,9 +84,11 @@ struct popup_field *ceduo_popup_field(struct popup *p, const char *label, const 
     return field;
 }
 
-void ceduo_popup_choice(struct popup *p, const char *label, const char *value, popup_call *offer)
+struct popup_field *ceduo_popup_choice(struct popup *p, const char *label, const char *value, popup_call *offer)
 {
-    ceduo_popup_field(p, label, value)->offer = offer;
+    struct popup_field *field = ceduo_popup_field(p, label, value);
+    field->offer = offer;
+    return field;
 }
 
 const struct field ceduo_popup_amount = {

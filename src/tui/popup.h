@@ -2,8 +2,6 @@
 #ifndef CEDUO_POPUP_H
 #define CEDUO_POPUP_H
 
-#include <stdio.h>
-
 #include "app.h"
 #include "picker.h"
 #include "scene/schema.h"
@@ -27,6 +25,7 @@ typedef bool popup_check(struct app *app, struct popup *popup);
 struct popup_field {
     char label[40];
     struct line line;
+    int row;             /* of the caller's table of fields, for its own use */
     popup_call *offer;   /* adds to the picker what goes with the text that is typed; NULL: nothing is offered */
     struct field *value; /* what may stand there: it is checked as the line is left; NULL: anything */
 };
@@ -68,14 +67,13 @@ void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
 void ceduo_popup_answer(struct popup *popup, char key, const char *text, const char *value);
 struct popup_field *ceduo_popup_field(struct popup *popup, const char *label, const char *value);
 /* A field with a list of what may stand in it; what matches what is typed is taken. */
-void ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_call *offer);
+struct popup_field *ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_call *offer);
 /* A number that is none of a file, from 0 on. */
 extern const struct field ceduo_popup_amount;
 /* A field for a value of a kind, of which it has a copy that the caller may change. */
 struct field *ceduo_popup_value(struct popup *popup, const char *label, const char *value, const struct field *kind);
 
-/* Whether what is typed into a line lies in the range of its kind, and is usual; otherwise that is said, or asked back. The same
- * once more is taken. */
+/* True if the typed value is in range and usual; otherwise warns, or asks once whether it is meant. */
 bool ceduo_popup_is_meant(struct app *app, const struct field *kind, struct line *line);
 
 /* Reads it as a file has it; false where it is not meant, no such value, or needed and missing, which is said. */
@@ -99,5 +97,67 @@ const char *ceduo_popup_bar(const struct app *app); /* its keys */
 void ceduo_popup_key(struct app *app, int key);
 bool ceduo_popup_paste(struct app *app, const char *text); /* false: nothing is typed there */
 void ceduo_popup_close(struct app *app);
+
+/* ---- those that there are: each call opens one, or says why it does not ---- */
+
+void ceduo_popup_help(struct app *app);
+void ceduo_popup_presets(struct app *app);
+void ceduo_popup_new_option(struct app *app);
+void ceduo_popup_choices(struct app *app, const struct form_cell *cell);
+void ceduo_popup_open(struct app *app);
+void ceduo_popup_new(struct app *app);
+void ceduo_popup_export(struct app *app);
+/* Copies what the view says, as text without its pictures, to the terminal's clipboard. */
+void ceduo_popup_copy(struct app *app);
+void ceduo_popup_find(struct app *app);
+void ceduo_popup_counts(struct app *app);
+
+/* Asks for the fields of a new item of a list, or of one group of it (may be NULL), and appends it. `offered`: the first n
+ * fields. */
+void ceduo_popup_item_of(struct app *app, const char *list, const char *group, const char *const *offered, size_t n);
+
+/* Treatments of the option under the cursor as items of a list. The other two return false if the item is none of them. */
+void ceduo_popup_offer_treatments(struct app *app, struct popup *popup);
+bool ceduo_popup_preview_treatment(struct app *app, struct popup *popup);
+bool ceduo_popup_chose_treatment(struct app *app, const char *value);
+
+/* What the search came to that ceduo_popup_find() started. */
+void ceduo_popup_found(struct app *app, struct search_answer *sought);
+
+/* ---- saving, and unsaved work (popup_save.c) ---- */
+
+/* Saves to the scene's own file; asks for a name where there is none, and what to do where the file has changed. */
+void ceduo_popup_save(struct app *app);
+void ceduo_popup_save_as(struct app *app);
+
+/* Ends the program, once the work is saved or given up. */
+void ceduo_popup_quit(struct app *app);
+
+/* Goes on with `then`; asks first (save, discard, stay) where there is unsaved work. */
+void ceduo_popup_once_saved(struct app *app, void (*then)(struct app *app));
+
+/* Lists unsaved work that earlier processes left behind, where some of it is on this document or has no file. */
+void ceduo_popup_recover(struct app *app);
+/* Adds all of it to a list; takes up the one that was chosen, false where the value is none. */
+void ceduo_popup_offer_recoveries(const struct app *app, struct popup *popup);
+bool ceduo_popup_take_recovery(struct app *app, const char *value);
+
+/* ---- what fields of popups may hold ---- */
+
+/* Files with the popup's endings, and folders. */
+void ceduo_popup_offer_files(struct app *app, struct popup *popup);
+
+#define STAND_COUNTED _("from a sample plot") /* in the place of a stand: what a sample plot counts */
+#define STAND_SURVEY  _("from a survey")      /* what a CSV file of plots holds */
+/* Replace the stand of the belt shown. Says which growth and cutting are dropped, and that the year of its cut stays. */
+bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *value);
+void ceduo_popup_survey(struct app *app); /* asks for that file */
+
+/* A scene of nothing but the stand, with the rock of this one; false if it is no stand. The caller releases `file` in any
+ * case. */
+bool ceduo_popup_read_stand(const struct app *app, const char *value, struct scene_file *file);
+
+void ceduo_popup_offer_stands(struct app *app, struct popup *popup);
+void ceduo_popup_offer_grounds(struct app *app, struct popup *popup);
 
 #endif

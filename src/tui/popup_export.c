@@ -7,13 +7,11 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
-#include "popups.h"
 #include "view/figures.h"
-#include "view/html.h"
 #include "view/page.h"
+#include "view/svg.h"
 
 /* The command that gives the same figures; `how`: as what. */
 static void append_command(struct app *app, struct text *text, const char *how)
@@ -204,9 +202,8 @@ void ceduo_popup_copy(struct app *app)
     ceduo_text_safe(&text, ceduo_in_language(scene->title, scene->title_it));
     ceduo_text_format(&text, ": %s\n", ceduo_app_option(app)->name);
     if (r && scene->controls_count > 0) {
-        ceduo_words_answer(&text,
-                           &(const struct ceduo_subject){ceduo_app_report(app), app->option, r->last_control, false, false},
-                           COPY_WIDTH);
+        const struct ceduo_subject subject = ceduo_subject_of(ceduo_app_report(app), app->option, r->last_control);
+        ceduo_words_answer(&text, &subject, COPY_WIDTH);
         ceduo_text_char(&text, '\n');
     }
     /* the view drawn by itself, long enough for all of it, its pictures left blank; runs of blank lines are one */

@@ -5,7 +5,6 @@
 
 #include "base/language.h"
 #include "popup.h"
-#include "popups.h"
 #include "view/report.h"
 #include "view/typed.h"
 

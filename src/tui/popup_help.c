@@ -2,7 +2,6 @@
 /* All keys, and the field under the cursor. */
 #include "base/language.h"
 #include "popup.h"
-#include "popups.h"
 
 /* The first action of each group, in the order of the table, and its heading. */
 static const struct {

@@ -1,18 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A new scene from a few questions. */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "base/must.h"
 #include "ceduo/slope.h"
 #include "io/csv.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
-#include "popups.h"
 #include "scene/choices.h"
 #include "view/plot.h"
 #include "view/typed.h"

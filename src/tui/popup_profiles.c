@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists of what there is to choose from: the words of a field, the program's and the user's files; and what each would
- * do to the lights. */
+/* Lists to choose from: the words of a field, the program's and the user's files; and what each would do to the lights. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,12 +7,9 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/rotation.h"
 #include "ceduo/slope.h"
-#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
-#include "popups.h"
 #include "scene/choices.h"
 #include "view/typed.h"
 #include "view/words.h"
@@ -36,8 +32,8 @@ bool ceduo_popup_read_stand(const struct app *app, const char *value, struct sce
     return good;
 }
 
-/* Stems, the diameter of their mean basal area, the age of the oldest shoots where that is given, basal area; behind them
- * whose it is. `*said`: in Italian what a stand of the program is called, in the place of its file's name. */
+/* Stems, their mean diameter by basal area, age of the oldest shoots, basal area; then whose it is. `*said`: in Italian the
+ * name of a stand of the program, instead of its file's name. */
 static const char *describe_stand(struct app *app, const char *value, const char *whose, const char **said)
 {
     struct scene_file file;
@@ -74,8 +70,8 @@ static bool has_head(const char *path, const char *tag)
     return strstr(head, tag) != NULL;
 }
 
-/* Files of a kind ("stands", …), the first of each name: those of the program, or the user's own: those beside the scene that say
- * what they are, before others. `whole`: those with the folder in their name. */
+/* Files of a kind ("stands", …), the first of each name: those of the program, or the user's own, those beside the scene first.
+ * `whole`: those with the folder in their name. */
 static void add_files(struct app *app, struct popup *p, const char *kind, bool shipped, bool whole, const char *now)
 {
     const char *scene = app->document.path && !app->document.shipped ? app->document.path : "", *slash = strrchr(scene, '/');
@@ -139,7 +135,7 @@ static void append_lights(struct app *app, struct text *text, const struct previ
 /* What the lights would be with a value at the popup's path; it is asked for, and put once it is known. */
 static void append_change(struct app *app, struct popup *p)
 {
-    LOCAL_TEXT(set);
+    LOCAL_TEXT(value);
     if (p->ahead_known) {
         if (p->ahead.known)
             append_lights(app, &p->text, &p->ahead);
@@ -147,13 +143,13 @@ static void append_change(struct app *app, struct popup *p)
     }
     ceduo_text_put(&p->text, _("the lights: computing …\n"));
     bool all = p->chosen == chose_new_option; /* the stand in every belt */
-    ceduo_text_format(&set, "%s=", all ? ceduo_app_forest(app) : p->path);
     if (!all)
-        ceduo_emit_scalar(&set, p->value, true);
+        ceduo_emit_scalar(&value, p->value, true);
     else
-        ceduo_document_belts(&app->document, p->value, &set);
-    if (set.length < JOB_TEXT)
-        ceduo_jobs_preview(app->live.jobs, &app->document.file, set.bytes, app->option);
+        ceduo_document_belts(&app->document, p->value, &value);
+    if (value.length < JOB_TEXT)
+        ceduo_jobs_preview(app->live.jobs, &app->document.file, all ? ceduo_app_forest(app) : p->path, value.bytes,
+                           app->option);
 }
 
 static void preview_word(struct app *app, struct popup *p)
@@ -191,7 +187,8 @@ static void preview_stand(struct app *app, struct popup *p)
 
 /* ---- what goes with the stand that another one replaces ---- */
 
-/* The entry of a stand that the scene itself has: the file that the stand is read from has not the same. NULL if there is none. */
+/* The entry of a stand that the scene itself has: the file that the stand is read from has not the same. NULL if there is
+ * none. */
 static const struct node *own_entry(const struct node *stand, const char *key)
 {
     const struct node *entry = ceduo_node_get(stand, key);

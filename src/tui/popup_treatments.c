@@ -5,12 +5,8 @@
 
 #include "base/language.h"
 #include "ceduo/rotation.h"
-#include "io/emit.h"
 #include "io/file.h"
-#include "io/resolve.h"
-#include "model/changes.h"
 #include "popup.h"
-#include "popups.h"
 
 #define FIRST_YEAR   1  /* the next year: year 0 is the stand as filed */
 #define KEPT_USUALLY 60 /* standards per ha, offered if the stands do not say how many stay */
@@ -50,8 +46,8 @@ static const struct ceduo_belt *lent_belt(const struct lender *l)
     return &l->file.scene.options[0].belts[0];
 }
 
-/* Find the shipped stand with growth and cutting that is nearest to a species and a system: of that species, otherwise hop
- * hornbeam; of that system, otherwise any. The caller releases l->file. */
+/* Find the shipped stand with growth and cutting that is nearest to a species (otherwise hop hornbeam) and a system (otherwise
+ * any). The caller releases l->file. */
 static void find_lender(struct app *app, int species, enum ceduo_system system, struct lender *l)
 {
     const char *const *folders = ceduo_file_folders(app->scratch);
@@ -105,7 +101,7 @@ static void lend(struct plan *p, size_t belt, const struct lender *l, const char
     ceduo_text_put(&value, "source: {kind: assumed, text: ");
     ceduo_emit_scalar(&value, ceduo_app_format(p->app, _("as in the stand '%s'"), lent_belt(l)->name), true);
     ceduo_text_put(&value, "}}");
-    ceduo_changes_add(&p->edits, "forest[%zu].stand.%s=%s", belt, key, value.bytes);
+    ceduo_changes_add(&p->edits, CHANGE_SET, ceduo_app_format(p->app, "forest[%zu].stand.%s", belt, key), value.bytes);
 }
 
 static void tell_lent(struct plan *p, const char *stand, const struct lender *l, bool growth, bool cutting)
@@ -131,8 +127,9 @@ static void keep_standards(struct plan *p, size_t belt, const struct ceduo_stand
         ceduo_text_format(&list, "%s%g", i > 0 ? ", " : "", own);
         left -= own;
     }
-    ceduo_changes_add(&p->edits, "forest[%zu].stand.cutting.stay_per_ha=[%s]", belt,
-                      all > 0 ? list.bytes : ceduo_app_format(p->app, "%g", left));
+    if (all == 0)
+        ceduo_text_format(&list, "%g", left);
+    ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "forest[%zu].stand.cutting.stay_per_ha", belt), "[%s]", list.bytes);
 }
 
 static void leave_belt(struct plan *p, size_t belt, const char *why)
@@ -168,21 +165,23 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
     if (l.fit > 0)
         tell_lent(p, belt->name, &l, !grows, borrows);
     if (selection && grows && s->growth.shoots_old < lent_belt(&l)->stand.growth.shoots_old)
-        ceduo_changes_add(&p->edits, "%s.growth.shoots_old=%g", stand, lent_belt(&l)->stand.growth.shoots_old);
+        ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.growth.shoots_old", stand), "%g",
+                          lent_belt(&l)->stand.growth.shoots_old);
     if (selection && s->system != CEDUO_SELECTION_COPPICE) {
         LOCAL_TEXT(name);
         ceduo_emit_scalar(&name, ceduo_app_format(p->app, _("%s, as selection coppice"), belt->name), true);
-        ceduo_changes_add(&p->edits, "%s.system=selection-coppice", stand);
-        ceduo_changes_add(&p->edits, "%s.name=%s", stand, name.bytes);
+        ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.system", stand), "selection-coppice");
+        ceduo_changes_add(&p->edits, CHANGE_SET, ceduo_app_format(p->app, "%s.name", stand), name.bytes);
     }
     if (p->kind == CUT_NOW && !isnan(p->number))
         keep_standards(p, i, cut ? s : &lent_belt(&l)->stand);
+    const char *year = ceduo_app_format(p->app, "forest[%zu].cut_year", i);
     if (never && cut)
-        ceduo_changes_add(&p->edits, "%s.cutting", stand);
+        ceduo_changes_add(&p->edits, CHANGE_DELETE, ceduo_app_format(p->app, "%s.cutting", stand), NULL);
     if (!never)
-        ceduo_changes_add(&p->edits, "forest[%zu].cut_year=%g", i, FIRST_YEAR + (p->kind == NO_CUT ? p->number : 0));
-    else if (!isnan(belt->cut_year))
-        ceduo_changes_add(&p->edits, "forest[%zu].cut_year", i);
+        ceduo_changes_set(&p->edits, year, "%g", FIRST_YEAR + (p->kind == NO_CUT ? p->number : 0));
+    else
+        ceduo_changes_add(&p->edits, CHANGE_DELETE, year, NULL);
     ceduo_scene_release(&l.file);
 }
 
@@ -190,7 +189,7 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
 static struct plan make_plan(struct app *app, enum treatment kind, double number)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
-    struct plan p = {.app = app, .kind = kind, .number = round(number), .edits = {.d = &app->document}};
+    struct plan p = {.app = app, .kind = kind, .number = round(number), .edits = {.document = &app->document}};
     for (size_t i = 0; i < o->belts_count; i++)
         treat_belt(&p, i, &o->belts[i]);
     return p;
@@ -198,7 +197,6 @@ static struct plan make_plan(struct app *app, enum treatment kind, double number
 
 static void free_plan(struct plan *p)
 {
-    ceduo_changes_free(&p->edits);
     ceduo_text_free(&p->borrowed);
     ceduo_text_free(&p->untreated);
 }
@@ -231,8 +229,8 @@ static bool add_option(struct app *app, enum treatment kind, double number)
     if (!good)
         ceduo_app_warn(app, "%s", p.untreated.length > 0 ? p.untreated.bytes : _("There is no forest here to treat."));
     else
-        good = ceduo_app_edited(app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), p.edits.sets,
-                                                                p.edits.n, &app->problems));
+        good = ceduo_app_edited(
+            app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), &p.edits, &app->problems));
     if (good && p.treated > 0) {
         const struct ceduo_scene *scene = &app->document.file.scene;
         LOCAL_TEXT(said);

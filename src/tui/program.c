@@ -5,9 +5,7 @@
 #include <stdlib.h>
 
 #include "base/language.h"
-#include "edit.h"
 #include "popup.h"
-#include "popups.h"
 
 static void undo_or_redo(struct app *app, int by)
 {
@@ -55,10 +53,19 @@ static void move_column(struct app *app, int by)
         ceduo_form_move(&state->form, 0, by);
 }
 
+/* Moves the cursor of the form to the next line that holds what is searched for. */
+static void search_again(struct app *app)
+{
+    if (ceduo_form_search(ceduo_app_form(app), app->search))
+        ceduo_app_state(app)->pane = 0;
+    else
+        ceduo_app_say(app, _("'%s' is not found in this view"), app->search);
+}
+
 static bool filled_search(struct app *app, struct popup *p)
 {
     snprintf(app->search, sizeof app->search, "%.*s", (int)sizeof app->search - 1, p->fields[0].line.text);
-    ceduo_app_search(app);
+    search_again(app);
     return true;
 }
 
@@ -125,8 +132,20 @@ static void act(struct app *app, enum action action)
         a->plain(app);
 }
 
-/* Update what depends on an input: offers of unsaved work, the popup's preview, the belt under the cursor. */
-static void follow_up(struct app *app)
+/* ---- inputs ---- */
+
+/* Begins every input: it ends the message of the input before. */
+static void begin_input(struct app *app)
+{
+    ceduo_arena_free(app->scratch);
+    if (!app->popup)
+        app->message[0] = '\0';
+    if (!app->popup && !app->editing)
+        app->once_saved = NULL;
+}
+
+/* Ends every input: updates offers of unsaved work, the popup's preview and the belt under the cursor. */
+static void end_input(struct app *app)
 {
     if (app->opened && !app->no_recovery)
         ceduo_popup_recover(app);
@@ -137,42 +156,38 @@ static void follow_up(struct app *app)
         ceduo_views[app->view]->follow(app);
 }
 
-/* ---- inputs ---- */
-
-/* An input of the user. */
-struct input {
-    enum { INPUT_KEY, INPUT_PASTE, INPUT_CLICK, INPUT_WHEEL } kind;
-    int key;
-    const char *text; /* of a paste */
-    int x, y;         /* cell of a click */
-    int lines;        /* of the wheel; < 0: up */
-};
-
-static void press(struct app *app, int key)
+void ceduo_program_key(struct app *app, int key)
 {
     enum action action = ceduo_action_of(key);
+    begin_input(app);
     if (app->popup)
         ceduo_popup_key(app, key);
     else if (app->editing)
         ceduo_edit_key(app, key);
     else if (action != ACTION_NONE)
         act(app, action);
+    end_input(app);
 }
 
-static void paste(struct app *app, const char *text)
+void ceduo_program_paste(struct app *app, const char *text)
 {
+    begin_input(app);
     app->message[0] = '\0'; /* that of a popup, too */
     if (app->popup ? !ceduo_popup_paste(app, text) : !app->editing)
         ceduo_app_say(app, "%s", _("what was pasted goes nowhere: no field is open"));
     else if (!app->popup && !ceduo_line_paste(&app->line, text))
         ceduo_app_warn(app, "%s", _(CEDUO_LINE_FULL));
+    end_input(app);
 }
 
-/* Show the view whose title is clicked, or move the cursor to a field; edit the field if the cursor is there already. */
-static void click(struct app *app, int x, int y)
+/* Shows the view whose title is clicked, or moves the cursor to a field; edits the field if the cursor is there already. */
+void ceduo_program_click(struct app *app, int x, int y)
 {
     struct view_state *state = ceduo_app_state(app);
     size_t row = state->form.row, column = state->form.column;
+    if (app->popup || app->editing) /* a question stays */
+        return;
+    begin_input(app);
     if (y == 0) {
         enum view_number view = ceduo_screen_view_at(app, x);
         if (view < VIEW_COUNT)
@@ -182,64 +197,28 @@ static void click(struct app *app, int x, int y)
             ceduo_edit_start(app);
         state->pane = 0;
     }
-}
-
-static void turn_wheel(struct app *app, int lines)
-{
-    if (app->popup)
-        ceduo_popup_key(app, lines < 0 ? K_UP : K_DOWN);
-    else
-        move_lines(app, lines);
-}
-
-/* Handle an input. Every input takes this path: it ends the message of the input before, and what depends on it is updated. */
-static void handle(struct app *app, const struct input *input)
-{
-    ceduo_arena_free(app->scratch);
-    if (!app->popup)
-        app->message[0] = '\0';
-    if (!app->popup && !app->editing)
-        app->once_saved = NULL;
-    if (input->kind == INPUT_KEY)
-        press(app, input->key);
-    else if (input->kind == INPUT_PASTE)
-        paste(app, input->text);
-    else if (input->kind == INPUT_CLICK)
-        click(app, input->x, input->y);
-    else
-        turn_wheel(app, input->lines);
-    follow_up(app);
-}
-
-void ceduo_program_key(struct app *app, int key)
-{
-    handle(app, &(struct input){.kind = INPUT_KEY, .key = key});
-}
-
-void ceduo_program_paste(struct app *app, const char *text)
-{
-    handle(app, &(struct input){.kind = INPUT_PASTE, .text = text});
-}
-
-void ceduo_program_click(struct app *app, int x, int y)
-{
-    if (!app->popup && !app->editing) /* otherwise it does nothing, and a question stays */
-        handle(app, &(struct input){.kind = INPUT_CLICK, .x = x, .y = y});
+    end_input(app);
 }
 
 void ceduo_program_wheel(struct app *app, int lines)
 {
-    if (app->popup || !app->editing)
-        handle(app, &(struct input){.kind = INPUT_WHEEL, .lines = lines});
+    if (app->editing && !app->popup)
+        return;
+    begin_input(app);
+    if (app->popup)
+        ceduo_popup_key(app, lines < 0 ? K_UP : K_DOWN);
+    else
+        move_lines(app, lines);
+    end_input(app);
 }
 
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
                           struct problems *problems)
 {
-    if (!ceduo_app_create(app, path, charset, threads, no_recovery, problems))
-        return false;
-    follow_up(app);
-    return true;
+    bool good = ceduo_app_create(app, path, charset, threads, no_recovery, problems);
+    if (good)
+        end_input(app);
+    return good;
 }
 
 void ceduo_program_free(struct app *app)

@@ -9,6 +9,7 @@
 /* Same as ceduo_app_create() and ceduo_app_free(), including popups. */
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
                           struct problems *problems);
+
 void ceduo_program_free(struct app *app);
 
 void ceduo_program_key(struct app *app, int key);
@@ -18,5 +19,28 @@ void ceduo_program_wheel(struct app *app, int by);
 
 /* Takes the news of the jobs, and what a search found. True where the screen has changed. */
 bool ceduo_program_news(struct app *app);
+
+/* ---- a script (script.c) ---- */
+
+/* Plays a script without a terminal, a command on each line (see ceduo-terminal(7)). Errors go to standard error. */
+enum script_end { SCRIPT_DONE, SCRIPT_WRONG, SCRIPT_UNREADABLE, SCRIPT_UNWRITTEN };
+enum script_end ceduo_script_run(struct app *app, const char *path);
+
+/* ---- a terminal (terminal.c) ---- */
+
+enum terminal_end {
+    TERMINAL_DONE,
+    TERMINAL_NONE,  /* there is no terminal that a screen can be drawn on; nothing was touched */
+    TERMINAL_FAILED /* the machine gives no pipe */
+};
+
+/* NULL if standard input and output are a terminal and TERM can address its cells, otherwise why not. */
+const char *ceduo_terminal_missing(void);
+
+/* Shows the program on the terminal until it ends; restores the terminal. A signal that ends it is raised again. */
+enum terminal_end ceduo_terminal_run(struct app *app);
+
+/* Restores the terminal before the program ends, from a signal handler or any thread. False if no screen is shown. */
+bool ceduo_terminal_restore(void);
 
 #endif

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "rock_trajectory.h"
-
+/* The trajectory of one rock, piece by piece. */
 #include <math.h>
 #include <stdlib.h>
 
+#include "app.h"
 #include "base/clock.h"
+#include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"
 
@@ -38,20 +39,25 @@ static void add_stem(void *context, const struct ceduo_stem_passed *stem)
         s->pieces[s->n - 1].stems = s->stems_count;
 }
 
-bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
-                                  uint64_t key, uint64_t rock)
+bool ceduo_app_follow_rock(struct app *app)
 {
-    bool same = s->n > 0 && s->key == key && s->rock == rock;
+    struct rock_trajectory *s = &app->trajectory;
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    uint64_t key = app->live.asked;
+    hash_count(&key, app->option);
+    bool same = s->n > 0 && s->key == key && s->rock == app->rock;
     if (!same) {
         s->n = s->at = s->stems_count = 0;
         s->key = key;
-        s->rock = rock;
+        s->rock = app->rock;
         s->begun = ceduo_clock();
         const struct ceduo_watch watch = {.enough = is_enough, .piece = add_piece, .stem = add_stem, .context = s};
-        enum ceduo_status status = ceduo_trajectory_follow(scene, option, rock, &watch, &s->whole, NULL);
+        enum ceduo_status status = ceduo_trajectory_follow(scene, ceduo_app_option(app), s->rock, &watch, &s->whole, NULL);
         s->cut_short = status == CEDUO_CANCELLED;
-        if (status != CEDUO_OK && !s->cut_short)
+        if (status != CEDUO_OK && !s->cut_short) {
+            ceduo_rock_trajectory_free(s);
             return false;
+        }
     }
     /* the line of the pieces that are shown */
     size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
@@ -80,15 +86,12 @@ size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *s)
     return s->at > 0 ? s->pieces[s->at - 1].stems : s->stems_count;
 }
 
-void ceduo_rock_trajectory_step(struct rock_trajectory *s, int by, const struct ceduo_scene *scene, struct text *text)
+/* Says what happens on the last piece shown, or how the trajectory ends. */
+static void describe(const struct rock_trajectory *s, const struct ceduo_scene *scene, struct text *text)
 {
     static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
                                                  N_("is stopped by stems")};
     double origin = scene->slope.origin_x, gravity = scene->simulation.gravity;
-    if (by > 0)
-        s->at = s->at < s->n ? s->at + 1 : s->n;
-    else if (by < 0)
-        s->at = s->at > 0 ? s->at - 1 : s->n;
     if (s->at == 0 || s->at > s->n) {
         ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock,
                           s->cut_short ? _("goes on too long to be shown") : _(ends[s->whole.end]), s->whole.x + origin,
@@ -119,6 +122,25 @@ void ceduo_rock_trajectory_step(struct rock_trajectory *s, int by, const struct 
                                         : _("hits a tree of %.2g cm: %.2g of %.3g kJ"),
                             stem->dbh * 100, stem->taken / 1e3, stem->before / 1e3);
     }
+}
+
+void ceduo_app_step_rock(struct app *app, int by)
+{
+    struct rock_trajectory *s = &app->trajectory;
+    LOCAL_TEXT(text);
+    if (by > 0)
+        s->at = s->at < s->n ? s->at + 1 : s->n;
+    else if (by < 0)
+        s->at = s->at > 0 ? s->at - 1 : s->n;
+    describe(s, &app->document.file.scene, &text);
+    ceduo_app_say(app, "%s", text.bytes);
+}
+
+void ceduo_app_next_rock(struct app *app, int by)
+{
+    app->rock = by > 0 || app->rock > 0 ? app->rock + (uint64_t)by : 0;
+    if (ceduo_app_follow_rock(app))
+        ceduo_app_step_rock(app, 0);
 }
 
 void ceduo_rock_trajectory_free(struct rock_trajectory *s)

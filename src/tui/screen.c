@@ -73,16 +73,16 @@ static bool draw_title(struct app *app)
     return fits;
 }
 
-/* The answer for the option that is shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty, which may change it, is
- * computed. */
+/* The answer for the option shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty is computed, which may change
+ * it. */
 static void draw_verdict(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
     LOCAL_TEXT(answer);
     if (!r || r->scene->controls_count == 0)
         return;
-    struct ceduo_subject subject = {ceduo_app_report(app), app->option, r->last_control, false, false};
-    enum ceduo_judgement judgement = ceduo_report_outcome(subject.report, app->option, r->last_control).answer;
+    struct ceduo_subject subject = ceduo_subject_of(ceduo_app_report(app), app->option, r->last_control);
+    enum ceduo_judgement judgement = subject.outcome.answer;
     bool open = judgement != CEDUO_NOTHING && judgement != CEDUO_UNANSWERED;
     double share = open ? ceduo_live_awaits_uncertainty(&app->live, &app->document.file, app->option) : NAN;
     const char *progress = isnan(share) ? "" : ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
@@ -112,8 +112,8 @@ static void dim(struct app *app, struct ceduo_area area, const struct ceduo_cell
         }
 }
 
-/* While the figures are those of an earlier scene, they stand there dimmed: as they are drawn, or from the last screen that had
- * any if nothing is known of the option. The answer always is that of the last screen: it belongs to the earlier scene. */
+/* Dims the figures of an earlier scene: as they are drawn, or from the last screen with figures if none of the option are
+ * known. The answer always is that of the last screen. */
 static void dim_figures(struct app *app, struct ceduo_area column)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
@@ -206,8 +206,7 @@ static void draw_bar(struct app *app)
     }
 }
 
-/* The newest figures, which stand still in every view. Warnings that have no room whole are only counted: view 4 has them.
- * `titled`: the scene's title stands above them. */
+/* The newest figures. Warnings without room are only counted: view 4 has them. `titled`: the scene's title stands above. */
 static void draw_column(struct app *app, struct ceduo_area area, bool titled)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;

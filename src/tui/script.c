@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "script.h"
+#include "program.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -10,7 +10,6 @@
 #include "base/must.h"
 #include "base/utf8.h"
 #include "io/file.h"
-#include "program.h"
 #include "view/svg.h"
 
 /* Of the word its first `most` bytes: it may be no script. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The only file that knows curses, colours and the signals of a terminal. */
 #define NCURSES_WIDECHAR 1
-#include "terminal.h"
+#include "program.h"
 
 #include "base/utf8.h" /* before curses, which takes the word columns */
 
@@ -19,7 +19,6 @@
 
 #include "base/clock.h"
 #include "base/language.h"
-#include "program.h"
 
 /* ---- colours ---- */
 
@@ -175,8 +174,7 @@ static void catch_signal(int number)
     sigaction(number, &(struct sigaction){.sa_handler = on_signal}, NULL);
 }
 
-/* Comes before curses opens the terminal, so that curses leaves SIGTSTP alone: otherwise it ignores it while it draws, and
- * Ctrl-Z is lost now and then. */
+/* Call before curses opens the terminal, so that curses leaves SIGTSTP alone: it would ignore it while it draws. */
 static void set_handlers(void)
 {
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, others[] = {SIGTERM, SIGHUP, SIGINT, SIGCONT};
@@ -217,8 +215,8 @@ static void show(struct app *app, bool colours)
 
 /* ---- keys ---- */
 
-/* Curses makes a key of each sequence that the terminal is known for. Of any other it hands on the characters: here they are
- * swallowed whole, also if they come in pieces, and what stands between the two sequences of a paste is gathered. */
+/* Curses makes a key of each sequence that it knows, and hands on the characters of any other: these are swallowed whole, also
+ * in pieces. What stands between the two sequences of a paste is gathered. */
 static struct {
     enum { PLAIN, ESCAPED, CONTROL, STRING, STRING_ESCAPED, CHARACTERS } state;
     int number;     /* the one parameter of CSI; -1: none, 9999: more or other than that */

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 5: the silvicultural options side by side, today and over one whole rotation of each. View 6 shows the same
- * options year by year. */
+/* View 5: the silvicultural options side by side, today and over one whole rotation of each. */
 #include "base/language.h"
 #include "popup.h"
-#include "popups.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -28,8 +26,7 @@ static void draw_picture(struct app *app, enum ceduo_plot plot, struct ceduo_are
     ceduo_app_plot(app, plot, area, &p);
 }
 
-/* The table, as much of it as holds the option under the cursor; below it what is to be said, which scrolls, and a picture where
- * that leaves room. */
+/* The table around the option under the cursor; below it words, which scroll, and a picture if there is room. */
 static void draw_table(struct app *app, struct ceduo_area area)
 {
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
@@ -87,7 +84,7 @@ static void next_option(struct app *app, int by)
 static void copy_option(struct app *app)
 {
     size_t at = app->option;
-    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL, NULL, &app->problems)))
+    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL, &app->problems)))
         choose(app, (long)at + 1);
 }
 

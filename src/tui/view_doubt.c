@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 7: how sure the answer is today or over the rotation, what it depends on, whether the options separate, and the ranges that
- * the scene names. */
-#include <stdio.h>
+/* View 7: how sure the answer is, what it depends on, whether the options separate, and the ranges that the scene names. */
 
 #include "app.h"
 #include "base/language.h"
-#include "io/emit.h"
 
 static void build(struct app *app, struct form *form)
 {

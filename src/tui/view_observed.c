@@ -5,12 +5,9 @@
 
 #include "app.h"
 #include "base/language.h"
-#include "edit.h"
-#include "model/changes.h"
 #include "popup.h"
-#include "popups.h"
 #include "view/page_parts.h"
-#include "view/report_calibration.h"
+#include "view/report.h"
 #include "view/typed.h"
 
 #define PICTURE_MIN 8
@@ -180,8 +177,7 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
 
 /* ---- what was observed, to edit ---- */
 
-/* The next kind of what is seen behind a field of the schema (NULL: the first), a group that has numbers of its own; NULL behind
- * the last. */
+/* The next kind of observation after a field of the schema (NULL: the first): a group with numbers. NULL after the last. */
 static const struct field *next_kind(const struct field *f)
 {
     const struct object *o = ceduo_schema_row("observed")->object;

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "app.h"
 #include "base/language.h"
-#include "edit.h"
 
 /* A power law, or a list of classes. */
 static void build_blocks(struct form *form, const struct node *blocks)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 6: the years between two cuts: what protects when, and how the stands grow and are cut. */
 #include <math.h>
-#include <stdio.h>
 
 #include "app.h"
 #include "base/language.h"

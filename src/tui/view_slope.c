@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "edit.h"
 #include "popup.h"
 #include "view/plot_parts.h"
 

@@ -93,10 +93,6 @@ bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas
 bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y, int *column,
                       int *row);
 
-/* The same in parts of cells; outside the frame, too. False where the point has no place. */
-bool ceduo_frame_place(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y, double *across,
-                       double *down);
-
 /* ---- Drawing data: every function cuts at the edges of the frame ---- */
 
 /* The straight line from (ax, ay) to (bx, by); drawn too where it only crosses the frame. */
@@ -147,7 +143,7 @@ bool ceduo_canvas_is_blank(const struct ceduo_canvas *canvas, int column, int ro
 /* A text of at most `most` cells, cut with a mark where it is longer; returns the cells it took. */
 int ceduo_canvas_put(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text);
 
-/* ---- Axes (axes.c) ---- */
+/* ---- Axes ---- */
 
 /* Round values within lo..hi (or hi..lo), ascending, at most max_count (1..CEDUO_TICKS_MAX; cut to that) of them, apart by the
  * least possible interval of 1, 2 or 5 times a power of ten. Returns how many are in out, which has room for max_count, and
@@ -171,8 +167,5 @@ void ceduo_canvas_axis_left(struct ceduo_canvas *canvas, const struct ceduo_fram
  * touching. The unit (may be NULL) stands after the last number or, where there is no room, after the first; where there is
  * none either it is left out. Meets the left axis in a corner if that was drawn before. */
 void ceduo_canvas_axis_bottom(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, const char *unit);
-
-/* Whether a frame draws anything. */
-bool ceduo_frame_valid(const struct ceduo_frame *frame);
 
 #endif

@@ -3,8 +3,6 @@
 #define CEDUO_FIGURES_H
 
 #include "report.h"
-#include "report_calibration.h"
-#include "report_doubt.h"
 
 /* The figures of an answer: one table for each kind of object. JSON nests the tables as they name each other, CSV joins
  * their keys with dots, the manual lists them. To add a figure, add a member to its struct and a row to figures_result.c. */

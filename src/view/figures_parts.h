@@ -75,8 +75,4 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
 #define FEW     "fewer than two rocks arrive"
 #define UNSAID  "the control has no accepted_kJ"
 
-/* What comes down how often; without it NULL. */
-extern const struct ceduo_figure ceduo_hazard_figures[], ceduo_rate_figures[];
-const void *ceduo_hazard_of(const void *arrivals);
-
 #endif

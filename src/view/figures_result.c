@@ -169,9 +169,10 @@ static struct ceduo_outcome outcome_of(const struct ceduo_place *p)
 static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
     const struct ceduo_outcome o = outcome_of(p);
+    const struct ceduo_subject subject = ceduo_subject_of(p->report, p->option, p->control);
     LOCAL_TEXT(why);
     if ((o.ahead && o.answer != CEDUO_NOTHING) || o.impossible)
-        ceduo_words_reason(&why, &(const struct ceduo_subject){p->report, p->option, p->control, false, false});
+        ceduo_words_reason(&why, &subject);
     else
         ceduo_words_because(&why, p->report->result, p->control, through_the_wood(p));
     say(context, ceduo_text_string(&why));
@@ -195,7 +196,7 @@ VALUE(points_of, slope, COUNT, COUNT(o->points > 0 ? o->points : o->vertices))
 VALUE(used_of, slope, COUNT, COUNT(o->vertices))
 VALUE(law_of, scene, TEXT, WORD(ceduo_law_words.names[o->simulation.law]))
 VALUE(accepted_of, control, NUMBER, NUMBER(ceduo_words_accepted(o)))
-VALUE(reached_of, arrivals, COUNT, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
+VALUE(reached_of, arrivals, COUNT, isnan(o->reach.mean) ? NOTHING : COUNT(o->reached))
 VALUE(rule_of, stand_result, TEXT, WORD(isinf(o->adc_m) ? NULL : ceduo_rule_words.names[o->rule]))
 VALUE(region_of, compliance, TEXT, WORD(o->of->name))
 VALUE(standards_met, compliance, FLAG, o->standards_item ? IS(o->standards_met) : NOTHING)
@@ -204,7 +205,7 @@ VALUE(index_per_100m, index, NUMBER, NUMBER(o->length > 0 ? o->per_100m : NAN))
 VALUE(mean_adc, index, NUMBER, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
 VALUE(passes_contact, index, FLAG, IS(o->contact == CEDUO_PASS))
 VALUE(exhausted_of, index, FLAG, isnan(o->residual) ? NOTHING : IS(o->exhausted))
-VALUE(below_of, paired, NUMBER, NUMBER(o->below > 0 ? o->below : NAN))
+VALUE(below_of, estimate, NUMBER, NUMBER(ceduo_pairs_are_equal(o) ? o->hi : NAN))
 VALUE(share_at, simulated, NUMBER, NUMBER(o->rocks > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(missed_at, arrivals, NUMBER, NUMBER(o->released > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(stop_at, place, NUMBER, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
@@ -248,17 +249,91 @@ static const struct ceduo_figure distribution[] = {
     END};
 
 static const struct ceduo_figure paired[] = {
-    {"mean", "", "mean", AT(paired, mean), .null = "it is not known, as what exceeds without accepted_kJ"},
-    {"se", "", "its standard error", AT(paired, se), .null = "it is not known, as where no two rocks differ"},
+    {"mean", "", "mean", AT(estimate, mean), .null = "it is not known, as what exceeds without accepted_kJ"},
+    {"se", "", "its standard error", AT(estimate, se), .null = "it is not known, as where no two rocks differ"},
     END};
 
-/* Two of the means of arrivals are members side by side, as in a struct ceduo_paired. */
-#define IS_PAIRED(member)                                                                                                      \
-    _Static_assert(offsetof(struct ceduo_arrivals, member##_se) - offsetof(struct ceduo_arrivals, member) ==                   \
-                       offsetof(struct ceduo_paired, se),                                                                      \
-                   "side by side")
-IS_PAIRED(energy_per_released);
-IS_PAIRED(contacts);
+#define TOO_RARE "rocks arrive less often"
+#define UNBOUND  "the rocks that arrive do not bound it"
+#define NEVER    "the rate is 0"
+
+static const void *hazard_of(const void *arrivals)
+{
+    const struct ceduo_hazard *h = &((const struct ceduo_arrivals *)arrivals)->hazard;
+    return isnan(h->per_year) ? NULL : h;
+}
+
+static const void *exceed_item(const void *object, size_t i)
+{
+    const struct ceduo_hazard *h = object;
+    return i < h->energies ? &h->exceed[i] : NULL;
+}
+
+static const void *return_item(const void *object, size_t i)
+{
+    return i < CEDUO_RETURNS ? &((const struct ceduo_hazard *)object)->returns[i] : NULL;
+}
+
+static const void *intensity_item(const void *object, size_t i)
+{
+    return i < CEDUO_INTENSITIES ? &((const struct ceduo_hazard *)object)->intensity[i] : NULL;
+}
+
+VALUE(years_of, hazard, NUMBER, NUMBER(1 / *(const double *)member(f, o)))
+
+static const struct ceduo_figure rate_figures[] = {{"per_year", "1/y", "rocks a year", AT(estimate, mean)},
+                                                   {"lo", "1/y", "lower end of its 95 % interval", AT(estimate, lo)},
+                                                   {"hi", "1/y", "upper end of its 95 % interval", AT(estimate, hi)},
+                                                   END};
+
+static const struct ceduo_figure exceed_rate[] = {{"energy_kJ", "kJ", "energy", AT(exceeding, energy), .scale = J_TO_KJ},
+                                                  {.of = rate_figures, .offset = offsetof(struct ceduo_exceeding, rate)},
+                                                  END};
+
+static const struct ceduo_figure returns[] = {
+    {"years", "y", "return period", AT(return, years)},
+    {"energy_kJ", "kJ", "energy that is reached or exceeded once in so many years", AT(return, energy.mean), .scale = J_TO_KJ,
+     .null = TOO_RARE},
+    {"lo", "kJ", "lower end of its 95 % interval", AT(return, energy.lo), .scale = J_TO_KJ, .null = UNBOUND},
+    {"hi", "kJ", "upper end of its 95 % interval", AT(return, energy.hi), .scale = J_TO_KJ, .null = UNBOUND},
+    END};
+
+static const struct ceduo_figure matrix[] = {
+    {"intensity", "", "weak, medium or strong: below 30 kJ, 30 to 300 kJ, above 300 kJ (BAFU 2016)", AT(intensity, word)},
+    {"from_kJ", "kJ", "lower limit of the class", AT(intensity, from), .scale = J_TO_KJ},
+    {"to_kJ", "kJ", "upper limit", AT(intensity, to), .scale = J_TO_KJ, .null = "there is none"},
+    {.of = rate_figures, .offset = offsetof(struct ceduo_intensity, within)},
+    {"rate_left", "", "share of the rate without forest", AT(intensity, left), .null = "none arrive without forest"},
+    {"to_30_years", "", "whether the energy of 30 years is in this class: a mark of the matrix", AT(intensity, of_return[1])},
+    {"to_100_years", "", "the same of 100 years", AT(intensity, of_return[2])},
+    {"to_300_years", "", "the same of 300 years", AT(intensity, of_return[3])},
+    END};
+
+static const struct ceduo_figure hazard_figures[] = {
+    {"per_year", "1/y", "blocks that come down", AT(hazard, per_year)},
+    {"effective_rocks", "", "effective sample size (Kish): (sum of weights)^2/(sum of their squares)", AT(hazard, effective)},
+    {"exceed_rate", "", "rocks a year that arrive with more than an energy, up to the first energy that none exceeds",
+     .of = exceed_rate, .item = exceed_item, .details = true, .null = "--details is not given"},
+    {"return", "", "energies of 10, 30, 100 and 300 years", .of = returns, .item = return_item, .columns = CEDUO_RETURNS},
+    {"reach_per_year", "1/y", "rocks that arrive", AT(hazard, reach.mean)},
+    {"reach_years", "y", "years from one that arrives to the next", .value = years_of,
+     .offset = offsetof(struct ceduo_hazard, reach.mean), .null = NEVER},
+    {"exceed_per_year", "1/y", "rocks that arrive with more than accepted_kJ", AT(hazard, accepted.mean), .null = UNSAID},
+    {"accepted_years", "y", "years from one that does to the next", .value = years_of,
+     .offset = offsetof(struct ceduo_hazard, accepted.mean), .null = UNSAID ", or the rate is 0"},
+    {"accepted_years_lo", "y", "lower end of its 95 % interval", .value = years_of,
+     .offset = offsetof(struct ceduo_hazard, accepted.hi), .null = UNSAID ", or no rock could have so much energy"},
+    {"accepted_years_hi", "y", "upper end of its 95 % interval", .value = years_of,
+     .offset = offsetof(struct ceduo_hazard, accepted.lo), .null = UNSAID ", or " UNBOUND},
+    {"accepted_return_y", "y", "years between two such rocks that are accepted: as in the scene, or 100",
+     AT(hazard, accepted_return), .null = UNSAID},
+    {"matrix", "", "classes of intensity, by classes of return period", .of = matrix, .item = intensity_item,
+     .columns = CEDUO_INTENSITIES},
+    {"rate_left", "",
+     "share of the rate without forest: of what exceeds accepted_kJ, or of all that arrive where that is not "
+     "given",
+     AT(hazard, left), .null = "it is 0 without forest"},
+    END};
 
 #define MISSED(end) .value = missed_at, .offset = offsetof(struct ceduo_arrivals, missed[end])
 static const struct ceduo_figure missed[] = {
@@ -271,13 +346,13 @@ static const struct ceduo_figure missed[] = {
 static const struct ceduo_figure arrivals[] = {
     {"rocks_reached", "", "rocks that reach the control", .value = reached_of, .null = "nothing was flown"},
     {"reach_probability", "", "share of all released that reach it; an unfinished rock counts as not reached",
-     AT(arrivals, reach_probability)},
-    {"reach_lo", "", "lower end of its 95 % interval", AT(arrivals, reach_lo)},
-    {"reach_hi", "", "upper end of its 95 % interval, where an unfinished rock counts as reached", AT(arrivals, reach_hi)},
-    {"exceed_probability", "", "share of all released that reach it with more than accepted_kJ",
-     AT(arrivals, exceed_probability), .null = UNSAID},
-    {"exceed_lo", "", "lower end of its 95 % interval", AT(arrivals, exceed_lo), .null = UNSAID},
-    {"exceed_hi", "", "upper end of its 95 % interval", AT(arrivals, exceed_hi), .null = UNSAID},
+     AT(arrivals, reach.mean)},
+    {"reach_lo", "", "lower end of its 95 % interval", AT(arrivals, reach.lo)},
+    {"reach_hi", "", "upper end of its 95 % interval, where an unfinished rock counts as reached", AT(arrivals, reach.hi)},
+    {"exceed_probability", "", "share of all released that reach it with more than accepted_kJ", AT(arrivals, exceed.mean),
+     .null = UNSAID},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(arrivals, exceed.lo), .null = UNSAID},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(arrivals, exceed.hi), .null = UNSAID},
     {"speed_m_s", "m/s", "speed of the rocks that reach it", IN(arrivals, speed, distribution)},
     {"energy_kJ", "kJ", "their energy of translation and rotation", IN(arrivals, energy, distribution), .scale = J_TO_KJ},
     {"translation_kJ", "kJ", "their energy of translation alone", IN(arrivals, translation, distribution), .scale = J_TO_KJ},
@@ -285,8 +360,7 @@ static const struct ceduo_figure arrivals[] = {
     {"energy_per_released_kJ", "kJ", "energy over all released rocks; one that does not arrive counts as 0",
      IN(arrivals, energy_per_released, paired), .scale = J_TO_KJ},
     {"missed", "", "how the released end that do not reach it; with reach_probability these make 1", .of = missed},
-    {"hazard", "", "how often, and with how much", .from = ceduo_hazard_of, .of = ceduo_hazard_figures,
-     .null = "the scene has no blocks"},
+    {"hazard", "", "how often, and with how much", .from = hazard_of, .of = hazard_figures, .null = "the scene has no blocks"},
     END};
 
 static const struct ceduo_figure wooded[] = {
@@ -409,13 +483,13 @@ static const struct ceduo_figure other_energy[] = {
     {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
      .offset = offsetof(struct ceduo_other_energy, model)},
     {"rocks", "", "simulated under it: the first 10240 of the run, if it has more", AT(other_energy, arrivals.released)},
-    {"reach_probability", "", "share of these that reach the control", AT(other_energy, arrivals.reach_probability)},
-    {"reach_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.reach_lo)},
-    {"reach_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.reach_hi)},
+    {"reach_probability", "", "share of these that reach the control", AT(other_energy, arrivals.reach.mean)},
+    {"reach_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.reach.lo)},
+    {"reach_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.reach.hi)},
     {"exceed_probability", "", "share of these that reach it with more than accepted_kJ",
-     AT(other_energy, arrivals.exceed_probability), .null = UNSAID},
-    {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.exceed_lo), .null = UNSAID},
-    {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.exceed_hi), .null = UNSAID},
+     AT(other_energy, arrivals.exceed.mean), .null = UNSAID},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.exceed.lo), .null = UNSAID},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.exceed.hi), .null = UNSAID},
     {"energy_kJ", "kJ", "energy of the rocks that reach it", .of = other_mean, .scale = J_TO_KJ},
     {"verdict", "", "what is said of the control", .of = verdict_of_other},
     END};
@@ -430,7 +504,6 @@ static const struct ceduo_figure verdict[] = {
     {"because", "", "why, in a sentence", .say = say_because, .one = true},
     END};
 
-#define DEGREES (180 / M_PI)
 static const struct ceduo_figure topography[] = {
     {"reach_angle_deg", "deg", "inclination of the line from the release", AT(topography, reach), .scale = DEGREES},
     {"shadow_angle_deg", "deg", "inclination of the line from the foot of the face", AT(topography, shadow), .scale = DEGREES,
@@ -565,8 +638,8 @@ static const struct ceduo_figure share_difference[] = {
     END};
 
 static const struct ceduo_figure differences[] = {
-    {"reach_probability", "", "difference of the shares that arrive", IN(difference, reach_probability, share_difference)},
-    {"exceed_probability", "", "difference of the shares that exceed", IN(difference, exceed_probability, share_difference)},
+    {"reach_probability", "", "difference of the shares that arrive", IN(difference, reach, share_difference)},
+    {"exceed_probability", "", "difference of the shares that exceed", IN(difference, exceed, share_difference)},
     {"energy_per_released_kJ", "kJ", "difference of the energies over all released",
      IN(difference, energy_per_released, paired), .scale = J_TO_KJ},
     END};
@@ -619,8 +692,7 @@ const struct ceduo_figure ceduo_result_figures[] = {
     {"version", "", "version of the program", .value = version_of},
     {.of = scene},
     {"warnings", "",
-     "sentences about the whole run: tolerance not met, rocks unfinished, shares too close to call, ground "
-     "assumed, percentiles from a histogram",
+     "sentences about the whole run: tolerance not met, rocks unfinished, shares too close to call, ground assumed",
      .say = say_of_run},
     {"options", "", "an object for each option, in the scene's order; a scene with forest has one, named current", .of = option,
      .enter = enter_option},
@@ -735,8 +807,8 @@ const struct ceduo_figure_list ceduo_figure_lists[] = {
     {"The objects bare and wooded of a control", arrivals},
     {"Each of their distributions, over the rocks that reach the control", distribution},
     {"Each other mean", paired},
-    {"The object hazard", ceduo_hazard_figures},
-    {"Each rate of it", ceduo_rate_figures},
+    {"The object hazard", hazard_figures},
+    {"Each rate of it", rate_figures},
     {"An object of years", year},
     {"An object of differences", difference},
     {NULL, NULL}};

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "measure.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/language.h"
-#include "report_doubt.h"
+#include "report.h"
 #include "words.h"
 
 static struct ceduo_measure of_1000(struct ceduo_portion share, double lo, double hi)
@@ -26,14 +26,14 @@ struct ceduo_measure ceduo_share(struct ceduo_portion share)
 
 struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *a)
 {
-    return of_1000(ceduo_share_arriving(a), a ? a->reach_lo : NAN, a ? a->reach_hi : NAN);
+    return of_1000(ceduo_share_arriving(a), a ? a->reach.lo : NAN, a ? a->reach.hi : NAN);
 }
 
 struct ceduo_measure ceduo_judged(const struct ceduo_control *c, const struct ceduo_arrivals *a)
 {
     if (isnan(c->accepted))
         return ceduo_arriving(a);
-    struct ceduo_measure m = of_1000(ceduo_share_exceeding(a), a ? a->exceed_lo : NAN, a ? a->exceed_hi : NAN);
+    struct ceduo_measure m = of_1000(ceduo_share_exceeding(a), a ? a->exceed.lo : NAN, a ? a->exceed.hi : NAN);
     m.limit = ceduo_words_accepted(c);
     m.names[CEDUO_HEAD] = N_("of 1000 > %s kJ");
     m.names[CEDUO_SHORT_HEAD] = N_("> %s kJ");
@@ -93,7 +93,7 @@ struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *a)
 
 struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *a)
 {
-    return energy(a ? a->energy_per_released : NAN, a ? ceduo_half_width(a->energy_per_released_se, a->released) : NAN, 3,
+    return energy(a ? a->energy_per_released.mean : NAN, a ? ceduo_half_width(a->energy_per_released.se, a->released) : NAN, 3,
                   N_("kJ a rock"), N_("energy of a rock that starts, kJ"));
 }
 
@@ -114,51 +114,47 @@ struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *a)
     return energy(a ? a->height.p95 / J_TO_KJ : NAN, NAN, 3, N_("95 % below m"), N_("95 % of those stay below, m"));
 }
 
-void ceduo_measure_name(struct text *text, const struct ceduo_measure *m, enum ceduo_measure_name name)
+const char *ceduo_measure_name(struct ceduo_measure m, enum ceduo_measure_name name, char room[CEDUO_WORDS_ROOM])
 {
-    ceduo_append_with(text, _(m->names[name]), SHORTEST(m->limit));
+    LOCAL_TEXT(text);
+    ceduo_append_with(&text, _(m.names[name]), SHORTEST(m.limit));
+    snprintf(room, CEDUO_WORDS_ROOM, "%s", text.bytes);
+    return room;
 }
 
-void ceduo_measure_value(struct text *text, const struct ceduo_measure *m)
+const char *ceduo_measure_value(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM])
 {
-    if (isnan(m->value) || m->digits > 0)
-        ceduo_words_number(text, m->value, m->digits);
-    else
-        ceduo_text_format(text, "%.0f", m->value);
+    if (isnan(m.value) || m.digits > 0)
+        return ceduo_words_shown(m.value, m.digits, room);
+    snprintf(room, CEDUO_WORDS_ROOM, "%.0f", m.value);
+    return room;
 }
 
-void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double lo, double hi)
+const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, char room[CEDUO_WORDS_ROOM])
 {
-    struct ceduo_measure end = *m;
-    if (isnan(lo) && isnan(hi)) {
-        ceduo_text_put(text, "-");
-        return;
-    }
-    end.value = lo;
-    ceduo_measure_value(text, &end);
-    ceduo_text_put(text, "\xe2\x80\x93");
-    end.value = hi;
-    ceduo_measure_value(text, &end);
+    struct ceduo_measure from = m, to = m;
+    from.value = lo;
+    to.value = hi;
+    bool known = !isnan(lo) || !isnan(hi);
+    snprintf(room, CEDUO_WORDS_ROOM, known ? "%s\xe2\x80\x93%s" : "-", VALUE_OF(from), VALUE_OF(to));
+    return room;
 }
 
-void ceduo_measure_may_be(struct text *text, const struct ceduo_measure *m)
+const char *ceduo_measure_may_be(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM])
 {
-    ceduo_measure_span(text, m, fmin(fmin(m->value, m->lo), m->may_lo), fmax(fmax(m->value, m->hi), m->may_hi));
+    return ceduo_measure_span(m, fmin(fmin(m.value, m.lo), m.may_lo), fmax(fmax(m.value, m.hi), m.may_hi), room);
 }
 
-void ceduo_measure_error(struct text *text, const struct ceduo_measure *m, const char *between)
+const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char room[CEDUO_WORDS_ROOM])
 {
-    ceduo_measure_value(text, m);
-    if (!isnan(m->value) && !isnan(m->half))
-        ceduo_text_format(text, "%s\xc2\xb1%.0f", between, ceil(m->half));
+    bool known = !isnan(m.value) && !isnan(m.half);
+    snprintf(room, CEDUO_WORDS_ROOM, known ? "%s%s\xc2\xb1%.0f" : "%s", VALUE_OF(m), between, ceil(m.half));
+    return room;
 }
 
-void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m)
+const char *ceduo_measure_interval(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM])
 {
-    ceduo_measure_value(text, m);
-    if (isnan(m->value) || isnan(m->lo) || isnan(m->hi))
-        return;
-    ceduo_text_put(text, " (");
-    ceduo_measure_span(text, m, m->lo, m->hi);
-    ceduo_text_char(text, ')');
+    bool known = !isnan(m.value) && !isnan(m.lo) && !isnan(m.hi);
+    snprintf(room, CEDUO_WORDS_ROOM, known ? "%s (%s)" : "%s", VALUE_OF(m), SPAN(m, m.lo, m.hi));
+    return room;
 }

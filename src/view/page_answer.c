@@ -26,7 +26,7 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_QUESTION);
     LOCAL_TEXT(place);
-    ceduo_plot_control_name(&place, place_of(r));
+    ceduo_words_place(&place, place_of(r));
     const char *where = ceduo_text_string(&place), *withstands = SHORTEST(ceduo_words_accepted(place_of(r)));
     size_t n = r->scene->options_count;
     bool accepted = !isnan(place_of(r)->accepted);
@@ -113,32 +113,20 @@ size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdic
 }
 
 /* Below the answer over years: "mean 190 ±9 of 1000, worst 489 in year 1; today 31 (YES)". */
-static void say_mean(struct ceduo_page *page, const struct ceduo_report *report)
+static void say_mean(struct ceduo_page *page, const struct ceduo_subject *s)
 {
-    const struct ceduo_result *r = report->result;
-    const struct ceduo_choice *c = ceduo_report_ahead(report, 0);
+    const struct ceduo_choice *c = ceduo_report_ahead(s->report, 0);
     if (!c || c->over.simulated == 0)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-    struct ceduo_measure mean = ceduo_share(c->mean);
-    const struct ceduo_measure today = ceduo_judged(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
-    LOCAL_TEXT(share);
     LOCAL_TEXT(range);
-    ceduo_measure_error(&share, &mean, " ");
-    ceduo_measure_doubt_over(&mean, report->doubt, 0);
-    if (!isnan(mean.may_lo)) {
-        LOCAL_TEXT(span);
-        ceduo_measure_may_be(&span, &mean);
-        ceduo_text_format(&range, _(" (range %s)"), ceduo_text_string(&span));
-    }
-    ceduo_text_format(text, _("mean %s%s of 1000, worst %.0f in year %u"), ceduo_text_string(&share), ceduo_text_string(&range),
+    if (!isnan(s->mean.may_lo))
+        ceduo_text_format(&range, _(" (range %s)"), MAY_BE(s->mean));
+    ceduo_text_format(text, _("mean %s%s of 1000, worst %.0f in year %u"), WITH_ERROR(s->mean, " "), ceduo_text_string(&range),
                       1000 * c->worst.mean, c->over.worst_year);
-    LOCAL_TEXT(value);
-    ceduo_measure_value(&value, &today);
-    const struct ceduo_outcome o = ceduo_report_outcome(report, 0, r->last_control);
-    ceduo_text_format(text, _("; today %s"), ceduo_text_string(&value));
-    if (o.today != CEDUO_UNANSWERED)
-        ceduo_text_format(text, " (%s)", ceduo_words_decided(o.today));
+    ceduo_text_format(text, _("; today %s"), VALUE_OF(s->today));
+    if (s->outcome.today != CEDUO_UNANSWERED)
+        ceduo_text_format(text, " (%s)", ceduo_words_decided(s->outcome.today));
 }
 
 void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *report)
@@ -157,11 +145,11 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
     for (size_t k = 0; n == 1 && !ceduo_page_says_nothing(r) && k < r->scene->controls_count; k++) {
         if (k != r->last_control && isnan(r->scene->controls[k].accepted))
             continue;
-        struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-        const struct ceduo_subject subject = {report, 0, k, k == r->last_control, false};
-        ceduo_words_answer(text, &subject, page->width - CEDUO_ANSWER_INDENT);
-        if (k == r->last_control)
-            say_mean(page, report);
+        struct ceduo_subject subject = ceduo_subject_of(report, 0, k);
+        subject.apart = k == r->last_control;
+        ceduo_words_answer(ceduo_page_add(page, CEDUO_PAGE_ANSWER), &subject, page->width - CEDUO_ANSWER_INDENT);
+        if (subject.apart)
+            say_mean(page, &subject);
     }
 }
 
@@ -186,7 +174,7 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
                           WRITTEN(ceduo_half_width(bare->energy.se, bare->reached) * J_TO_KJ, 2));
     } else if (r->scene->options_count == 1) {
         const struct ceduo_measure m = ceduo_judged(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
-        ceduo_measure_span(&error, &m, m.lo, m.hi);
+        ceduo_text_put(&error, SPAN(m, m.lo, m.hi));
     } else if (mean > 0) {
         ceduo_text_format(text, _("\xc2\xb1%.0f by the number of rocks today (%llu), \xc2\xb1%.0f over years (%llu each)"),
                           ceil(1000 * today), rocks, ceil(1000 * mean), (unsigned long long)v->choices[0].rocks);
@@ -216,9 +204,7 @@ static void say_doubt(struct text *text, const struct ceduo_report *report)
         return;
     }
     if (r->scene->options_count == 1 && r->wooded && !isnan(m.may_lo)) {
-        ceduo_text_put(text, "; ");
-        ceduo_measure_span(text, &m, m.may_lo, m.may_hi);
-        ceduo_text_put(text, _(" by what is not known"));
+        ceduo_text_then(text, "; ", "%s%s", SPAN(m, m.may_lo, m.may_hi), _(" by what is not known"));
     }
     ceduo_text_char(text, '.');
     if (ceduo_doubt_verdict(doubt->answer)->count > 0) {
@@ -261,4 +247,65 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     ceduo_text_char(text, '\t');
     ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), WRITTEN(c->worst.mean, 3),
                       c->over.worst_year, c->over.unprotected_contact, c->over.years);
+}
+
+/* ---- words and cells that several pages use ---- */
+
+void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *a)
+{
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
+    cell->kind = a->reached > 0 ? CEDUO_CELL_MEAN : CEDUO_CELL_NUMBER;
+    cell->value = a->reached > 0 ? a->energy.mean * J_TO_KJ : NAN;
+    cell->half = ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ;
+}
+
+void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, enum ceduo_measure_name otherwise)
+{
+    struct ceduo_page_cell *head = ceduo_page_head(page);
+    const struct ceduo_measure m = ceduo_judged(c, NULL);
+    bool kilo = fabs(c->accepted) < 1e6;
+    ceduo_text_put(&head->text, NAMED(m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD));
+    ceduo_text_put(&head->written, NAMED(m, CEDUO_HEAD));
+    if (!isnan(c->accepted))
+        ceduo_text_format(&head->shorter, kilo ? "> %s kJ" : "> %s MJ", ROUNDED(c->accepted * (kilo ? 1e-3 : 1e-6), 3));
+}
+
+void ceduo_page_free_run(struct ceduo_page *page, double share)
+{
+    ceduo_page_write(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MOST));
+}
+
+void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light)
+{
+    const char *const words[] = {[CEDUO_UNKNOWN] = "?", [CEDUO_PASS] = _("pass"), [CEDUO_FAIL] = _("FAIL")};
+    const enum ceduo_role roles[] = {[CEDUO_PASS] = CEDUO_ROLE_GOOD, [CEDUO_FAIL] = CEDUO_ROLE_BAD};
+    ceduo_page_mark(page, roles[light], words[light]);
+}
+
+void ceduo_page_yes(struct ceduo_page *page, bool yes)
+{
+    ceduo_page_mark(page, yes ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, yes ? _("yes") : _("NO"));
+}
+
+void ceduo_page_warn(void *page, const char *sentence)
+{
+    ceduo_page_say(page, CEDUO_PAGE_WARNING, "%s", sentence);
+}
+
+void ceduo_page_once(struct ceduo_page *page, enum ceduo_page_kind kind, const char *sentence)
+{
+    for (const struct ceduo_page_block *b = page->first; b; b = b->next)
+        if (strcmp(ceduo_text_string(&b->text), sentence) == 0)
+            return;
+    ceduo_page_say(page, kind, "%s", sentence);
+}
+
+void ceduo_page_warn_once(void *page, const char *sentence)
+{
+    ceduo_page_once(page, CEDUO_PAGE_WARNING, sentence);
+}
+
+void ceduo_page_note(void *page, const char *sentence)
+{
+    ceduo_page_say(page, CEDUO_PAGE_NOTE, "%s", sentence);
 }

@@ -6,7 +6,7 @@
 
 #include "base/language.h"
 #include "page_parts.h"
-#include "report_calibration.h"
+#include "report.h"
 
 #define TOGETHER 0.7 /* correlation that is worth a sentence */
 #define GROUND   "slope.materials["

@@ -57,11 +57,11 @@ void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
         ceduo_page_write(page, "%s", r->scene->options[i].name);
         if (r->wooded) {
-            const struct ceduo_measure share = ceduo_share(ceduo_share_at(ceduo_result_wooded(r, i, r->last_control)));
-            struct ceduo_paired to_first = ceduo_share_to_first(r, i);
-            ceduo_measure_error(ceduo_page_text(page), &share, " ");
-            if (to_first.below > 0)
-                ceduo_page_write(page, "< %.0f", ceil(to_first.below * 1000));
+            const struct ceduo_portion share = ceduo_share_at(ceduo_result_wooded(r, i, r->last_control));
+            struct ceduo_estimate to_first = ceduo_share_to_first(r, i);
+            ceduo_page_write(page, "%s", WITH_ERROR(ceduo_share(share), " "));
+            if (ceduo_pairs_are_equal(&to_first))
+                ceduo_page_write(page, "< %.0f", ceil(to_first.hi * 1000));
             else if (i > 0 && to_first.mean == 0 && to_first.se == 0)
                 ceduo_page_write(page, "%s", _("the same"));
             else if (i == 0 || isnan(to_first.mean))
@@ -98,10 +98,8 @@ void ceduo_page_fails(struct ceduo_page *page, const struct ceduo_choice *c, siz
 static void add_choice(struct ceduo_page *page, const char *name, const struct ceduo_choice *c)
 {
     ceduo_page_write(page, "%s", name);
-    if (c->over.simulated > 0) {
-        const struct ceduo_measure mean = ceduo_share(c->mean);
-        ceduo_measure_error(ceduo_page_text(page), &mean, " ");
-    }
+    if (c->over.simulated > 0)
+        ceduo_page_write(page, "%s", WITH_ERROR(ceduo_share(c->mean), " "));
     ceduo_page_worst(page, c);
     ceduo_page_fails(page, c, c->over.unprotected_contact, !c->over.nothing);
     ceduo_page_fails(page, c, c->over.unprotected_free_run, !c->over.nothing);
@@ -190,11 +188,8 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
         struct ceduo_window w = ceduo_window_of(&r->scene->options[i]);
         if (w.kind != CEDUO_WINDOW_ROTATION || isnan(v->choices[i].rotation.mean))
             continue;
-        const struct ceduo_measure mean = ceduo_share(v->choices[i].rotation);
-        LOCAL_TEXT(share);
-        ceduo_measure_error(&share, &mean, " ");
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("'%s', mean over a whole rotation, years %u to %u: %s of 1000."),
-                       r->scene->options[i].name, w.first, w.last, ceduo_text_string(&share));
+                       r->scene->options[i].name, w.first, w.last, WITH_ERROR(ceduo_share(v->choices[i].rotation), " "));
     }
     if (known)
         ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
@@ -241,11 +236,10 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
         const struct ceduo_year *y = &years->years[i];
         const struct ceduo_index *s = &y->controls[r->last_control];
         const struct ceduo_arrivals *a = y->wooded.rocks > 0 ? &y->wooded.arrivals[r->last_control] : NULL;
-        const struct ceduo_measure share = ceduo_judged(last_control(r), a);
         ceduo_page_write(page, "%4u %s", y->year, y->cut ? P_("head", "cut") : "");
         add_contacts(page, r, s);
         ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
-        ceduo_measure_interval(ceduo_page_text(page), &share);
+        ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(last_control(r), a)));
         ceduo_page_number(page, a ? a->energy.mean * J_TO_KJ : NAN, 3);
         ceduo_page_verdict(page, s->energy);
     }
@@ -253,12 +247,6 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
 }
 
 #define BESIDE_MAX 8 /* options in one table */
-
-static void write_share(struct ceduo_page *page, const struct ceduo_control *control, const struct ceduo_arrivals *arrivals)
-{
-    const struct ceduo_measure share = ceduo_judged(control, arrivals);
-    ceduo_measure_value(ceduo_page_text(page), &share);
-}
 
 void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report)
 {
@@ -268,11 +256,8 @@ void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report 
     const struct ceduo_result *r = report->result;
     const struct ceduo_control *control = last_control(r);
     size_t n = r->scene->options_count;
-    const struct ceduo_measure judged = ceduo_judged(control, NULL);
-    LOCAL_TEXT(head);
-    ceduo_measure_name(&head, &judged, CEDUO_HEAD);
-    ceduo_page_say(page, CEDUO_PAGE_SECTION, _("All options year by year, %s, up to %s m"), ceduo_text_string(&head),
-                   SHORTEST(control->x_given));
+    ceduo_page_say(page, CEDUO_PAGE_SECTION, _("All options year by year, %s, up to %s m"),
+                   NAMED(ceduo_judged(control, NULL), CEDUO_HEAD), SHORTEST(control->x_given));
     for (size_t from = 0; from < n; from += BESIDE_MAX) {
         size_t to = from + BESIDE_MAX < n ? from + BESIDE_MAX : n;
         ceduo_page_table(page, columns, 1 + to - from);
@@ -282,21 +267,18 @@ void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report 
             ceduo_page_write(page, "%4u", report->years[0]->years[k].year);
             for (size_t i = from; i < to; i++) {
                 const struct ceduo_year *y = &report->years[i]->years[k];
-                if (y->wooded.rocks > 0)
-                    write_share(page, control, &y->wooded.arrivals[r->last_control]);
-                else
-                    ceduo_page_write(page, "%s",
-                                     BESIDE(y->controls[r->last_control].worst_adc, 3, r->scene->simulation.threshold));
+                ceduo_page_write(page, "%s",
+                                 y->wooded.rocks > 0
+                                     ? VALUE_OF(ceduo_judged(control, &y->wooded.arrivals[r->last_control]))
+                                     : BESIDE(y->controls[r->last_control].worst_adc, 3, r->scene->simulation.threshold));
             }
         }
         ceduo_page_write(page, "%s", _("mean"));
-        for (size_t i = from; i < to; i++) {
-            const struct ceduo_measure mean = ceduo_share(report->verdict->choices[i].mean);
-            ceduo_measure_value(ceduo_page_text(page), &mean);
-        }
+        for (size_t i = from; i < to; i++)
+            ceduo_page_write(page, "%s", VALUE_OF(ceduo_share(report->verdict->choices[i].mean)));
         ceduo_page_write(page, "%s", _("without forest"));
         for (size_t i = from; i < to; i++)
-            write_share(page, control, &r->bare.arrivals[r->last_control]);
+            ceduo_page_write(page, "%s", VALUE_OF(ceduo_judged(control, &r->bare.arrivals[r->last_control])));
         struct text *names = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
         for (size_t i = from; i < to; i++)
             ceduo_text_format(names, i == from ? "%zu %s" : ", %zu %s", i + 1, r->scene->options[i].name);
@@ -346,12 +328,9 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
                     _("Two published laws disagree about what thin stems take from a rock (Brauner et al. 2005; Dorren et "
                       "al. 2006), and nobody knows yet which of them holds there. What differs here, more rocks cannot "
                       "decide."));
-    const struct ceduo_measure judged = ceduo_judged(last_control(r), NULL);
-    LOCAL_TEXT(phrase);
-    ceduo_measure_name(&phrase, &judged, CEDUO_PHRASE);
     ceduo_page_say(page, CEDUO_PAGE_CAPTION,
                    _("The same rocks at %s m: how many of 1000 %s, and the mean energy of those that arrive:"),
-                   SHORTEST(last_control(r)->x_given), ceduo_text_string(&phrase));
+                   SHORTEST(last_control(r)->x_given), NAMED(ceduo_judged(last_control(r), NULL), CEDUO_PHRASE));
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t i = 0; i < r->scene->options_count; i++) {
         const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The page of --sensitivity: how far each option may be off, what that depends on, whether the order of the options
- * holds, and what to measure first. */
+ * holds, and what to measure first; and the picture of it: for each option the range of what may be true, in it the error of the rocks,
+ * below them the inputs that matter, as bars of their shares. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "page_parts.h"
-#include "report_doubt.h"
+#include "plot_parts.h"
+#include "report.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
 #include "typed.h"
@@ -168,7 +170,8 @@ const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_repor
     return ceduo_doubt_figure_of(r->answer, option, r->over ? CEDUO_DOUBT_MEAN : r->answer->main, false);
 }
 
-double ceduo_doubt_scale(const struct ceduo_doubt_report *r)
+/* Factor that shows the main figure of 1000 rocks, or in kJ. */
+static double scale_of(const struct ceduo_doubt_report *r)
 {
     return ceduo_doubt_main(r, 0)->kind == CEDUO_DOUBT_ENERGY ? J_TO_KJ : 1000;
 }
@@ -182,7 +185,10 @@ void ceduo_doubt_value(struct text *t, enum ceduo_doubt_kind kind, double value)
 
 /* ---- what an option may be ---- */
 
-struct ceduo_measure ceduo_doubt_measure(const struct ceduo_doubt_report *r, size_t option, uint64_t *rocks)
+/* Return the main figure of 1000 rocks, or in kJ per released rock: in the scene as it is, with the error of the rocks, and what may be
+ * true (NaN if perhaps one option alone was asked for). Sets `*rocks`, if given, to the number of rocks; over a rotation of each
+ * year. */
+static struct ceduo_measure measure_of(const struct ceduo_doubt_report *r, size_t option, uint64_t *rocks)
 {
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
@@ -190,7 +196,7 @@ struct ceduo_measure ceduo_doubt_measure(const struct ceduo_doubt_report *r, siz
     const struct ceduo_arrivals *a = finer ? ceduo_result_wooded(finer, option, finer->last_control) : NULL;
     const struct ceduo_choice *c = r->over && r->years && option < r->years->n ? &r->years->choices[option] : NULL;
     bool energy = f->kind == CEDUO_DOUBT_ENERGY;
-    double scale = ceduo_doubt_scale(r);
+    double scale = scale_of(r);
     uint64_t own = r->answer->own_rocks;
     own = r->over && own > CEDUO_DOUBT_OWN_YEAR_ROCKS ? CEDUO_DOUBT_OWN_YEAR_ROCKS : own;
     struct ceduo_measure m = ceduo_share((struct ceduo_portion){NAN, NAN});
@@ -224,18 +230,12 @@ void ceduo_doubt_points(struct text *text, const struct ceduo_doubt_report *r)
 /* What a reader takes along: both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, size_t option)
 {
-    const struct ceduo_measure m = ceduo_doubt_measure(r, option, NULL);
-    LOCAL_TEXT(value);
-    LOCAL_TEXT(rocks);
-    LOCAL_TEXT(doubt);
-    ceduo_measure_value(&value, &m);
-    ceduo_measure_span(&rocks, &m, m.lo, m.hi);
-    ceduo_measure_span(&doubt, &m, m.may_lo, m.may_hi);
+    const struct ceduo_measure m = measure_of(r, option, NULL);
     ceduo_text_format(text,
                       r->over                                 ? _("Over the years %s of 1000 (rocks %s; doubt %s)")
                       : r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
                                                               : _("%s kJ per released rock (rocks %s; doubt %s)"),
-                      value.bytes, rocks.bytes, doubt.bytes);
+                      VALUE_OF(m), SPAN(m, m.lo, m.hi), SPAN(m, m.may_lo, m.may_hi));
 }
 
 /* Today, or in the mean of the years with the years that fail. */
@@ -253,11 +253,11 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
     r.over = over;
     ceduo_page_table(page, over ? rotation : today, judged ? 5 : 4);
     for (size_t i = 0; i < r.file->scene.options_count; i++) {
-        const struct ceduo_measure m = ceduo_doubt_measure(&r, i, NULL);
+        const struct ceduo_measure m = measure_of(&r, i, NULL);
         ceduo_text_safe(ceduo_page_text(page), r.file->scene.options[i].name);
-        ceduo_measure_value(ceduo_page_text(page), &m);
-        ceduo_measure_span(ceduo_page_text(page), &m, m.lo, m.hi);
-        ceduo_measure_span(ceduo_page_text(page), &m, m.may_lo, m.may_hi);
+        ceduo_page_write(page, "%s", VALUE_OF(m));
+        ceduo_page_write(page, "%s", SPAN(m, m.lo, m.hi));
+        ceduo_page_write(page, "%s", SPAN(m, m.may_lo, m.may_hi));
         if (!judged)
             continue;
         const struct ceduo_doubt_figure *years = ceduo_doubt_figure_of(r.answer, i, CEDUO_DOUBT_FAILING, false);
@@ -279,8 +279,8 @@ static bool matters(const struct ceduo_doubt_figure *f, size_t g)
     return f->fit.total[g].value > 2 * f->fit.total[g].se && f->fit.total[g].value >= SHOWN;
 }
 
-/* The width of the range if an input is known. */
-void ceduo_doubt_left(struct text *text, const struct ceduo_doubt_figure *f, size_t input, const char *format)
+/* Adds the width of a figure's range if an input is known, in `format`; "no gain" if that is all of it. */
+static void append_left(struct text *text, const struct ceduo_doubt_figure *f, size_t input, const char *format)
 {
     double left = f->fit.left[input];
     LOCAL_TEXT(width);
@@ -317,7 +317,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         for (int end = 0; end < 2; end++)
             append_input_end(ceduo_page_text(page), r, g, end);
         ceduo_page_write(page, "%.0f %%", ceduo_doubt_share(f, g) * 100);
-        ceduo_doubt_left(ceduo_page_text(page), f, g, "%s");
+        append_left(ceduo_page_text(page), f, g, "%s");
     }
     if (f->fit.whole.value >= SHOWN && f->fit.whole.value > 2 * f->fit.whole.se) {
         ceduo_page_write(page, "%s", _("not explained by a smooth surface"));
@@ -507,7 +507,7 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     if (!several) /* of several the table has it */
         ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
     uint64_t rocks;
-    ceduo_doubt_measure(r, 0, &rocks);
+    measure_of(r, 0, &rocks);
     ceduo_page_say(page, CEDUO_PAGE_NOTE,
                    _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
                      "reduces it. %llu scenes were computed."),
@@ -527,4 +527,83 @@ void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, boo
     else
         ceduo_page_note(&page, ceduo_doubt_none(r));
     ceduo_page_print(text, &page, plain);
+}
+
+/* ---- the picture ---- */
+
+#define SHOWN_LEAST  0.005 /* of the share of an input */
+#define INPUTS_LEAST 2     /* lines: a head and one input */
+
+static void add_bar_of_option(struct ceduo_page *page, const struct ceduo_measure *m, enum ceduo_role role, const char *name)
+{
+    ceduo_page_mark(page, role, name);
+    struct ceduo_page_bar *bar = ceduo_page_bar(page, m->hi, CEDUO_ROLE_TITLE);
+    bar->from = fmax(1e-9, m->lo); /* what the rocks leave open takes at least one cell, at 0, too */
+    bar->least = m->may_lo;
+    bar->most = m->may_hi;
+    ceduo_page_write(page, isnan(m->may_lo) ? "%s" : "%s (%s)", VALUE_OF(*m), MAY_BE(*m));
+}
+
+/* Returns the lines that it takes. */
+static int add_option_bars(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t option, int height)
+{
+    static const struct ceduo_page_column columns[] = {
+        {"", 10, 0, CEDUO_FILLS}, {"", 12, 1, CEDUO_FILLS}, {"", -12, 1, CEDUO_FITS}};
+    const struct ceduo_scene *scene = &r->file->scene;
+    size_t n = scene->options_count, lines = height > 4 ? (size_t)height - 1 : 3;
+    size_t most = lines * 2 / 3, room = n + INPUTS_LEAST <= lines ? n : most > 1 ? most - 1 : 1;
+    size_t first = option >= room ? option - room + 1 : 0;
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    struct ceduo_page_cell *heads = page->last->cells;
+    const struct ceduo_measure judged = ceduo_judged(&scene->controls[ceduo_scene_last_control(scene)], NULL);
+    bool share = ceduo_doubt_main(r, 0)->kind != CEDUO_DOUBT_ENERGY;
+    ceduo_text_put(&heads[0].text, share ? NAMED(judged, CEDUO_HEAD) : _("kJ a rock"));
+    ceduo_text_put(&heads[2].text, r->over ? _("years (may be)") : _("now (may be)"));
+    double end = 0; /* of the axis */
+    for (size_t i = 0; i < n; i++) {
+        const struct ceduo_measure m = measure_of(r, i, NULL);
+        end = fmax(end, fmax(m.may_hi, m.hi));
+        if (i >= first && i < first + room)
+            add_bar_of_option(page, &m, i == option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, scene->options[i].name);
+    }
+    end = end > 0 ? ceduo_plot_round(end, true) : 1;
+    end = scale_of(r) > 1 ? fmin(1000, end) : end;
+    ceduo_text_format(&page->last->cells[1].text, "0\xe2\x80\x93%s", ROUNDED(end, 4));
+    ceduo_page_scale(page, 1, 0, end);
+    if (n > room)
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, ngettext("%zu more option: ] goes on", "%zu more options: ] goes on", n - room),
+                       n - room);
+    return 1 + (int)(n > room ? room + 1 : n);
+}
+
+static void add_input_bars(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t option, int lines)
+{
+    static const struct ceduo_page_column columns[] = {
+        {N_("it depends on"), 18, 0, CEDUO_FILLS}, {"", 6, 1, CEDUO_FILLS}, {"", -5, 1, CEDUO_FITS}, {"", -8, 2, CEDUO_FITS}};
+    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
+    if (lines < 2)
+        return;
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_text_format(&page->last->cells[3].text, _("of %.3g wide"), (f->fit.p95 - f->fit.p5) * scale_of(r));
+    for (size_t i = 0, n = 1; f->fit.enough && i < f->uses && n < (size_t)lines; i++)
+        if (f->fit.total[f->order[i]].value >= SHOWN_LEAST) {
+            double share = ceduo_doubt_share(f, f->order[i]);
+            ceduo_doubt_input_name(ceduo_page_text(page), r, f->order[i]);
+            ceduo_page_bar(page, share, CEDUO_ROLE_MEAN);
+            ceduo_page_write(page, "%.0f %%", share * 100);
+            append_left(ceduo_page_text(page), f, f->order[i], _("leaves %s"));
+            n++;
+        }
+}
+
+const char *ceduo_plot_doubt(struct ceduo_drawing *d)
+{
+    const struct ceduo_doubt_report *r = d->picture->doubt;
+    if (!r)
+        return _("not computed yet");
+    if (!r->answer)
+        return ceduo_doubt_none(r);
+    int used = add_option_bars(d->page, r, d->picture->option, d->height);
+    add_input_bars(d->page, r, d->picture->option, d->height - used);
+    return NULL;
 }

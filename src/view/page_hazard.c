@@ -2,6 +2,7 @@
 /* How often, and with how much, where the scene has blocks: in words, the energies of return periods, and the square of
  * intensity and return period, with all options beside the slope without forest. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -24,24 +25,22 @@ static const char *name_of(const struct ceduo_result *r, size_t item)
 
 /* ---- in words ---- */
 
-void ceduo_words_every(struct text *text, struct ceduo_rate rate)
+const char *ceduo_words_every(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM])
 {
-    if (isnan(rate.rate))
-        ceduo_text_char(text, '-');
-    else if (rate.rate > 0)
-        ceduo_text_put(text, WRITTEN(1 / rate.rate, 2));
-    else
-        ceduo_text_format(text, "> %s", WRITTEN(1 / rate.hi, 2));
+    if (isnan(rate.mean) || rate.mean > 0)
+        return ceduo_words_shown(1 / rate.mean, 2, room);
+    snprintf(room, CEDUO_WORDS_ROOM, "> %s", WRITTEN(1 / rate.hi, 2));
+    return room;
 }
 
-void ceduo_words_years(struct text *text, struct ceduo_rate rate)
+const char *ceduo_words_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM])
 {
-    ceduo_words_every(text, rate);
-    const char *lo = WRITTEN(1 / rate.hi, 2), *hi = WRITTEN(1 / rate.lo, 2);
-    if (rate.rate > 0 && !(rate.lo > 0))
-        ceduo_text_format(text, " (> %s)", lo);
-    else if (rate.rate > 0 && strcmp(lo, hi) != 0)
-        ceduo_text_format(text, " (%s\xe2\x80\x93%s)", lo, hi);
+    const char *lo = WRITTEN(1 / rate.hi, 2), *hi = WRITTEN(1 / rate.lo, 2), *every = EVERY(rate);
+    if (rate.mean > 0 && !(rate.lo > 0))
+        snprintf(room, CEDUO_WORDS_ROOM, "%s (> %s)", every, lo);
+    else
+        snprintf(room, CEDUO_WORDS_ROOM, rate.mean > 0 && strcmp(lo, hi) != 0 ? "%s (%s\xe2\x80\x93%s)" : "%s", every, lo, hi);
+    return room;
 }
 
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
@@ -49,23 +48,19 @@ void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t 
     const struct ceduo_control *c = &r->scene->controls[control];
     const struct ceduo_hazard *wooded = hazard_of(r, option + 1, control);
     LOCAL_TEXT(place);
-    LOCAL_TEXT(bare);
-    LOCAL_TEXT(wood);
     LOCAL_TEXT(rock);
-    ceduo_plot_control_name(&place, c);
+    ceduo_words_place(&place, c);
     if (isnan(c->accepted))
         ceduo_text_put(&rock, _("A rock"));
     else
         ceduo_text_format(&rock, _("A rock with more than %s kJ"), SHORTEST(ceduo_words_accepted(c)));
-    ceduo_words_years(&bare, ceduo_hazard_feared(hazard_of(r, 0, control)));
-    ceduo_text_format(text, _("%s reaches %s every %s years today without forest"), rock.bytes, place.bytes, bare.bytes);
-    if (wooded) {
-        ceduo_words_years(&wood, ceduo_hazard_feared(wooded));
-        if (r->scene->options_count > 1)
-            ceduo_text_then(text, ", ", _("every %s years with '%s'"), wood.bytes, r->scene->options[option].name);
-        else
-            ceduo_text_then(text, ", ", _("every %s years through the wood"), wood.bytes);
-    }
+    ceduo_text_format(text, _("%s reaches %s every %s years today without forest"), rock.bytes, place.bytes,
+                      YEARS(ceduo_hazard_feared(hazard_of(r, 0, control))));
+    if (wooded && r->scene->options_count > 1)
+        ceduo_text_then(text, ", ", _("every %s years with '%s'"), YEARS(ceduo_hazard_feared(wooded)),
+                        r->scene->options[option].name);
+    else if (wooded)
+        ceduo_text_then(text, ", ", _("every %s years through the wood"), YEARS(ceduo_hazard_feared(wooded)));
     ceduo_text_char(text, '.');
 }
 
@@ -99,8 +94,9 @@ static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, s
         ceduo_page_write(page, "%s", name_of(r, i));
         for (size_t t = 1; t < CEDUO_RETURNS; t++) {
             struct ceduo_page_cell *cell = ceduo_page_cell(page);
-            double value = h->returns[t].energy * J_TO_KJ, hi = h->returns[t].hi * J_TO_KJ;
-            double lo = isnan(h->returns[t].lo) ? 0 : h->returns[t].lo * J_TO_KJ;
+            const struct ceduo_estimate *energy = &h->returns[t].energy;
+            double value = energy->mean * J_TO_KJ, hi = energy->hi * J_TO_KJ;
+            double lo = isnan(energy->lo) ? 0 : energy->lo * J_TO_KJ;
             if (isnan(value)) {
                 ceduo_text_put(&cell->text, _("none"));
                 continue;
@@ -130,7 +126,7 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
             struct text *cell = ceduo_page_text(page); /* which of all have it at that return period, by their numbers */
             for (size_t k = 0; k <= r->scene->options_count; k++) {
                 const struct ceduo_hazard *h = hazard_of(r, k, control);
-                if (h && ceduo_intensity_of(h->returns[t].energy) == i)
+                if (h && ceduo_intensity_of(h->returns[t].energy.mean) == i)
                     ceduo_text_format(cell, cell->length > 0 ? " %zu" : "%zu", k);
             }
             ceduo_text_put(cell, cell->length == 0 ? "\xc2\xb7" : "");
@@ -162,12 +158,12 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
         const struct ceduo_hazard *h = hazard_of(r, i, control);
         if (!h)
             continue;
-        struct ceduo_rate rate = ceduo_hazard_feared(h);
+        struct ceduo_estimate rate = ceduo_hazard_feared(h);
         ceduo_page_write(page, "%s", name_of(r, i));
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
-        ceduo_words_years(&cell->text, rate);
-        if (rate.rate > 0)
-            append_shorter(&cell->shorter, 1 / rate.rate, 1 / rate.hi, rate.lo > 0 ? 1 / rate.lo : NAN);
+        ceduo_text_put(&cell->text, YEARS(rate));
+        if (rate.mean > 0)
+            append_shorter(&cell->shorter, 1 / rate.mean, 1 / rate.hi, rate.lo > 0 ? 1 / rate.lo : NAN);
         for (size_t k = 0; k < CEDUO_INTENSITIES; k++) {
             if (isnan(h->intensity[k].left))
                 ceduo_page_write(page, "%s", _("none"));

@@ -2,7 +2,6 @@
 #ifndef CEDUO_PAGE_PARTS_H
 #define CEDUO_PAGE_PARTS_H
 
-#include "measure.h"
 #include "page.h"
 #include "report.h"
 

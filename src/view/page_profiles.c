@@ -6,8 +6,8 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "measure.h"
 #include "page_parts.h"
+#include "report.h"
 
 #define SCENE_WIDTH 32 /* columns of a scene's name */
 
@@ -53,16 +53,16 @@ void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *rep
                                  .options = ceduo_must(ceduo_arena_take(&p->arena, (n + 1) * sizeof *to->options))};
     for (size_t i = 0; i < n; i++) {
         struct profile_option *option = &to->options[i];
-        const struct ceduo_subject subject = {report, i, r->last_control, false, false};
         LOCAL_TEXT(answer);
-        if (c)
-            ceduo_words_answer(&answer, &subject, CEDUO_PAGE_WIDTH - SCENE_WIDTH - 1);
-        option->name = keep(p, r->scene->options[i].name);
-        option->answer = keep(p, c ? ceduo_text_string(&answer) : "-");
-        option->judgement = c ? ceduo_report_outcome(report, i, r->last_control).answer : CEDUO_UNANSWERED;
+        *option = (struct profile_option){keep(p, r->scene->options[i].name), "-", CEDUO_UNANSWERED, 0, NAN};
+        if (!c)
+            continue;
+        const struct ceduo_subject subject = ceduo_subject_of(report, i, r->last_control);
+        ceduo_words_answer(&answer, &subject, CEDUO_PAGE_WIDTH - SCENE_WIDTH - 1);
+        option->answer = keep(p, ceduo_text_string(&answer));
+        option->judgement = subject.outcome.answer;
         option->rank = rank_of(option->judgement);
-        const struct ceduo_arrivals *wooded = c ? ceduo_result_wooded(r, i, r->last_control) : NULL;
-        option->share = wooded ? ceduo_judged(c, wooded).value : NAN;
+        option->share = subject.today.value;
     }
 }
 
@@ -127,7 +127,7 @@ static void say_whole(struct ceduo_page *page, const struct ceduo_profiles *p, s
     for (size_t i = 0; i < p->count; i++)
         n += p->items[i].options[option].judgement == worst;
     struct text *text = ceduo_page_text(page);
-    ceduo_words_decision(text, worst);
+    ceduo_text_put(text, DECISION(worst));
     ceduo_text_then(text, ": ", _("on %zu of %zu profiles"), n, p->count);
 }
 

@@ -5,7 +5,7 @@
 
 #include "base/language.h"
 #include "ceduo/status.h"
-#include "io/emit.h"
+#include "io/node.h"
 #include "page_parts.h"
 #include "plot_parts.h"
 #include "svg.h"
@@ -70,15 +70,14 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
         return;
     }
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-    LOCAL_TEXT(phrase);
-    ceduo_measure_name(&phrase, &m, CEDUO_PHRASE);
+    const char *phrase = NAMED(m, CEDUO_PHRASE);
     ceduo_text_put(text, _("Not everything here is known for certain."));
     if (r->scene->options_count > 1)
         ceduo_text_then(text, " ", _("With '%s', in nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."),
-                        r->scene->options[option].name, m.may_lo, m.may_hi, ceduo_text_string(&phrase));
+                        r->scene->options[option].name, m.may_lo, m.may_hi, phrase);
     else
         ceduo_text_then(text, " ", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.may_lo,
-                        m.may_hi, ceduo_text_string(&phrase));
+                        m.may_hi, phrase);
     if (o.ahead && o.doubted && r->scene->blocks_count == 0)
         ceduo_text_then(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
                         o.failing_hi, report->verdict->choices[option].over.years);
@@ -135,7 +134,7 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_report *
         return;
     for (size_t k = is_crowded(report) ? r->last_control : 0; k < r->scene->controls_count; k++) {
         LOCAL_TEXT(place);
-        ceduo_plot_control_name(&place, &r->scene->controls[k]);
+        ceduo_words_place(&place, &r->scene->controls[k]);
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_PLACE), _("At %s, with '%s'"), ceduo_text_string(&place),
                           r->scene->options[option].name);
         ceduo_page_percentiles(page, r, option, k, true);

@@ -75,11 +75,10 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
 static void add_arrivals_row(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
                              const struct ceduo_arrivals *a)
 {
-    const struct ceduo_measure judged = ceduo_judged(c, a), arriving = ceduo_arriving(a);
     ceduo_page_write(page, "%s", name);
     if (!isnan(c->accepted))
-        ceduo_measure_interval(ceduo_page_text(page), &judged);
-    ceduo_measure_interval(ceduo_page_text(page), &arriving);
+        ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(c, a)));
+    ceduo_page_write(page, "%s", INTERVAL(ceduo_arriving(a)));
     ceduo_page_mean(page, a);
     ceduo_page_number(page, a->energy.p95 * J_TO_KJ, 3);
     ceduo_page_number(page, a->speed.mean, 3);
@@ -116,13 +115,13 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, 
     ceduo_text_format(line,
                       _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
                         "slope"),
-                      a->reach_probability * 1000, missed[CEDUO_STOPPED_BY_STEMS] * 1000, missed[CEDUO_AT_REST] * 1000,
+                      a->reach.mean * 1000, missed[CEDUO_STOPPED_BY_STEMS] * 1000, missed[CEDUO_AT_REST] * 1000,
                       missed[CEDUO_LEFT_SLOPE] * 1000);
     if (a->unfinished > 0)
         ceduo_text_then(line, "; ", _("%llu of %llu never come to an end"), (unsigned long long)a->unfinished,
                         (unsigned long long)f->rocks);
     if (a->reached > 0)
-        ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts);
+        ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts.mean);
     ceduo_text_char(line, '.');
     if (last)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
@@ -151,8 +150,8 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
 /* The mean that cannot mislead: of all released; it is no energy that the place must withstand. Either may be NULL. */
 static void say_released(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
-#define RELEASED(a) WRITTEN((a)->energy_per_released *J_TO_KJ, 3)
-#define HALF(a)     WRITTEN(ceduo_half_width((a)->energy_per_released_se, (a)->released) * J_TO_KJ, 2)
+#define RELEASED(a) WRITTEN((a)->energy_per_released.mean *J_TO_KJ, 3)
+#define HALF(a)     WRITTEN(ceduo_half_width((a)->energy_per_released.se, (a)->released) * J_TO_KJ, 2)
     const struct ceduo_arrivals *first = wooded ? wooded : bare;
     if (!first)
         return;
@@ -289,14 +288,13 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
         const struct ceduo_block *b = &blocks[i];
         if (!b->own && b->volume < 2 * own && 2 * b->volume > own)
             continue; /* less than an octave apart the order would be chance: the scene's own stands for it */
-        const struct ceduo_measure share = ceduo_judged(c, b->arrivals.released > 0 ? &b->arrivals : NULL);
         ceduo_page_write(page, "%s", b->own ? "  >" : "");
         ceduo_page_number(page, b->volume, 3);
         ceduo_page_number(page, b->mass, 3);
         ceduo_page_number(page, b->diameter, 3);
         ceduo_page_number(page, b->adc, 3);
         ceduo_page_number(page, b->contacts, 3);
-        ceduo_measure_interval(ceduo_page_text(page), &share);
+        ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(c, b->arrivals.released > 0 ? &b->arrivals : NULL)));
         left_out |= b->arrivals.released == 0;
     }
     if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)

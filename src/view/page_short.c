@@ -59,9 +59,9 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
     for (size_t k = 0; k < 4; k++) {
         if (k == 1 && isnan(c->accepted))
             continue;
-        ceduo_measure_name(ceduo_page_text(page), &figures[0][k], CEDUO_PHRASE);
+        ceduo_page_write(page, "%s", NAMED(figures[0][k], CEDUO_PHRASE));
         for (size_t i = 0; i < (stems ? 2 : 1); i++)
-            ceduo_measure_value(ceduo_page_text(page), &figures[i][k]);
+            ceduo_page_write(page, "%s", VALUE_OF(figures[i][k]));
     }
     ceduo_page_write(page, "%s", _("stopped by stems, at rest before"));
     for (size_t i = 0; i < (stems ? 2 : 1); i++)
@@ -110,58 +110,28 @@ static enum form form_of(const struct ceduo_report *report)
     return ceduo_report_ahead(report, 0) ? AHEAD : TODAY;
 }
 
-static void add_span(struct ceduo_page *page, const struct ceduo_measure *m)
-{
-    struct text *text = ceduo_page_text(page);
-    if (isnan(m->may_lo))
-        ceduo_text_put(text, "-");
-    else
-        ceduo_measure_may_be(text, m);
-}
-
-/* How often, with both errors; the same today; and whether that is accepted. */
-static void add_rates(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+static void add_option(struct ceduo_page *page, const struct ceduo_report *report, enum form form, size_t i)
 {
     const struct ceduo_result *r = report->result;
-    const struct ceduo_outcome o = ceduo_report_outcome(report, i, r->last_control);
-    const struct ceduo_arrivals *today = ceduo_result_wooded(r, i, r->last_control);
-    ceduo_words_years(ceduo_page_text(page), o.rate);
-    ceduo_words_decision(ceduo_page_text(page), o.answer);
-    ceduo_words_every(ceduo_page_text(page), today ? ceduo_hazard_feared(&today->hazard) : o.rate);
-}
-
-/* Over the years, and today. */
-static void add_shares(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
-{
-    const struct ceduo_result *r = report->result;
-    const struct ceduo_choice *v = &report->verdict->choices[i];
-    struct ceduo_measure today = ceduo_judged(&r->scene->controls[r->last_control], ceduo_result_wooded(r, i, r->last_control));
-    struct ceduo_measure mean = ceduo_share(v->mean);
-    bool years = form_of(report) == AHEAD;
-    ceduo_measure_doubt(&today, report->doubt, i, r->last_control);
-    ceduo_measure_doubt_over(&mean, report->doubt, i);
-    if (years) {
-        ceduo_measure_value(ceduo_page_text(page), &mean);
-        add_span(page, &mean);
-        ceduo_page_worst(page, v);
-        ceduo_page_fails(page, v, v->over.unprotected_energy, v->energy_known);
-    }
-    ceduo_measure_value(ceduo_page_text(page), &today);
-    if (!years)
-        add_span(page, &today);
-}
-
-static void add_choice(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
-{
-    const struct ceduo_result *r = report->result;
+    const struct ceduo_subject s = ceduo_subject_of(report, i, r->last_control);
     ceduo_page_write(page, "%s", r->scene->options[i].name);
-    if (form_of(report) == RATES)
-        add_rates(page, report, i);
-    else
-        add_shares(page, report, i);
-    ceduo_page_write(page, "%s", BESIDE(ceduo_result_last_index(r, i)->worst_adc, 3, r->scene->simulation.threshold));
-    if (form_of(report) != TODAY)
-        ceduo_page_number(page, report->verdict->choices[i].yield.cut_per_year, 2);
+    if (form == RATES) { /* how often, with both errors; whether that is accepted; the same today */
+        ceduo_page_write(page, "%s", YEARS(s.outcome.rate));
+        ceduo_page_write(page, "%s", DECISION(s.outcome.answer));
+        ceduo_page_write(page, "%s", EVERY(s.wooded ? ceduo_hazard_feared(&s.wooded->hazard) : s.outcome.rate));
+    } else if (form == AHEAD) {
+        ceduo_page_write(page, "%s", VALUE_OF(s.mean));
+        ceduo_page_write(page, "%s", isnan(s.mean.may_lo) ? "-" : MAY_BE(s.mean));
+        ceduo_page_worst(page, s.choice);
+        ceduo_page_fails(page, s.choice, s.choice->over.unprotected_energy, s.choice->energy_known);
+    }
+    if (form != RATES)
+        ceduo_page_write(page, "%s", VALUE_OF(s.today));
+    if (form == TODAY)
+        ceduo_page_write(page, "%s", isnan(s.today.may_lo) ? "-" : MAY_BE(s.today));
+    ceduo_page_write(page, "%s", BESIDE(s.index->worst_adc, 3, r->scene->simulation.threshold));
+    if (form != TODAY)
+        ceduo_page_number(page, s.choice->yield.cut_per_year, 2);
 }
 
 /* What differs between the options: over the years, and today. */
@@ -197,18 +167,18 @@ static void add_options(struct ceduo_page *page, const struct ceduo_report *repo
     if (form == RATES)
         ceduo_text_format(ceduo_page_text(page), _("years between > %s kJ"), SHORTEST(ceduo_words_accepted(c)));
     else
-        ceduo_measure_name(ceduo_page_text(page), &share, CEDUO_HEAD);
+        ceduo_page_write(page, "%s", NAMED(share, CEDUO_HEAD));
     for (size_t i = 0; below[form][i]; i++)
         ceduo_page_write(page, "%s", below[form][i]);
     for (size_t i = 0; i < r->scene->options_count; i++)
-        add_choice(page, report, i);
+        add_option(page, report, form, i);
     ceduo_page_write(page, "%s", _("without forest"));
     for (size_t i = 0; below[form][i]; i++) {
         struct text *text = ceduo_page_text(page);
         if (i == forms[form].today && form == RATES)
-            ceduo_words_every(text, ceduo_hazard_feared(&bare->hazard));
+            ceduo_text_put(text, EVERY(ceduo_hazard_feared(&bare->hazard)));
         else if (i == forms[form].today)
-            ceduo_measure_value(text, &share);
+            ceduo_text_put(text, VALUE_OF(share));
     }
 }
 

@@ -4,10 +4,10 @@
 #include <math.h>
 
 #include "base/language.h"
-#include "measure.h"
 #include "page_parts.h"
 #include "pane.h"
 #include "plot_parts.h"
+#include "report.h"
 
 #define WIDE       34 /* columns with room for intervals */
 #define HEIGHT_MIN 18 /* lines with room for what is seen elsewhere, too, … */
@@ -49,17 +49,15 @@ static const struct ceduo_arrivals *wood_of(const struct ceduo_pane *pane)
 /* A row: a share with the error of the rocks, an energy or a height with three digits. */
 static void add_row(struct ceduo_page *page, struct ceduo_measure wood, struct ceduo_measure bare)
 {
-    ceduo_measure_name(ceduo_page_text(page), &bare, CEDUO_ROW);
+    ceduo_page_write(page, "%s", NAMED(bare, CEDUO_ROW));
     if (wood.digits > 0)
         ceduo_page_number(page, wood.value, 3);
-    else if (page->width >= WIDE)
-        ceduo_measure_interval(ceduo_page_text(page), &wood);
     else
-        ceduo_measure_error(ceduo_page_text(page), &wood, "");
+        ceduo_page_write(page, "%s", page->width >= WIDE ? INTERVAL(wood) : WITH_ERROR(wood, ""));
     if (bare.digits > 0)
         ceduo_page_number(page, bare.value, 3);
     else
-        ceduo_measure_value(ceduo_page_text(page), &bare);
+        ceduo_page_write(page, "%s", VALUE_OF(bare));
 }
 
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_control *c, bool nothing)
@@ -81,13 +79,13 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
         ceduo_measure_doubt(&judged, pane->report->doubt, pane->option, pane->report->result->last_control);
     if (!isnan(judged.may_lo)) {
         ceduo_page_write(page, "  %s", _("may be"));
-        ceduo_measure_may_be(ceduo_page_text(page), &judged);
+        ceduo_page_write(page, "%s", MAY_BE(judged));
         ceduo_page_write(page, "%s", "");
     }
     if (blocks && !nothing) { /* years from one dangerous rock to the next: what matters where blocks of all sizes come down */
         ceduo_page_write(page, "%s", _("years apart"));
-        ceduo_words_every(ceduo_page_text(page), wood ? ceduo_hazard_feared(&wood->hazard) : (struct ceduo_rate){.rate = NAN});
-        ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&bare->hazard));
+        ceduo_page_write(page, "%s", wood ? EVERY(ceduo_hazard_feared(&wood->hazard)) : "-");
+        ceduo_page_write(page, "%s", EVERY(ceduo_hazard_feared(&bare->hazard)));
     }
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
         bool any = (wood && wood->ended[ends[i]] > 0) || bare->ended[ends[i]] > 0;
@@ -152,7 +150,7 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
                      index->worst_free_run <= CEDUO_FREE_RUN_MOST ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MOST * 100);
     add_light(page, pane, index->free_run, c->over.unprotected_free_run, true);
     if (index->energy != CEDUO_UNKNOWN && wood)
-        ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed_probability, wood->limit),
+        ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed.mean, wood->limit),
                          than(index->energy, "\xe2\x89\xa4", ">"), ROUNDED(wood->limit * 100, 3));
     else
         ceduo_page_write(page, "%s",
@@ -249,11 +247,10 @@ void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane)
 static void add_simulated(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
                           const struct ceduo_arrivals *a)
 {
-    const struct ceduo_measure p95 = ceduo_energy_p95(a), judged = ceduo_judged(c, a);
     ceduo_page_write(page, "%s", name);
     ceduo_page_mean(page, a);
-    ceduo_page_number(page, p95.value, p95.digits);
-    ceduo_measure_interval(ceduo_page_text(page), &judged);
+    ceduo_page_number(page, a->energy.p95 * J_TO_KJ, 3);
+    ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(c, a)));
 }
 
 /* A mean alone. */
@@ -274,13 +271,12 @@ void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane)
     const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control],
                                 *wood = ceduo_result_wooded(r, pane->option, r->last_control);
     const struct ceduo_index *index = ceduo_result_last_index(r, pane->option);
-    const struct ceduo_measure mean = ceduo_mean_energy(bare), judged = ceduo_judged(c, bare);
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *heads = page->last->cells;
     ceduo_text_format(&heads[0].text, _("energy left at %g m"), c->x_given);
     ceduo_text_format(&heads[0].shorter, _("left at %g m"), c->x_given);
-    ceduo_measure_name(&heads[1].text, &mean, CEDUO_SHORT_HEAD);
-    ceduo_measure_name(&heads[3].text, &judged, CEDUO_SHORT_HEAD);
+    ceduo_text_put(&heads[1].text, NAMED(ceduo_mean_energy(bare), CEDUO_SHORT_HEAD));
+    ceduo_text_put(&heads[3].text, NAMED(ceduo_judged(c, bare), CEDUO_SHORT_HEAD));
     add_simulated(page, _("without forest"), c, bare);
     if (r->scene->options[pane->option].belts_count > 0)
         add_mean(page, _("index (Eq. 5)"), index->exhausted ? _("used up") : WRITTEN(index->residual * J_TO_KJ, 3));

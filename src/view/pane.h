@@ -5,7 +5,6 @@
 #include "page.h"
 #include "plot.h"
 #include "report.h"
-#include "report_doubt.h"
 
 /* What the panes of the terminal program say, as blocks of a page: the column of figures that stands beside every view, and the
  * tables of the views. */

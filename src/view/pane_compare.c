@@ -30,14 +30,9 @@ static const struct ceduo_page_column columns[COLUMNS] = {
 
 #define PENDING "\xe2\x80\xa6"
 
-static struct text *add_share(struct ceduo_page *page, const struct ceduo_measure *share)
+static void add_share(struct ceduo_page *page, struct ceduo_measure share)
 {
-    struct text *text = ceduo_page_text(page);
-    if (isnan(share->value))
-        ceduo_text_put(text, PENDING);
-    else
-        ceduo_measure_error(text, share, "");
-    return text;
+    ceduo_page_write(page, "%s", isnan(share.value) ? PENDING : WITH_ERROR(share, ""));
 }
 
 /* The years at a glance: a column for each, or of several that share one the worst; as high as what gets through. */
@@ -64,19 +59,6 @@ static bool knows_rotation(const struct ceduo_pane *pane)
            pane->report->verdict->wooded;
 }
 
-/* "296±7 (219–327)": the mean over the years, with its range. */
-static void add_mean(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
-{
-    struct ceduo_measure mean = ceduo_share(pane->report->verdict->choices[i].mean);
-    struct text *text = add_share(page, &mean);
-    ceduo_measure_doubt_over(&mean, pane->report->doubt, i);
-    if (!knows_rotation(pane) || isnan(mean.may_lo))
-        return;
-    ceduo_text_put(text, " (");
-    ceduo_measure_may_be(text, &mean);
-    ceduo_text_char(text, ')');
-}
-
 /* With blocks the options are judged by the years from one rock above the limit to the next. */
 static bool has_rates(const struct ceduo_pane *pane)
 {
@@ -88,46 +70,37 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     const struct ceduo_result *r = pane->report->result;
     const struct ceduo_verdict *v = pane->report->verdict;
     const struct ceduo_choice *c = &v->choices[i];
-    const struct ceduo_index *index = ceduo_result_last_index(r, i);
-    const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);
+    const struct ceduo_subject s = ceduo_subject_of(pane->report, i, r->last_control);
+    bool years = c->over.years > 0, rates = has_rates(pane), rotation = knows_rotation(pane);
     ceduo_page_mark(page, i == pane->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
-    struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], a);
-    const struct ceduo_measure today = ceduo_share(c->today); /* its error is right where rocks have weights, too */
-    if (has_rates(pane))
-        ceduo_words_every(ceduo_page_text(page), a ? ceduo_hazard_feared(&a->hazard) : (struct ceduo_rate){.rate = NAN});
+    if (rates)
+        ceduo_page_write(page, "%s", s.wooded ? EVERY(ceduo_hazard_feared(&s.wooded->hazard)) : "-");
     else if (v->wooded)
-        add_share(page, &today);
+        add_share(page, ceduo_share(c->today)); /* its error is right if rocks have weights, too */
     else
-        ceduo_page_write(page, "%s", BESIDE(index->worst_adc, 3, r->scene->simulation.threshold));
-    struct text *may_be = ceduo_page_text(page);
-    ceduo_measure_doubt(&judged, pane->report->doubt, i, r->last_control);
-    if (!isnan(judged.may_lo) && !knows_rotation(pane) && !has_rates(pane))
-        ceduo_measure_may_be(may_be, &judged);
-    if (has_rates(pane) && c->over.years == 0)
-        ceduo_page_write(page, PENDING);
-    else if (has_rates(pane))
-        ceduo_words_years(ceduo_page_text(page), ceduo_report_outcome(pane->report, i, r->last_control).rate);
+        ceduo_page_write(page, "%s", BESIDE(s.index->worst_adc, 3, r->scene->simulation.threshold));
+    ceduo_page_write(page, "%s", isnan(s.today.may_lo) || rotation || rates ? "" : MAY_BE(s.today));
+    if (rates)
+        ceduo_page_write(page, "%s", years ? YEARS(s.outcome.rate) : PENDING);
+    else if (v->wooded && rotation && !isnan(s.mean.value) && !isnan(s.mean.may_lo)) /* "296±7 (219–327)" */
+        ceduo_page_write(page, "%s (%s)", WITH_ERROR(s.mean, ""), MAY_BE(s.mean));
     else if (v->wooded)
-        add_mean(page, pane, i);
+        add_share(page, s.mean);
     else
-        ceduo_page_number(page, index->per_100m * J_TO_KJ, 3);
-    if (c->over.years == 0) {
+        ceduo_page_number(page, s.index->per_100m * J_TO_KJ, 3);
+    if (!years)
         ceduo_page_write(page, PENDING);
-        ceduo_page_write(page, PENDING);
-    } else if (has_rates(pane)) {
-        ceduo_page_write(page, "%s (%u)", WRITTEN(1 / (c->worst.mean * r->bare.arrivals[r->last_control].hazard.per_year), 2),
-                         c->over.worst_year);
-        LOCAL_TEXT(decision);
-        ceduo_words_decision(&decision, ceduo_report_outcome(pane->report, i, r->last_control).answer);
-        ceduo_page_write(page, "%s", ceduo_text_string(&decision));
-    } else {
-        if (v->wooded)
-            ceduo_page_worst(page, c);
-        else
-            ceduo_page_number(page, c->worst.mean, 3);
+    else if (rates)
+        ceduo_page_write(page, "%s (%u)", WRITTEN(1 / (c->worst.mean * s.bare->hazard.per_year), 2), c->over.worst_year);
+    else if (v->wooded)
+        ceduo_page_worst(page, c);
+    else
+        ceduo_page_number(page, c->worst.mean, 3);
+    if (!years || rates)
+        ceduo_page_write(page, "%s", years ? DECISION(s.outcome.answer) : PENDING);
+    else
         ceduo_page_fails(page, c, v->wooded ? c->over.unprotected_energy : c->over.unprotected_contact,
                          v->wooded ? c->energy_known : !c->over.nothing);
-    }
     ceduo_page_number(page, c->yield.cut_per_year, 2);
     /* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all */
     bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;
@@ -135,9 +108,9 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     for (size_t k = 0; k < v->n; k++)
         worst &= k == i || v->choices[k].mean.mean + v->choices[k].mean.half < c->mean.mean - c->mean.half;
     ceduo_page_mark(page, best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, best ? _("best") : worst ? _("worst") : "");
-    ceduo_page_light(page, index->contact);
-    ceduo_page_light(page, index->free_run);
-    ceduo_page_light(page, index->energy);
+    ceduo_page_light(page, s.index->contact);
+    ceduo_page_light(page, s.index->free_run);
+    ceduo_page_light(page, s.index->energy);
     add_years(page, v->wooded ? pane->report->ahead[i] : NULL);
 }
 
@@ -160,14 +133,12 @@ void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, 
 {
     const struct ceduo_result *r = pane->report->result;
     const struct ceduo_control *control = &r->scene->controls[r->last_control];
-    struct ceduo_measure judged = ceduo_judged(control, NULL);
-    LOCAL_TEXT(name);
-    ceduo_measure_name(&name, &judged, CEDUO_SHORT_HEAD);
+    const char *name = NAMED(ceduo_judged(control, NULL), CEDUO_SHORT_HEAD);
     if (has_rates(pane))
-        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("Years between two rocks %s at %.6g m (accepted: %s)"),
-                       ceduo_text_string(&name), control->x_given, SHORTEST(ceduo_accepted_return(control)));
+        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("Years between two rocks %s at %.6g m (accepted: %s)"), name, control->x_given,
+                       SHORTEST(ceduo_accepted_return(control)));
     else if (r->wooded)
-        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("Of 1000 rocks: %s at %.6g m"), ceduo_text_string(&name), control->x_given);
+        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("Of 1000 rocks: %s at %.6g m"), name, control->x_given);
     else
         ceduo_page_say(page, CEDUO_PAGE_TITLE, _("At %s m"), ROUNDED(control->x_given, 6));
     ceduo_page_table(page, columns, COLUMNS);

@@ -5,8 +5,8 @@
 
 #include "base/language.h"
 #include "ceduo/assess.h"
-#include "measure.h"
 #include "plot_parts.h"
+#include "report.h"
 
 enum { ADC, SHARE, ENERGY, BARS };
 
@@ -91,13 +91,8 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     struct scale scales[BARS] = {[ADC] = {threshold / 10, threshold * 2, threshold, _("ADC m")},
                                  [SHARE] = {0, d->wooded ? 1000 : 0,
                                             d->wooded && !isnan(accepted) ? 1000 * ceduo_exceed_limit(scene, d->control) : NAN,
-                                            _("kJ/100 m")},
+                                            d->wooded ? NAMED(judged, CEDUO_SHORT_HEAD) : _("kJ/100 m")},
                                  [ENERGY] = {0, bare * J_TO_KJ, accepted, d->wooded ? _("mean kJ") : P_("head", "left kJ")}};
-    LOCAL_TEXT(head);
-    if (d->wooded) {
-        ceduo_measure_name(&head, &judged, CEDUO_SHORT_HEAD);
-        scales[SHARE].head = head.bytes;
-    }
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t k = 0; k < BARS; k++) { /* a limit stands above its bars, what they are above their numbers */
         struct ceduo_page_cell *heads = &page->last->cells[3 * k + 1];
@@ -124,8 +119,6 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(scene->options_count - n));
     /* what is to be held against them */
     const char *mean = WRITTEN(bare * J_TO_KJ, 4);
-    LOCAL_TEXT(what);
-    ceduo_measure_name(&what, &judged, CEDUO_HEAD);
     if (!arrivals)
         ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("not computed yet"));
     else if (isnan(bare))
@@ -133,7 +126,7 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     else if (!d->wooded)
         ceduo_page_line(page, CEDUO_ROLE_DIM, _("left of %s kJ (mean, without forest), by the index"), mean);
     else
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("without forest: %.0f %s, mean %s kJ"), judged.value, ceduo_text_string(&what),
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("without forest: %.0f %s, mean %s kJ"), judged.value, NAMED(judged, CEDUO_HEAD),
                         mean);
     return NULL;
 }

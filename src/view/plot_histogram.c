@@ -5,8 +5,8 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "measure.h"
 #include "plot_parts.h"
+#include "report.h"
 
 /* Energies at a control as horizontal bars. */
 
@@ -56,7 +56,7 @@ struct histogram {
 /* Of 1000 released, those in bin i. */
 static double per_1000(const struct counted *c, int i)
 {
-    return c->n > 0 ? 1000 * c->arrivals->reach_probability * (double)c->counts[i] / (double)c->n : 0;
+    return c->n > 0 ? 1000 * c->arrivals->reach.mean * (double)c->counts[i] / (double)c->n : 0;
 }
 
 static void add_mark(const struct histogram *h, int i, double kj, const char *name, struct text *text)
@@ -104,7 +104,7 @@ static void say_share(struct text *text, const struct histogram *h, const struct
                       const struct ceduo_measure *bare)
 {
     ceduo_text_format(text, h->bare.arrivals ? "%.0f (\xe2\x94\x82 %.0f) " : "%.0f ", m->value, bare->value);
-    ceduo_measure_name(text, m, CEDUO_SHORT_HEAD);
+    ceduo_text_put(text, NAMED(*m, CEDUO_SHORT_HEAD));
 }
 
 /* What all rows add up to. */

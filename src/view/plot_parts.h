@@ -44,32 +44,15 @@ void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light);
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-/* "end of the forest (135 m)", or "135 m". */
-void ceduo_plot_control_name(struct text *text, const struct ceduo_control *control);
-
 /* The name of a stand with a star where something of it is assumed. */
 void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt);
 
-/* Whether any stem stands in the option's belts; the height of the tallest in a stand, 0 in a bare one. */
+/* True if any stem stands in the option's belts. */
 bool ceduo_plot_has_stems(const struct ceduo_option *option);
-double ceduo_plot_tallest(const struct ceduo_stand *stand);
 
 /* The axes of the frame in the user's coordinates, which begin at x, y: the left one, and the bottom one in `unit` (NULL: none). */
 struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, double y);
 void ceduo_plot_axes(const struct ceduo_drawing *drawing, double x, double y, const char *unit);
-
-/* Places the frame of a chart, whose ranges stay 0, and its legend of so many lines: beside it where the area is wide, otherwise
- * below it, and nowhere where that leaves no `height`. False where there is no room. */
-struct ceduo_chart_size {
-    int axis, below;   /* columns of the left axis, rows of the bottom axis */
-    int legend;        /* columns */
-    int width, height; /* the least of the picture */
-};
-bool ceduo_plot_chart(struct ceduo_drawing *drawing, const struct ceduo_chart_size *size, size_t lines);
-
-/* A sign at a point, or beside it; a little lower where another stands there. */
-void ceduo_plot_sign(const struct ceduo_drawing *drawing, double x, double y, bool beside, enum ceduo_role role,
-                     const char *sign);
 
 /* The largest 1, 2 or 5 times a power of ten that is not above a value, or the least that is not below. */
 double ceduo_plot_round(double value, bool up);

@@ -45,6 +45,17 @@ static bool is_stretch(const struct ceduo_drawing *d)
     return d->picture->to > d->picture->from;
 }
 
+/* Returns the height of the tallest stem, 0 without stems. */
+static double tallest_of(const struct ceduo_stand *stand)
+{
+    double tallest = 0;
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        tallest = fmax(tallest, stand->shoots[i].per_ha > 0 ? stand->shoots[i].height : 0);
+    for (size_t i = 0; i < stand->trees_count; i++)
+        tallest = fmax(tallest, stand->trees[i].per_ha > 0 ? stand->trees[i].height : 0);
+    return tallest;
+}
+
 /* All that is to be seen: ground, release, trajectories, stems; of a stretch stems may reach beyond the top. */
 static struct range range_of(const struct ceduo_drawing *d)
 {
@@ -59,7 +70,7 @@ static struct range range_of(const struct ceduo_drawing *d)
         widen_by_line(&r, d->picture->selected);
     for (size_t i = 0; d->option && !is_stretch(d) && i < d->option->belts_count; i++) {
         const struct ceduo_belt *belt = &d->option->belts[i];
-        widen_by_ground(&r, &d->scene->slope, belt->from, belt->to, ceduo_plot_tallest(&belt->stand));
+        widen_by_ground(&r, &d->scene->slope, belt->from, belt->to, tallest_of(&belt->stand));
     }
     return r;
 }
@@ -173,7 +184,7 @@ static void name_control(const struct ceduo_drawing *d, const struct ceduo_contr
     if (!ceduo_frame_cell(&d->frame, d->canvas, control->x, d->frame.y0, &column, &row))
         return;
     LOCAL_TEXT(name);
-    ceduo_plot_control_name(&name, control);
+    ceduo_words_place(&name, control);
     int width = ceduo_canvas_label_width(d->canvas, name.bytes);
     for (int i = 0; i < 2 * NAME_ROWS && i < 2 * d->area.height; i++) {
         int start = i % 2 ? column - 1 - width : column + 2, y = d->area.top + i / 2;

@@ -140,7 +140,7 @@ void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct cedu
     if (plot == CEDUO_PLOT_STAND)
         ceduo_text_put(&place, d.belt && d.belt->name ? d.belt->name : _("no forest"));
     else if (d.control)
-        ceduo_plot_control_name(&place, d.control);
+        ceduo_words_place(&place, d.control);
     else
         ceduo_text_put(&place, _("no control"));
     if (!(kind->flags & CEDUO_PICTURE_WHOLE))
@@ -162,14 +162,6 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
     int width = ceduo_canvas_label_width(canvas, ceduo_text_string(&text));
     width = width < abs(most) ? width : abs(most);
     return ceduo_canvas_put(canvas, most < 0 ? column + 1 - width : column, row, width, role, ceduo_text_string(&text));
-}
-
-void ceduo_plot_control_name(struct text *text, const struct ceduo_control *control)
-{
-    if (control->name)
-        ceduo_text_format(text, _("%s (%s m)"), NAME_OF(control), SHORTEST(control->x_given));
-    else
-        ceduo_text_format(text, _("%s m"), SHORTEST(control->x_given));
 }
 
 void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt)
@@ -203,16 +195,6 @@ bool ceduo_plot_has_stems(const struct ceduo_option *option)
     return false;
 }
 
-double ceduo_plot_tallest(const struct ceduo_stand *stand)
-{
-    double tallest = 0;
-    for (size_t i = 0; i < stand->shoots_count; i++)
-        tallest = fmax(tallest, stand->shoots[i].per_ha > 0 ? stand->shoots[i].height : 0);
-    for (size_t i = 0; i < stand->trees_count; i++)
-        tallest = fmax(tallest, stand->trees[i].per_ha > 0 ? stand->trees[i].height : 0);
-    return tallest;
-}
-
 /* ---- frames ---- */
 
 struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, double y)
@@ -231,34 +213,6 @@ void ceduo_plot_axes(const struct ceduo_drawing *d, double x, double y, const ch
     ceduo_canvas_axis_left(d->canvas, &given);
     if (unit)
         ceduo_canvas_axis_bottom(d->canvas, &given, unit);
-}
-
-bool ceduo_plot_chart(struct ceduo_drawing *d, const struct ceduo_chart_size *size, size_t lines)
-{
-    const struct ceduo_area *a = &d->area;
-    bool beside = a->width >= size->width + size->axis + size->legend + 16;
-    int below = !beside && a->height - (int)lines >= size->height + 3 ? (int)lines : 0;
-    d->frame = (struct ceduo_frame){.left = a->left + size->axis,
-                                    .top = a->top + 1,
-                                    .width = a->width - size->axis - 1 - (beside ? size->legend + 2 : 0),
-                                    .height = a->height - 1 - size->below - below};
-    d->legend = (struct ceduo_area){a->left, a->top + a->height - below, a->width, below};
-    if (beside)
-        d->legend = (struct ceduo_area){a->left + a->width - size->legend, a->top + 1, size->legend, a->height - 1};
-    return a->width >= size->width && a->height >= size->height;
-}
-
-void ceduo_plot_sign(const struct ceduo_drawing *d, double x, double y, bool beside, enum ceduo_role role, const char *sign)
-{
-    const struct ceduo_frame *f = &d->frame;
-    int column, row, width = ceduo_canvas_label_width(d->canvas, sign);
-    if (!ceduo_frame_cell(f, d->canvas, x, y, &column, &row))
-        return;
-    if (beside)
-        column += column + 1 + width > f->left + f->width ? -width : 1;
-    while (row + 1 < f->top + f->height && !ceduo_canvas_is_blank(d->canvas, column, row))
-        row++;
-    ceduo_canvas_label(d->canvas, column, row, role, sign);
 }
 
 double ceduo_plot_round(double value, bool up)

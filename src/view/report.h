@@ -4,16 +4,155 @@
 
 #include "base/arena.h"
 #include "ceduo/blocks.h"
+#include "ceduo/calibrate.h"
+#include "ceduo/doubt.h"
 #include "ceduo/find.h"
-#include "ceduo/years.h"
+#include "ceduo/surface.h"
 #include "io/scene_file.h"
-#include "report_doubt.h"
 #include "study/goal.h"
 #include "study/snapshot.h"
-#include "study/verdict.h"
 #include "words.h"
 
 enum ceduo_format { CEDUO_TABLE, CEDUO_CSV, CEDUO_JSON };
+
+struct ceduo_page;
+
+/* ---- how sure a scene is ---- */
+
+/* What doubt does to a scene. */
+struct ceduo_doubt_report {
+    struct scene_file *file; /* its scene is only read, but by paths */
+    const struct scene_inputs *inputs;
+    const struct ceduo_doubt_answer *answer; /* NULL: nothing is in doubt, nothing was computed */
+    size_t points;
+    uint64_t rocks;
+    const struct ceduo_result *finer;  /* figures of the scene as it is from more rocks; NULL: those of the answer */
+    const struct ceduo_verdict *years; /* likewise those of its years */
+    bool over;                         /* the main figure is the mean over the rotation, which the answer has */
+    bool too_much;                     /* it was not computed because it would take too long */
+};
+
+/* The figure that all is about: too much energy where that is known, otherwise energy; or its mean over the rotation. */
+const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_report *report, size_t option);
+
+/* Whether the scene asks for no answer; why there is none: that, or nothing is in doubt. */
+bool ceduo_doubt_is_off(const struct ceduo_doubt_report *report);
+const char *ceduo_doubt_none(const struct ceduo_doubt_report *report);
+
+void ceduo_doubt_value(struct text *text, enum ceduo_doubt_kind kind, double value); /* shares of 1000, energies in kJ */
+
+/* The share of an input in a figure as it is shown, from 0 to 1: an estimate may lie outside. */
+double ceduo_doubt_share(const struct ceduo_doubt_figure *figure, size_t group);
+
+/* What people call an input: "diameter, ADS 1"; "energy law". */
+void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *report, size_t group);
+
+/* An end of an input's range, 0 or 1, as files have it; of words `*word` is the first or the last, and the value NaN. */
+double ceduo_doubt_input_value(const struct ceduo_doubt_report *report, size_t group, int end, const char **word);
+void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *report, size_t group, int end);
+
+/* A warning for each input whose value in the scene is not among those that it may have. */
+void ceduo_doubt_outside(const struct ceduo_doubt_report *report, ceduo_words_say *say, void *context);
+
+/* What would measure an input, marked for translation; NULL: nothing that is known. */
+const char *ceduo_doubt_measured(const struct ceduo_doubt_report *report, size_t group);
+
+/* Adds what was found as blocks: a section with tables and what to measure first; of `all` also the mean over a rotation, and how
+ * sure the order of the options is. */
+void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *report, bool all);
+/* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
+void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
+
+/* The option that advice is about: the one that lets least pass today in the mean of plausible cases. */
+size_t ceduo_doubt_chosen(const struct ceduo_doubt_report *report);
+
+/* Input n of those to be measured first for a figure, in the order of what is left if they are known. Only inputs that a reader can
+ * measure, each name once. SIZE_MAX: there are fewer. */
+size_t ceduo_doubt_advised(const struct ceduo_doubt_report *report, const struct ceduo_doubt_figure *figure, size_t n);
+
+/* Adds at most `most` of these inputs, each with what would measure it. */
+void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, const struct ceduo_doubt_figure *figure,
+                        size_t most);
+
+/* Adds the number of points, if it is smaller than usual. */
+void ceduo_doubt_points(struct text *text, const struct ceduo_doubt_report *report);
+
+/* In how much of what may be true one of two options is better, equal or worse, and how sure that makes the order. */
+void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *report, size_t order);
+
+/* "energy law and friction": what a light depends on above all; false where it does not change within what may be true. */
+bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *report, size_t option, enum ceduo_doubt_kind light);
+
+/* "Whether the test of energy passes depends on …"; nothing where the light does not change within what may be true. */
+void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *report, size_t option, size_t light);
+extern const enum ceduo_doubt_kind ceduo_doubt_lights[3]; /* contact, free run, energy */
+
+void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *report, bool plain);
+
+/* ---- measures ---- */
+
+/* A figure of an answer and what people call it: made here once, for pages, pictures, panes and the column. */
+
+enum ceduo_measure_name {
+    CEDUO_HEAD,       /* of a column that has room: "of 1000 > 50 kJ" */
+    CEDUO_SHORT_HEAD, /* "> 50 kJ" */
+    CEDUO_ROW,        /* before the figure: "above 50 kJ" */
+    CEDUO_PHRASE,     /* in a sentence: "arrive with more than 50 kJ" */
+    CEDUO_MEASURE_NAMES
+};
+
+struct ceduo_measure {
+    double value, lo, hi;                   /* in the unit shown; NaN: not known, or no interval */
+    double half;                            /* of a share: half the width of its interval, not rounded */
+    double may_lo, may_hi;                  /* 90 % of what may be true; NaN: not known, see ceduo_measure_doubt() */
+    int digits;                             /* significant; 0: a whole number */
+    const char *names[CEDUO_MEASURE_NAMES]; /* marked for translation; %s in a name is the limit */
+    double limit;
+};
+
+/* Of 1000 rocks released those that arrive, and those that a control is judged by: that arrive with more than it withstands, or
+ * at all where that is not given. `arrivals` NULL: not known. */
+struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_judged(const struct ceduo_control *control, const struct ceduo_arrivals *arrivals);
+
+/* Such a share with half its interval, as that of years is known. */
+struct ceduo_measure ceduo_share(struct ceduo_portion share);
+
+/* Sets the 90 % range of a fit, `scale` being units shown; it holds the measure's value. */
+void ceduo_measure_range(struct ceduo_measure *measure, const struct ceduo_surface_fit *fit, double scale);
+
+/* Sets what doubt makes of such a share of an option at a control; of any but the last it is not known. `doubt` may be NULL. */
+void ceduo_measure_doubt(struct ceduo_measure *measure, const struct ceduo_doubt_report *doubt, size_t option, size_t control);
+
+/* The same of its mean over the years, which is known where that was asked for. */
+void ceduo_measure_doubt_over(struct ceduo_measure *measure, const struct ceduo_doubt_report *doubt, size_t option);
+
+/* The mean energy of the rocks that arrive, that below which 95 % of them stay, and that of all released, in kJ. */
+struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *arrivals);
+
+/* Of 1000 those that end before the control in one way; the height under the rocks that 95 % of those that arrive stay below, m. */
+struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *arrivals, enum ceduo_end end);
+struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *arrivals);
+
+/* Strings of a measure, which live as long as the block that calls: a name; its value, "-" if it is not known; an interval, "453–501";
+ * both, "480 (453–501)"; shorter, "480 ±27" or "480±27" with nothing `between`, and "480" of one rock, whose error is not known. MAY_BE:
+ * the interval by both errors, as the uncertain inputs may leave less open than the number of rocks. */
+const char *ceduo_measure_name(struct ceduo_measure m, enum ceduo_measure_name name, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_value(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_interval(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_may_be(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
+#define NAMED(m, name)         ceduo_measure_name(m, name, (char[CEDUO_WORDS_ROOM]){0})
+#define VALUE_OF(m)            ceduo_measure_value(m, (char[CEDUO_WORDS_ROOM]){0})
+#define SPAN(m, lo, hi)        ceduo_measure_span(m, lo, hi, (char[CEDUO_WORDS_ROOM]){0})
+#define INTERVAL(m)            ceduo_measure_interval(m, (char[CEDUO_WORDS_ROOM]){0})
+#define WITH_ERROR(m, between) ceduo_measure_error(m, between, (char[CEDUO_WORDS_ROOM]){0})
+#define MAY_BE(m)              ceduo_measure_may_be(m, (char[CEDUO_WORDS_ROOM]){0})
+
+/* ---- the answer ---- */
 
 /* The answer for one scene: all that pages, panes and figures are made from. */
 struct ceduo_report {
@@ -38,6 +177,22 @@ struct ceduo_report {
 /* Judge an option at a control, by what the report knows; see ceduo_outcome_of(). */
 struct ceduo_outcome ceduo_report_outcome(const struct ceduo_report *report, size_t option, size_t control);
 
+/* An option at a control, with what a report knows of it. */
+struct ceduo_subject {
+    const struct ceduo_report *report;
+    size_t option, control;
+    const struct ceduo_control *place;
+    const struct ceduo_arrivals *bare, *wooded; /* wooded: NULL: not known */
+    const struct ceduo_index *index;
+    const struct ceduo_choice *choice; /* NULL: not known */
+    struct ceduo_outcome outcome;
+    struct ceduo_measure today,
+        mean;    /* share by which the place is judged, and its mean over the years; with what may be true */
+    bool apart;  /* the caller shows mean, worst year and today elsewhere */
+    bool so_far; /* the uncertainty is still being computed */
+};
+struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t option, size_t control);
+
 /* An option over the years ahead; NULL if they are not known, or are all as today. */
 static inline const struct ceduo_choice *ceduo_report_ahead(const struct ceduo_report *report, size_t option)
 {
@@ -55,7 +210,6 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
 
 /* A page to hand in: the question and its answer first, then what it rests on, and how to compute it again. */
 
-struct ceduo_page;
 #define CEDUO_PAGE_REPORT_WIDTH 120 /* of a page that chapters are added to: tables, not sentences, and nothing shortened */
 
 /* Adds a chapter for one scene. */
@@ -91,5 +245,35 @@ void ceduo_find_words(struct text *text, const struct ceduo_search *search, cons
                       const struct field *field, bool wanted);
 void ceduo_find_sure(struct text *text, const struct ceduo_search *search, const struct ceduo_sure *sure,
                      const struct field *field);
+
+/* ---- what was fitted to what was seen ---- */
+
+/* What was fitted to what was seen. */
+struct ceduo_calibration_report {
+    size_t scenes_count;
+    const struct scene_file *files;
+    const struct ceduo_input *inputs; /* the fitted values */
+    uint64_t rocks;
+    const struct ceduo_calibration *answer;
+};
+
+/* What people call a fitted value: "bounce Rn, talus"; a number of it in the unit that people use. */
+void ceduo_calibration_name(struct text *text, const char *path);
+void ceduo_calibration_number(struct text *text, const char *path, double value);
+
+/* What was seen, in the unit that files have: m, m/s, kJ, a count. */
+double ceduo_seen_shown(const struct scene_file *file, const struct ceduo_predicted *p, double value);
+const struct ceduo_observation *ceduo_seen_of(const struct ceduo_calibration_report *report, const struct ceduo_predicted *p);
+size_t ceduo_seen_number(const struct ceduo_observation *o);
+
+void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_report *report, bool plain);
+/* What the page says in words: misfit, what is not determined, what is known only together. */
+void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *report);
+
+/* The draws as a table for `doubt: {draws: …}`: a column for each fitted value, whose head is its places in the first scene. */
+void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration_report *report);
+
+/* "48 stops; 95 % .44–.51": where the fitted values come from. */
+void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration_report *report);
 
 #endif

@@ -86,6 +86,14 @@ void ceduo_words_number(struct text *text, double value, int digits)
     ceduo_text_put(text, WRITTEN(value, digits));
 }
 
+void ceduo_words_place(struct text *text, const struct ceduo_control *control)
+{
+    if (control->name)
+        ceduo_text_format(text, _("%s (%s m)"), NAME_OF(control), SHORTEST(control->x_given));
+    else
+        ceduo_text_format(text, _("%s m"), SHORTEST(control->x_given));
+}
+
 void ceduo_append_with(struct text *text, const char *sentence, const char *string)
 {
     const char *at = strstr(sentence, "%s");
@@ -252,6 +260,70 @@ static void say_lost(const struct ceduo_result *result, ceduo_words_say *say, vo
                    NAME_OF(&result->scene->options[option]), most * 1000, CEDUO_EARLY_M);
 }
 
+/* A control where more or fewer rocks arrive than its place suggests. */
+static void say_terrain(struct text *text, const char *where, const struct ceduo_arrivals *bare)
+{
+    const struct ceduo_topography *t = &bare->topography;
+    enum ceduo_terrain terrain = ceduo_terrain(bare);
+    if (terrain == CEDUO_TERRAIN_BENCH)
+        ceduo_text_format(
+            text,
+            _("%s: few rocks arrive without forest, though it lies under a reach angle of %.0f\xc2\xb0. A bench of "
+              "%.0f m may hold them: check on the ground that it does."),
+            where, t->reach * DEGREES, t->bench);
+    if (terrain == CEDUO_TERRAIN_FAR)
+        ceduo_text_format(text,
+                          _("%s: %.0f of 1000 rocks arrive without forest, though it lies under a shadow angle of only "
+                            "%.0f\xc2\xb0. Evans and Hungr (1993) suggest 27.5\xc2\xb0 as the smallest: check the friction of "
+                            "the ground."),
+                          where, bare->reach.mean * 1000, t->shadow * DEGREES);
+}
+
+/* Speeds that rocks on slopes do not have. */
+static void say_fast(struct text *text, const char *where, const struct ceduo_arrivals *bare, enum ceduo_law law)
+{
+    if (bare->speed.mean > CEDUO_SPEED_USUAL)
+        ceduo_text_format(text,
+                          law == CEDUO_LAW_LUMPED
+                              ? _("%s: the mean speed without forest is %.0f m/s, and more than %.0f is unusual. The law "
+                                  "lumped has no limit of speed on long slopes: use crsp.")
+                              : _("%s: the mean speed without forest is %.0f m/s, and more than %.0f is unusual. Check "
+                                  "roughness and friction of the ground."),
+                          where, bare->speed.mean, CEDUO_SPEED_USUAL);
+}
+
+static void say_high(struct text *text, const char *where, const struct ceduo_arrivals *bare)
+{
+    if (bare->height.p95 > CEDUO_HEIGHT_USUAL)
+        ceduo_text_format(
+            text,
+            _("%s: 1 rock in 20 passes more than %.0f m above the ground without forest, and more than %.0f m is unusual. "
+              "Check roughness and restitution of the ground, and the profile."),
+            where, bare->height.p95, CEDUO_HEIGHT_USUAL);
+}
+
+/* Warns of controls with unusual rocks: more or fewer than the terrain suggests, faster or higher. */
+static void say_ground(const struct ceduo_result *r, ceduo_words_say *say, void *context)
+{
+    for (size_t c = 0; c < r->scene->controls_count; c++) {
+        const struct ceduo_arrivals *bare = &r->bare.arrivals[c];
+        LOCAL_TEXT(name);
+        ceduo_words_place(&name, &r->scene->controls[c]);
+        const char *where = ceduo_text_string(&name);
+        for (int i = 0; i < 3; i++) {
+            LOCAL_TEXT(sentence);
+            if (i == 0)
+                say_terrain(&sentence, where, bare);
+            else if (i == 1)
+                say_fast(&sentence, where, bare, r->scene->simulation.law);
+            else
+                say_high(&sentence, where, bare);
+            if (sentence.length > 0)
+                say(context, sentence.bytes);
+        }
+    }
+}
+
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks, ceduo_words_say *say,
                               void *context)
 {
@@ -268,7 +340,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
             say_format(say, context, _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
                        result->scene->controls[i].x_given, (unsigned long long)fewest);
     }
-    ceduo_words_ground(result, say, context);
+    say_ground(result, say, context);
     uint64_t unfinished = ceduo_result_unfinished(result);
     if (unfinished > 0 && result->bare.ends.count[CEDUO_UNFINISHED] == 0)
         say_format(say, context,
@@ -289,7 +361,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
     for (size_t i = 0; i < result->options_count; i++)
         for (size_t c = 0; c < result->scene->controls_count; c++) {
             const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
-            if (!a || !(a->exceed_lo <= a->limit && a->exceed_hi > a->limit) ||
+            if (!a || !(a->exceed.lo <= a->limit && a->exceed.hi > a->limit) ||
                 ceduo_energy_light(a) == CEDUO_UNKNOWN) /* more rocks cannot help */
                 continue;
             if (result->scene->blocks_count > 0)
@@ -307,8 +379,6 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
     say_lost(result, say, context);
     if (remarks->ground_assumed)
         say_format(say, context, _("The slope's file says no ground: talus is assumed everywhere."));
-    if (result->scene->controls_count > 0 && !result->bare.arrivals[0].exact)
-        say_format(say, context, _("So many rocks: percentiles are read from a histogram, within 0.01 %%."));
 }
 
 /* ---- lights ---- */
@@ -388,4 +458,22 @@ const char *ceduo_words_shown_of_1000(double p, double lo, double hi, char room[
 {
     snprintf(room, CEDUO_NUMBER_ROOM, "%.0f (%.0f\xe2\x80\x93%.0f)", p * 1000, floor(lo * 1000), ceil(hi * 1000));
     return room;
+}
+
+/* ---- the profile ---- */
+
+void ceduo_words_points(struct text *text, const struct ceduo_slope *slope)
+{
+    size_t given = slope->points > 0 ? slope->points : slope->vertices;
+    ceduo_text_format(text, ngettext("%zu point", "%zu points", given), given);
+    if (slope->simplified_to > 0)
+        ceduo_text_format(text, _(", %zu after simplifying to %g m"), slope->vertices, slope->simplified_to);
+}
+
+void ceduo_words_topography(struct text *text, const struct ceduo_topography *t, bool brief)
+{
+    ceduo_text_then(text, text->length > 0 ? ", " : "", brief ? _("reach %.0f\xc2\xb0") : _("reach angle %.0f\xc2\xb0"),
+                    t->reach * DEGREES);
+    if (!isnan(t->shadow))
+        ceduo_text_then(text, ", ", brief ? _("shadow %.0f\xc2\xb0") : _("shadow angle %.0f\xc2\xb0"), t->shadow * DEGREES);
 }

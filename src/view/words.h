@@ -9,6 +9,9 @@
 
 #define J_TO_KJ 1e-3
 
+/* Bytes of a string that lives as long as the block that asks for it. */
+#define CEDUO_WORDS_ROOM 160
+
 /* Results as sentences that a forester understands. Each function adds to `text`. */
 
 /* Takes sentences one by one. */
@@ -20,11 +23,7 @@ void ceduo_words_points(struct text *text, const struct ceduo_slope *slope);
 /* Append "reach angle 37°, shadow angle 34°" of a control, after a comma if the text is not empty; `brief`: without "angle". */
 void ceduo_words_topography(struct text *text, const struct ceduo_topography *topography, bool brief);
 
-/* Append why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, what is usual, and what to check. */
-void ceduo_words_contradiction(struct text *text, const struct ceduo_arrivals *bare);
-
-/* Warnings of controls where more or fewer rocks arrive than the terrain suggests, or faster and higher than rocks on slopes do. */
-void ceduo_words_ground(const struct ceduo_result *result, ceduo_words_say *say, void *context);
+#define DEGREES (180 / M_PI)
 
 /* What is to be said of a belt: one sentence for each bit of its warnings, handed to `say` one by one. */
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
@@ -56,17 +55,11 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement);
 void ceduo_words_because(struct text *text, const struct ceduo_result *result, size_t control,
                          const struct ceduo_arrivals *wooded); /* NULL: not known */
 
-/* An option at a control. */
-struct ceduo_report;
-struct ceduo_subject {
-    const struct ceduo_report *report;
-    size_t option, control;
-    bool apart;  /* the caller shows mean, worst year and today elsewhere */
-    bool so_far; /* the uncertainty is still being computed */
-};
+struct ceduo_subject; /* measure.h */
 
-const char *ceduo_words_decided(enum ceduo_judgement judgement);              /* "NO", translated; not of CEDUO_UNANSWERED */
-void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement); /* "✘ NO"; nothing where it is not answered */
+const char *ceduo_words_decided(enum ceduo_judgement judgement); /* "NO", translated; not of CEDUO_UNANSWERED */
+const char *ceduo_words_decision(enum ceduo_judgement judgement, char room[CEDUO_WORDS_ROOM]); /* "✘ NO"; "": not answered */
+#define DECISION(judgement) ceduo_words_decision(judgement, (char[CEDUO_WORDS_ROOM]){0})
 
 /* Why, without the verdict: "in 17 of 25 years more than 50 of 1000 rocks exceed 50 kJ: mean 190, worst 489 in year 1; today 31
  * (YES)." */
@@ -110,8 +103,10 @@ void ceduo_words_counted(struct text *text, uint64_t rocks);
 
 /* How often what is feared at a control happens, in one sentence; "13" and "13 (9–14)" years. */
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
-void ceduo_words_every(struct text *text, struct ceduo_rate rate);
-void ceduo_words_years(struct text *text, struct ceduo_rate rate);
+const char *ceduo_words_every(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_words_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
+#define EVERY(rate) ceduo_words_every(rate, (char[CEDUO_WORDS_ROOM]){0})
+#define YEARS(rate) ceduo_words_years(rate, (char[CEDUO_WORDS_ROOM]){0})
 
 /* Why energy is not judged; why options cannot be compared by what arrives. Marked for translation. */
 extern const char *const ceduo_words_unjudged, *const ceduo_words_by_index;
@@ -128,6 +123,9 @@ const char *ceduo_words_law(const char *word);
 
 /* The name of an option, a belt or a control: that of the language, but in JSON and CSV as the file has it. */
 #define NAME_OF(x) ((x)->name_given ? ceduo_in_language((x)->name_given, (x)->name) : (x)->name)
+
+/* "end of the forest (135 m)", or "135 m". */
+void ceduo_words_place(struct text *text, const struct ceduo_control *control);
 
 /* A sentence with a string in the place of its one %s. */
 void ceduo_append_with(struct text *text, const char *sentence, const char *string);

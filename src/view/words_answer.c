@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What can be said of a control, and why: yes, no, not decided, or nothing. */
 #include <math.h>
+#include <stdio.h>
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "measure.h"
 #include "plot_parts.h"
 #include "report.h"
 #include "words.h"
@@ -27,11 +27,29 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement)
 
 /* ---- nothing ---- */
 
+/* Appends why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, what is usual, and what to check. */
+static void say_contradiction(struct text *text, const struct ceduo_arrivals *bare)
+{
+    double reach = bare->topography.reach * DEGREES, shadow = bare->topography.shadow * DEGREES;
+    if (shadow > CEDUO_SHADOW_STEEP)
+        ceduo_text_then(
+            text, " ",
+            _("But it lies under a shadow angle of %.1f\xc2\xb0 (from the foot of the face), and rocks usually reach "
+              "places under more than %.0f\xc2\xb0."),
+            shadow, CEDUO_SHADOW_STEEP);
+    else
+        ceduo_text_then(text, " ",
+                        _("But it lies under a reach angle of %.1f\xc2\xb0 (from the release), and rocks usually reach places "
+                          "under more than %.0f\xc2\xb0."),
+                        reach, CEDUO_REACH_STEEP);
+    ceduo_text_then(text, " ", "%s", _("Check roughness and friction of the ground, the law of impact and the profile."));
+}
+
 void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t control)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     LOCAL_TEXT(where);
-    ceduo_plot_control_name(&where, &r->scene->controls[control]);
+    ceduo_words_place(&where, &r->scene->controls[control]);
     ceduo_text_format(text, _("Nothing can be said of the forest above %s: of %llu rocks %llu arrive, even without forest."),
                       ceduo_text_string(&where), (unsigned long long)bare->released, (unsigned long long)bare->reached);
     /* where rocks start without forest, and how far they come */
@@ -56,7 +74,7 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
             _("The ground is steeper than 45\xc2\xb0 from %.10g m on: if they start there, write release.x_m: %.10g."),
             face + s->origin_x, face + s->origin_x);
     else if (ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS)
-        ceduo_words_contradiction(text, bare);
+        say_contradiction(text, bare);
     else if (!(farthest > s->x[ceduo_slope_segment(s, start) + 1]))
         ceduo_text_then(text, " ", "%s",
                         _("Write where they start (release.x_m), or what sets them in motion (release.height_m, vx_m_s)."));
@@ -95,16 +113,14 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
         return;
     }
     const struct ceduo_arrivals *shown = wooded ? wooded : bare;
-    if (r->scene->blocks_count > 0) {
-        LOCAL_TEXT(years);
-        ceduo_words_years(&years, ceduo_hazard_feared(&shown->hazard));
+    if (r->scene->blocks_count > 0)
         ceduo_text_format(text, _("A rock with more than %s kJ arrives every %s years (one in %s years is accepted)."),
-                          SHORTEST(ceduo_words_accepted(c)), ceduo_text_string(&years), SHORTEST(ceduo_accepted_return(c)));
-    } else {
+                          SHORTEST(ceduo_words_accepted(c)), YEARS(ceduo_hazard_feared(&shown->hazard)),
+                          SHORTEST(ceduo_accepted_return(c)));
+    else
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
-                          WRITTEN_OF_1000(shown->exceed_probability, shown->exceed_lo, shown->exceed_hi),
-                          ceduo_words_accepted(c), CEDUO_EXCEED_MOST * 1000);
-    }
+                          WRITTEN_OF_1000(shown->exceed.mean, shown->exceed.lo, shown->exceed.hi), ceduo_words_accepted(c),
+                          CEDUO_EXCEED_MOST * 1000);
     if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
         ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."),
                         (unsigned long long)shown->unfinished);
@@ -121,15 +137,37 @@ struct ceduo_outcome ceduo_report_outcome(const struct ceduo_report *report, siz
     return ceduo_outcome_of(report->result, report->verdict, report->doubt ? report->doubt->answer : NULL, option, control);
 }
 
+struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t option, size_t control)
+{
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_verdict *v = report->verdict;
+    struct ceduo_subject s = {.report = report,
+                              .option = option,
+                              .control = control,
+                              .place = &r->scene->controls[control],
+                              .bare = &r->bare.arrivals[control],
+                              .wooded = ceduo_result_wooded(r, option, control),
+                              .index = &r->options[option].controls[control],
+                              .choice = v && option < v->n ? &v->choices[option] : NULL,
+                              .outcome = ceduo_report_outcome(report, option, control)};
+    s.today = ceduo_judged(s.place, s.wooded);
+    s.mean = ceduo_share(s.choice ? s.choice->mean : (struct ceduo_portion){NAN, NAN});
+    ceduo_measure_doubt(&s.today, report->doubt, option, control);
+    ceduo_measure_doubt_over(&s.mean, report->doubt, option);
+    return s;
+}
+
 const char *ceduo_words_decided(enum ceduo_judgement judgement)
 {
     return _(judgements[judgement].verdict);
 }
 
-void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement)
+const char *ceduo_words_decision(enum ceduo_judgement judgement, char room[CEDUO_WORDS_ROOM])
 {
     if (judgement != CEDUO_UNANSWERED)
-        ceduo_text_format(text, "%s %s", ceduo_plot_light_mark(judgements[judgement].light), _(judgements[judgement].verdict));
+        snprintf(room, CEDUO_WORDS_ROOM, "%s %s", ceduo_plot_light_mark(judgements[judgement].light),
+                 ceduo_words_decided(judgement));
+    return room;
 }
 
 /* From the longest to the shortest; a line takes the first that fits. */
@@ -153,26 +191,22 @@ static void say_count(struct text *text, const struct ceduo_outcome *o)
 }
 
 /* True if a cut is due and changes the answer. */
-static bool is_due(const struct ceduo_subject *s, const struct ceduo_outcome *o)
+static bool is_due(const struct ceduo_subject *s)
 {
-    const struct ceduo_verdict *v = s->report->verdict;
-    const struct ceduo_choice *c = v && s->option < v->n ? &v->choices[s->option] : NULL;
-    return o->ahead && c && c->cut > 0 && o->today != o->answer && !o->impossible;
+    const struct ceduo_outcome *o = &s->outcome;
+    return o->ahead && s->choice && s->choice->cut > 0 && o->today != o->answer && !o->impossible;
 }
 
 /* Over the years: in how many the limit is exceeded, and by how much. */
-static void say_years(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o, enum length length)
+static void say_years(struct text *text, const struct ceduo_subject *s, enum length length)
 {
-    const struct ceduo_choice *c = &s->report->verdict->choices[s->option];
-    const struct ceduo_years_summary *over = &c->ahead[s->control];
-    const struct ceduo_result *r = s->report->result;
-    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, s->option, s->control);
-    const struct ceduo_measure m = ceduo_judged(&r->scene->controls[s->control], wooded);
-    const char *limit = SHORTEST(m.limit);
+    const struct ceduo_outcome *o = &s->outcome;
+    const struct ceduo_years_summary *over = &s->choice->ahead[s->control];
+    const char *limit = SHORTEST(s->today.limit);
     double accepted = 1000 * CEDUO_EXCEED_MOST, worst = 1000 * over->worst;
     LOCAL_TEXT(count);
     say_count(&count, o);
-    if (is_due(s, o)) {
+    if (is_due(s)) {
         ceduo_text_format(text, length < BRIEF ? _("%.0f of 1000 in year %u") : _("%.0f of 1000"), worst, over->worst_year);
         if (length < SHORT)
             ceduo_text_format(
@@ -196,45 +230,34 @@ static void say_years(struct text *text, const struct ceduo_subject *s, const st
     if (length == FULL && o->answer != CEDUO_YES && !s->apart)
         ceduo_text_format(text, _(": mean %.0f, worst %.0f in year %u"), 1000 * over->exceed.mean, worst, over->worst_year);
     if (length <= SHORT && !s->apart)
-        say_today(text, o, m.value, length <= LONG || (length == SHORT && o->today != o->answer));
+        say_today(text, o, s->today.value, length <= LONG || (length == SHORT && o->today != o->answer));
 }
 
 /* With blocks: how often, beside what is accepted. */
-static void say_rate(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o, enum length length)
+static void say_rate(struct text *text, const struct ceduo_subject *s, enum length length)
 {
-    const struct ceduo_control *c = &s->report->result->scene->controls[s->control];
-    const struct ceduo_arrivals *wooded = ceduo_result_wooded(s->report->result, s->option, s->control);
-    LOCAL_TEXT(years);
-    LOCAL_TEXT(today);
-    ceduo_words_years(&years, o->rate);
+    bool ahead = s->outcome.ahead;
     if (length <= LONG)
-        ceduo_text_format(text, _("more than %s kJ every %s years"), SHORTEST(ceduo_words_accepted(c)),
-                          ceduo_text_string(&years));
+        ceduo_text_format(text, _("more than %s kJ every %s years"), SHORTEST(ceduo_words_accepted(s->place)),
+                          YEARS(s->outcome.rate));
     else
-        ceduo_text_format(text, _("every %s years"), ceduo_text_string(&years));
+        ceduo_text_format(text, _("every %s years"), YEARS(s->outcome.rate));
     if (length <= MIDDLE)
-        ceduo_text_format(text, _(" (accepted: %s)"), SHORTEST(ceduo_accepted_return(c)));
-    if (length == FULL && o->ahead)
-        ceduo_text_format(text, _(", mean of %zu years"), s->report->verdict->choices[s->option].ahead[s->control].years);
-    if (length > SHORT || !o->ahead || !wooded)
-        return;
-    ceduo_words_every(&today, ceduo_hazard_feared(&wooded->hazard));
-    ceduo_text_format(text, _("; today every %s"), ceduo_text_string(&today));
+        ceduo_text_format(text, _(" (accepted: %s)"), SHORTEST(ceduo_accepted_return(s->place)));
+    if (length == FULL && ahead)
+        ceduo_text_format(text, _(", mean of %zu years"), s->choice->ahead[s->control].years);
+    if (length <= SHORT && ahead && s->wooded)
+        ceduo_text_format(text, _("; today every %s"), EVERY(ceduo_hazard_feared(&s->wooded->hazard)));
 }
 
 /* "479 of 1000 arrive with more than 50 kJ (at most 50 rocks are accepted); may be 234–748" */
 static void say_shares(struct text *text, const struct ceduo_measure *m, const struct ceduo_measure *bare, enum length length)
 {
-    LOCAL_TEXT(value);
-    LOCAL_TEXT(name);
-    LOCAL_TEXT(span);
     if (length == BRIEF) {
         ceduo_text_format(text, _("%.0f of 1000"), m->value);
         return;
     }
-    ceduo_measure_value(&value, m);
-    ceduo_measure_name(&name, m, length <= LONG ? CEDUO_PHRASE : CEDUO_SHORT_HEAD);
-    ceduo_text_format(text, _("%s of 1000 %s"), ceduo_text_string(&value), ceduo_text_string(&name));
+    ceduo_text_format(text, _("%s of 1000 %s"), VALUE_OF(*m), NAMED(*m, length <= LONG ? CEDUO_PHRASE : CEDUO_SHORT_HEAD));
     if (length == FULL && m->limit > 0)
         ceduo_text_format(text, _(" (at most %.0f rocks accepted)"), 1000 * CEDUO_EXCEED_MOST);
     else if (length == FULL && bare)
@@ -242,46 +265,38 @@ static void say_shares(struct text *text, const struct ceduo_measure *m, const s
     bool doubted = !isnan(m->may_lo);
     if (length > MIDDLE)
         return;
-    if (doubted)
-        ceduo_measure_may_be(&span, m);
-    else
-        ceduo_measure_span(&span, m, m->lo, m->hi);
-    ceduo_text_format(text, doubted ? _("; may be %s") : _("; %s by the rocks"), ceduo_text_string(&span));
+    ceduo_text_format(text, doubted ? _("; may be %s") : _("; %s by the rocks"), doubted ? MAY_BE(*m) : SPAN(*m, m->lo, m->hi));
 }
 
 /* What follows the verdict, in so many columns; nothing where it has no room. */
-static void say_reason(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o, size_t width)
+static void say_reason(struct text *text, const struct ceduo_subject *s, size_t width)
 {
-    const struct ceduo_result *r = s->report->result;
-    const struct ceduo_control *c = &r->scene->controls[s->control];
-    const struct ceduo_arrivals *bare = &r->bare.arrivals[s->control], *wooded = ceduo_result_wooded(r, s->option, s->control);
-    struct ceduo_measure m = ceduo_judged(c, wooded ? wooded : bare), without = ceduo_judged(c, bare);
-    if (wooded)
-        ceduo_measure_doubt(&m, s->report->doubt, s->option, s->control);
-    const char *left = WRITTEN(r->options[s->option].controls[s->control].residual * J_TO_KJ, 3);
-    const char *mean = WRITTEN(bare->energy.mean * J_TO_KJ, 3);
+    const struct ceduo_scene *scene = s->report->result->scene;
+    const struct ceduo_outcome *o = &s->outcome;
+    const struct ceduo_measure bare = ceduo_judged(s->place, s->bare);
+    const char *left = WRITTEN(s->index->residual * J_TO_KJ, 3), *mean = WRITTEN(s->bare->energy.mean * J_TO_KJ, 3);
     for (enum length i = FULL; i < LENGTHS; i++) {
         ceduo_text_free(text);
         if (o->impossible)
             ceduo_text_put(text, i < BRIEF ? _("more stems than a forest can hold: check the stand") : _("impossible stand"));
         else if (o->answer == CEDUO_NOTHING)
-            ceduo_text_format(text, _("of %llu rocks %llu arrive, even without forest"), (unsigned long long)bare->released,
-                              (unsigned long long)bare->reached);
-        else if (!wooded && r->wooded)
+            ceduo_text_format(text, _("of %llu rocks %llu arrive, even without forest"), (unsigned long long)s->bare->released,
+                              (unsigned long long)s->bare->reached);
+        else if (!s->wooded && s->report->result->wooded)
             ceduo_text_put(text, _("not computed yet"));
-        else if (!wooded && o->answer != CEDUO_YES)
+        else if (!s->wooded && o->answer != CEDUO_YES)
             ceduo_text_format(text,
                               i == FULL ? _("the index leaves %s of %s kJ in the mean; it knows no single rocks")
                                         : _("the index leaves %s of %s kJ"),
                               left, mean);
-        else if (r->scene->blocks_count > 0 && !isnan(o->rate.rate))
-            say_rate(text, s, o, i);
+        else if (scene->blocks_count > 0 && !isnan(o->rate.mean))
+            say_rate(text, s, i);
         else if (o->answer == CEDUO_YES && o->also_bare)
-            say_shares(text, &without, NULL, i);
+            say_shares(text, &bare, NULL, i);
         else if (o->ahead && o->answer != CEDUO_UNANSWERED)
-            say_years(text, s, o, i);
+            say_years(text, s, i);
         else
-            say_shares(text, &m, ceduo_plot_has_stems(&r->scene->options[s->option]) ? &without : NULL, i);
+            say_shares(text, s->wooded ? &s->today : &bare, ceduo_plot_has_stems(&scene->options[s->option]) ? &bare : NULL, i);
         if (ceduo_utf8_width(text->bytes) <= width)
             return;
     }
@@ -290,41 +305,35 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, const s
 
 void ceduo_words_reason(struct text *text, const struct ceduo_subject *s)
 {
-    const struct ceduo_outcome o = ceduo_report_outcome(s->report, s->option, s->control);
     LOCAL_TEXT(reason);
-    say_reason(&reason, s, &o, SIZE_MAX);
+    say_reason(&reason, s, SIZE_MAX);
     ceduo_text_format(text, "%s.", ceduo_text_string(&reason));
 }
 
 void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t width)
 {
-    const struct ceduo_outcome o = ceduo_report_outcome(s->report, s->option, s->control);
+    const struct ceduo_outcome *o = &s->outcome;
     LOCAL_TEXT(verdict);
     LOCAL_TEXT(reason);
     LOCAL_TEXT(place);
-    if (is_due(s, &o)) { /* "✔ YES today; ✘ NO after the cut" */
-        LOCAL_TEXT(today);
-        LOCAL_TEXT(answer);
-        ceduo_words_decision(&today, o.today);
-        ceduo_words_decision(&answer, o.answer);
-        ceduo_text_format(&verdict, _("%s today; %s after the cut"), ceduo_text_string(&today), ceduo_text_string(&answer));
-    } else {
-        ceduo_words_decision(&verdict, o.answer);
-    }
+    if (is_due(s)) /* "✔ YES today; ✘ NO after the cut" */
+        ceduo_text_format(&verdict, _("%s today; %s after the cut"), DECISION(o->today), DECISION(o->answer));
+    else
+        ceduo_text_put(&verdict, DECISION(o->answer));
     if (s->so_far)
         ceduo_text_put(&verdict, _(" so far"));
-    if (o.answer == CEDUO_YES && o.also_bare)
+    if (o->answer == CEDUO_YES && o->also_bare)
         ceduo_text_put(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
-    if (s->report->result->scene->controls_count > 1) { /* which of them it is about */
-        ceduo_plot_control_name(&place, &s->report->result->scene->controls[s->control]);
+    if (s->report->result->scene->controls_count > 1) { /* the one that it is about */
+        ceduo_words_place(&place, s->place);
         ceduo_text_put(&place, ": ");
         if (ceduo_utf8_width(place.bytes) + taken <= width) {
             ceduo_text_put(text, place.bytes);
             taken += ceduo_utf8_width(place.bytes);
         }
     }
-    say_reason(&reason, s, &o, width > taken ? width - taken : 0);
+    say_reason(&reason, s, width > taken ? width - taken : 0);
     ceduo_text_put(text, ceduo_text_string(&verdict));
     if (reason.length > 0)
         ceduo_text_format(text, "%s%s", verdict.length > 0 ? ": " : "", reason.bytes);

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/language.h"
-#include "measure.h"
+#include "report.h"
 #include "scene/choices.h"
 #include "words.h"
 
@@ -52,15 +52,13 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, cons
     const struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
     const struct ceduo_window *w = &years->window;
     bool says = !isnan(s.exceed.mean);
-    const struct ceduo_measure of_1000 = ceduo_share(ceduo_share_over_years(years, &s));
     if (w->kind == CEDUO_WINDOW_ALIKE)
         ceduo_text_put(text, _("Each:"));
     else
         ceduo_text_format(text, _("Years %u to %u:"), w->first, w->last);
-    LOCAL_TEXT(share);
-    ceduo_measure_error(&share, &of_1000, " ");
+    const char *share = WITH_ERROR(ceduo_share(ceduo_share_over_years(years, &s)), " ");
     if (s.simulated > 0)
-        ceduo_text_then(text, " ", _("mean %s of 1000, worst %.0f (year %u)."), share.bytes, s.worst * 1000, s.worst_year);
+        ceduo_text_then(text, " ", _("mean %s of 1000, worst %.0f (year %u)."), share, s.worst * 1000, s.worst_year);
     else if (!s.nothing)
         ceduo_text_then(text, " ", _("the ADC is largest in year %u."), s.worst_year);
     if (s.nothing)
@@ -188,15 +186,15 @@ void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t o
     }
     const char *mean = WRITTEN(a->energy.mean * J_TO_KJ, 3);
     const char *half = WRITTEN(ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ, 2);
-    const char *reach = WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi);
-    if (isnan(a->exceed_probability))
+    const char *reach = WRITTEN_OF_1000(a->reach.mean, a->reach.lo, a->reach.hi);
+    if (isnan(a->exceed.mean))
         ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
                           mean, half);
     else
         ceduo_text_format(text,
                           _("With the energy law %s: %s of 1000 arrive, %s with more than it withstands; the mean of those "
                             "that arrive is %s \xc2\xb1%s kJ."),
-                          law, reach, WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), mean, half);
+                          law, reach, WRITTEN_OF_1000(a->exceed.mean, a->exceed.lo, a->exceed.hi), mean, half);
     if (a->released < ceduo_result_rocks(r))
         ceduo_text_then(text, " ", _("Under this law the first %llu rocks alone were simulated."),
                         (unsigned long long)a->released);

@@ -75,11 +75,11 @@ static void read_run(const struct ceduo_run *run, struct figure *to)
         fail("no memory");
     to[0] = about(a.energy.mean, a.energy.se);
     to[1] = (struct figure){a.energy.p95, a.energy.p95_lo, a.energy.p95_hi};
-    to[2] = (struct figure){a.reach_probability, a.reach_lo, a.reach_hi};
-    to[3] = (struct figure){a.exceed_probability, a.exceed_lo, a.exceed_hi};
-    to[4] = about(a.energy_per_released, a.energy_per_released_se);
-    if (!isnan(a.contacts))
-        to[5] = about(a.contacts, a.contacts_se);
+    to[2] = (struct figure){a.reach.mean, a.reach.lo, a.reach.hi};
+    to[3] = (struct figure){a.exceed.mean, a.exceed.lo, a.exceed.hi};
+    to[4] = about(a.energy_per_released.mean, a.energy_per_released.se);
+    if (!isnan(a.contacts.mean))
+        to[5] = about(a.contacts.mean, a.contacts.se);
 }
 
 static void fly_all(struct woods *w, uint64_t seed, uint64_t rocks, struct figure figures[FIGURES])
@@ -90,8 +90,8 @@ static void fly_all(struct woods *w, uint64_t seed, uint64_t rocks, struct figur
     read_run(bare, &figures[BARE_MEAN]);
     read_run(wood, &figures[WOOD_MEAN]);
     struct ceduo_difference d = ceduo_run_difference(half, wood, 0);
-    figures[LESS_REACH] = about(d.reach_probability.mean, d.reach_probability.se);
-    figures[LESS_EXCEED] = about(d.exceed_probability.mean, d.exceed_probability.se);
+    figures[LESS_REACH] = about(d.reach.mean, d.reach.se);
+    figures[LESS_EXCEED] = about(d.exceed.mean, d.exceed.se);
     figures[LESS_RELEASED] = about(d.energy_per_released.mean, d.energy_per_released.se);
     ceduo_run_free(bare);
     ceduo_run_free(wood);

@@ -6,7 +6,7 @@
 
 #include "ceduo/doubt.h"
 #include "frame.h"
-#include "io/doubt_inputs.h"
+#include "io/scene_file.h"
 
 /* `goal`: seconds with as many points and rocks as are taken unasked, on two cores; 0: none. */
 static void measure(const char *path, bool rotation, double goal, size_t repeats, size_t points, uint64_t rocks,

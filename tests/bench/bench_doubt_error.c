@@ -15,7 +15,7 @@
 
 #include "ceduo/statistics.h"
 #include "frame.h"
-#include "io/doubt_inputs.h"
+#include "io/scene_file.h"
 #include "study/points.h"
 
 #define INPUTS_MAX      20 /* twice as many columns, of the 40 that the points have */

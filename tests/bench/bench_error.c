@@ -57,12 +57,12 @@ static double run_core(struct paper_site *site, bool stems, uint64_t rocks, uint
     ceduo_run_free(run);
     value[MEAN] = a.energy.mean * 1e-3;
     value[P95] = a.energy.p95 * 1e-3;
-    value[REACH] = a.reach_probability;
-    value[EXCEED] = a.exceed_probability;
+    value[REACH] = a.reach.mean;
+    value[EXCEED] = a.exceed.mean;
     se[MEAN] = a.energy.se * 1e-3;
     se[P95] = (a.energy.p95_hi - a.energy.p95_lo) * 1e-3 / (2 * CEDUO_Z95);
-    se[REACH] = sqrt(a.reach_probability * (1 - a.reach_probability) / n);
-    se[EXCEED] = sqrt(a.exceed_probability * (1 - a.exceed_probability) / n);
+    se[REACH] = sqrt(a.reach.mean * (1 - a.reach.mean) / n);
+    se[EXCEED] = sqrt(a.exceed.mean * (1 - a.exceed.mean) / n);
     return seconds;
 }
 

@@ -132,7 +132,7 @@ static bool check_agreement(const struct site *site, const struct measure *m)
     bool good = agrees(site, "contacts per rock", mean, se, core_contacts, se * sqrt(rocks / released));
     double share = passed / rocks, both = (passed + (double)a->reached) / (rocks + released);
     double spread = sqrt(both * (1 - both)) + 1e-300; /* all pass: they agree */
-    good &= agrees(site, "share that passes", share, spread / sqrt(rocks), a->reach_probability, spread / sqrt(released));
+    good &= agrees(site, "share that passes", share, spread / sqrt(rocks), a->reach.mean, spread / sqrt(released));
     mean_of(p->speed, p->speed2, passed, &mean, &se);
     good &= agrees(site, "speed, m/s", mean, se, a->speed.mean, a->speed.se);
     mean_of(p->energy / 1e3, p->energy2 / 1e6, passed, &mean, &se);

@@ -18,12 +18,6 @@ import traceback
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-try:
-    import jsonschema
-except ImportError:  # another Python than the system's comes first
-    sys.path.append("/usr/lib/python3/dist-packages")
-    import jsonschema
-
 sys.dont_write_bytecode = True
 for number, usual in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
     if signal.getsignal(number) == signal.SIG_IGN:  # in the background of a shell, under nohup; the program would ignore it, too
@@ -93,13 +87,22 @@ class Result:
 SCHEMAS = {}
 
 
+def validator():
+    """The class of the validators of JSON Schema; imported here because that takes longer than most tests."""
+    try:
+        import jsonschema
+    except ImportError:  # another Python than the system's comes first
+        sys.path.append("/usr/lib/python3/dist-packages")
+        import jsonschema
+    return jsonschema.Draft202012Validator
+
+
 def expect_schema(answer):
     """An answer in JSON is as --schema says of its format."""
     name = answer["format"]
     if name not in SCHEMAS:
         schema = subprocess.run([CEDUO, "--schema", name.split("-")[1]], capture_output=True, check=True).stdout
-        jsonschema.Draft202012Validator.check_schema(json.loads(schema))
-        SCHEMAS[name] = jsonschema.Draft202012Validator(json.loads(schema))
+        SCHEMAS[name] = validator()(json.loads(schema))
     expect(SCHEMAS[name].schema["$id"].endswith(name), name)
     for wrong in SCHEMAS[name].iter_errors(answer):
         raise Failure(f"{'.'.join(map(str, wrong.absolute_path))}: {wrong.message}"[:500])
@@ -282,7 +285,7 @@ class Suite:
 
     def check(self, name, function, *arguments):
         self.count += 1
-        details, word, note = "", "ok", ""
+        details, word, note, start = "", "ok", "", time.process_time() + children_seconds()
         try:
             function(*arguments)
         except Skip as skip:
@@ -293,6 +296,8 @@ class Suite:
             word, details = "not ok", traceback.format_exc()
         self.failed += word != "ok"
         print(f"{word} {self.count} - {name.replace('#', '')}{note}", flush=True)
+        if (seconds := time.process_time() + children_seconds() - start) >= 1:
+            print(f"# {seconds:.1f} s of processor")
         for line in details.splitlines()[:60]:
             print("#", "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line))
         if self.failed and os.environ.get("TEST_FIRST"):  # the first failure is enough

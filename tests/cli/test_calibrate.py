@@ -309,7 +309,7 @@ def test_draws():
         for doubt, what in (({"draws": "none.csv"}, "cannot find 'none.csv' beside this file"),
                             ({"draws": "other.csv"}, "a column 'slope.colour', which is no value of this scene"),
                             ({"draws": "short.csv"}, "too few columns"), ({"draws": "empty.csv"}, "the table has no row"),
-                            ({"draws": ["good.csv"]}, "expected the path of a table"),
+                            ({"draws": ["good.csv"]}, "expected a path to a file"),
                             ({"draws": "good.csv", "row": []}, "unknown key; known here: draws, rows")):
             r = ceduo("--check", f.write("s.yaml", quarry(doubt=doubt)))
             expect_equal(r.status, INPUT, r)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: brief
 """CSV holds what the JSON of the same runs holds."""
 import csv
 import io

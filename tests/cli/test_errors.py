@@ -365,8 +365,6 @@ CASES = {
         ROCK, ROCK + "\nblocks: [{per_year: 1, volume_m3: [1, 2]}]\nrocks_per_year: @@2"),
     "blocks say how large the rocks are; remove the size, or give it without a spread": sc(
         ROCK, "rock: @@{diameter_m: {mean: 1, spread: 0.1}}\nblocks: [{per_year: 1, volume_m3: [1, 2]}]"),
-    "with blocks each rock is kept: at most 1048576 rocks": Set(
-        "blocks=[{per_year: 1, volume_m3: [1, 2]}]", "simulation.rocks=@@2000000"),
     # Slope
     "x 10 does not lie beyond 10; x must rise: ...": sl(VERTICES, "[[0, 64], [10, 30], @@[10, 0]]"),
     "the profile rises, from 15 to 141.4 m, and rocks go along x: ...": sl(VERTICES, "@@[[0, 15], [100, 141.4]]"),
@@ -469,9 +467,7 @@ CASES = {
     "--plot: 'adc' is gone: the page of --details has the ADC of each belt": Words("--plot", "adc", "@"),
     "--charset: 'x' is unknown; one of: braille, block, ascii": Words("--charset", "x", "@"),
     "--rocks: '1.5' is not a whole number": Words("--batch", "-n", "1.5", "@"),
-    "--rocks: with blocks each rock is kept: at most 1048576 rocks": Words(
-        "--batch", "-n", "1048577", "-s", "blocks=[{per_year: 1, volume_m3: [1, 2]}]", "@"),
-    "--rocks: 0 is outside 1 to 10000000": Words("--batch", "-n", "0", "@"),
+    "--rocks: 1048577 is outside 1 to 1048576": Words("--batch", "-n", "1048577", "@"),
     "--tolerance: 1 is not a share; write a number between 0 and 1, such as 0.05 for 5 %": lambda row: (
         Words("--batch", "-e", "1", "@")(row), Words("--batch", "-e", "0", "@")(row.replace("1 is", "0 is"))),
     "--size: '80' is not COLUMNSxLINES, such as '80x24'": Words("--plot", "stand", "--size", "80", "@"),

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: quick uncounted
 """The rooms of the house: who may know whom, what the library may reach for, what it exports."""
 import os
 import re
@@ -23,7 +24,7 @@ SCIENCE = ("scene", "core")  # reaches for nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
 # A rock is the same on every machine: what decides about its trajectory, and about the stand of a year, takes only what
 # rounds the same everywhere. A file is named by its room, in whichever folder of it; each energy law is one of them.
-TRAJECTORY = ("base/elementary", "scene/number", "scene/rock", "scene/slope", "scene/stand", "core/adc", "core/energy",
+TRAJECTORY = ("base/elementary", "scene/rock", "scene/slope", "scene/stand", "core/adc", "core/energy",
               "core/ground", "core/prepared", "core/rotation", "core/run_simulate", "core/stems", "core/trajectory",
               "core/walk", "core/lanes", "core/kernel", "core/kernel_avx2", "core/kernel_avx512", "core/wood")
 DIFFERS = re.compile(r"(a?(sin|cos|tan)h?|atan2|sincos|exp(2|10|m1)?|log(2|10|1p)?|pow|[lt]?gamma|cbrt|hypot|erfc?|"

@@ -99,7 +99,7 @@ CASES = [
     ("stand.yaml", "per_ha: 5000\n", "per_ha:\n", "shoots[0].per_ha", "is not a number"),
     ("scene.yaml", "rocks: 20", "rocks: @@1.5", "simulation.rocks: '1.5' is not a whole number"),
     ("scene.yaml", "rocks: 20", "rocks: @@0", "simulation.rocks: 0 is below 1"),
-    ("scene.yaml", "rocks: 20", "rocks: @@1e8", "simulation.rocks", "is above 10000000"),
+    ("scene.yaml", "rocks: 20", "rocks: @@1e8", "simulation.rocks", "is above 1048576"),
     ("scene.yaml", "seed: 1", "seed: @@-1", "simulation.seed: -1 is below 0"),
     ("scene.yaml", "seed: 1", "seed: @@1e16", "simulation.seed", "is above"),
     ("slope.yaml", "rn: 0.35", "rn: @@1.5", "segments[0].rn: 1.5 is above 1"),

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow
 """What is no ordinary file: folders, devices, FIFOs, sockets, terminals; names with control characters."""
 import os
 import pty

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: brief
 """Text in the language of the locale or of --language; data the same in each."""
 import csv
 import json

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: uncounted
 """ceduo(3): the example of the page is compiled and run with the library and the headers that were installed."""
 import json
 import os

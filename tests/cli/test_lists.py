@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: brief
 """--help, the lists, --check, and wrong usage."""
 import copy
 import json
@@ -8,7 +9,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (INPUT, PROFILES, USAGE, Failure, Folder, Suite, ceduo, expect, expect_equal, expect_in, expect_near, expect_schema, good, result,
+from harness import (INPUT, PROFILES, USAGE, Failure, Folder, Suite, ceduo, expect, expect_equal, expect_in, expect_near, expect_schema, good, result, validator,
                      scene, stand, tests_of)
 from runs import PAPER
 
@@ -58,6 +59,7 @@ def test_schema():
     """--schema: a JSON Schema of each output, which an answer keeps and a wrong one does not; --each adds to it"""
     for name in ("result", "find", "sensitivity", "calibration"):
         schema = json.loads(good("--schema", name).out)
+        validator().check_schema(schema)
         expect_equal((schema["$schema"], schema["$id"]), ("https://json-schema.org/draft/2020-12/schema", f"urn:ceduo-{name}-1"))
     answer = result(PAPER, "-n", 5)
     for path, value in ((("title",), 5), (("rocks",), 5.5), (("options", 0, "controls", 0, "x_m"), None),

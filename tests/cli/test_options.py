@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: brief
 """Contact models and options: what they share, and in what they differ."""
 import csv
 import io

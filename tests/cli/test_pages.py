@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow
 """The manual, but ceduo-workflows(7) and ceduo(3): every command of a page is run, in the order of the page, and prints what is shown;
 every file that is shown is read. `test_pages.py --write` puts what is printed into the pages.
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow full
 """Random scenes, made from the table of parameters and at its edges too, through the whole program: page, CSV and JSON hold
 the same figures, and the figures hold together.
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: threads
 """--sensitivity: what is in doubt, what it does to the answer, and what is refused."""
 import csv
 import html

@@ -51,7 +51,7 @@ def test_terminal():
         text, status = on_terminal([*run, endless], lambda t, s: s > 1.3, "stderr")
         expect_equal(status, -signal.SIGINT)
         expect(b"\x1b" not in text, text)
-        text, status = on_terminal(["--batch", "-n", "10000000", "-j", "1", "-s", "simulation.law=crsp", "-o", "/dev/null",
+        text, status = on_terminal(["--batch", "-n", "1000000", "-j", "1", "-s", "simulation.law=crsp", "-o", "/dev/null",
                                     PAPER], lambda t, _: b"rocks" in t, "stderr")
         expect(b"rocks" in text and b"\x1b" not in text, text)
         expect_equal(status, -signal.SIGINT)
@@ -63,7 +63,7 @@ def test_terminal():
         expect(re.search(r"\r\d+ of 999 scenes, \d+ (s|min) left *\r", shown), shown)
         expect(re.search(r"(^|\r)[^\r\n]*rows.csv:5: .*'x' is not a number\n", shown) and "left" not in
                re.search(r"[^\r\n]*rows.csv:5: ", shown)[0], "nothing stands before a message", shown)
-        text, status = on_terminal(["--batch", "-q", "-n", "10000000", "-j", "1", "-o", "/dev/null", PAPER],
+        text, status = on_terminal(["--batch", "-q", "-n", "1000000", "-j", "1", "-o", "/dev/null", PAPER],
                                    lambda t, s: t or s > 1.6, "stderr")
         expect_equal(text, b"", "-q")
         start = time.monotonic()
@@ -77,7 +77,7 @@ def interrupted(number, path):
         old = f.write("old.txt", "old")
         for target in (None, f.path / "new.txt", old):
             where = ["-o", str(target)] if target else []
-            with subprocess.Popen([CEDUO, "--batch", "-n", "10000000", *where, str(path)], stdout=subprocess.PIPE,
+            with subprocess.Popen([CEDUO, "--batch", "-n", "1000000", *where, str(path)], stdout=subprocess.PIPE,
                                   stderr=subprocess.PIPE, env=environment()) as p:
                 time.sleep(0.25)
                 expect(p.poll() is None, "it ended before the signal", p.returncode)
@@ -133,7 +133,7 @@ def test_nohup():
 
 def test_interrupt_between():
     """A signal during the second scene leaves the first one's result and prints nothing half"""
-    with subprocess.Popen([CEDUO, "--batch", "-f", "json", str(FOUR), "-", "-n", "10000000"], stdin=subprocess.PIPE,
+    with subprocess.Popen([CEDUO, "--batch", "-f", "json", str(FOUR), "-", "-n", "1000000"], stdin=subprocess.PIPE,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment()) as p:
         time.sleep(0.2)
         p.send_signal(signal.SIGINT)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: brief
 """The page of one option: its statements, tables, width, warnings and sources."""
 import math
 import re

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow uncounted
 """ceduo-workflows(7): each way as it stands in the page runs in an empty folder and says what the page says it does.
 
 With --readme: writes the page and the screens that README.md shows anew.
@@ -325,7 +326,7 @@ def test_four_systems_in_italian():
     """Four systems: the same keys on the Italian screens, with the figures that the Italian page names"""
     page = " ".join(PAGINA.read_text(encoding="utf-8").split())
     with Folder() as work, Machine() as machine:
-        done = machine.run(blocks("four-systems", PAGINA)[-1], work.path, LANGUAGE="it")
+        done = machine.run(blocks("four-systems", PAGINA)[-1], work.path, LANGUAGE="it", CEDUO_ROCKS="1024")
         expect(done.returncode == 0 and done.stderr == "", done.stdout, done.stderr)
         for name, figure, sign in (("before.txt", "44,4", "\u2265"), ("after.txt", "29,2", "<")):
             expect_in(f"{figure} m", page)
@@ -469,7 +470,7 @@ def test_survey_on_the_italian_screen():
         work.write("keys", KEYS)
         edit = "sed -i '/^options:/,/^rules:/d' strada.yaml\necho 'forest: [{from_m: 15, to_m: 115, stand: simple-coppice}]' >> strada.yaml"
         done = machine.run("\n".join([*texts, edit, "ceduo --script keys strada.yaml", "ceduo --batch --details -n 100 strada.yaml"]),
-                           work.path, LANGUAGE="it")
+                           work.path, LANGUAGE="it", CEDUO_ROCKS="1024")
         expect(done.returncode == 0 and understood(done.stderr), done.stderr, done.returncode)
         expect_in("il popolamento del rilievo", done.stdout)
         expect(re.search(r"ceppaie per ha +597", done.stdout), done.stdout)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow threads
 """Options year by year (--years), and the value of a parameter that reaches a goal (--find)."""
 import copy
 import csv

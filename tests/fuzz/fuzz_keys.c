@@ -10,7 +10,6 @@
 
 #include "fuzz.h"
 #include "tui/program.h"
-#include "tui/script.h"
 
 /* A rock flies over the control, hits stems or the ground and stays there: flying them takes little of the time. */
 static const char scene[] =

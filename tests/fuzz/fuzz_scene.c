@@ -6,8 +6,6 @@
 
 #include "ceduo/pool.h"
 #include "fuzz.h"
-#include "io/doubt_inputs.h"
-#include "io/emit.h"
 #include "io/scene_file.h"
 
 #define NAME "profiles/scenes/fuzz.yaml" /* no such file; references are looked for beside it */

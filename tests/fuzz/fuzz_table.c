@@ -8,8 +8,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "ceduo/observe.h"
 #include "fuzz.h"
-#include "io/doubt_inputs.h"
 #include "io/scene_file.h"
 
 #define SCENE                                                                                                                  \

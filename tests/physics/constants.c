@@ -29,7 +29,7 @@ static void show(const char *name, const struct ceduo_scene *scene, const struct
         ceduo_run_arrivals(run, 0, &a) != CEDUO_OK || ceduo_run_ends(run, &ends) != CEDUO_OK)
         fail();
     double n = (double)rocks, contacts = (double)ceduo_run_contacts(run) / n;
-    printf("%s-reach %.15g %.3g\n", name, a.reach_probability, (a.reach_hi - a.reach_lo) / 3.92);
+    printf("%s-reach %.15g %.3g\n", name, a.reach.mean, (a.reach.hi - a.reach.lo) / 3.92);
     printf("%s-contacts %.15g %.3g\n", name, contacts, contacts / sqrt(n)); /* their spread is of their size */
     if (a.reached > 100) {
         printf("%s-speed %.15g %.3g\n", name, a.speed.mean, a.speed.se);

@@ -7,7 +7,7 @@
 
 struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks);
 struct ceduo_run *run_option(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks,
-                             unsigned threads, size_t exact_bytes);
+                             unsigned threads);
 struct ceduo_arrivals arrivals_of(const struct ceduo_run *run, size_t control);
 struct ceduo_ends ends_of(const struct ceduo_run *run);
 

@@ -1,5 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow full
 # The same bits with 1, 2 and 16 threads, at -O2 as the library is built, at -O3, and with clang where there is one. What is
 # compiled here inlines nothing by force, which takes a quarter of the time. FULL in the environment: it does, and at -O0 as
 # well.

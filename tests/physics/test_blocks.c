@@ -175,10 +175,10 @@ TEST(blocks_fly_with_their_own_mass)
         drop(slab(.5), 1.1 * volumes[bears] * LIMESTONE * 25 / 2);
         size_up(NULL, b);
         for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
-            EXPECT_IS(b[i].arrivals, (released, BLOCKS_FLOWN), (reached, BLOCKS_FLOWN), (reach_probability, 1));
+            EXPECT_IS(b[i].arrivals, (released, BLOCKS_FLOWN), (reached, BLOCKS_FLOWN), (reach.mean, 1));
             bool exceeds = b[i].volume > 1.1 * volumes[bears];
             assert_int_equal(b[i].arrivals.exceeded, exceeds ? BLOCKS_FLOWN : 0);
-            EXPECT(b[i].arrivals.exceed_probability, ==, (exceeds ? 1 : 0));
+            EXPECT(b[i].arrivals.exceed.mean, ==, (exceeds ? 1 : 0));
         }
     }
 }
@@ -199,7 +199,7 @@ TEST(the_own_block_is_not_simulated_twice)
 /* ---- of all sizes ---- */
 
 /* Rocks of all sizes that come to rest long before the control. */
-static struct ceduo_rate rate_above_100_kj(double fall, double height)
+static struct ceduo_estimate rate_above_100_kj(double fall, double height)
 {
     static double ends[] = {.05, 1};
     struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = ends};
@@ -220,8 +220,8 @@ static struct ceduo_rate rate_above_100_kj(double fall, double height)
 /* A rock that falls 20 m from its release could have as much as one that the ground takes 20 m down. */
 TEST(a_fall_from_the_release_could_bring_energy)
 {
-    struct ceduo_rate released_high = rate_above_100_kj(0, 20), steep = rate_above_100_kj(20, 0);
-    EXPECT(released_high.rate, ==, 0);
+    struct ceduo_estimate released_high = rate_above_100_kj(0, 20), steep = rate_above_100_kj(20, 0);
+    EXPECT(released_high.mean, ==, 0);
     EXPECT(steep.hi, >, 1e-5);
     EXPECT_NEAR(released_high.hi, steep.hi, 1e-12);
 }

@@ -480,9 +480,9 @@ TEST(intervals_of_wilson)
 {
     for (TABLE(row, "physics/statistics.txt", "Wilson")) {
         double hits = atof(row.at[0]), n = atof(row.at[1]), p = hits / n;
-        struct ceduo_rate share = ceduo_wilson(p, p, n);
+        struct ceduo_estimate share = ceduo_wilson(p, p, n);
         double lo = share.lo, hi = share.hi;
-        EXPECT(share.rate, ==, p);
+        EXPECT(share.mean, ==, p);
         EXPECT_NEAR(lo, atof(row.at[2]), .5e-4 + 1e-12);
         EXPECT_NEAR(hi, atof(row.at[3]), .5e-4 + 1e-12);
         assert_true(hits > 0 || lo == 0);
@@ -517,26 +517,26 @@ TEST(widths_of_few)
 TEST(pairs_that_do_not_differ)
 {
     struct ceduo_moments m = {0};
-    struct ceduo_paired p = ceduo_paired_of(.5, &m, 100); /* of which no single rock is kept */
+    struct ceduo_estimate p = ceduo_estimate_of_pairs(.5, &m, 100); /* of which no single rock is kept */
     EXPECT(p.mean, ==, .5);
     assert_true(isnan(p.se));
-    EXPECT(p.below, ==, 0);
+    assert_false(ceduo_pairs_are_equal(&p));
     for (int i = 0; i < 999; i++)
         ceduo_moments_add(&m, 0);
-    p = ceduo_paired_of(0, &m, 999);
+    p = ceduo_estimate_of_pairs(0, &m, 999);
     EXPECT(p.mean, ==, 0);
     assert_true(isnan(p.se));
-    EXPECT_NEAR(p.below, 3.841459 / (999 + 3.841459), 1e-9);
+    EXPECT_NEAR(p.hi, 3.841459 / (999 + 3.841459), 1e-9);
     ceduo_moments_add(&m, -1); /* one of 1000 */
-    p = ceduo_paired_of(-1e-3, &m, 1000);
+    p = ceduo_estimate_of_pairs(-1e-3, &m, 1000);
     EXPECT(p.mean, ==, -1e-3);
     EXPECT_NEAR(p.se, 1e-3, 1e-6);
-    EXPECT(p.below, ==, 0);
+    assert_false(ceduo_pairs_are_equal(&p));
     m = (struct ceduo_moments){0};
     for (int i = 0; i < 20; i++)
         ceduo_moments_add(&m, 0.5); /* all differ, and alike */
-    p = ceduo_paired_of(0.5, &m, 20);
-    EXPECT_IS(p, (se, 0), (below, 0));
+    p = ceduo_estimate_of_pairs(0.5, &m, 20);
+    EXPECT_IS(p, (se, 0), (lo, .5), (hi, .5));
 }
 
 TEST(ranks_of_quantiles)

@@ -1,5 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow full
 # No result depends on a numerical constant: with half and with twice of all, no statistic moves by more than its error.
 # What is linked is the library as it was built, before it the objects that a constant goes into, compiled with the other.
 #

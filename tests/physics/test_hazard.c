@@ -146,9 +146,9 @@ TEST(weights_that_are_alike_change_nothing)
         some_values(values, weight, n);
         for (size_t i = 0; i < n; i++)
             weighted_sum_add(&ones, weight, 1);
-        struct ceduo_rate wilson = ceduo_wilson((double)n / N, (double)n / N, N);
-        struct ceduo_rate share = ceduo_weighted_share(&all, &ones, -1);
-        ROWS(EXPECT_NEAR, (share.rate, (double)n / N, 1e-12), (share.lo, wilson.lo, 1e-9), (share.hi, wilson.hi, 1e-9));
+        struct ceduo_estimate wilson = ceduo_wilson((double)n / N, (double)n / N, N);
+        struct ceduo_estimate share = ceduo_weighted_share(&all, &ones, -1);
+        ROWS(EXPECT_NEAR, (share.mean, (double)n / N, 1e-12), (share.lo, wilson.lo, 1e-9), (share.hi, wilson.hi, 1e-9));
         struct ceduo_moments m = {0};
         double plain[N];
         for (size_t i = 0; i < n; i++) {
@@ -188,20 +188,20 @@ TEST(what_weights_explain_is_no_error)
     }
     EXPECT_NEAR(ceduo_weighted_se(&all, &ones), 0, 0);
     EXPECT_NEAR(ceduo_weighted_se(&all, &fives), 0, 0);
-    struct ceduo_rate all_of_them = ceduo_weighted_share(&all, &ones, -1), nobody = ceduo_weighted_share(&all, &none, -1);
-    EXPECT_NEAR(all_of_them.rate, 1, 0);
+    struct ceduo_estimate all_of_them = ceduo_weighted_share(&all, &ones, -1), nobody = ceduo_weighted_share(&all, &none, -1);
+    EXPECT_NEAR(all_of_them.mean, 1, 0);
     EXPECT_NEAR(all_of_them.hi, 1, 0);
     assert_true(all_of_them.lo > 0.99 && all_of_them.lo < 1);
-    EXPECT_NEAR(nobody.rate, 0, 0);
+    EXPECT_NEAR(nobody.mean, 0, 0);
     EXPECT_NEAR(nobody.lo, 0, 0);
     EXPECT_NEAR(nobody.hi, 3.8414588 / (N + 3.8414588), 1e-8); /* Wilson of 0 among as many rocks */
     struct weighted_sum heavy = {0};
     for (size_t i = 0; i < N; i += 2)
         weighted_sum_add(&heavy, 1.5, 1); /* all heavy rocks and no other: the weights explain all of it */
-    struct ceduo_rate known = ceduo_weighted_share(&all, &heavy, -1);
+    struct ceduo_estimate known = ceduo_weighted_share(&all, &heavy, -1);
     double alike = all.w * all.w / all.ww;
     assert_int_equal(alike, 800);
-    ROWS(EXPECT_NEAR, (known.rate, 0.75, 1e-12), (known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9),
+    ROWS(EXPECT_NEAR, (known.mean, 0.75, 1e-12), (known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9),
          (known.hi, ceduo_wilson(.75, .75, 800).hi, 1e-9));
     all.missing = all.w / 10;
     EXPECT_NEAR(ceduo_weighted_share(&all, &none, -1).hi, ceduo_wilson(.1, .1, 800).hi, 1e-12);
@@ -248,16 +248,17 @@ TEST(few_rocks_bound_what_they_can)
     struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 3, 5e4, &h));
-    ROWS(EXPECT_NEAR, (h.reach.rate, 0.0015, 1e-15), (h.accepted.rate, 0.001, 1e-15),
-         (ceduo_hazard_feared(&h).rate, 0.001, 1e-15));
+    ROWS(EXPECT_NEAR, (h.reach.mean, 0.0015, 1e-15), (h.accepted.mean, 0.001, 1e-15),
+         (ceduo_hazard_feared(&h).mean, 0.001, 1e-15));
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
-        EXPECT_NEAR(h.intensity[i].within.rate, 0.0005, 1e-15);
-    assert_true(isnan(h.returns[3].energy) && isnan(h.returns[3].lo)); /* 0.0015 a year: less than one in 300 years */
-    EXPECT_NEAR(h.returns[3].hi, 1e5, 0); /* 1/150 of the blocks: more than one of N may be by Wilson, two may not */
-    assert_true(isnan(h.returns[1].hi));  /* one in 30 years is more than all three may be */
+        EXPECT_NEAR(h.intensity[i].within.mean, 0.0005, 1e-15);
+    assert_true(isnan(h.returns[3].energy.mean) &&
+                isnan(h.returns[3].energy.lo));  /* 0.0015 a year: less than one in 300 years */
+    EXPECT_NEAR(h.returns[3].energy.hi, 1e5, 0); /* 1/150 of the blocks: more than one of N may be by Wilson, two may not */
+    assert_true(isnan(h.returns[1].energy.hi));  /* one in 30 years is more than all three may be */
     assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h));
-    assert_true(isnan(h.accepted.rate));
-    EXPECT_NEAR(ceduo_hazard_feared(&h).rate, 0.0015, 1e-15);
+    assert_true(isnan(h.accepted.mean));
+    EXPECT_NEAR(ceduo_hazard_feared(&h).mean, 0.0015, 1e-15);
     struct ceduo_hazard none = ceduo_hazard_none();
     ceduo_hazard_compare(&h, &none);
     assert_true(isnan(h.left) && isnan(h.intensity[0].left));
@@ -280,7 +281,7 @@ TEST(a_curve_ends_where_its_energies_do)
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 2, NAN, &h));
     assert_int_equal(h.energies, CEDUO_HAZARD_ENERGIES);
-    EXPECT_NEAR(h.exceed[CEDUO_HAZARD_ENERGIES - 1].rate.rate, 1, 0);
+    EXPECT_NEAR(h.exceed[CEDUO_HAZARD_ENERGIES - 1].rate.mean, 1, 0);
 }
 
 /* An energy that a rock has is not exceeded by it; a class begins with its lower limit; a return period is met by a rate that
@@ -291,15 +292,15 @@ TEST(at_a_limit)
     struct weighted energies[] = {{3e5, 1}, {3e4, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 2, 3e5, &h));
-    ROWS(EXPECT_NEAR, (h.accepted.rate, 0, 0), (h.intensity[0].within.rate, 0, 0), (h.intensity[1].within.rate, 0.01, 1e-15),
-         (h.intensity[2].within.rate, 0.01, 1e-15));
+    ROWS(EXPECT_NEAR, (h.accepted.mean, 0, 0), (h.intensity[0].within.mean, 0, 0), (h.intensity[1].within.mean, 0.01, 1e-15),
+         (h.intensity[2].within.mean, 0.01, 1e-15));
     for (size_t i = 0; i < h.energies; i++)
-        EXPECT_NEAR(h.exceed[i].rate.rate, h.exceed[i].energy < 3e4 ? 0.02 : h.exceed[i].energy < 3e5 ? 0.01 : 0, 1e-15);
+        EXPECT_NEAR(h.exceed[i].rate.mean, h.exceed[i].energy < 3e4 ? 0.02 : h.exceed[i].energy < 3e5 ? 0.01 : 0, 1e-15);
     assert_int_equal(h.returns[2].years, 100);
-    EXPECT_NEAR(h.returns[2].energy, 3e5, 0);
-    assert_true(isnan(h.returns[2].hi)); /* of none among 1000 up to 0.038 a year may be: no energy is too high */
+    EXPECT_NEAR(h.returns[2].energy.mean, 3e5, 0);
+    assert_true(isnan(h.returns[2].energy.hi)); /* of none among 1000 up to 0.038 a year may be: no energy is too high */
     assert_true(ceduo_hazard_read(&all, energies, 2, nextafter(3e5, 0), &h));
-    EXPECT_NEAR(h.accepted.rate, 0.01, 1e-15);
+    EXPECT_NEAR(h.accepted.mean, 0.01, 1e-15);
 }
 
 /* No rock arrives, of two hundred: nothing is known but what may be. */
@@ -308,11 +309,11 @@ TEST(nobody_arrives)
     const struct released all = {.n = 200, .w = 200, .ww = 200, .per_year = 1};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h));
-    EXPECT_NEAR(h.reach.rate, 0, 0);
+    EXPECT_NEAR(h.reach.mean, 0, 0);
     EXPECT_NEAR(h.reach.hi, 3.8414588 / (200 + 3.8414588), 1e-8); /* Wilson of 0 among 200 */
     assert_int_equal(h.energies, 1);
     for (size_t i = 0; i < CEDUO_RETURNS; i++)
-        assert_true(isnan(h.returns[i].energy) && isnan(h.returns[i].lo) && isnan(h.returns[i].hi));
+        assert_true(isnan(h.returns[i].energy.mean) && isnan(h.returns[i].energy.lo) && isnan(h.returns[i].energy.hi));
     assert_true(isnan(h.left));
 }
 

@@ -65,7 +65,7 @@ static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_sce
 
 static struct ceduo_arrivals arrivals(const struct ceduo_scene *scene)
 {
-    LOCAL(ceduo_run, run) = run_option(scene, NULL, ROCKS, 1, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, run) = run_option(scene, NULL, ROCKS, 1);
     return arrivals_of(run, 0);
 }
 

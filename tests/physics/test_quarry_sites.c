@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Whether a calibration may be trusted: twenty small sites whose ground is known. All bounds follow from the binomial law: of a
  * calibration that is right one run in ten thousand would leave them, and the sites are always the same. bench_calibration asks
  * the same of many sites, with as many rocks as people use. */

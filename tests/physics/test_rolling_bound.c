@@ -103,7 +103,7 @@ TEST(a_run_of_rolling_rocks_has_the_speed_of_the_closed_form)
         scene.segments[0].roughness_m = ROUGHNESS_FLAT;
         scene.control = (struct ceduo_control){.x = 1 + 200 * cos(b), .accepted = NAN, .measured_speed = NAN};
         scene.scene.controls_count = 1;
-        LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, 100, 1, CEDUO_EXACT_BYTES);
+        LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, 100, 1);
         struct ceduo_arrivals a = arrivals_of(run, 0);
         double speed = sqrt(2 * G * 200 * (sin(b) - FRICTION * cos(b)) / (1 + k));
         EXPECT(a.reached, ==, 100);
@@ -176,10 +176,10 @@ static void fly(double angle, double roughness, const double *length, size_t cou
         controls[i] = (struct ceduo_control){.x = 1 + length[i] * cos(angle), .accepted = NAN, .measured_speed = NAN};
     scene.scene.controls = controls;
     scene.scene.controls_count = count;
-    LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, ROCKS, 2, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, ROCKS, 2);
     for (size_t i = 0; i < count; i++) {
         struct ceduo_arrivals a = arrivals_of(run, i);
-        to[i] = (struct arrival){.speed = a.speed.mean, .share = a.reach_probability};
+        to[i] = (struct arrival){.speed = a.speed.mean, .share = a.reach.mean};
     }
 }
 

@@ -150,7 +150,7 @@ TEST(statistics_agree_within_their_error)
         struct ceduo_arrivals near = arrive(&site.scene, FE_TONEAREST, &contacts0);
         for (size_t m = 1; m < LENGTH(modes); m++) {
             struct ceduo_arrivals a = arrive(&site.scene, modes[m], &contacts);
-            expect_within("reach", a.reach_probability, near.reach_probability, (near.reach_hi - near.reach_lo) / 3.92);
+            expect_within("reach", a.reach.mean, near.reach.mean, (near.reach.hi - near.reach.lo) / 3.92);
             moved += fabs(contacts - contacts0);
             if (near.reached < 100) /* too few to have a mean */
                 continue;

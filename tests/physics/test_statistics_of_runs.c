@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow threads */
 /* Runs of many rocks: their means beside those of independent implementations, and that nothing but the scene moves
  * them. */
 #include "expect.h"
@@ -71,14 +72,13 @@ TEST(means_of_the_combinations_beside_table_5)
         choose(c);
         LOCAL(ceduo_run, run) = run_scene(&site.scene, c->rocks, 2);
         struct ceduo_arrivals a = arrivals_of(run, 0);
-        double p = a.reach_probability, n = (double)c->rocks;
+        double p = a.reach.mean, n = (double)c->rocks;
         ROWS(expect_mean, ("mean speed", a.speed.mean, a.speed.se, c->speed, c->speed_se, c->speed_digit),
              ("mean energy", a.energy.mean / 1e3, a.energy.se / 1e3, c->energy, c->energy_se, c->energy_digit),
              ("share that passes", 100 * p, 100 * sqrt(p * (1 - p) / n), c->pass, c->pass_se, c->pass_digit));
         if (i == 0)
             expect_mean("sd of speed", a.speed.sd, a.speed.sd / sqrt(2 * n), 4.78, 4.78 / sqrt(2e6), .01);
         EXPECT_IS(a, (released, c->rocks), (unfinished, 0));
-        assert_true(a.exact);
     }
 }
 
@@ -88,8 +88,8 @@ TEST(almost_nothing_passes_crsp_with_angles_to_both_sides)
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 20000, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     EXPECT(a.reached, <=, 3); /* 1 in 10^5: more than 3 of 20 000 has a chance of 6e-5 */
-    EXPECT(a.reach_lo, <=, 1e-5);
-    EXPECT(a.reach_hi, >=, 1e-5);
+    EXPECT(a.reach.lo, <=, 1e-5);
+    EXPECT(a.reach.hi, >=, 1e-5);
 }
 
 TEST(figures_of_an_arrival_fit_together)
@@ -109,23 +109,22 @@ TEST(figures_of_an_arrival_fit_together)
     EXPECT_NEAR(a.energy.mean / (sum / (double)n), 1, 1e-12);
     EXPECT_NEAR(a.energy.max / largest, 1, 1e-15);
     assert_int_equal(exceeded, a.exceeded);
-    EXPECT(a.exceed_probability, ==, (double)a.exceeded / 5000);
-    EXPECT_NEAR(a.energy_per_released / (sum / 5000), 1, 1e-12);
+    EXPECT(a.exceed.mean, ==, (double)a.exceeded / 5000);
+    EXPECT_NEAR(a.energy_per_released.mean / (sum / 5000), 1, 1e-12);
     double squares = 0;
     for (size_t i = 0; i < n; i++)
         squares += energies[i] * energies[i];
     double variance = (squares - sum * sum / 5000) / 4999;
-    EXPECT_NEAR(a.energy_per_released_se / sqrt(variance / 5000), 1, 1e-9);
+    EXPECT_NEAR(a.energy_per_released.se / sqrt(variance / 5000), 1, 1e-9);
     double reach = (double)a.reached / 5000, exceed = (double)a.exceeded / 5000;
-    EXPECT_IS(a, (reach_lo, ceduo_wilson(reach, reach, 5000).lo), (reach_hi, ceduo_wilson(reach, reach, 5000).hi),
-              (exceed_lo, ceduo_wilson(exceed, exceed, 5000).lo), (exceed_hi, ceduo_wilson(exceed, exceed, 5000).hi));
+    EXPECT_IS(a, (reach.lo, ceduo_wilson(reach, reach, 5000).lo), (reach.hi, ceduo_wilson(reach, reach, 5000).hi),
+              (exceed.lo, ceduo_wilson(exceed, exceed, 5000).lo), (exceed.hi, ceduo_wilson(exceed, exceed, 5000).hi));
     ROWS(EXPECT, (a.energy.p50, <=, a.energy.p95_lo), (a.energy.p95_lo, <=, a.energy.p95), (a.energy.p95, <=, a.energy.p95_hi),
          (a.energy.p95, <=, a.energy.p99), (a.energy.p99, <=, a.energy.max));
     EXPECT(a.translation.mean, ==, a.energy.mean); /* lumped: no spin */
     uint64_t reached;
-    double mean, se;
-    ceduo_run_energy(run, 0, &reached, &mean, &se);
-    ROWS(EXPECT, (reached, ==, a.reached), (mean, ==, a.energy.mean), (se, ==, a.energy.se));
+    struct ceduo_estimate mean = ceduo_run_energy(run, 0, &reached);
+    ROWS(EXPECT, (reached, ==, a.reached), (mean.mean, ==, a.energy.mean), (mean.se, ==, a.energy.se));
     struct ceduo_ends ends = ends_of(run);
     assert_int_equal(ends.count[CEDUO_AT_REST] + ends.count[CEDUO_LEFT_SLOPE] + ends.count[CEDUO_UNFINISHED], 5000);
     assert_int_equal(ends.stop_x.n, ends.count[CEDUO_AT_REST]);
@@ -143,15 +142,12 @@ TEST(a_run_flies_the_rocks_that_can_be_followed)
 
 TEST(the_same_bits_with_any_number_of_threads_and_steps)
 {
-    static const size_t rows[] = {0, 3, 5}, bytes[] = {CEDUO_EXACT_BYTES, 1000};
-    for (size_t r = 0; r < LENGTH(rows); r++)
-        for (size_t e = 0; e < LENGTH(bytes); e++) {
-            choose(&combinations[rows[r]]);
-            site.scene.simulation.rocks = 20000;
-            struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-            def.exact_bytes = bytes[e];
-            expect_same_however(def, 20000);
-        }
+    static const size_t rows[] = {0, 3, 5};
+    for (size_t r = 0; r < LENGTH(rows); r++) {
+        choose(&combinations[rows[r]]);
+        site.scene.simulation.rocks = 20000;
+        expect_same_however(ceduo_run_def_default(&site.scene), 20000);
+    }
 }
 
 TEST(a_run_is_no_longer_than_asked_for)
@@ -177,43 +173,6 @@ TEST(other_seeds_are_other_rocks)
     struct ceduo_arrivals b = arrivals_of(two, 0);
     EXPECT(a.speed.mean, !=, b.speed.mean);
     expect_mean("mean speed", a.speed.mean, a.speed.se, b.speed.mean, b.speed.se, 0);
-}
-
-/* ---- histograms ---- */
-
-static void expect_distribution_within(const struct ceduo_distribution *a, const struct ceduo_distribution *b)
-{
-    EXPECT_SAME(*a, *b, mean, sd, se, max);
-    ROWS(expect_relative, (a->p50, b->p50, 1e-4), (a->p95, b->p95, 1e-4), (a->p95_lo, b->p95_lo, 1e-4),
-         (a->p95_hi, b->p95_hi, 1e-4), (a->p99, b->p99, 1e-4));
-}
-
-TEST(percentiles_of_histograms_are_those_of_all_samples)
-{
-    static const size_t rows[] = {0, 5}; /* without and with spin */
-    for (size_t r = 0; r < LENGTH(rows); r++) {
-        choose(&combinations[rows[r]]);
-        site.scene.simulation.rocks = 50000;
-        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        def.threads = 2;
-        LOCAL(ceduo_run, all) = run_of(&def, 50000);
-        def.exact_bytes = 100000; /* from the first thousands on */
-        LOCAL(ceduo_run, some) = run_of(&def, 1000);
-        assert_true(arrivals_of(some, 0).exact);
-        assert_int_equal(ceduo_run_extend(some, 50000), CEDUO_OK);
-        struct ceduo_arrivals a = arrivals_of(some, 0), b = arrivals_of(all, 0);
-        assert_false(a.exact);
-        assert_true(b.exact);
-        ROWS(expect_distribution_within, (&a.speed, &b.speed), (&a.energy, &b.energy), (&a.translation, &b.translation),
-             (&a.height, &b.height));
-        double none[1];
-        assert_int_equal(ceduo_run_energies(some, 0, none, 1), 0);
-        struct ceduo_ends p = ends_of(some);
-        struct ceduo_ends q = ends_of(all);
-        expect_relative(p.stop_p50, q.stop_p50, 1e-4);
-        expect_relative(p.stop_p95, q.stop_p95, 1e-4);
-        EXPECT(p.stop_max, ==, q.stop_max);
-    }
 }
 
 /* ---- envelopes ---- */
@@ -253,13 +212,13 @@ TEST(envelopes_are_ranks_of_what_rocks_bring)
             site.control.x = places[i];
             struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
             LOCAL(ceduo_run, run) = run_of(&def, rocks[k]);
+            const double *height = ceduo_run_samples(run, 0, CEDUO_SAMPLE_HEIGHT);
+            const double *energy = ceduo_run_samples(run, 0, CEDUO_SAMPLE_ENERGY);
             size_t n = 0;
-            assert_true(ceduo_run_values(run, 0, CEDUO_SAMPLE_HEIGHT, heights));
-            assert_true(ceduo_run_values(run, 0, CEDUO_SAMPLE_ENERGY, energies));
             for (size_t r = 0; r < rocks[k]; r++)
-                if (!isnan(energies[r])) {
-                    heights[n] = heights[r];
-                    energies[n++] = energies[r];
+                if (!isnan(energy[r])) {
+                    heights[n] = height[r];
+                    energies[n++] = energy[r];
                 }
             assert_int_equal(e[i].passed, n);
             if (n == 0)
@@ -457,32 +416,29 @@ static bool nothing_known(const struct ceduo_distribution *d)
 
 TEST(a_control_that_nobody_reaches)
 {
-    static const size_t bytes[] = {CEDUO_EXACT_BYTES, 0};
-    for (int law = 0; law < CEDUO_LAW_COUNT; law++)
-        for (size_t e = 0; e < LENGTH(bytes); e++) {
-            choose(&combinations[0]);
-            site.scene.simulation.law = (enum ceduo_law)law;
-            for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
-                site.segments[j].friction = 5;
-                site.segments[j].rt = ceduo_number(.1);
-            }
-            site.scene.simulation.rocks = 999;
-            struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-            def.exact_bytes = bytes[e];
-            LOCAL(ceduo_run, run) = run_of(&def, 999);
-            struct ceduo_arrivals a = arrivals_of(run, 0);
-            EXPECT_IS(a, (reached, 0), (reach_probability, 0), (reach_lo, 0));
-            ROWS(EXPECT, (a.reach_hi, >, .0038), (a.reach_hi, <, .004), (a.exceed_hi, ==, a.reach_hi));
-            ROWS(assert_true, (nothing_known(&a.speed)), (nothing_known(&a.energy)), (nothing_known(&a.translation)),
-                 (nothing_known(&a.height)));
-            EXPECT_IS(a, (energy_per_released, 0), (energy_per_released_se, 0));
-            uint64_t reached;
-            double mean, se, energy;
-            ceduo_run_energy(run, 0, &reached, &mean, &se);
-            EXPECT(reached, ==, 0);
-            EXPECT_NAN(mean, se);
-            assert_int_equal(ceduo_run_energies(run, 0, &energy, 1), 0);
+    for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
+        choose(&combinations[0]);
+        site.scene.simulation.law = (enum ceduo_law)law;
+        for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
+            site.segments[j].friction = 5;
+            site.segments[j].rt = ceduo_number(.1);
         }
+        site.scene.simulation.rocks = 999;
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        LOCAL(ceduo_run, run) = run_of(&def, 999);
+        struct ceduo_arrivals a = arrivals_of(run, 0);
+        EXPECT_IS(a, (reached, 0), (reach.mean, 0), (reach.lo, 0));
+        ROWS(EXPECT, (a.reach.hi, >, .0038), (a.reach.hi, <, .004), (a.exceed.hi, ==, a.reach.hi));
+        ROWS(assert_true, (nothing_known(&a.speed)), (nothing_known(&a.energy)), (nothing_known(&a.translation)),
+             (nothing_known(&a.height)));
+        EXPECT_IS(a, (energy_per_released.mean, 0), (energy_per_released.se, 0));
+        uint64_t reached;
+        double energy;
+        struct ceduo_estimate mean = ceduo_run_energy(run, 0, &reached);
+        EXPECT(reached, ==, 0);
+        EXPECT_NAN(mean.mean, mean.se);
+        assert_int_equal(ceduo_run_energies(run, 0, &energy, 1), 0);
+    }
 }
 
 TEST(a_control_without_an_accepted_energy)
@@ -492,7 +448,7 @@ TEST(a_control_without_an_accepted_energy)
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 999, 1);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     EXPECT(a.exceeded, ==, 0);
-    EXPECT_NAN(a.exceed_probability, a.exceed_lo, a.exceed_hi);
+    EXPECT_NAN(a.exceed.mean, a.exceed.lo, a.exceed.hi);
 }
 
 TEST(unfinished_rocks_count_for_the_upper_bound)
@@ -505,7 +461,7 @@ TEST(unfinished_rocks_count_for_the_upper_bound)
     flat.scene.controls_count = 1;
     LOCAL(ceduo_run, run) = run_scene(&flat.scene, 5, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    EXPECT_IS(a, (unfinished, 5), (reached, 0), (reach_hi, 1), (reach_lo, 0), (exceed_hi, 1));
+    EXPECT_IS(a, (unfinished, 5), (reached, 0), (reach.hi, 1), (reach.lo, 0), (exceed.hi, 1));
     struct ceduo_ends ends = ends_of(run);
     assert_int_equal(ends.count[CEDUO_UNFINISHED], 5);
     EXPECT_NAN(ends.stop_p50, ends.stop_max);
@@ -533,7 +489,7 @@ TEST(unfinished_blocks_count_by_their_weights)
     LOCAL(ceduo_run, run) = run_scene(&flat.scene, ROCKS, 2);
     LOCAL(ceduo_follower, f) = ceduo_follower_create(&flat.scene, NULL);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    const double *weights = ceduo_run_weights(run);
+    const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
     double all = 0, squares = 0, unfinished = 0;
     for (uint64_t r = 0; r < ROCKS; r++) {
         struct ceduo_trajectory way;
@@ -549,5 +505,5 @@ TEST(unfinished_blocks_count_by_their_weights)
     double of_equal = ceduo_wilson(unfinished / all, unfinished / all, all * all / squares).hi;
     double hi = fmax(of_equal, unfinished / all + z2 / (ROCKS + z2));
     EXPECT_NEAR(a.missed[CEDUO_UNFINISHED], unfinished / all, 1e-12);
-    EXPECT_NEAR(a.reach_hi, hi, 1e-12);
+    EXPECT_NEAR(a.reach.hi, hi, 1e-12);
 }

@@ -281,7 +281,7 @@ static double first_stem_cdf(double x, const void *of)
 
 static void expect_run_stopped(const struct sample *stops, uint64_t rocks)
 {
-    LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, rocks, 2, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, rocks, 2);
     struct ceduo_ends ends = ends_of(run);
     ROWS(assert_int_equal, (ends.count[CEDUO_STOPPED_BY_STEMS], stops->n), (ends.count[CEDUO_LEFT_SLOPE], rocks - stops->n),
          (ends.stop_x.n, stops->n));

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* How many stems rocks meet, on their way and of each stool, beside closed forms (Cauchy, Crofton, Poisson). */
 #include "expect.h"
 

@@ -22,10 +22,10 @@ TEST(rocks_on_the_papers_site_arrive_as_in_an_independent_implementation)
     } other = {62.06, 14.67, 83.2, 15.4};
     const uint64_t rocks = FULL_OR(300000, 100000);
     paper_site_init(&site);
-    LOCAL(ceduo_run, run) = run_option(&site.scene, &site.option, rocks, 2, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, run) = run_option(&site.scene, &site.option, rocks, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     struct ceduo_ends e = ends_of(run);
-    double n = (double)rocks, pass = a.reach_probability;
+    double n = (double)rocks, pass = a.reach.mean;
     double stopped = (double)e.count[CEDUO_STOPPED_BY_STEMS] / n;
     expect_close("kJ at 135 m", a.energy.mean / 1e3, a.energy.se / 1e3, other.energy, .1);
     /* its error is not printed: half of that of the energy, as shares go, and half a digit */
@@ -94,7 +94,7 @@ static struct pair_moments pairs_of(const struct ceduo_option *a, const struct c
     return m;
 }
 
-static void expect_pair(const char *what, const struct ceduo_paired *d, const struct ceduo_moments *m, double a, double b)
+static void expect_pair(const char *what, const struct ceduo_estimate *d, const struct ceduo_moments *m, double a, double b)
 {
     print_message("# %s: %.6g ± %.3g\n", what, d->mean, d->se);
     if (fabs(d->mean - (a - b)) > 1e-12 * (fabs(a) + fabs(b)))
@@ -110,61 +110,27 @@ TEST(differences_have_the_error_of_differences_rock_by_rock)
     open_sides();
     for (int other = 0; other < 2; other++) { /* the small change, no forest */
         const struct ceduo_option *option = other ? NULL : &sides.options[1];
-        LOCAL(ceduo_run, run) = run_option(&site.scene, option, rocks, 2, CEDUO_EXACT_BYTES);
-        LOCAL(ceduo_run, base) = run_option(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
+        LOCAL(ceduo_run, run) = run_option(&site.scene, option, rocks, 2);
+        LOCAL(ceduo_run, base) = run_option(&site.scene, &sides.options[0], rocks, 2);
         struct ceduo_difference d = ceduo_run_difference(run, base, 0);
         struct pair_moments m = pairs_of(option, &sides.options[0], rocks);
         struct ceduo_arrivals a = arrivals_of(run, 0);
         struct ceduo_arrivals b = arrivals_of(base, 0);
-        expect_pair("difference of shares that pass", &d.reach_probability, &m.reach, a.reach_probability, b.reach_probability);
-        expect_pair("difference of shares above what is accepted", &d.exceed_probability, &m.exceed, a.exceed_probability,
-                    b.exceed_probability);
-        expect_pair("difference of J per released", &d.energy_per_released, &m.energy, a.energy_per_released,
-                    b.energy_per_released);
-        double apart = hypot(a.energy_per_released_se, b.energy_per_released_se);
+        expect_pair("difference of shares that pass", &d.reach, &m.reach, a.reach.mean, b.reach.mean);
+        expect_pair("difference of shares above what is accepted", &d.exceed, &m.exceed, a.exceed.mean, b.exceed.mean);
+        expect_pair("difference of J per released", &d.energy_per_released, &m.energy, a.energy_per_released.mean,
+                    b.energy_per_released.mean);
+        double apart = hypot(a.energy_per_released.se, b.energy_per_released.se);
         EXPECT(d.energy_per_released.se, <, (other ? 1 : .5) * apart);
     }
 }
 
-static bool same_pair(const struct ceduo_paired *a, const struct ceduo_paired *b)
-{
-    return fabs(a->mean - b->mean) <= 1e-15 * fabs(a->mean) && fabs(a->se / b->se - 1) < 1e-9;
-}
-
-TEST(differences_without_all_samples_are_the_same)
-{
-    const uint64_t rocks = 5000;
-    static const size_t bytes[] = {CEDUO_EXACT_BYTES, 5000 * sizeof(double), 2500 * sizeof(double), 0};
-    struct ceduo_difference d[LENGTH(bytes)];
-    open_sides();
-    for (size_t i = 0; i < LENGTH(bytes); i++) {
-        LOCAL(ceduo_run, run) = run_option(&site.scene, &sides.options[1], rocks, 2, bytes[i]);
-        LOCAL(ceduo_run, base) = run_option(&site.scene, &sides.options[0], rocks, 2, bytes[i]);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
-        EXPECT(a.exact, ==, (i == 0));
-        d[i] = ceduo_run_difference(run, base, 0);
-        ROWS(EXPECT, (d[i].energy_per_released.mean, ==, d[0].energy_per_released.mean),
-             (d[i].reach_probability.mean, ==, d[0].reach_probability.mean),
-             (d[i].exceed_probability.mean, ==, d[0].exceed_probability.mean));
-    }
-    /* energies of all rocks are kept, though not all samples */
-    ROWS(assert_true, (same_pair(&d[1].energy_per_released, &d[0].energy_per_released)),
-         (same_pair(&d[1].reach_probability, &d[0].reach_probability)),
-         (same_pair(&d[1].exceed_probability, &d[0].exceed_probability)));
-    /* of half of them: the spread is known a little worse */
-    EXPECT_NEAR(d[2].energy_per_released.se / d[0].energy_per_released.se, 1, .1);
-}
-
 TEST(the_same_bits_among_stems_with_any_number_of_threads_and_steps)
 {
-    static const size_t bytes[] = {CEDUO_EXACT_BYTES, 5000 * sizeof(double)};
     open_sides();
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.option = &sides.options[1];
-    for (size_t e = 0; e < LENGTH(bytes); e++) {
-        def.exact_bytes = bytes[e];
-        expect_same_however(def, 5000);
-    }
+    expect_same_however(def, 5000);
 }
 
 TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
@@ -187,7 +153,7 @@ TEST(a_rock_that_is_given_up_has_arrived_before)
     plane.line.control = (struct ceduo_control){.x = 10000, .accepted = NAN, .measured_speed = NAN};
     for (uint64_t contact = 0; contact < 2; contact++) {
         plane.line.scene.release.vz.mean = contact ? -1e5 : 0;
-        LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, ROCKS, 1, CEDUO_EXACT_BYTES);
+        LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, ROCKS, 1);
         struct ceduo_arrivals a = arrivals_of(run, 0);
         EXPECT_IS(a, (reached, ROCKS), (unfinished, 0));
         assert_int_equal(ends_of(run).count[CEDUO_UNFINISHED], ROCKS);
@@ -215,7 +181,7 @@ TEST(a_rock_that_is_given_up_has_arrived_where_it_rolled)
     ROWS(EXPECT, (before, >, 10000), (sweep.way.x, >, before + 1e-6), (sweep.way.x, <, before + B / 2));
     plane.line.scene.controls_count = 1;
     plane.line.control = (struct ceduo_control){.x = (before + sweep.way.x) / 2, .accepted = NAN, .measured_speed = NAN};
-    LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, 1, 1, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, 1, 1);
     EXPECT_IS(arrivals_of(run, 0), (reached, 1), (unfinished, 0));
 }
 
@@ -233,15 +199,15 @@ TEST(stems_hit_by_blocks)
     site.scene.blocks_count = 1;
     for (uint64_t seed = 1; seed <= SEEDS; seed++) {
         site.scene.simulation.seed = seed;
-        struct ceduo_run *run = run_option(&site.scene, &sides.options[0], ROCKS, 1, CEDUO_EXACT_BYTES);
+        struct ceduo_run *run = run_option(&site.scene, &sides.options[0], ROCKS, 1);
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        ceduo_moments_add(&over, a.contacts);
-        ceduo_moments_add(&errors, a.contacts_se);
+        ceduo_moments_add(&over, a.contacts.mean);
+        ceduo_moments_add(&errors, a.contacts.se);
         if (seed < SEEDS) {
             ceduo_run_free(run);
             continue;
         }
-        const double *w = ceduo_run_weights(run);
+        const double *w = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
         LOCAL(ceduo_follower, f) = ceduo_follower_create(&site.scene, &sides.options[0]);
         double all = 0, reached = 0, sum = 0, mean = 0, ww = 0, wx = 0, xx = 0;
         for (uint64_t rock = 0; rock < ROCKS; rock++) {
@@ -263,8 +229,8 @@ TEST(stems_hit_by_blocks)
             wx += dw * dx;
             xx += dx * dx;
         }
-        expect_exact("mean contacts of blocks", a.contacts, sum / reached, 1e-12);
-        expect_exact("their error", a.contacts_se, sqrt((xx - wx * wx / ww) * ROCKS / (ROCKS - 1)) / reached, 1e-9);
+        expect_exact("mean contacts of blocks", a.contacts.mean, sum / reached, 1e-12);
+        expect_exact("their error", a.contacts.se, sqrt((xx - wx * wx / ww) * ROCKS / (ROCKS - 1)) / reached, 1e-9);
         ceduo_run_free(run);
     }
     double ratio = ceduo_moments_sd(&over) / errors.mean;
@@ -277,9 +243,9 @@ TEST(a_longer_run_keeps_its_figures)
     open_sides();
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.rocks_most = 1500;
-    struct ceduo_run *longer, *alone = run_option(&site.scene, &sides.options[1], 1500, 1, CEDUO_EXACT_BYTES);
-    struct ceduo_run *few[] = {run_option(&site.scene, &sides.options[0], 600, 1, CEDUO_EXACT_BYTES),
-                               run_option(&site.scene, &sides.options[1], 600, 1, CEDUO_EXACT_BYTES)};
+    struct ceduo_run *longer, *alone = run_option(&site.scene, &sides.options[1], 1500, 1);
+    struct ceduo_run *few[] = {run_option(&site.scene, &sides.options[0], 600, 1),
+                               run_option(&site.scene, &sides.options[1], 600, 1)};
     LOCAL(ceduo_pool, pool);
     LOCAL(ceduo_result, result);
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
@@ -292,12 +258,12 @@ TEST(a_longer_run_keeps_its_figures)
          (result->options[1].wooded.rocks, ==, 1500));
     const struct ceduo_arrivals *a = ceduo_result_wooded(result, 1, 0);
     ROWS(EXPECT, (a->released, ==, 1500), (a->reached, ==, wanted.reached), (a->energy.mean, ==, wanted.energy.mean));
-    EXPECT_SAME(*a, wanted, exceed_hi, contacts);
+    EXPECT_SAME(*a, wanted, exceed.hi, contacts.mean);
     struct ceduo_difference d = result->options[1].differences[0], of_few = ceduo_run_difference(few[1], few[0], 0);
     EXPECT(d.energy_per_released.mean, <, 0);
     expect_exact("difference", d.energy_per_released.mean, of_few.energy_per_released.mean, 1e-9);
     expect_exact("its error", d.energy_per_released.se, of_few.energy_per_released.se, 1e-12);
-    EXPECT_NEAR(d.exceed_probability.mean, of_few.exceed_probability.mean, 1e-12);
+    EXPECT_NEAR(d.exceed.mean, of_few.exceed.mean, 1e-12);
     ceduo_run_free(alone);
     ceduo_run_free(few[0]);
     ceduo_run_free(few[1]);
@@ -373,6 +339,6 @@ TEST(options_with_the_same_stems_share_a_run)
     work = ceduo_pool_work(pool);
     assert_int_equal(work.rocks, 3000);
     struct ceduo_run *run = ceduo_pool_find(pool, &options[0]);
-    LOCAL(ceduo_run, alone) = run_option(&site.scene, &options[1], 1000, 1, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, alone) = run_option(&site.scene, &options[1], 1000, 1);
     expect_same_run(run, alone);
 }

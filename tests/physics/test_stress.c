@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Random scenes in bulk and nasty ones by name: what holds on any ground (invariants.h), the same bits when run again, no
  * invalid operation, and counts that add up.
  *
- *   test_stress [SCENES [FIRST]]        default 40000 random scenes; `make stress` has ten million
+ *   STRESS=SCENES STRESS_FIRST=FIRST test_stress     default 40000 random scenes; `make stress` has ten million
  *
  * Invalid operations, divisions by zero and overflows are looked for while a rock goes its way, and fail the test; but
  * for flights whose horizontal speed is below 1e-150 m/s. For them the time to the next vertex overflows by design, even to
@@ -458,11 +459,14 @@ TEST(a_million_segments)
     free(segments);
 }
 
-int main(int argc, char **argv)
+static int set_up(void **state)
 {
-    if (argc > 1)
-        scenes = strtoull(argv[1], NULL, 10);
-    if (argc > 2)
-        first = strtoull(argv[2], NULL, 10);
-    return test_run(NULL, NULL);
+    (void)state;
+    if (getenv("STRESS"))
+        scenes = strtoull(getenv("STRESS"), NULL, 10);
+    if (getenv("STRESS_FIRST"))
+        first = strtoull(getenv("STRESS_FIRST"), NULL, 10);
+    return 0;
 }
+
+AROUND_TESTS(set_up, NULL);

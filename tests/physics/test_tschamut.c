@@ -71,7 +71,4 @@ TEST(without_its_shape_the_plate_goes_too_far)
     EXPECT_NEAR(mean[2], mean[0], 1.5);
 }
 
-int main(void)
-{
-    return test_run(read_scene, free_scene);
-}
+AROUND_TESTS(read_scene, free_scene);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: threads */
 /* An option year by year: beside the same stands grown, flown and assessed one by one. */
 #include "expect.h"
 #include "local.h"
@@ -95,7 +96,7 @@ static struct ceduo_years *grown(unsigned first, unsigned last, unsigned step)
 
 static struct ceduo_simulated bare_of(uint64_t rocks)
 {
-    LOCAL(ceduo_run, run) = run_option(&wood.site.scene, NULL, rocks, 1, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, run) = run_option(&wood.site.scene, NULL, rocks, 1);
     struct ceduo_simulated bare;
     assert_int_equal(ceduo_simulated_read(run, CONTROLS, &bare), CEDUO_OK);
     return bare;
@@ -134,11 +135,11 @@ static void expect_same_distribution(const struct ceduo_distribution *a, const s
 
 static void expect_same_arrivals(const struct ceduo_arrivals *a, const struct ceduo_arrivals *b)
 {
-    EXPECT_SAME(*a, *b, released, reached, exceeded, unfinished, exact);
-    EXPECT_BITS(a, b, reach_probability, reach_lo, reach_hi, exceed_probability, exceed_lo, exceed_hi);
+    EXPECT_SAME(*a, *b, released, reached, exceeded, unfinished);
+    EXPECT_BITS(a, b, reach.mean, reach.lo, reach.hi, exceed.mean, exceed.lo, exceed.hi);
     ROWS(expect_same_distribution, (&a->speed, &b->speed), (&a->energy, &b->energy), (&a->translation, &b->translation),
          (&a->height, &b->height));
-    EXPECT_BITS(a, b, energy_per_released, energy_per_released_se, contacts, contacts_se);
+    EXPECT_BITS(a, b, energy_per_released.mean, energy_per_released.se, contacts.mean, contacts.se);
 }
 
 static void expect_same_ends(const struct ceduo_ends *a, const struct ceduo_ends *b)
@@ -197,7 +198,7 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
     EXPECT(y->cut, ==, cut);
     EXPECT(y->option.belts_count, ==, BELTS);
     struct ceduo_option option = {.belts_count = BELTS, .belts = belts};
-    LOCAL(ceduo_run, run) = run_option(&wood.site.scene, &option, ROCKS, 1, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, run) = run_option(&wood.site.scene, &option, ROCKS, 1);
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated direct;
     assert_int_equal(ceduo_simulated_read(run, CONTROLS, &direct), CEDUO_OK);
     EXPECT(y->wooded.rocks, ==, ROCKS);
@@ -402,34 +403,6 @@ TEST(sums_over_the_years)
     }
 }
 
-/* The first of the rocks say how much one spreads, but the mean is of all. */
-TEST(more_rocks_than_are_paired)
-{
-    enum { MANY = CEDUO_PAIRED_ROCKS + 300000 };
-    const double paired = CEDUO_PAIRED_ROCKS;
-    init();
-    wood.option.belts_count = 0;
-    wood.site.scene.slope.vertices = 2;
-    wood.site.scene.release.vx = (struct ceduo_number){.mean = 5, .spread = 2, .kind = CEDUO_UNIFORM};
-    wood.site.scene.controls_count = 1;
-    wood.controls[0].x = wood.controls[0].x_given = 1;
-    wood.controls[0].accepted = 7e3;
-    LOCAL(ceduo_run, first) = run_option(&wood.site.scene, NULL, CEDUO_PAIRED_ROCKS, 1, CEDUO_EXACT_BYTES);
-    struct ceduo_brief brief;
-    ceduo_run_briefs(first, 0, 1, &brief);
-    LOCAL(ceduo_years, years) = grown(0, 0, 1);
-    LOCAL(ceduo_pool, pool) = pool_of(2, NULL);
-    struct ceduo_run *run;
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare;
-    assert_int_equal(ceduo_pool_simulate(pool, NULL, MANY, &run), CEDUO_OK);
-    assert_int_equal(ceduo_simulated_read(run, 1, &bare), CEDUO_OK);
-    assert_int_equal(ceduo_years_simulate(years, pool, &bare, MANY), CEDUO_OK);
-    double p = brief.exceed_probability, sd = sqrt(p * (1 - p) * paired / (paired - 1));
-    EXPECT(p, >, .01);
-    EXPECT(p, <, .99);
-    EXPECT_NEAR(ceduo_years_sum(years, 0).exceed.se, sd / sqrt(MANY), 1e-9 * sd);
-}
-
 /* Of blocks of all sizes the shares of years are weighed; the error is what a regression on the weights leaves. */
 TEST(years_of_blocks)
 {
@@ -447,12 +420,11 @@ TEST(years_of_blocks)
         for (size_t r = 0; r < FEW; r++)
             marks[i][r] = 0;
         for (size_t y = 0; y < years[i]->count; y++) {
-            double energies[FEW];
-            LOCAL(ceduo_run, run) = run_option(&wood.site.scene, &years[i]->years[y].option, FEW, 1, CEDUO_EXACT_BYTES);
-            assert_true(ceduo_run_values(run, years[i]->last_control, CEDUO_SAMPLE_ENERGY, energies));
+            LOCAL(ceduo_run, run) = run_option(&wood.site.scene, &years[i]->years[y].option, FEW, 1);
+            const double *energies = ceduo_run_samples(run, years[i]->last_control, CEDUO_SAMPLE_ENERGY);
             for (size_t r = 0; r < FEW; r++) {
                 marks[i][r] += (energies[r] > 50e3) / 3.;
-                weights[r] = ceduo_run_weights(run)[r];
+                weights[r] = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT)[r];
             }
         }
     }
@@ -468,7 +440,7 @@ TEST(years_of_blocks)
             wx += (weights[r] - w1) * (x[r] - x1);
             xx += (x[r] - x1) * (x[r] - x1);
         }
-        struct ceduo_paired found =
+        struct ceduo_estimate found =
             of < 2 ? ceduo_years_sum(years[of], years[of]->last_control).exceed : ceduo_years_difference(years[0], years[1]);
         EXPECT_NEAR(found.mean, x1 / w1, 1e-12);
         EXPECT_NEAR(found.se, sqrt((xx - wx * wx / ww) / FEW / (FEW - 1)) / w1, 1e-12);
@@ -534,7 +506,7 @@ TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
         assert_false(years->years[i].cut);
         for (size_t c = 0; c < CONTROLS; c++) {
             struct ceduo_arrivals a = years->years[i].wooded.arrivals[c];
-            a.contacts = a.contacts_se = NAN;
+            a.contacts = CEDUO_NO_ESTIMATE;
             expect_same_arrivals(&a, &bare.arrivals[c]);
         }
     }
@@ -549,7 +521,7 @@ TEST_WITH(nothing_is_hit_in_a_bare_year, fresh, NULL)
     LOCAL(ceduo_years, years) = flown(3, 5, 1, 1, 200);
     const struct ceduo_year *y = &years->years[1];
     bool cut = y->cut && y->stands[0].bare && y->wooded.arrivals[1].reached > 0;
-    double contacts = y->wooded.arrivals[1].contacts;
+    double contacts = y->wooded.arrivals[1].contacts.mean;
     assert_true(cut);
     EXPECT(contacts, ==, 0); /* known, not unknown */
 }

@@ -208,21 +208,25 @@ class Screen:
         return self
 
 
-def home(folder):
-    """An environment that keeps the program's files in a folder; without a terminal's name."""
+ROCKS = 1024  # of each forest and year, ten times fewer than the program takes at least: most tests read no figure
+
+
+def home(folder, rocks=ROCKS):
+    """An environment that keeps the program's files in a folder; without a terminal's name. rocks=None: as many as ever."""
     at = str(folder)
-    return environment(HOME=at, XDG_STATE_HOME=at + "/state", XDG_DATA_HOME=at + "/data", XDG_CONFIG_HOME=at + "/config",
+    return environment(CEDUO_ROCKS=rocks and str(rocks), HOME=at,
+                       XDG_STATE_HOME=at + "/state", XDG_DATA_HOME=at + "/data", XDG_CONFIG_HOME=at + "/config",
                        XDG_CACHE_HOME=at + "/cache", TERM=None, COLUMNS=None, LINES=None)
 
 
-def run_script(folder, script, *arguments, name="play.txt"):
+def run_script(folder, script, *arguments, name="play.txt", rocks=ROCKS):
     """Plays a script with no terminal at all; the program ends by itself, whatever its status."""
     (folder / name).write_text(script)
     command = [CEDUO, "--script", name, *map(str, arguments)]
     start = time.monotonic()
     try:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              cwd=folder, env=home(folder), timeout=PATIENCE, check=False, start_new_session=True)
+                              cwd=folder, env=home(folder, rocks), timeout=PATIENCE, check=False, start_new_session=True)
     except subprocess.TimeoutExpired as late:
         raise Failure(f"not ended after {PATIENCE} s", script) from late
     result = Result(command[1:], done.returncode, done.stdout, done.stderr, time.monotonic() - start)
@@ -232,7 +236,7 @@ def run_script(folder, script, *arguments, name="play.txt"):
     return result
 
 
-def play(folder, script, *arguments, charset="braille"):
+def play(folder, script, *arguments, charset="braille", rocks=ROCKS):
     """The screens that a script dumps: a line 'dump' alone takes one. Also: 'find WORD' searches, 'set VALUE' types
     into the field, 'clear' takes the message away."""
     width, height, sizes, lines = 80, 24, [], []
@@ -252,7 +256,7 @@ def play(folder, script, *arguments, charset="braille"):
             if word == "resize":
                 width, height = map(int, rest.split())
             lines.append(line)
-    done = run_script(folder, "\n".join(lines) + "\n", "--charset", charset, *arguments)
+    done = run_script(folder, "\n".join(lines) + "\n", "--charset", charset, *arguments, rocks=rocks)
     expect(done.status == DONE and without_unusual(done.err) == "", done, "the script", "\n".join(lines))
     screens = []
     for i, (width, height) in enumerate(sizes):

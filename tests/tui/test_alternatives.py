@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow
 """The terminal program's forms where one value excludes another: the rock's shape and sizes, mass or density, roughness."""
 import re
 import sys

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import play  # noqa: E402
 from play import CUTS, Place  # noqa: E402
 from harness import ceduo, expect, expect_equal, results, run_all  # noqa: E402
 
@@ -59,7 +60,7 @@ def test_blocks():
             "resize 130 40\nkey 5\nwait idle\ndump\nresize 200 50\ndump\nresize 80 24\ndump\nresize 200 50\nkey 6\ndump", "blocks-above-the-road")
         rocks = re.search(r"(\d+) rocks", screen.now, re.M).group(1)
         options = results("-n", rocks, "blocks-above-the-road")[0]["options"]
-        ahead = results("--years", "-n", 10240, "blocks-above-the-road")[0]["options"]
+        ahead = results("--years", "-n", play.ROCKS, "blocks-above-the-road")[0]["options"]
         page = " ".join(ceduo("--batch", "--details", "-n", 2000, "-s", "controls[0].accepted_return_y=55", "blocks-above-the-road").out.split())
     expect("simple coppice, 135 m: whether a rock above the limit arrives at most once in 55 years today is too close to call" in page, page)
     years = [o["controls"][0]["wooded"]["hazard"]["accepted_years"] for o in options]

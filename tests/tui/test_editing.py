@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow threads
 """Live edits of fields and lists in the terminal program: what each does to the scene, to the figures and to the file."""
 import math
 import re

@@ -155,7 +155,7 @@ def test_compare_wood():
         screens = place.play(script, "cuts.yaml")
         rocks = re.search(r"(\d+) rocks", screens[0].now, re.M).group(1)
         run = results("-n", rocks, place.path / "cuts.yaml")[0]
-        years = results("--years", "-n", 10240, place.path / "cuts.yaml")[0]
+        years = results("--years", "-n", play.ROCKS, place.path / "cuts.yaml")[0]
     for screen in screens:
         rows = dict(compared(screen))
         expect_equal(list(rows), [o["name"] for o in run["options"]], "options")

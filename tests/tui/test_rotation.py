@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow threads
 """The years between two cuts in the terminal program (view 6) and as a picture, and the key that looks for a value."""
 import re
 import sys
@@ -13,7 +14,6 @@ from pages import digits  # noqa: E402
 from harness import (PROFILES, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good, result,  # noqa: E402
                      run_all)
 
-ROCKS = 10240  # of each year in the terminal program
 MARKS = {"✔": "pass", "✘": "fail", "?": "unknown"}
 WOOD = """\
 ceduo: scene/1
@@ -87,7 +87,7 @@ class Place(Folder):
 
     def years(self, scene, last):
         """The first option's years as the batch gives them."""
-        return result("--years", f"0:{last}", "-n", ROCKS, self.path / scene)["options"][0]
+        return result("--years", f"0:{last}", "-n", play.ROCKS, self.path / scene)["options"][0]
 
 
 def shown(script, scene="index.yaml", **options):
@@ -185,7 +185,7 @@ def test_window():
         wait idle
         dump""", "rotation.yaml")
     with Place() as place:
-        option = result("--years", "-n", ROCKS, place.path / "rotation.yaml")["options"][0]
+        option = result("--years", "-n", play.ROCKS, place.path / "rotation.yaml")["options"][0]
     expect_equal([y["year"] for y in option["years"]], list(range(1, 21)), "the years of --years: the rotation has 8")
     for screen, count in zip(screens, (20, 20, 3, 20)):
         expect_equal(len(marks(screen, "C")), count, "years")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow
 """The program in a real terminal, that of tmux: keys, sizes, signals, and that the terminal is left as it was."""
 import fcntl
 import os

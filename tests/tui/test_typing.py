@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: brief
 """What a forester types: centimetres, decimal commas, and what is so unusual that the program asks back."""
 import sys
 from pathlib import Path

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: slow
 """The ways of single rocks in the terminal program, piece by piece, and the stems that they come to."""
 import re
 import sys

@@ -93,11 +93,11 @@ static void set_bare(struct site *s)
     memcpy(s->trail_x, x, sizeof x);
     memcpy(s->trail_z, z, sizeof z);
     s->line = (struct ceduo_polyline){5, s->trail_x, s->trail_z};
-    s->arrivals[0] = (struct ceduo_arrivals){
-        .released = 10, .reached = 8, .exceeded = 2, .reach_probability = 0.8, .exceed_probability = 0.2};
+    s->arrivals[0] =
+        (struct ceduo_arrivals){.released = 10, .reached = 8, .exceeded = 2, .reach.mean = 0.8, .exceed.mean = 0.2};
     s->arrivals[0].limit = CEDUO_EXCEED_MOST;
     s->arrivals[0].energy = (struct ceduo_distribution){.mean = 33125, .p50 = 33e3, .p95 = 55e3, .max = 55e3};
-    s->arrivals[1] = (struct ceduo_arrivals){.released = 10, .exceed_probability = NAN};
+    s->arrivals[1] = (struct ceduo_arrivals){.released = 10, .exceed.mean = NAN};
     s->arrivals[1].energy = ceduo_distribution_none();
     s->energies[0] = (struct ceduo_energies){ENERGIES, s->values};
     s->energies[1] = (struct ceduo_energies){0, s->values};
@@ -127,8 +127,8 @@ static void set_wood(struct site *s)
     memcpy(s->wood_trail_x, x, sizeof x);
     memcpy(s->wood_trail_z, z, sizeof z);
     s->wood_trail = (struct ceduo_polyline){3, s->wood_trail_x, s->wood_trail_z};
-    s->wood_arrivals[0] = (struct ceduo_arrivals){
-        .released = 10, .reached = 5, .exceeded = 1, .reach_probability = 0.5, .exceed_probability = 0.1};
+    s->wood_arrivals[0] =
+        (struct ceduo_arrivals){.released = 10, .reached = 5, .exceeded = 1, .reach.mean = 0.5, .exceed.mean = 0.1};
     s->wood_arrivals[0].limit = CEDUO_EXCEED_MOST;
     s->wood_arrivals[0].energy = (struct ceduo_distribution){.mean = 22e3, .p50 = 21e3, .p95 = 41e3, .max = 41e3};
     s->wood_arrivals[1] = s->arrivals[1];

@@ -12,7 +12,6 @@
 
 #include "ceduo/observe.h"
 #include "io/file.h"
-#include "io/notes.h"
 #include "model/document.h"
 #include "scene/value.h"
 
@@ -96,7 +95,7 @@ static void must(bool good)
 static void open_scene(void)
 {
     close_scene();
-    must(ceduo_document_open(&d, path, &problems));
+    must(ceduo_document_open(&d, path, NULL, 0, &problems));
 }
 
 static void set(const char *where, const char *value)
@@ -214,6 +213,20 @@ static size_t count_notes(void)
     return n;
 }
 
+/* Two changes of the table: PATH=VALUE, or a path that is deleted. */
+static const struct changes *changes_of(const char *first, const char *second)
+{
+    static struct changes changes;
+    changes = (struct changes){.document = &d};
+    for (int i = 0; i < 2; i++) {
+        const char *text = i == 0 ? first : second, *equals = strchr(text, '=');
+        char where[256];
+        snprintf(where, sizeof where, "%.*s", (int)strcspn(text, "="), text);
+        ceduo_changes_add(&changes, equals ? CHANGE_SET : CHANGE_DELETE, where, equals ? equals + 1 : NULL);
+    }
+    return &changes;
+}
+
 /* One row of unit/documents.txt does what it says; false where it fails. */
 static bool step(const char *const at[TABLE_COLUMNS])
 {
@@ -247,9 +260,9 @@ static bool step(const char *const at[TABLE_COLUMNS])
         size_t before = d.at;
         good = !ceduo_document_set(&d, a, b, &found) && strstr(found.text.bytes, at[3]) && d.at == before;
     } else if (IS("set-all"))
-        good = ceduo_document_set_all(&d, (const char *const[]){a, b}, 2, at[3], &problems);
+        good = ceduo_changes_make(changes_of(a, b), at[3], &problems);
     else if (IS("duplicate"))
-        good = ceduo_document_duplicate(&d, a, k, *at[3] ? at[3] : NULL, *at[4] ? at[4] : NULL, &problems);
+        good = ceduo_document_duplicate(&d, a, k, *at[3] ? changes_of(at[3], at[4]) : NULL, &problems);
     else if (IS("add"))
         good = ceduo_document_add_option(&d, a, a, &problems);
     else if (IS("move"))

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Doubt over a rotation, beside every point simulated by itself with many more rocks. */
 #include "expect.h"
 
@@ -8,7 +9,6 @@
 
 #include "ceduo/question.h"
 #include "ceduo/statistics.h"
-#include "io/doubt_inputs.h"
 #include "io/scene_file.h"
 #include "study/inputs.h"
 
@@ -43,7 +43,7 @@ static double variance_of_failing(const struct ceduo_years *years)
                  few = sqrt(limit * (1 - limit) / CEDUO_DOUBT_YEAR_ROCKS);
     double lo = 0, hi = 0, apart = 0;
     for (size_t k = 0; k < years->count; k++) {
-        double share = years->years[k].wooded.arrivals[years->last_control].exceed_probability;
+        double share = years->years[k].wooded.arrivals[years->last_control].exceed.mean;
         double above = erfc((limit - share) / few / sqrt(2)) / 2;
         lo += share - CEDUO_Z95 * sd > limit;
         hi += share + CEDUO_Z95 * sd > limit;

@@ -10,7 +10,6 @@
 
 #include "bench/measure.h"
 #include "ceduo/ceduo.h"
-#include "core/runs/histogram.h"
 
 /* ---- few values ---- */
 
@@ -22,23 +21,21 @@ static void expect_near(double found, double wanted, double relative)
         EXPECT_NEAR(found, wanted, relative * wanted);
 }
 
-/* Values of all sizes, some of them 0: exact as sorted, binned but for the width of a bin. */
+/* Values of all sizes, some of them 0: as sorted. */
 TEST(distributions_of_few_values)
 {
     uint64_t bits = 1;
     for (size_t n = 0; n <= 200; n++) {
         double values[200], sorted[200];
         struct ceduo_moments m = {0};
-        struct histogram h = {0};
         for (size_t i = 0; i < n; i++) {
             bits = bits * 6364136223846793005u + 1442695040888963407u;
             values[i] = bits >> 62 == 0 ? 0 : ldexp(1 + (double)(bits >> 12 & 1023) / 1024, (int)(bits >> 40 & 31) - 16);
             sorted[i] = values[i];
             ceduo_moments_add(&m, values[i]);
-            assert_true(ceduo_histogram_add(&h, values[i]));
         }
         qsort(sorted, n, sizeof *sorted, by_value);
-        struct ceduo_distribution binned = ceduo_distribution_binned(&h, &m), exact = ceduo_distribution_exact(values, n, &m);
+        struct ceduo_distribution exact = ceduo_distribution_exact(values, n, &m);
         size_t lo = 0, hi = 0;
         if (n > 0)
             ceduo_quantile_interval(n, .95, &lo, &hi);
@@ -47,42 +44,15 @@ TEST(distributions_of_few_values)
                                  n > 0 ? sorted[ceduo_quantile_rank(n, .99) - 1] : NAN, lo > 0 ? sorted[lo - 1] : NAN,
                                  n > 0 && hi <= n ? sorted[hi - 1] : NAN};
         const double of_exact[] = {exact.p50, exact.p95, exact.p99, exact.p95_lo, exact.p95_hi};
-        const double of_binned[] = {binned.p50, binned.p95, binned.p99, binned.p95_lo, binned.p95_hi};
-        for (size_t i = 0; i < 5; i++) {
+        for (size_t i = 0; i < 5; i++)
             expect_near(of_exact[i], wanted[i], 0);
-            expect_near(of_binned[i], wanted[i], 3.1e-5);
-        }
         expect_near(exact.max, n > 0 ? sorted[n - 1] : NAN, 0);
         double squares = 0;
         for (size_t i = 0; i < n; i++)
             squares += (sorted[i] - m.mean) * (sorted[i] - m.mean);
         expect_near(exact.sd, n > 1 ? sqrt(squares / (double)(n - 1)) : NAN, 1e-12);
         expect_near(exact.se, n > 1 ? exact.sd / sqrt((double)n) : NAN, 1e-12);
-        ceduo_histogram_clear(&h);
     }
-}
-
-TEST(values_beyond_every_bin)
-{
-    struct histogram h = {0}, more = {0};
-    const double values[] = {1e-300, 0, 5.5e-20, 1, 1e300};
-    for (size_t i = 0; i < 5; i++)
-        assert_true(ceduo_histogram_add(&h, values[i]));
-    assert_int_equal(h.n, 5);
-    assert_int_equal(h.zeros, 2);
-    EXPECT(ceduo_histogram_value(&h, 2), ==, 0);
-    expect_near(ceduo_histogram_value(&h, 3), 5.5e-20, 3.1e-5);
-    expect_near(ceduo_histogram_value(&h, 4), 1, 3.1e-5);
-    EXPECT(ceduo_histogram_value(&h, 5), >, 9e18); /* in the last octave */
-    assert_true(isnan(ceduo_histogram_value(&h, 6)));
-    assert_true(ceduo_histograms_reserve(&more, &h, 1));
-    ceduo_histograms_merge(&more, &h, 1);
-    ceduo_histograms_merge(&more, &h, 1);
-    assert_int_equal(more.n, 10);
-    for (uint64_t rank = 1; rank <= 10; rank++)
-        EXPECT(ceduo_histogram_value(&more, rank), ==, ceduo_histogram_value(&h, (rank + 1) / 2));
-    ceduo_histogram_clear(&more);
-    ceduo_histogram_clear(&h);
 }
 
 /* ---- looking for a value that is given up ---- */

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow threads */
 /* The queue of jobs of the live program. */
 #include "expect.h"
 
@@ -129,7 +130,7 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
 /* A preview is waited for as a search is. */
 TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
 {
-    ceduo_jobs_preview(jobs, &file, "rock.diameter_m=0.6", 0);
+    ceduo_jobs_preview(jobs, &file, "rock.diameter_m", "0.6", 0);
     assert_true(ceduo_jobs_wait_search(jobs));
     take();
     assert_non_null(results.preview);
@@ -146,14 +147,14 @@ TEST_WITH(the_other_law_comes_along, set_up, tear_down)
     assert_int_equal(results.others->controls, file.scene.controls_count);
     assert_true(results.others->items[0].known && results.others->items[0].stems);
     assert_int_equal(results.others->items[0].model, CEDUO_DORREN);
-    double before = results.others->items[0].arrivals.reach_probability;
+    double before = results.others->items[0].arrivals.reach.mean;
     for (size_t i = 0; i < 2; i++)
         file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* the scene's own law does not know it */
     assert_true(show());
     ceduo_jobs_wait(jobs);
     take();
     assert_non_null(results.others);
-    EXPECT(results.others->items[0].arrivals.reach_probability, <, before);
+    EXPECT(results.others->items[0].arrivals.reach.mean, <, before);
     assert_null(results.snapshot);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     show();

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: brief */
 /* Text without a translation, as in the locale C, and text of data, which has none. */
 #include "test.h"
 

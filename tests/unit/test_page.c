@@ -278,7 +278,4 @@ TEST(a_row_has_a_field_for_each_name)
     }
 }
 
-int main(void)
-{
-    return test_run(set_up, tear_down);
-}
+AROUND_TESTS(set_up, tear_down);

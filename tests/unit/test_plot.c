@@ -112,8 +112,8 @@ static const struct {
                {"shoots", &s.shoots.per_ha},
                {"stools", &s.belts[0].stand.stools_per_ha},
                {"accepted", &s.controls[0].accepted},
-               {"bare-exceed", &s.arrivals[0].exceed_probability},
-               {"wood-exceed", &s.wood_arrivals[0].exceed_probability},
+               {"bare-exceed", &s.arrivals[0].exceed.mean},
+               {"wood-exceed", &s.wood_arrivals[0].exceed.mean},
                {"peak", &s.envelopes[2].height.max},
                {"wood-peak", &s.wood_envelopes[2].height.p95}};
 static const struct {

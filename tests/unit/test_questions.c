@@ -123,10 +123,9 @@ TEST(a_goal_is_reached_at_the_worst_control)
         assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
         double reached = ceduo_goal_reached(CEDUO_GOAL_EXCEED, answer.result, 0, NULL);
         const struct ceduo_arrivals *a = answer.result->options[0].wooded.arrivals;
-        EXPECT(ceduo_goal_reached(CEDUO_GOAL_ARRIVE, answer.result, 0, NULL), ==,
-               fmax(a[0].reach_probability, a[1].reach_probability));
+        EXPECT(ceduo_goal_reached(CEDUO_GOAL_ARRIVE, answer.result, 0, NULL), ==, fmax(a[0].reach.mean, a[1].reach.mean));
         if (i == 0)
-            EXPECT(reached, ==, fmax(a[0].exceed_probability, a[1].exceed_probability));
+            EXPECT(reached, ==, fmax(a[0].exceed.mean, a[1].exceed.mean));
         else
             assert_true(isnan(reached));
     }
@@ -142,10 +141,10 @@ TEST(options_that_are_the_same)
     site.scene.options = options;
     site.scene.options_count = 2;
     assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
-    struct ceduo_paired difference = ceduo_share_to_first(answer.result, 1);
+    struct ceduo_estimate difference = ceduo_share_to_first(answer.result, 1);
     EXPECT(difference.mean, ==, 0);
     EXPECT(difference.se, ==, 0);
-    EXPECT(difference.below, ==, 0);
+    EXPECT(difference.hi, ==, 0);
 }
 
 /* Two things at one place: the same rocks come, and each has its own limit. */

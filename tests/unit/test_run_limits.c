@@ -108,64 +108,6 @@ TEST(a_rock_without_end)
     assert_int_equal(ceduo_run_contacts(run), CEDUO_CONTACTS_MOST);
 }
 
-/* Where samples are kept no more, differences come from the first so many rocks: their error is as that of all. */
-TEST(differences_of_the_first_rocks)
-{
-    enum { ROCKS = CEDUO_PAIRED_ROCKS + 70000 };
-    paper_site_init(&site);
-    site.scene.simulation.rocks = ROCKS;
-    site.scene.release.vx = (struct ceduo_number){.mean = 5, .spread = 2, .kind = CEDUO_UNIFORM};
-    site.control.x = 1;
-    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    def.arrivals_only = true;
-    struct ceduo_run_def other = def;
-    other.option = &site.option;
-    struct ceduo_run *exact[2] = {run_of(&def, ROCKS), run_of(&other, ROCKS)}, *binned[2];
-    def.exact_bytes = other.exact_bytes = (CEDUO_PAIRED_ROCKS + 40000) * 3 * sizeof(double);
-    binned[0] = run_of(&def, CEDUO_PAIRED_ROCKS + 30000); /* with samples until here */
-    assert_int_equal(ceduo_run_extend(binned[0], ROCKS), CEDUO_OK);
-    binned[1] = run_of(&other, ROCKS);
-    struct ceduo_difference all = ceduo_run_difference(exact[0], exact[1], 0),
-                            first = ceduo_run_difference(binned[0], binned[1], 0);
-    struct ceduo_arrivals a;
-    assert_int_equal(ceduo_run_arrivals(binned[0], 0, &a), CEDUO_OK);
-    assert_false(a.exact);
-    EXPECT(first.energy_per_released.mean, ==, all.energy_per_released.mean);
-    EXPECT(all.energy_per_released.mean, >, 0);
-    EXPECT(all.energy_per_released.se, >, 0);
-    EXPECT_NEAR(first.energy_per_released.se, all.energy_per_released.se, .01 * all.energy_per_released.se);
-    for (int i = 0; i < 2; i++) {
-        ceduo_run_free(exact[i]);
-        ceduo_run_free(binned[i]);
-    }
-}
-
-/* So few that fewer rocks have come than have room. */
-TEST(differences_of_few_rocks)
-{
-    enum { ROCKS = 500 };
-    paper_site_init(&site);
-    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    struct ceduo_run *runs[2][2];
-    for (int binned = 0; binned < 2; binned++)
-        for (int wood = 0; wood < 2; wood++) {
-            def.option = wood ? &site.option : NULL;
-            def.exact_bytes = binned ? (ROCKS + 100) * sizeof(double) : CEDUO_EXACT_BYTES;
-            runs[binned][wood] = run_of(&def, ROCKS);
-        }
-    struct ceduo_difference exact = ceduo_run_difference(runs[0][0], runs[0][1], 0),
-                            binned = ceduo_run_difference(runs[1][0], runs[1][1], 0);
-    struct ceduo_arrivals a;
-    assert_int_equal(ceduo_run_arrivals(runs[1][0], 0, &a), CEDUO_OK);
-    assert_false(a.exact);
-    EXPECT(binned.reach_probability.se, ==, exact.reach_probability.se);
-    EXPECT_NEAR(binned.energy_per_released.se, exact.energy_per_released.se, 1e-9 * exact.energy_per_released.se);
-    uint16_t marks[ROCKS + 100] = {0};
-    EXPECT(ceduo_run_mark(runs[1][0], 0, marks, ROCKS + 100), ==, ROCKS);
-    for (int i = 0; i < 4; i++)
-        ceduo_run_free(runs[i / 2][i % 2]);
-}
-
 struct alike {
     int read[3]; /* times that each was simulated */
     size_t as[3];
@@ -215,7 +157,7 @@ TEST(differences_of_blocks)
     site.scene.blocks_count = 1;
     struct ceduo_run_def bare = ceduo_run_def_default(&site.scene), wood = bare;
     wood.option = &site.option;
-    double none[1], stops[1];
+    double none[1];
     struct ceduo_run *few = run_of(&wood, 50), *many = run_of(&wood, 120), *least = run_of(&bare, 50),
                      *most = run_of(&bare, 120);
     struct ceduo_run *empty = run_of(&bare, 0);
@@ -224,10 +166,10 @@ TEST(differences_of_blocks)
     struct ceduo_difference first = ceduo_run_difference(few, most, 0), second = ceduo_run_difference(many, least, 0);
     assert_memory_equal(&first, &wanted, sizeof wanted);
     assert_memory_equal(&second, &wanted, sizeof wanted);
-    assert_true(isnan(ceduo_run_difference(empty, most, 0).reach_probability.mean));
-    assert_true(isnan(ceduo_run_difference(few, empty, 0).reach_probability.mean));
+    assert_true(isnan(ceduo_run_difference(empty, most, 0).reach.mean));
+    assert_true(isnan(ceduo_run_difference(few, empty, 0).reach.mean));
     EXPECT(ceduo_run_energies(empty, 0, none, 1), ==, 0);
-    assert_true(ceduo_run_values(empty, 0, CEDUO_SAMPLE_STOP, stops)); /* of nobody */
+    assert_null(ceduo_run_samples(empty, 0, CEDUO_SAMPLE_STOP)); /* of nobody */
     struct ceduo_run *runs[] = {few, many, least, most, empty};
     for (size_t i = 0; i < 5; i++)
         ceduo_run_free(runs[i]);
@@ -237,7 +179,7 @@ TEST(differences_of_blocks)
 TEST(energies_of_blocks_are_even_quantiles)
 {
     enum { ROCKS = 900, MOST = 100 };
-    static double volumes[] = {0.05, 1}, all[ROCKS], some[MOST];
+    static double volumes[] = {0.05, 1}, some[MOST];
     struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     paper_site_init(&site);
     site.scene.blocks = &blocks;
@@ -245,9 +187,9 @@ TEST(energies_of_blocks_are_even_quantiles)
     struct ceduo_run_def wood = ceduo_run_def_default(&site.scene);
     wood.option = &site.option;
     LOCAL(ceduo_run, run) = run_of(&wood, ROCKS);
-    assert_true(ceduo_run_values(run, 0, CEDUO_SAMPLE_ENERGY, all));
+    const double *all = ceduo_run_samples(run, 0, CEDUO_SAMPLE_ENERGY);
     EXPECT(ceduo_run_energies(run, 0, some, MOST), ==, MOST);
-    const double *weights = ceduo_run_weights(run);
+    const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
     double sum = 0, to = 0;
     size_t n = 0;
     for (size_t r = 0; r < ROCKS; r++)
@@ -277,30 +219,13 @@ TEST(a_run_in_brief)
         struct ceduo_arrivals a;
         ceduo_run_briefs(run, 0, 1, &brief);
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        EXPECT_NEAR(brief.reach_probability, a.reach_probability, 1e-12);
+        EXPECT_NEAR(brief.reach_probability, a.reach.mean, 1e-12);
         EXPECT(isnan(brief.exceed_probability), ==, i % 2);
         if (i % 2 == 0)
-            EXPECT_NEAR(brief.exceed_probability, a.exceed_probability, 1e-12);
+            EXPECT_NEAR(brief.exceed_probability, a.exceed.mean, 1e-12);
         EXPECT_NEAR(brief.energy, a.energy.mean, 1e-12 * a.energy.mean);
-        EXPECT_NEAR(brief.energy_per_released, a.energy_per_released, 1e-12 * a.energy_per_released);
+        EXPECT_NEAR(brief.energy_per_released, a.energy_per_released.mean, 1e-12 * a.energy_per_released.mean);
     }
-}
-
-/* Runs that keep no samples have no values to give, and runs of other lengths no difference. */
-TEST(what_needs_samples)
-{
-    paper_site_init(&site);
-    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    LOCAL(ceduo_run, exact) = run_of(&def, 40);
-    def.exact_bytes = 64;
-    LOCAL(ceduo_run, binned) = run_of(&def, 20);
-    double values[40];
-    assert_true(ceduo_run_values(exact, 0, CEDUO_SAMPLE_SPEED, values) &&
-                ceduo_run_values(exact, 0, CEDUO_SAMPLE_STOP, values));
-    assert_false(ceduo_run_values(binned, 0, CEDUO_SAMPLE_SPEED, values) ||
-                 ceduo_run_values(binned, 0, CEDUO_SAMPLE_STOP, values));
-    assert_true(isnan(ceduo_run_difference(exact, binned, 0).reach_probability.mean));
-    assert_true(isnan(ceduo_run_difference(binned, exact, 0).reach_probability.mean));
 }
 
 /* Years that were not flown yet say nothing of what arrives. */
@@ -356,10 +281,9 @@ TEST(a_control_that_no_rock_reaches)
 {
     LOCAL(ceduo_run, run) = held_rocks();
     uint64_t reached;
-    double mean, se;
-    ceduo_run_energy(run, 0, &reached, &mean, &se);
+    struct ceduo_estimate energy = ceduo_run_energy(run, 0, &reached);
     EXPECT(reached, ==, 0);
-    EXPECT_NAN(mean, se);
+    EXPECT_NAN(energy.mean, energy.se);
 }
 
 TEST(a_run_is_no_longer_than_it_was_made_for)
@@ -369,7 +293,7 @@ TEST(a_run_is_no_longer_than_it_was_made_for)
     assert_int_equal(ceduo_run_rocks(run), 300);
 }
 
-/* Of the rocks that arrive as many as there is room for; before any is simulated, and where samples are not kept, none. */
+/* Of the rocks that arrive as many as there is room for; before any is simulated, none. */
 TEST(energies_as_far_as_they_are_kept)
 {
     double energies[8];
@@ -380,46 +304,44 @@ TEST(energies_as_far_as_they_are_kept)
     assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
     assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
     assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 8);
-    def.exact_bytes = 100;
-    LOCAL(ceduo_run, binned) = run_of(&def, 300);
-    assert_int_equal(ceduo_run_energies(binned, 0, energies, 8), 0);
 }
 
-#define ROOM_TWICE (4 * sizeof(double) * 300) /* of 300 rocks: speed, height, stops, and room to sort */
-
-/* A run in two steps takes its room twice over, where that fits, and has the bits of one step. */
+/* A run in two steps takes its capacity twice over, up to what it was made for, and has the bits of one step. */
 TEST(room_is_taken_twice)
 {
     paper_site_init(&site);
     site.scene.simulation.rocks = 300;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    def.exact_bytes = ROOM_TWICE;
     struct ceduo_arrivals steps, once;
     LOCAL(ceduo_run, two) = run_of(&def, 200);
     assert_int_equal(ceduo_run_extend(two, 300), CEDUO_OK);
     assert_int_equal(ceduo_run_arrivals(two, 0, &steps), CEDUO_OK);
     LOCAL(ceduo_run, one) = run_of(&def, 300);
     assert_int_equal(ceduo_run_arrivals(one, 0, &once), CEDUO_OK);
-    assert_true(steps.exact && once.exact);
     EXPECT(steps.reached, >, 0);
-    assert_memory_equal(&steps, &once, offsetof(struct ceduo_arrivals, exact));
+    assert_memory_equal(&steps, &once, sizeof steps);
 }
 
-/* Without a control, and without samples, it is still counted how rocks end: bins of stops are 3.1e-5 of their value wide. */
+/* Without a control it is still counted how rocks end. */
 TEST(ends_without_a_control)
 {
     paper_site_init(&site);
     site.scene.controls_count = 0;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    struct ceduo_ends binned, exact;
-    LOCAL(ceduo_run, all) = run_of(&def, 300);
-    assert_int_equal(ceduo_run_ends(all, &exact), CEDUO_OK);
-    def.exact_bytes = 100;
-    LOCAL(ceduo_run, few) = run_of(&def, 300);
-    assert_int_equal(ceduo_run_ends(few, &binned), CEDUO_OK);
-    assert_memory_equal(binned.count, exact.count, sizeof exact.count);
-    EXPECT(exact.stop_x.n, >, 0);
-    EXPECT_NEAR(binned.stop_p50, exact.stop_p50, 3.1e-5 * exact.stop_p50);
+    struct ceduo_ends ends;
+    LOCAL(ceduo_run, run) = run_of(&def, 300);
+    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    uint64_t all = 0;
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        all += ends.count[e];
+    EXPECT(all, ==, 300);
+    EXPECT(ends.stop_x.n, >, 0);
+    const double *stops = ceduo_run_samples(run, 0, CEDUO_SAMPLE_STOP);
+    size_t stopped = 0;
+    for (size_t r = 0; r < 300; r++)
+        stopped += stops[r] <= ends.stop_p50;
+    EXPECT(stopped, ==, (ends.stop_x.n + 1) / 2);
+    assert_null(ceduo_run_samples(run, 0, CEDUO_SAMPLE_SPEED));
 }
 
 TEST(a_slope_of_one_point_has_no_run)

@@ -8,7 +8,6 @@
 
 #include "base/text.h"
 #include "folder.h"
-#include "io/doubt_inputs.h"
 #include "io/scene_file.h"
 #include "scene/schema.h"
 

@@ -7,8 +7,6 @@
 
 #include <math.h>
 
-#include "io/emit.h"
-#include "io/resolve.h"
 #include "io/scene_file.h"
 
 __attribute__((format(printf, 2, 3))) static void write_file(const char *name, const char *format, ...)

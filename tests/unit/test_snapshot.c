@@ -24,12 +24,11 @@ static int by_index(void **state)
 }
 
 /* The runs of the scene, flown. */
-static struct ceduo_pool *pool_of(uint64_t rocks, bool kept)
+static struct ceduo_pool *pool_of(uint64_t rocks)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&s.scene);
     struct ceduo_pool *pool;
     def.rocks_most = 5000;
-    def.exact_bytes = kept ? CEDUO_EXACT_BYTES : 0;
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, rocks), CEDUO_OK);
@@ -52,7 +51,7 @@ static struct ceduo_snapshot *snapshot_at(struct ceduo_pool *pool, size_t trajec
 TEST_WITH(envelopes_lie_beyond_the_release, by_index, NULL)
 {
     s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_UNIFORM};
-    LOCAL(ceduo_pool, pool) = pool_of(10, true);
+    LOCAL(ceduo_pool, pool) = pool_of(10);
     LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .runs = pool, .envelope_rocks = 10});
     assert_int_equal(o->cells, CEDUO_SNAPSHOT_CELLS);
     for (size_t i = 0; i < o->cells; i++) {
@@ -84,7 +83,7 @@ static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ce
 
 TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, true);
+    LOCAL(ceduo_pool, pool) = pool_of(300);
     LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){
         .scene = &s.scene, .runs = pool, .envelope_rocks = CEDUO_ENVELOPE_ROCKS, .trajectories = 20});
     assert_int_equal(o->cells, CEDUO_SNAPSHOT_CELLS);
@@ -104,22 +103,22 @@ TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
 /* Without stems the rocks are those without forest: the same sight, and it is flown once. */
 TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, true);
+    LOCAL(ceduo_pool, pool) = pool_of(300);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     assert_int_equal(ceduo_pool_work(pool).runs, 2);
     assert_ptr_equal(o->wooded[1], o->bare);
     assert_ptr_not_equal(o->wooded[0], o->bare);
     for (size_t c = 0; c < 2; c++) {
-        EXPECT(o->differences[c].reach_probability.mean, ==, 0);
-        double more = o->bare->flown.arrivals[c].reach_probability - o->wooded[0]->flown.arrivals[c].reach_probability;
-        EXPECT_NEAR(o->differences[2 + c].reach_probability.mean, more, 1e-12);
+        EXPECT(o->differences[c].reach.mean, ==, 0);
+        double more = o->bare->flown.arrivals[c].reach.mean - o->wooded[0]->flown.arrivals[c].reach.mean;
+        EXPECT_NEAR(o->differences[2 + c].reach.mean, more, 1e-12);
     }
 }
 
 /* With the contact model index there is one sight, that of all options. */
 TEST_WITH(the_index_looks_at_the_bare_slope, by_index, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, true);
+    LOCAL(ceduo_pool, pool) = pool_of(300);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     assert_int_equal(ceduo_pool_work(pool).runs, 1);
     assert_null(o->wooded[0]);
@@ -146,14 +145,14 @@ TEST_WITH(what_is_not_flown_yet_is_not_known, wooded, NULL)
     assert_null(o->wooded[0]);
     assert_ptr_equal(o->wooded[1], o->bare);
     for (size_t i = 0; i < 4; i++)
-        assert_true(isnan(o->differences[i].reach_probability.mean));
+        assert_true(isnan(o->differences[i].reach.mean));
     ceduo_snapshot_free(o);
 }
 
 /* Envelopes are of as many rocks as are asked for, and those of the last snapshot if it has as many. */
 TEST_WITH(envelopes_are_kept, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, true);
+    LOCAL(ceduo_pool, pool) = pool_of(300);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .envelope_rocks = 400};
     const uint64_t rocks[] = {300, 400, 400};
     struct ceduo_snapshot *o[3];
@@ -176,7 +175,7 @@ TEST_WITH(a_changed_forest_shows_what_it_was, wooded, NULL)
 {
     static struct site b;
     wooded_site_init(&b);
-    LOCAL(ceduo_pool, pool) = pool_of(100, true);
+    LOCAL(ceduo_pool, pool) = pool_of(100);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     struct ceduo_option options[4] = {b.options[0], b.options[1], s.options[0], b.options[0]};
     b.scene.options = options;
@@ -198,7 +197,7 @@ TEST(sights_are_taken_over)
         wooded_site_init(&b);
         b.belts[1].stand = b.belts[0].stand; /* trees where the other has none */
         b.belts[1].stand.shoots_count = 0;
-        struct ceduo_pool *pool = pool_of(300, true);
+        struct ceduo_pool *pool = pool_of(300);
         struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .trajectories = 5};
         struct ceduo_snapshot *first = snapshot_of(&def);
         ceduo_pool_turn(pool, &b.scene);
@@ -228,7 +227,7 @@ TEST(sights_are_taken_over)
 
 TEST_WITH(longer_runs_are_read_again, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, true);
+    LOCAL(ceduo_pool, pool) = pool_of(300);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool};
     LOCAL(ceduo_snapshot, first) = snapshot_of(&def);
     assert_int_equal(ceduo_pool_extend(pool, 301), CEDUO_OK);
@@ -239,35 +238,10 @@ TEST_WITH(longer_runs_are_read_again, wooded, NULL)
     assert_int_equal(second->wooded[0]->flown.rocks, 301);
 }
 
-static void expect_same_energies(const struct ceduo_run_snapshot *a, const struct ceduo_run_snapshot *b)
-{
-    for (size_t c = 0; c < 2; c++) {
-        assert_false(b->flown.arrivals[c].exact);
-        EXPECT(a->energies[c].n, >, 0);
-        assert_int_equal(a->energies[c].n, b->energies[c].n);
-        for (size_t i = 0; i < a->energies[c].n; i++)
-            EXPECT_NEAR(a->energies[c].values[i], b->energies[c].values[i], 1e-9 * a->energies[c].values[i]);
-    }
-}
-
-/* Runs too long for their samples: the energies come from rocks flown once more, the same ones; of very long runs some are
- * enough. */
-TEST_WITH(energies_are_flown_where_they_were_not_kept, wooded, NULL)
-{
-    static const uint64_t rocks[][2] = {{300, 300}, {4000, 4500}};
-    for (size_t i = 0; i < LENGTH(rocks); i++) {
-        LOCAL(ceduo_pool, kept) = pool_of(rocks[i][0], true), *binned = pool_of(rocks[i][1], false);
-        LOCAL(ceduo_snapshot, a) = snapshot_at(kept, 0);
-        LOCAL(ceduo_snapshot, b) = snapshot_at(binned, 0);
-        expect_same_energies(a->bare, b->bare);
-        expect_same_energies(a->wooded[0], b->wooded[0]);
-    }
-}
-
 /* Starts and ends where the rock does, never far below the ground, and never jumps. */
 TEST_WITH(trajectories_follow_the_rocks, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(20, true);
+    LOCAL(ceduo_pool, pool) = pool_of(20);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 20);
     uint64_t hit = 0;
     for (uint64_t i = 0; i < 40; i++) {
@@ -293,7 +267,7 @@ TEST_WITH(flights_are_sampled_finely, by_index, NULL)
 {
     s.scene.release.vx = ceduo_number(10);
     s.scene.release.vz = ceduo_number(10);
-    LOCAL(ceduo_pool, pool) = pool_of(1, true);
+    LOCAL(ceduo_pool, pool) = pool_of(1);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     size_t checked = 0;
@@ -320,7 +294,7 @@ static int endless(void **state)
 
 TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(1, true);
+    LOCAL(ceduo_pool, pool) = pool_of(1);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     struct ceduo_trajectory way;
@@ -335,7 +309,7 @@ TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
 TEST_WITH(nobody_waits_for_an_endless_trajectory, endless, NULL)
 {
     atomic_bool cancel = true;
-    LOCAL(ceduo_pool, pool) = pool_of(1, true);
+    LOCAL(ceduo_pool, pool) = pool_of(1);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .trajectories = 1, .cancel = &cancel};
     LOCAL(ceduo_snapshot, o);
     assert_int_equal(ceduo_snapshot_create(&def, &o), CEDUO_CANCELLED);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Shares of doubt by a surface, for functions whose shares are known in closed form. */
 #include "expect.h"
 #include "full.h"

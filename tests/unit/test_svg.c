@@ -8,7 +8,6 @@
 
 #include <stdio.h>
 
-#include "view/html.h"
 #include "view/svg.h"
 
 /* A picture as its file, for the caller to free. */

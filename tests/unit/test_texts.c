@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: brief */
 /* Texts: numbers, words that are near to others, an arena that is full. */
 #include "local.h"
 #include "table.h"

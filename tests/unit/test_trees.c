@@ -7,9 +7,7 @@
 #include <string.h>
 
 #include "base/utf8.h"
-#include "io/emit.h"
 #include "io/node.h"
-#include "io/resolve.h"
 
 static const struct node *parse(struct arena *arena, const struct text *text)
 {

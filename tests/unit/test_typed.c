@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: brief */
 /* What a person types and sees, against what stands in files: centimetres, decimal commas, pairs, ranges, doubts. */
 #include "local.h"
 #include "table.h"

@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/emit.h"
 #include "io/node.h"
 #include "io/scene_file.h"
 #include "unit/every_key.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* The live verdict: it comes with the first thousand rocks, what is known stays known while figures become finer, and
  * what was clear is not taken back. */
 #include "expect.h"
@@ -175,6 +176,7 @@ struct made {
     struct ceduo_difference differences[OPTIONS];
     struct ceduo_other_energy others[OPTIONS];
     struct ceduo_option_result found[OPTIONS];
+    struct ceduo_stand_result stands[2]; /* of the belts of each */
     struct ceduo_result result;
     struct ceduo_year year[OPTIONS];
     struct ceduo_index index;
@@ -187,7 +189,7 @@ static struct made made;
 /* All alike: of the rocks half arrive with too much, today, under the other law and in the one year. */
 static void make_alike(void)
 {
-    made = (struct made){.bare = {.released = ROCKS, .reached = ROCKS, .reach_probability = 1, .exceed_probability = 1}};
+    made = (struct made){.bare = {.released = ROCKS, .reached = ROCKS, .reach.mean = 1, .exceed.mean = 1}};
     made.result = (struct ceduo_result){.scene = &file.scene,
                                         .wooded = true,
                                         .bare = {.rocks = ROCKS, .controls = 1, .arrivals = &made.bare},
@@ -195,26 +197,19 @@ static void make_alike(void)
                                         .options = made.found};
     for (size_t i = 0; i < OPTIONS; i++) {
         made.options[i] = file.scene.options[0];
-        made.wooded[i] = (struct ceduo_arrivals){.released = ROCKS,
-                                                 .reached = ROCKS / 2,
-                                                 .reach_probability = .5,
-                                                 .exceed_probability = .5,
-                                                 .hazard = {.per_year = NAN}};
+        made.wooded[i] = (struct ceduo_arrivals){
+            .released = ROCKS, .reached = ROCKS / 2, .reach.mean = .5, .exceed.mean = .5, .hazard = {.per_year = NAN}};
         made.differences[i] = ceduo_no_difference(50e3);
         made.others[i] = (struct ceduo_other_energy){.known = true, .stems = true, .to_first = ceduo_no_difference(50e3)};
         made.found[i] = (struct ceduo_option_result){.wooded = {.rocks = ROCKS, .controls = 1, .arrivals = &made.wooded[i]},
+                                                     .stands = made.stands,
                                                      .differences = &made.differences[i],
                                                      .others = &made.others[i]};
         made.year[i] = (struct ceduo_year){.controls = &made.index, .wooded = made.found[i].wooded};
         for (size_t r = 0; r < ROCKS; r++)
             made.marks[i][r] = r % 2;
-        made.years[i] = (struct ceduo_years){.scene = file.scene,
-                                             .window.step = 1,
-                                             .count = 1,
-                                             .years = &made.year[i],
-                                             .rocks = ROCKS,
-                                             .marked = ROCKS,
-                                             .marks = made.marks[i]};
+        made.years[i] = (struct ceduo_years){
+            .scene = file.scene, .window.step = 1, .count = 1, .years = &made.year[i], .rocks = ROCKS, .marks = made.marks[i]};
         made.of[i] = &made.years[i];
     }
     file.scene.options = made.options;
@@ -253,15 +248,15 @@ static int close_made(void **state)
 TEST(half_of_a_share)
 {
     const double z = 1.959963984540054;
-    struct ceduo_arrivals a = {.released = 400, .reach_probability = .5, .exceed_probability = .2, .hazard = {.per_year = NAN}};
+    struct ceduo_arrivals a = {.released = 400, .reach.mean = .5, .exceed.mean = .2, .hazard = {.per_year = NAN}};
     EXPECT_NEAR(ceduo_share_at(&a).mean, .2, 0);
     EXPECT_NEAR(ceduo_share_at(&a).half, z * .02, 1e-12); /* sqrt(.2·.8/400) */
-    a.exceed_probability = 0;
+    a.exceed.mean = 0;
     EXPECT_NEAR(ceduo_share_at(&a).half, z * z / (400 + z * z), 1e-12);
     a.hazard.per_year = 3;
-    a.exceed_lo = .01, a.exceed_hi = .05, a.reach_lo = .4, a.reach_hi = .5;
+    a.exceed.lo = .01, a.exceed.hi = .05, a.reach.lo = .4, a.reach.hi = .5;
     EXPECT_NEAR(ceduo_share_at(&a).half, .02, 1e-12);
-    a.exceed_probability = NAN;
+    a.exceed.mean = NAN;
     EXPECT_NEAR(ceduo_share_at(&a).mean, .5, 0);
     EXPECT_NEAR(ceduo_share_at(&a).half, .05, 1e-12);
 }
@@ -270,7 +265,7 @@ TEST(half_of_a_share)
 TEST_WITH(of_two_equal_options_the_first, open_made, close_made)
 {
     for (size_t i = 1; i < OPTIONS; i++)
-        made.differences[i].exceed_probability = (struct ceduo_paired){-.2, .01, 0};
+        made.differences[i].exceed = (struct ceduo_estimate){-.2, .01, NAN, NAN};
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = verdict_of_made(NULL);
     EXPECT(v.today.best, ==, 1);
     EXPECT(v.today.rivals, ==, 1);
@@ -285,9 +280,9 @@ TEST_WITH(an_order_is_turned_by_more_than_an_error, open_made, close_made)
         size_t turned;
     } cases[] = {{4, .5, 0}, {.5, 4, 0}, {4, 1.5, 1}, {1.5, 4, 1}, {2.5, 2.5, 0}, {4, -4, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        made.differences[1].exceed_probability = (struct ceduo_paired){cases[i].today * .01, .01, 0};
-        made.others[1].to_first.exceed_probability = (struct ceduo_paired){-cases[i].other * .01, .01, 0};
-        made.differences[2].exceed_probability = made.others[2].to_first.exceed_probability = (struct ceduo_paired){9, .01, 0};
+        made.differences[1].exceed = (struct ceduo_estimate){cases[i].today * .01, .01, NAN, NAN};
+        made.others[1].to_first.exceed = (struct ceduo_estimate){-cases[i].other * .01, .01, NAN, NAN};
+        made.differences[2].exceed = made.others[2].to_first.exceed = (struct ceduo_estimate){9, .01, NAN, NAN};
         LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = verdict_of_made(NULL);
         EXPECT(v.turned_count, ==, cases[i].turned);
         if (v.turned_count > 0)

@@ -77,8 +77,8 @@ static void open_scene(double accepted)
     for (int i = 0; i < OPTIONS; i++) {
         options[i] = (struct ceduo_option){.name = names[i]};
         arrivals[i].released = arrivals[i].reached = 1000;
-        arrivals[i].reach_probability = 1;
-        arrivals[i].exceed_probability = isnan(accepted) ? NAN : .5;
+        arrivals[i].reach.mean = 1;
+        arrivals[i].exceed.mean = isnan(accepted) ? NAN : .5;
         arrivals[i].limit = CEDUO_EXCEED_MOST;
     }
 }
@@ -93,7 +93,7 @@ static struct ceduo_result *assess(void)
         wooded[i] = &flown[i];
     }
     struct ceduo_arrivals more = arrivals[0]; /* without forest half of them have too much energy */
-    more.exceed_probability = more.exceed_lo = more.exceed_hi = isnan(scene.control.accepted) ? NAN : .5;
+    more.exceed.mean = more.exceed.lo = more.exceed.hi = isnan(scene.control.accepted) ? NAN : .5;
     const struct ceduo_simulated bare = {.rocks = 1000, .controls = 1, .arrivals = &more};
     assert_int_equal(ceduo_result_assess(&scene.scene, &bare, wooded, differences, NULL, &result), CEDUO_OK);
     return result;
@@ -148,9 +148,9 @@ TEST(an_answer_depends_where_the_laws_differ)
         for (int k = 0; k < OPTIONS; k++) {
             const double *own = cases[i].own, *other = cases[i].other;
             others[k] = (struct ceduo_other_energy){.known = true, .stems = true, .arrivals = arrivals[k]};
-            arrivals[k].exceed_probability = own[0], arrivals[k].exceed_lo = own[1], arrivals[k].exceed_hi = own[2];
-            others[k].arrivals.exceed_probability = other[0];
-            others[k].arrivals.exceed_lo = other[1], others[k].arrivals.exceed_hi = other[2];
+            arrivals[k].exceed.mean = own[0], arrivals[k].exceed.lo = own[1], arrivals[k].exceed.hi = own[2];
+            others[k].arrivals.exceed.mean = other[0];
+            others[k].arrivals.exceed.lo = other[1], others[k].arrivals.exceed.hi = other[2];
             simulated[k] = (struct ceduo_simulated){.rocks = 1000, .controls = 1, .arrivals = &arrivals[k]};
             wooded[k] = &simulated[k];
         }
@@ -167,9 +167,9 @@ static void expect_said(double share, double lo, double hi, const char *wanted)
 {
     LOCAL_TEXT(text);
     open_scene(50e3);
-    arrivals[0].exceed_probability = share;
-    arrivals[0].exceed_lo = lo;
-    arrivals[0].exceed_hi = hi;
+    arrivals[0].exceed.mean = share;
+    arrivals[0].exceed.lo = lo;
+    arrivals[0].exceed.hi = hi;
     LOCAL(ceduo_result, result) = assess();
     ceduo_words_test(&text, result, 0, 0, 2);
     if (!strstr(text.bytes, wanted))
@@ -195,12 +195,13 @@ static void expect_answer(double share, double may_lo, double may_hi, size_t wid
     const struct ceduo_doubt_report doubt = {.file = &file, .answer = isnan(may_lo) ? NULL : &answer};
     for (size_t i = 0; i < answer.figures_count; i++)
         figures[i].fit = (struct ceduo_surface_fit){.p5 = may_lo, .p95 = may_hi};
-    *(isnan(scene.control.accepted) ? &arrivals[0].reach_probability : &arrivals[0].exceed_probability) = share;
-    arrivals[0].reach_lo = arrivals[0].exceed_lo = fmax(0, share - .01);
-    arrivals[0].reach_hi = arrivals[0].exceed_hi = share + .01;
+    *(isnan(scene.control.accepted) ? &arrivals[0].reach.mean : &arrivals[0].exceed.mean) = share;
+    arrivals[0].reach.lo = arrivals[0].exceed.lo = fmax(0, share - .01);
+    arrivals[0].reach.hi = arrivals[0].exceed.hi = share + .01;
     LOCAL(ceduo_result, result) = assess();
     const struct ceduo_report report = {.result = result, .doubt = &doubt};
-    ceduo_words_answer(&text, &(const struct ceduo_subject){.report = &report}, width);
+    const struct ceduo_subject subject = ceduo_subject_of(&report, 0, 0);
+    ceduo_words_answer(&text, &subject, width);
     assert_string_equal(ceduo_text_string(&text), wanted);
 }
 
@@ -248,10 +249,10 @@ static void expect_best(const char *wanted)
  * of their difference to the first. */
 static void set(size_t option, bool accepted, double share, double se)
 {
-    *(accepted ? &arrivals[option].exceed_probability : &arrivals[option].reach_probability) = share;
-    struct ceduo_paired *d = accepted ? &differences[option].exceed_probability : &differences[option].reach_probability;
-    double first = accepted ? arrivals[0].exceed_probability : arrivals[0].reach_probability;
-    *d = (struct ceduo_paired){share - first, se, 0};
+    *(accepted ? &arrivals[option].exceed.mean : &arrivals[option].reach.mean) = share;
+    struct ceduo_estimate *d = accepted ? &differences[option].exceed : &differences[option].reach;
+    double first = accepted ? arrivals[0].exceed.mean : arrivals[0].reach.mean;
+    *d = (struct ceduo_estimate){share - first, se, NAN, NAN};
 }
 
 /* All shares and errors are multiples of the same power of two, so that no rounding is in it. Errors of 3 and 4 to the first
@@ -279,7 +280,7 @@ TEST(three_standard_errors_apart_is_not_clear)
 TEST(what_is_not_accepted_is_not_judged)
 {
     open_scene(NAN);
-    arrivals[1].energy_per_released = -1000;
+    arrivals[1].energy_per_released.mean = -1000;
     set(0, false, .5, 0);
     set(1, false, .75, .015625);
     set(2, false, .25, .015625);
@@ -292,7 +293,7 @@ TEST(unknown_is_never_best)
     open_scene(50e3);
     set(0, true, .5, 0);
     set(1, true, .25, .015625);
-    differences[2].exceed_probability = CEDUO_NOT_PAIRED;
+    differences[2].exceed = CEDUO_NO_ESTIMATE;
     expect_best("");
 }
 

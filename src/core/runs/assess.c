@@ -132,12 +132,12 @@ struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, co
 
 enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *a)
 {
-    if (!a || isnan(a->exceed_probability))
+    if (!a || isnan(a->exceed.mean))
         return CEDUO_UNKNOWN;
-    if (!(a->exceed_probability <= a->limit))
+    if (!(a->exceed.mean <= a->limit))
         return CEDUO_FAIL;
     double unfinished = (double)a->unfinished / (double)a->released;
-    return a->exceed_probability + unfinished <= a->limit ? CEDUO_PASS : CEDUO_UNKNOWN;
+    return a->exceed.mean + unfinished <= a->limit ? CEDUO_PASS : CEDUO_UNKNOWN;
 }
 
 /* ---- what can be said ---- */
@@ -163,18 +163,18 @@ bool ceduo_says_nothing(const struct ceduo_arrivals *bare)
     return bare->released > 0 && (may_arrive == 0 || few || ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS);
 }
 
-enum ceduo_judgement ceduo_judge_share(double share, double lo, double hi, double limit)
+enum ceduo_judgement ceduo_judge_share(struct ceduo_estimate share, double limit)
 {
-    if (isnan(share))
+    if (isnan(share.mean))
         return CEDUO_UNANSWERED;
-    if (lo <= limit && hi > limit)
+    if (share.lo <= limit && share.hi > limit)
         return CEDUO_NOT_DECIDED;
-    return share <= limit ? CEDUO_YES : CEDUO_NO;
+    return share.mean <= limit ? CEDUO_YES : CEDUO_NO;
 }
 
 static enum ceduo_judgement judge_arrivals(const struct ceduo_arrivals *a)
 {
-    return ceduo_judge_share(a->exceed_probability, a->exceed_lo, a->exceed_hi, a->limit);
+    return ceduo_judge_share(a->exceed, a->limit);
 }
 
 enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded)

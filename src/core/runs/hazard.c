@@ -32,27 +32,27 @@ double ceduo_hazard_energy(size_t i)
 struct ceduo_hazard ceduo_hazard_none(void)
 {
     static const char *const words[CEDUO_INTENSITIES] = {"weak", "medium", "strong"};
-    const struct ceduo_rate unknown = {NAN, NAN, NAN};
-    struct ceduo_hazard h = {.per_year = NAN, .effective = NAN, .reach = unknown, .accepted = unknown, .left = NAN};
+    struct ceduo_hazard h = {
+        .per_year = NAN, .effective = NAN, .reach = CEDUO_NO_ESTIMATE, .accepted = CEDUO_NO_ESTIMATE, .left = NAN};
     for (size_t i = 0; i < CEDUO_RETURNS; i++)
-        h.returns[i] = (struct ceduo_return){ceduo_return_years[i], NAN, NAN, NAN};
+        h.returns[i] = (struct ceduo_return){ceduo_return_years[i], CEDUO_NO_ESTIMATE};
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
         h.intensity[i] = (struct ceduo_intensity){.word = words[i],
                                                   .from = ceduo_intensity_from[i],
                                                   .to = ceduo_intensity_from[i + 1],
-                                                  .within = unknown,
+                                                  .within = CEDUO_NO_ESTIMATE,
                                                   .left = NAN};
     return h;
 }
 
-struct ceduo_rate ceduo_hazard_feared(const struct ceduo_hazard *h)
+struct ceduo_estimate ceduo_hazard_feared(const struct ceduo_hazard *h)
 {
-    return isnan(h->accepted.rate) ? h->reach : h->accepted;
+    return isnan(h->accepted.mean) ? h->reach : h->accepted;
 }
 
-static double left_of(struct ceduo_rate rate, struct ceduo_rate bare)
+static double left_of(struct ceduo_estimate rate, struct ceduo_estimate bare)
 {
-    return bare.rate > 0 ? rate.rate / bare.rate : NAN;
+    return bare.mean > 0 ? rate.mean / bare.mean : NAN;
 }
 
 void ceduo_hazard_compare(struct ceduo_hazard *h, const struct ceduo_hazard *bare)
@@ -78,13 +78,13 @@ static size_t above(const struct curve *c, double energy)
 }
 
 /* Of rocks above an energy. */
-static struct ceduo_rate rate_of(const struct curve *c, const struct weighted_sum *ones, double energy)
+static struct ceduo_estimate rate_of(const struct curve *c, const struct weighted_sum *ones, double energy)
 {
-    struct ceduo_rate p = ceduo_weighted_share(c->all, ones, energy);
-    return (struct ceduo_rate){p.rate * c->all->per_year, p.lo * c->all->per_year, p.hi * c->all->per_year};
+    struct ceduo_estimate p = ceduo_weighted_share(c->all, ones, energy);
+    return (struct ceduo_estimate){p.mean * c->all->per_year, NAN, p.lo * c->all->per_year, p.hi * c->all->per_year};
 }
 
-static struct ceduo_rate exceeding(const struct curve *c, double energy)
+static struct ceduo_estimate exceeding(const struct curve *c, double energy)
 {
     return rate_of(c, &c->sums[above(c, energy)], energy);
 }
@@ -98,19 +98,20 @@ static void read_curve(const struct curve *c, double accepted, struct ceduo_haza
         double energy = ceduo_hazard_energy(i);
         h->exceed[i] = (struct ceduo_exceeding){energy, exceeding(c, energy)};
         h->energies = i + 1;
-        if (!(h->exceed[i].rate.rate > 0))
+        if (!(h->exceed[i].rate.mean > 0))
             break;
     }
     for (size_t i = 0; i < CEDUO_RETURNS; i++) {
-        struct ceduo_return *r = &h->returns[i];
-        double wanted = 1.0 / r->years;
+        struct ceduo_estimate *to = &h->returns[i].energy;
+        double wanted = 1.0 / h->returns[i].years;
         bool bounded = c->n > 0 && exceeding(c, c->energies[c->n - 1].value).hi < wanted;
-        for (size_t k = 1; k <= c->n && isnan(r->lo); k++) { /* from the largest rock down, where each first reaches the rate */
+        for (size_t k = 1; k <= c->n && isnan(to->lo);
+             k++) { /* from the largest rock down, where each first reaches the rate */
             double energy = c->energies[c->n - k].value;
-            struct ceduo_rate rate = rate_of(c, &c->sums[k], nextafter(energy, 0));
-            r->energy = rate.rate >= wanted && isnan(r->energy) ? energy : r->energy;
-            r->lo = rate.lo >= wanted ? energy : r->lo;
-            r->hi = bounded && rate.hi >= wanted && isnan(r->hi) ? energy : r->hi;
+            struct ceduo_estimate rate = rate_of(c, &c->sums[k], nextafter(energy, 0));
+            to->mean = rate.mean >= wanted && isnan(to->mean) ? energy : to->mean;
+            to->lo = rate.lo >= wanted ? energy : to->lo;
+            to->hi = bounded && rate.hi >= wanted && isnan(to->hi) ? energy : to->hi;
         }
     }
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++) {
@@ -119,7 +120,7 @@ static void read_curve(const struct curve *c, double accepted, struct ceduo_haza
         const struct weighted_sum *b = &c->sums[above(c, nextafter(to, 0))];
         h->intensity[i].within = rate_of(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw}, from);
         for (size_t r = 0; r < CEDUO_RETURNS; r++)
-            h->intensity[i].of_return[r] = ceduo_intensity_of(h->returns[r].energy) == (int)i;
+            h->intensity[i].of_return[r] = ceduo_intensity_of(h->returns[r].energy.mean) == (int)i;
     }
 }
 

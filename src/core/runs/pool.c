@@ -42,8 +42,6 @@ enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct cedu
     pool->scene = *def->scene;
     pool->def.scene = &pool->scene;
     pool->scene_key = ceduo_scene_key(def->scene);
-    bool wooded = def->scene->simulation.contact_model != CEDUO_INDEX;
-    pool->def.exact_bytes /= wooded ? def->scene->options_count + 1 : 1;
     *out = pool;
     return CEDUO_OK;
 }
@@ -166,7 +164,7 @@ void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene)
 
 void ceduo_pool_trim(struct ceduo_pool *pool)
 {
-    drop_spare(pool, 0, CEDUO_EXACT_BYTES + 1);
+    drop_spare(pool, 0, CEDUO_POOL_BYTES + 1);
 }
 
 enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
@@ -180,10 +178,9 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
         if (status == CEDUO_OK && wooded)
             status = ceduo_pool_run(pool, &pool->scene.options[i], &run);
     }
-    /* of the other law arrivals are asked for alone, and a few samples that give the errors of differences */
+    /* of the other law arrivals are asked for alone */
     struct ceduo_run_def def = pool->def;
     def.arrivals_only = true;
-    def.exact_bytes /= 4;
     def.rocks_most = def.rocks_most > CEDUO_OTHER_ROCKS ? CEDUO_OTHER_ROCKS : def.rocks_most;
     struct ceduo_scene other = {0};
     if (status == CEDUO_OK && !pool->filled && wooded && def.other_energy)
@@ -209,9 +206,9 @@ enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks)
     return status;
 }
 
-bool ceduo_mean_is_precise(uint64_t reached, double mean, double se, double tolerance)
+bool ceduo_mean_is_precise(uint64_t reached, struct ceduo_estimate mean, double tolerance)
 {
-    return reached < CEDUO_FEW_ROCKS || CEDUO_Z95 * se <= tolerance * mean;
+    return reached < CEDUO_FEW_ROCKS || CEDUO_Z95 * mean.se <= tolerance * mean.mean;
 }
 
 /* The counts are fixed, and near to each other: few rocks are simulated in vain. */
@@ -226,9 +223,8 @@ enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, ui
         for (size_t i = 0; i < pool->count; i++)
             for (size_t c = 0; c < pool->scene.controls_count && *met && !pool->runs[i].beside; c++) {
                 uint64_t reached;
-                double mean, se;
-                ceduo_run_energy(pool->runs[i].run, c, &reached, &mean, &se);
-                *met = ceduo_mean_is_precise(reached, mean, se, tolerance);
+                struct ceduo_estimate mean = ceduo_run_energy(pool->runs[i].run, c, &reached);
+                *met = ceduo_mean_is_precise(reached, mean, tolerance);
             }
         if (rocks >= max)
             break;

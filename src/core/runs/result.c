@@ -51,8 +51,8 @@ void ceduo_simulated_meets_nothing(struct ceduo_simulated *f)
 {
     for (size_t c = 0; c < f->controls; c++) {
         struct ceduo_arrivals *a = &f->arrivals[c];
-        if (a->reached > 0 && isnan(a->contacts))
-            a->contacts = a->contacts_se = 0;
+        if (a->reached > 0 && isnan(a->contacts.mean))
+            a->contacts = (struct ceduo_estimate){0, 0, NAN, NAN};
     }
 }
 
@@ -124,7 +124,7 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
                 continue;
             enum ceduo_judgement one = ceduo_judge(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c));
             const struct ceduo_arrivals *a = &other->arrivals;
-            enum ceduo_judgement two = ceduo_judge_share(a->exceed_probability, a->exceed_lo, a->exceed_hi, a->limit);
+            enum ceduo_judgement two = ceduo_judge_share(a->exceed, a->limit);
             bool differ = (one == CEDUO_YES && two == CEDUO_NO) || (one == CEDUO_NO && two == CEDUO_YES);
             other->judgement = one == CEDUO_NOTHING ? one : differ ? CEDUO_DEPENDS : two;
         }

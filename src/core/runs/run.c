@@ -12,8 +12,7 @@
 
 struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene)
 {
-    return (struct ceduo_run_def){
-        .scene = scene, .threads = 1, .rocks_most = scene->simulation.rocks, .exact_bytes = CEDUO_EXACT_BYTES};
+    return (struct ceduo_run_def){.scene = scene, .threads = 1, .rocks_most = scene->simulation.rocks};
 }
 
 enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
@@ -22,7 +21,7 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
         rocks = run->def.rocks_most;
     if (rocks <= run->rocks)
         return CEDUO_OK;
-    if (!ceduo_run_samples_prepare(run, rocks))
+    if (!ceduo_run_samples_reserve(run, rocks))
         return CEDUO_NO_MEMORY;
     while (run->rocks < rocks) {
         uint64_t block = run->rocks / CEDUO_BLOCK_ROCKS, end = (block + run->chunk) * CEDUO_BLOCK_ROCKS;
@@ -61,12 +60,9 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->controls = def->scene->controls_count;
     run->stems_from = def->option ? ceduo_option_stems_from(def->option) : INFINITY;
     run->last_control = ceduo_scene_last_control(def->scene);
-    run->exact = true;
     run->sized = def->scene->blocks_count > 0;
-    if (run->sized && run->def.rocks_most > CEDUO_SIZED_ROCKS_MOST)
-        run->def.rocks_most = CEDUO_SIZED_ROCKS_MOST;
     bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_scene_rock_varies(def->scene);
-    run->kept = one_energy ? HEIGHT + 1 : QUANTITIES;
+    run->kept = one_energy ? ENERGY + 1 : QUANTITIES;
     run->columns = run->controls * (size_t)run->kept + 1;
     uint64_t blocks = run->def.rocks_most / CEDUO_BLOCK_ROCKS + 1;
     run->slots_count = blocks < CHUNK_BLOCKS ? (size_t)blocks : CHUNK_BLOCKS;
@@ -98,9 +94,7 @@ void ceduo_run_free(struct ceduo_run *run)
     for (size_t i = 0; run->slots && i < run->slots_count; i++)
         free(run->slots[i].controls);
     free(run->slots);
-    ceduo_histograms_free(run->bins, run->columns);
     ceduo_run_samples_free(run);
-    free(run->pairs);
     free(run->ground_of_lanes);
     ceduo_prepared_release(&run->ready);
     free(run);
@@ -115,7 +109,7 @@ uint64_t ceduo_run_rocks(const struct ceduo_run *run)
 
 size_t ceduo_run_sample_bytes(const struct ceduo_run *run)
 {
-    return (size_t)(run->room * run->columns + run->pairs_room * run->controls) * sizeof(double);
+    return (size_t)run->capacity * run->columns * sizeof(double);
 }
 
 uint64_t ceduo_run_contacts(const struct ceduo_run *run)

@@ -5,16 +5,8 @@
 
 #include "run_state.h"
 
-/* A share with its 95 % interval. */
-static void set_share(struct ceduo_rate rate, double *share, double *lo, double *hi)
-{
-    *share = rate.rate;
-    *lo = rate.lo;
-    *hi = rate.hi;
-}
-
 /* Of n rocks; the upper end of its interval counts the unfinished in. */
-static struct ceduo_rate share_of(uint64_t hits, uint64_t unfinished, uint64_t n)
+static struct ceduo_estimate share_of(uint64_t hits, uint64_t unfinished, uint64_t n)
 {
     return ceduo_wilson((double)hits / (double)n, (double)(hits + unfinished) / (double)n, (double)n);
 }
@@ -57,23 +49,44 @@ static void bound_energies(const struct ceduo_run *run, struct weighted *could)
     ceduo_weighted_bound(could, (size_t)run->rocks);
 }
 
-/* The values of a column that are there, with the weights of their rocks. */
+static double weight_of(const struct ceduo_run *run, uint64_t rock)
+{
+    return run->sized ? run->weights[rock] : 1;
+}
+
+/* Gather the values of a column that are not NaN, with the weights of their rocks. */
 static size_t gather_weighted(const struct ceduo_run *run, const double *column, struct weighted *to)
 {
     size_t n = 0;
     for (uint64_t r = 0; r < run->rocks; r++)
         if (!isnan(column[r]))
-            to[n++] = (struct weighted){column[r], run->weights[r]};
+            to[n++] = (struct weighted){column[r], weight_of(run, r)};
     return n;
 }
 
-/* Height of the top of a rock whose underside has this height; NaN stays. The rock was drawn for the run, so it can be drawn. */
+/* Return the height of the top of a rock. The rock was drawn for the run, so it can be drawn again. */
 static double top_of(const struct ceduo_run *run, uint64_t number, double height)
 {
     struct ceduo_rock rock = {0};
-    if (!isnan(height))
-        ceduo_prepared_rock(&run->ready, number, &rock);
+    ceduo_prepared_rock(&run->ready, number, &rock);
     return height + rock.mean_diameter;
+}
+
+/* Return the 95th percentile of the heights of the tops of the rocks that arrive; NaN without design values. */
+static double top_p95(const struct ceduo_run *run, size_t control, double height_p95, struct weighted *scratch)
+{
+    const struct ceduo_scene *scene = &run->ready.scene;
+    const double *height = samples_of(run, control, HEIGHT);
+    size_t n = 0;
+    if (scene->design.survey < 0 || (scene->design.blocks < 0 && !run->sized))
+        return NAN;
+    if (!run->sized && !ceduo_scene_rock_varies(scene))
+        return height_p95 + run->ready.mean.mean_diameter;
+    for (uint64_t r = 0; r < run->rocks; r++)
+        if (!isnan(height[r]))
+            scratch[n++] = (struct weighted){top_of(run, r, height[r]), weight_of(run, r)};
+    ceduo_weighted_sort(scratch, n);
+    return ceduo_weighted_quantile(scratch, n, 0.95);
 }
 
 /* From the samples, in the order of the rocks, and from sums of the weights by the ways that rocks end. */
@@ -81,30 +94,22 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
                                        struct ceduo_arrivals *a)
 {
     struct released all = released_of(run, s->missed[CEDUO_UNFINISHED]);
-    const double accepted = run->ready.scene.controls[control].accepted, *height = samples_of(run, control, HEIGHT);
+    const double accepted = run->ready.scene.controls[control].accepted;
     struct ceduo_distribution *const to[QUANTITIES] = {
         [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
     struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
     struct weighted *values = malloc(2 * ((size_t)run->rocks + 1) * sizeof *values);
-    size_t n = 0;
     if (!values)
         return CEDUO_NO_MEMORY;
     struct weighted *could = values + run->rocks + 1;
     bound_energies(run, could);
     all.could = could;
-    a->exact = true;
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = s->missed[e] / all.w;
     for (int q = 0; q < QUANTITIES; q++)
         *to[q] = ceduo_weighted_distribution(&all, values, gather_weighted(run, samples_of(run, control, q), values));
-    for (uint64_t r = 0; r < run->rocks && run->ready.scene.design.survey >= 0; r++) {
-        double top = top_of(run, r, height[r]);
-        if (!isnan(top))
-            values[n++] = (struct weighted){top, run->weights[r]};
-    }
-    ceduo_weighted_sort(values, n);
-    a->top_p95 = ceduo_weighted_quantile(values, n, 0.95);
-    n = gather_weighted(run, samples_of(run, control, ENERGY), values);
+    a->top_p95 = top_p95(run, control, a->height.p95, values);
+    size_t n = gather_weighted(run, samples_of(run, control, ENERGY), values);
     bool good = ceduo_hazard_read(&all, values, n, accepted, &a->hazard); /* which sorts them */
     a->hazard.accepted_return = isnan(accepted) ? NAN : ceduo_accepted_return(&run->ready.scene.controls[control]);
     for (size_t i = 0; i < n; i++) {
@@ -112,45 +117,24 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
         weighted_sum_add(&exceed, values[i].weight, values[i].value > accepted);
         weighted_sum_add(&energy, values[i].weight, values[i].value);
     }
-    set_share(ceduo_weighted_share(&all, &reach, -1), &a->reach_probability, &a->reach_lo, &a->reach_hi);
+    a->reach = ceduo_weighted_share(&all, &reach, -1);
     if (!isnan(accepted))
-        set_share(ceduo_weighted_share(&all, &exceed, accepted), &a->exceed_probability, &a->exceed_lo, &a->exceed_hi);
-    a->energy_per_released = energy.t / all.w;
-    a->energy_per_released_se = ceduo_weighted_se(&all, &energy);
+        a->exceed = ceduo_weighted_share(&all, &exceed, accepted);
+    a->energy_per_released = (struct ceduo_estimate){energy.t / all.w, ceduo_weighted_se(&all, &energy), NAN, NAN};
     if (!run->ready.wood.bare && n > 0) { /* no sample is kept of stems hit, but sums */
-        double mean = a->contacts = s->hits.t / reach.t;
+        double mean = s->hits.t / reach.t;
         struct weighted_sum about = {.tt = s->hits.tt - mean * (2 * s->hits.tw - mean * reach.tt),
                                      .tw = s->hits.tw - mean * reach.tt};
-        a->contacts_se = n > 1 ? ceduo_weighted_se(&all, &about) * all.w / reach.t : NAN;
+        double se = n > 1 ? ceduo_weighted_se(&all, &about) * all.w / reach.t : NAN;
+        a->contacts = (struct ceduo_estimate){mean, se, NAN, NAN};
     }
     free(values);
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
-static struct ceduo_difference weighted_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
-                                                   size_t control)
-{
-    const struct ceduo_run *shorter = run->rocks < baseline->rocks ? run : baseline;
-    const struct released all = released_of(shorter, 0);
-    const double *a = samples_of(run, control, ENERGY), *b = samples_of(baseline, control, ENERGY);
-    double accepted = run->ready.scene.controls[control].accepted;
-    struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
-    for (uint64_t r = 0; r < shorter->rocks; r++) {
-        double w = run->weights[r];
-        weighted_sum_add(&reach, w, (double)!isnan(a[r]) - (double)!isnan(b[r]));
-        weighted_sum_add(&exceed, w, (double)(a[r] > accepted) - (double)(b[r] > accepted));
-        weighted_sum_add(&energy, w, (isnan(a[r]) ? 0 : a[r]) - (isnan(b[r]) ? 0 : b[r]));
-    }
-    struct ceduo_difference d = {ceduo_weighted_paired(&all, &reach), ceduo_weighted_paired(&all, &exceed),
-                                 ceduo_weighted_paired(&all, &energy)};
-    if (isnan(accepted))
-        d.exceed_probability = CEDUO_NOT_PAIRED;
-    return d;
-}
+/* ---- rocks without weights ---- */
 
-/* ---- arrivals ---- */
-
-/* The values of a column that are there, in the order of the rocks. */
+/* Gather the values of a column that are not NaN, in the order of the rocks. */
 static size_t gather(const struct ceduo_run *run, const double *column, double *to)
 {
     size_t n = 0;
@@ -160,37 +144,13 @@ static size_t gather(const struct ceduo_run *run, const double *column, double *
     return n;
 }
 
-static struct ceduo_distribution distribution(const struct ceduo_run *run, size_t control, int q, const struct ceduo_moments *m,
+static struct ceduo_distribution distribution(const struct ceduo_run *run, size_t control, int q, const struct sums *s,
                                               double *scratch)
 {
-    if (!run->exact)
-        return ceduo_distribution_binned(bins_of(run->bins, run, control, q), m);
-    size_t n = run->room > 0 ? gather(run, samples_of(run, control, q), scratch) : 0;
-    return ceduo_distribution_exact(scratch, n, m);
+    return ceduo_distribution_exact(scratch, gather(run, samples_of(run, control, q), scratch), &s->of[q]);
 }
 
-/* ---- what is read ---- */
-
-/* The 95th percentile of the heights of the tops of the rocks that arrive, where each is as large as it was drawn. */
-static double top_p95(const struct ceduo_run *run, size_t control, double height_p95, double *scratch)
-{
-    const struct ceduo_scene *scene = &run->ready.scene;
-    const double *height = samples_of(run, control, HEIGHT);
-    struct ceduo_moments m = {0};
-    size_t n = 0;
-    if (scene->design.survey < 0 || scene->design.blocks < 0)
-        return NAN;
-    if (!ceduo_scene_rock_varies(scene))
-        return height_p95 + run->ready.mean.mean_diameter;
-    for (uint64_t r = 0; run->exact && run->room > 0 && r < run->rocks; r++) {
-        double top = top_of(run, r, height[r]);
-        if (isnan(top))
-            continue;
-        scratch[n++] = top;
-        ceduo_moments_add(&m, top);
-    }
-    return n > 0 ? ceduo_distribution_exact(scratch, n, &m).p95 : NAN;
-}
+/* ---- arrivals ---- */
 
 double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_control *control)
 {
@@ -210,46 +170,43 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
                                  .reached = s.of[SPEED].n,
                                  .exceeded = s.exceeded,
                                  .unfinished = s.ended[CEDUO_UNFINISHED],
-                                 .exceed_probability = NAN,
-                                 .exceed_lo = NAN,
-                                 .exceed_hi = NAN,
+                                 .exceed = CEDUO_NO_ESTIMATE,
                                  .limit = ceduo_exceed_limit(&run->ready.scene, &run->ready.scene.controls[control]),
-                                 .contacts = NAN,
-                                 .contacts_se = NAN,
+                                 .contacts = CEDUO_NO_ESTIMATE,
                                  .hazard = ceduo_hazard_none(),
-                                 .topography = ceduo_prepared_topography(&run->ready, control),
-                                 .exact = run->exact};
+                                 .topography = ceduo_prepared_topography(&run->ready, control)};
     memcpy(a->ended, s.ended, sizeof a->ended);
     if (run->sized)
         return read_weighted(run, control, &s, a);
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = (double)s.ended[e] / (double)run->rocks;
-    set_share(share_of(a->reached, a->unfinished, run->rocks), &a->reach_probability, &a->reach_lo, &a->reach_hi);
+    a->reach = share_of(a->reached, a->unfinished, run->rocks);
     if (!isnan(run->ready.scene.controls[control].accepted))
-        set_share(share_of(a->exceeded, a->unfinished, run->rocks), &a->exceed_probability, &a->exceed_lo, &a->exceed_hi);
+        a->exceed = share_of(a->exceeded, a->unfinished, run->rocks);
     const struct ceduo_moments *energy = &s.of[ENERGY]; /* of all released rocks; a rock that does not arrive counts as 0 */
     double n = (double)run->rocks, arrived = (double)energy->n / n;
     double m2 = energy->m2 + energy->mean * energy->mean * (double)energy->n * (1 - arrived);
-    a->energy_per_released = energy->mean * arrived;
-    a->energy_per_released_se = run->rocks < 2 ? NAN : sqrt(m2 / (n - 1) / n);
-    if (!run->ready.wood.bare && s.contacts.n > 0) {
-        a->contacts = s.contacts.mean;
-        a->contacts_se = ceduo_moments_se(&s.contacts);
-    }
-    double *scratch = malloc(((size_t)run->rocks + 1) * sizeof(double));
+    a->energy_per_released = (struct ceduo_estimate){energy->mean * arrived, n < 2 ? NAN : sqrt(m2 / (n - 1) / n), NAN, NAN};
+    if (!run->ready.wood.bare && s.contacts.n > 0)
+        a->contacts = (struct ceduo_estimate){s.contacts.mean, ceduo_moments_se(&s.contacts), NAN, NAN};
+    struct weighted *scratch = malloc(((size_t)run->rocks + 1) * sizeof *scratch);
+    double *values = (double *)scratch;
     if (!scratch)
         return CEDUO_NO_MEMORY;
-    a->speed = distribution(run, control, SPEED, &s.of[SPEED], scratch);
-    a->height = distribution(run, control, HEIGHT, &s.of[HEIGHT], scratch);
+    a->speed = distribution(run, control, SPEED, &s, values);
+    a->height = distribution(run, control, HEIGHT, &s, values);
     if (run->kept == QUANTITIES) {
-        a->energy = distribution(run, control, ENERGY, &s.of[ENERGY], scratch);
-        a->translation = distribution(run, control, TRANSLATION, &s.of[TRANSLATION], scratch);
+        a->energy = distribution(run, control, ENERGY, &s, values);
+        a->translation = distribution(run, control, TRANSLATION, &s, values);
     } else {
         /* one mass and no spin make energy follow from speed */
         struct ceduo_distribution d = a->speed;
-        double *const quantiles[] = {&d.p50, &d.p50_lo, &d.p50_hi, &d.p95, &d.p95_lo, &d.p95_hi, &d.p99, &d.p99_lo, &d.p99_hi};
-        for (size_t i = 0; i < sizeof quantiles / sizeof quantiles[0]; i++)
-            *quantiles[i] = 0.5 * run->ready.mean.mass * (*quantiles[i] * *quantiles[i]);
+        for (size_t k = 0; k < PERCENTILES; k++) {
+            struct percentile at = ceduo_percentile_of(&d, k);
+            double *const values_of[] = {at.value, at.lo, at.hi};
+            for (size_t i = 0; i < 3; i++)
+                *values_of[i] = 0.5 * run->ready.mean.mass * (*values_of[i] * *values_of[i]);
+        }
         d.se = ceduo_moments_se(energy);
         d.sd = ceduo_moments_sd(energy);
         d.mean = energy->n > 0 ? energy->mean : NAN;
@@ -263,20 +220,16 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
 
 void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_brief *briefs)
 {
-    bool known = control < run->controls;
-    double accepted = known ? run->ready.scene.controls[control].accepted : NAN;
+    const double *energies = ceduo_run_samples(run, control, CEDUO_SAMPLE_ENERGY);
+    double accepted = energies ? run->ready.scene.controls[control].accepted : NAN;
     for (size_t g = 0; g < groups; g++) {
-        if (!known) {
-            briefs[g] = (struct ceduo_brief){NAN, NAN, NAN, NAN};
-            continue;
-        }
         double all = 0, reached = 0, exceeded = 0, sum = 0;
-        for (uint64_t r = run->rocks * g / groups; r < run->rocks * (g + 1) / groups; r++) {
-            double energy = ceduo_run_sample_energy(run, control, r), w = run->sized ? run->weights[r] : 1;
+        for (uint64_t r = run->rocks * g / groups; energies && r < run->rocks * (g + 1) / groups; r++) {
+            double w = weight_of(run, r);
             all += w;
-            reached += isnan(energy) ? 0 : w;
-            exceeded += energy > accepted ? w : 0;
-            sum += isnan(energy) ? 0 : w * energy;
+            reached += isnan(energies[r]) ? 0 : w;
+            exceeded += energies[r] > accepted ? w : 0;
+            sum += isnan(energies[r]) ? 0 : w * energies[r];
         }
         briefs[g] = (struct ceduo_brief){.reach_probability = reached / all,
                                          .exceed_probability = isnan(accepted) ? NAN : exceeded / all,
@@ -285,99 +238,82 @@ void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups
     }
 }
 
-void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se)
+struct ceduo_estimate ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached)
 {
     *reached = 0;
-    *mean = *se = NAN;
     if (control >= run->controls)
-        return;
+        return CEDUO_NO_ESTIMATE;
     const struct sums s = ceduo_run_sums_at(run, control);
-    *reached = s.of[ENERGY].n;
-    *mean = *reached > 0 ? s.of[ENERGY].mean : NAN;
-    *se = ceduo_moments_se(&s.of[ENERGY]);
-    if (!run->sized)
-        return;
+    const struct ceduo_moments *m = &s.of[ENERGY];
+    *reached = m->n;
+    struct ceduo_estimate energy = {m->n > 0 ? m->mean : NAN, ceduo_moments_se(m), NAN, NAN};
+    if (!run->sized || m->n == 0)
+        return energy;
     const struct released all = released_of(run, 0);
-    const double *energy = samples_of(run, control, ENERGY);
+    const double *energies = samples_of(run, control, ENERGY);
     struct weighted_sum ones = {0}, sum = {0}, about = {0};
+    for (uint64_t r = 0; r < run->rocks; r++) {
+        weighted_sum_add(&ones, run->weights[r], !isnan(energies[r]));
+        weighted_sum_add(&sum, run->weights[r], isnan(energies[r]) ? 0 : energies[r]);
+    }
+    energy.mean = sum.t / ones.t;
     for (uint64_t r = 0; r < run->rocks; r++)
-        if (!isnan(energy[r])) {
-            weighted_sum_add(&ones, run->weights[r], 1);
-            weighted_sum_add(&sum, run->weights[r], energy[r]);
-        }
-    *mean = *reached > 0 ? sum.t / ones.t : NAN;
-    for (uint64_t r = 0; r < run->rocks; r++)
-        if (!isnan(energy[r]))
-            weighted_sum_add(&about, run->weights[r], energy[r] - *mean);
-    *se = *reached > 1 ? ceduo_weighted_se(&all, &about) * all.w / ones.t : NAN;
+        weighted_sum_add(&about, run->weights[r], isnan(energies[r]) ? 0 : energies[r] - energy.mean);
+    energy.se = m->n > 1 ? ceduo_weighted_se(&all, &about) * all.w / ones.t : NAN;
+    return energy;
 }
 
 /* ---- differences ---- */
 
-/* Of the rocks whose energies are known. */
-static uint64_t paired_rocks(const struct ceduo_run *run)
-{
-    return run->exact || run->rocks < run->pairs_room ? run->rocks : run->pairs_room;
-}
-
-static double paired_energy(const struct ceduo_run *run, size_t control, uint64_t rock)
-{
-    return run->exact ? ceduo_run_sample_energy(run, control, rock) : run->pairs[control * run->pairs_room + rock];
-}
-
 struct ceduo_difference ceduo_no_difference(double accepted)
 {
-    const struct ceduo_paired none = {0, 0, 0};
-    return (struct ceduo_difference){none, isnan(accepted) ? CEDUO_NOT_PAIRED : none, none};
+    const struct ceduo_estimate none = {0};
+    return (struct ceduo_difference){none, isnan(accepted) ? CEDUO_NO_ESTIMATE : none, none};
+}
+
+/* Set the means over all rocks of two runs that are as long. */
+static void set_means(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control, double means[3])
+{
+    const struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
+    const struct ceduo_moments *e = &s.of[ENERGY], *f = &t.of[ENERGY];
+    double n = (double)run->rocks;
+    means[0] = ((double)e->n - (double)f->n) / n;
+    means[1] = ((double)s.exceeded - (double)t.exceeded) / n;
+    means[2] = (e->mean * (double)e->n - f->mean * (double)f->n) / n;
 }
 
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control)
 {
-    bool alike = run && baseline && run->rocks == baseline->rocks;
     if (!run || !baseline || run->rocks == 0 || baseline->rocks == 0 || control >= run->controls ||
-        control >= baseline->controls || (!alike && !(run->exact && baseline->exact)))
-        return (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
+        control >= baseline->controls)
+        return (struct ceduo_difference){CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
     const struct ceduo_control *at = &run->ready.scene.controls[control];
-    if (alike && (run == baseline || (run->stems_from >= at->x && baseline->stems_from >= at->x)))
+    bool as_long = run->rocks == baseline->rocks;
+    if (as_long && (run == baseline || (run->stems_from >= at->x && baseline->stems_from >= at->x)))
         return ceduo_no_difference(at->accepted);
-    if (run->sized)
-        return weighted_difference(run, baseline, control);
-    uint64_t a = paired_rocks(run), b = paired_rocks(baseline), paired = a < b ? a : b; /* rocks that both have */
-    struct ceduo_moments reach = {0}, exceed = {0}, energy = {0};                       /* of their differences */
-    for (uint64_t r = 0; r < paired; r++) {
-        double e = paired_energy(run, control, r), f = paired_energy(baseline, control, r);
-        ceduo_moments_add(&reach, (double)!isnan(e) - (double)!isnan(f));
-        ceduo_moments_add(&exceed, (double)(e > at->accepted) - (double)(f > at->accepted));
-        ceduo_moments_add(&energy, (isnan(e) ? 0 : e) - (isnan(f) ? 0 : f));
+    const struct ceduo_run *shorter = run->rocks < baseline->rocks ? run : baseline;
+    const double *a = samples_of(run, control, ENERGY), *b = samples_of(baseline, control, ENERGY);
+    struct ceduo_moments moments[3] = {0}; /* of reach, exceed and energy, without weights */
+    struct weighted_sum sums[3] = {0};     /* likewise with weights */
+    for (uint64_t r = 0; r < shorter->rocks; r++) {
+        const double differ[3] = {(double)!isnan(a[r]) - (double)!isnan(b[r]),
+                                  (double)(a[r] > at->accepted) - (double)(b[r] > at->accepted),
+                                  (isnan(a[r]) ? 0 : a[r]) - (isnan(b[r]) ? 0 : b[r])};
+        for (size_t k = 0; k < 3; k++)
+            if (run->sized)
+                weighted_sum_add(&sums[k], run->weights[r], differ[k]);
+            else
+                ceduo_moments_add(&moments[k], differ[k]);
     }
-    uint64_t rocks = alike ? run->rocks : paired;
-    struct ceduo_difference d = {ceduo_paired_of(reach.mean, &reach, rocks), ceduo_paired_of(exceed.mean, &exceed, rocks),
-                                 ceduo_paired_of(energy.mean, &energy, rocks)};
-    if (alike) { /* the means of all rocks, where only the first are paired */
-        struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
-        const struct ceduo_moments *e = &s.of[ENERGY], *f = &t.of[ENERGY];
-        double n = (double)run->rocks;
-        d.reach_probability.mean = ((double)e->n - (double)f->n) / n;
-        d.exceed_probability.mean = ((double)s.exceeded - (double)t.exceeded) / n;
-        d.energy_per_released.mean = (e->mean * (double)e->n - f->mean * (double)f->n) / n;
-    }
-    if (isnan(at->accepted))
-        d.exceed_probability = CEDUO_NOT_PAIRED;
-    return d;
-}
-
-uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t max)
-{
-    if (control >= run->controls)
-        return 0;
-    double accepted = run->ready.scene.controls[control].accepted;
-    uint64_t rocks = paired_rocks(run);
-    rocks = rocks < max ? rocks : max;
-    for (uint64_t r = 0; r < rocks; r++) {
-        double energy = paired_energy(run, control, r);
-        marks[r] = (uint16_t)(marks[r] + (isnan(accepted) ? !isnan(energy) : energy > accepted));
-    }
-    return rocks;
+    const struct released all = run->sized ? released_of(shorter, 0) : (struct released){0};
+    double means[3] = {moments[0].mean, moments[1].mean, moments[2].mean};
+    if (as_long && !run->sized)
+        set_means(run, baseline, control, means);
+    struct ceduo_estimate found[3];
+    for (size_t k = 0; k < 3; k++)
+        found[k] =
+            run->sized ? ceduo_weighted_paired(&all, &sums[k]) : ceduo_estimate_of_pairs(means[k], &moments[k], shorter->rocks);
+    return (struct ceduo_difference){found[0], isnan(at->accepted) ? CEDUO_NO_ESTIMATE : found[1], found[2]};
 }
 
 /* ---- ends, envelopes, energies ---- */
@@ -402,12 +338,6 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
     if (n == 0)
         return CEDUO_OK;
     ends->stop_max = ends->stop_x.max;
-    if (!run->exact) {
-        const struct histogram *h = &run->bins[run->columns - 1];
-        ends->stop_p50 = ceduo_histogram_value(h, ceduo_quantile_rank(n, 0.5));
-        ends->stop_p95 = ceduo_histogram_value(h, ceduo_quantile_rank(n, 0.95));
-        return CEDUO_OK;
-    }
     struct weighted *stops = malloc((n + 1) * sizeof *stops);
     double *scratch = (double *)stops;
     if (!stops)
@@ -427,42 +357,36 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
     return CEDUO_OK;
 }
 
-const double *ceduo_run_weights(const struct ceduo_run *run)
+const double *ceduo_run_samples(const struct ceduo_run *run, size_t control, enum ceduo_sample quantity)
 {
-    return run->weights;
+    static const enum quantity column[] = {
+        [CEDUO_SAMPLE_SPEED] = SPEED, [CEDUO_SAMPLE_HEIGHT] = HEIGHT, [CEDUO_SAMPLE_ENERGY] = ENERGY};
+    if (quantity == CEDUO_SAMPLE_WEIGHT)
+        return run->weights;
+    if (quantity == CEDUO_SAMPLE_STOP)
+        return stops_of(run);
+    return control < run->controls ? samples_of(run, control, column[quantity]) : NULL;
 }
 
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t max)
 {
+    const double *energies = ceduo_run_samples(run, control, CEDUO_SAMPLE_ENERGY);
     double all = 0, before = 0;
     size_t reached = 0, n = 0;
-    uint64_t rocks = run->room > 0 && control < run->controls ? run->rocks : 0;
-    for (uint64_t r = 0; r < rocks; r++)
-        if (!isnan(ceduo_run_sample_energy(run, control, r))) {
-            all += run->sized ? run->weights[r] : 1;
+    for (uint64_t r = 0; energies && r < run->rocks; r++)
+        if (!isnan(energies[r])) {
+            all += weight_of(run, r);
             reached++;
         }
     max = reached < max ? reached : max;
-    for (uint64_t r = 0; n < max && r < rocks; r++) { /* untaken: rounding */
-        double energy = ceduo_run_sample_energy(run, control, r);
-        if (isnan(energy))
+    for (uint64_t r = 0; n < max && r < run->rocks; r++) { /* untaken: rounding */
+        if (isnan(energies[r]))
             continue;
         if (!run->sized)
-            to[n++] = energy;
+            to[n++] = energies[r];
         else /* at even steps of the sum of their weights: light rocks are left out, heavy ones taken several times */
             for (before += run->weights[r]; n < max && ((double)n + 0.5) * all <= before * (double)max; n++)
-                to[n] = energy;
+                to[n] = energies[r];
     }
     return n;
-}
-
-bool ceduo_run_values(const struct ceduo_run *run, size_t control, enum ceduo_sample what, double *to)
-{
-    if (what != CEDUO_SAMPLE_STOP && control >= run->controls)
-        return false;
-    const double *kept =
-        what == CEDUO_SAMPLE_STOP ? stops_of(run) : samples_of(run, control, what == CEDUO_SAMPLE_HEIGHT ? HEIGHT : SPEED);
-    for (uint64_t r = 0; run->exact && r < run->rocks; r++)
-        to[r] = what == CEDUO_SAMPLE_ENERGY ? ceduo_run_sample_energy(run, control, r) : kept[r];
-    return run->exact;
 }

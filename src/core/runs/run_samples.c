@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,34 +60,27 @@ struct sums ceduo_run_sums_at(const struct ceduo_run *run, size_t control)
 
 /* ---- samples ---- */
 
-/* With one column more, in which they are sorted. */
-static bool samples_fit(const struct ceduo_run *run, uint64_t rocks)
+bool ceduo_run_samples_reserve(struct ceduo_run *run, uint64_t rocks)
 {
-    return run->sized || (double)rocks * (double)(run->columns + 1) * sizeof(double) <= (double)run->def.exact_bytes;
-}
-
-/* Makes room for the samples of `rocks` rocks. Each column grows by itself: never are all there twice. */
-static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
-{
-    if (rocks <= run->room)
+    if (rocks <= run->capacity)
         return true;
-    uint64_t room = 2 * run->room;
-    room = room < rocks || !samples_fit(run, room) ? rocks : room;
-    double *weights = run->sized ? realloc(run->weights, (size_t)room * sizeof *weights) : NULL;
+    uint64_t capacity = 2 * run->capacity < run->def.rocks_most ? 2 * run->capacity : run->def.rocks_most;
+    capacity = capacity < rocks ? rocks : capacity;
+    double *weights = run->sized ? realloc(run->weights, (size_t)capacity * sizeof *weights) : NULL;
     if (run->sized && !weights)
         return false;
     run->weights = weights;
-    for (uint64_t i = run->room; run->sized && i < room; i++)
+    for (uint64_t i = run->capacity; run->sized && i < capacity; i++)
         weights[i] = ceduo_size_of(&run->ready.sizes, i).weight;
     if (!run->samples && !(run->samples = calloc(run->columns, sizeof *run->samples)))
         return false;
-    for (size_t i = 0; i < run->columns; i++) {
-        double *grown = realloc(run->samples[i], (size_t)room * sizeof(double));
+    for (size_t i = 0; i < run->columns; i++) { /* each by itself: never are all there twice */
+        double *grown = realloc(run->samples[i], (size_t)capacity * sizeof(double));
         if (!grown)
             return false;
         run->samples[i] = grown;
     }
-    run->room = room;
+    run->capacity = capacity;
     return true;
 }
 
@@ -98,50 +90,4 @@ void ceduo_run_samples_free(struct ceduo_run *run)
         free(run->samples[i]);
     free(run->samples);
     free(run->weights);
-    run->samples = NULL;
-    run->weights = NULL;
-    run->room = 0;
-}
-
-double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint64_t rock)
-{
-    if (run->kept == QUANTITIES)
-        return samples_of(run, control, ENERGY)[rock];
-    double speed = samples_of(run, control, SPEED)[rock];
-    return 0.5 * run->ready.mean.mass * (speed * speed);
-}
-
-/* From samples to histograms: there are now too many rocks to keep. The first rocks' energies stay. */
-static bool bin_samples(struct ceduo_run *run)
-{
-    size_t controls = run->controls;
-    uint64_t room = controls > 0 ? run->def.exact_bytes / sizeof(double) / controls : 0;
-    room = room < CEDUO_PAIRED_ROCKS ? room : CEDUO_PAIRED_ROCKS;
-    struct histogram *bins = calloc(run->columns, sizeof *bins);
-    double *pairs = malloc(((size_t)room * controls + 1) * sizeof *pairs);
-    bool good = bins && pairs;
-    for (size_t i = 0; run->room > 0 && i < run->columns; i++)
-        for (uint64_t r = 0; good && r < run->rocks; r++)
-            good = isnan(run->samples[i][r]) || ceduo_histogram_add(&bins[i], run->samples[i][r]);
-    if (!good) {
-        ceduo_histograms_free(bins, run->columns);
-        free(pairs);
-        return false;
-    }
-    for (size_t c = 0; c < controls; c++)
-        for (uint64_t r = 0; run->room > 0 && r < run->rocks && r < room; r++) /* untaken: large */
-            pairs[c * room + r] = ceduo_run_sample_energy(run, c, r);
-    ceduo_run_samples_free(run);
-    run->bins = bins;
-    run->pairs = pairs;
-    run->pairs_room = room;
-    run->exact = false;
-    return true;
-}
-
-bool ceduo_run_samples_prepare(struct ceduo_run *run, uint64_t rocks)
-{
-    if (!run->exact)
-        return true;
-    return samples_fit(run, rocks) ? grow_samples(run, rocks) : bin_samples(run);
 }

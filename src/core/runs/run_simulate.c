@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One chunk of a run, on several threads. Workers take blocks of CEDUO_BLOCK_ROCKS from a common counter. Each owns its
- * walkers, stems and histograms, and writes samples of its rocks into the columns of the run, where no two rocks share a place.
+ * walkers and stems, and writes samples of its rocks into the columns of the run, where no two rocks share a place.
  * A block is summed in the order of its rocks, blocks are merged in their order: the result does not depend on threads. */
 #include <math.h>
 #include <stdlib.h>
@@ -28,7 +28,6 @@ struct worker {
     struct arrival *arrivals;              /* [control][CEDUO_BLOCK_ROCKS] */
     double stops[CEDUO_BLOCK_ROCKS];       /* NaN: it did not stop */
     unsigned char ends[CEDUO_BLOCK_ROCKS]; /* enum ceduo_end, where rocks have weights */
-    struct histogram *bins;
     bool no_memory;
     struct chunk *chunk;
 };
@@ -113,17 +112,8 @@ static bool next_rock(void *context, size_t lane)
     return false;
 }
 
-/* The samples of a column; NaN where a rock has none. False without memory. */
-static bool bin_column(struct histogram *bins, const double *column, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (!isnan(column[i]) && !ceduo_histogram_add(bins, column[i]))
-            return false;
-    return true;
-}
-
-/* What the rocks bring to a control: sums, in their order, and samples. False without memory. */
-static bool sum_arrivals(struct worker *w, size_t control)
+/* Sum what the rocks bring to a control, in their order, and keep samples. */
+static void sum_arrivals(struct worker *w, size_t control)
 {
     struct ceduo_run *run = w->run;
     const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
@@ -142,19 +132,13 @@ static bool sum_arrivals(struct worker *w, size_t control)
     if (!spins)
         to->of[TRANSLATION] = to->of[ENERGY];
     for (int q = 0; q < run->kept; q++) {
-        double block[CEDUO_BLOCK_ROCKS], *column = run->exact ? samples_of(run, control, q) + from : block;
+        double *column = samples_of(run, control, q) + from;
         for (size_t i = 0; i < n; i++)
             column[i] = arrivals[i].arrives ? arrivals[i].of[q] : NAN;
-        if (!run->exact && !bin_column(bins_of(w->bins, run, control, q), column, n))
-            return false;
     }
-    for (size_t i = 0; i < n && from + i < run->pairs_room; i++)
-        run->pairs[control * run->pairs_room + from + i] = arrivals[i].arrives ? arrivals[i].of[ENERGY] : NAN;
-    return true;
 }
 
-/* False without memory. */
-static bool sum_block(struct worker *w)
+static void sum_block(struct worker *w)
 {
     struct ceduo_run *run = w->run;
     size_t n = (size_t)(w->to - w->from);
@@ -169,15 +153,12 @@ static bool sum_block(struct worker *w)
                 w->block->controls[c].missed[w->ends[i]] += weight;
         }
     }
-    if (run->exact)
-        memcpy(stops_of(run) + w->from, w->stops, n * sizeof *w->stops);
-    bool kept = run->exact || bin_column(&w->bins[run->columns - 1], w->stops, n);
+    memcpy(stops_of(run) + w->from, w->stops, n * sizeof *w->stops);
     for (size_t c = 0; c < run->controls; c++)
-        kept = sum_arrivals(w, c) && kept;
+        sum_arrivals(w, c);
     for (size_t i = 0; i < n; i++)
         if (!isnan(w->stops[i]))
             ceduo_moments_add(&w->block->stop_x, w->stops[i]);
-    return kept;
 }
 
 /* Simulates the rocks of a block, or those of them that belong to the chunk. */
@@ -209,7 +190,7 @@ static int take_block(void *context, size_t i, size_t worker)
             note_end(w, 0, ceduo_walk(&w->walkers[0], law));
     if (atomic_load_explicit(&chunk->stop, memory_order_relaxed))
         return CEDUO_CANCELLED;
-    w->no_memory |= !sum_block(w);
+    sum_block(w);
     return CEDUO_OK;
 }
 
@@ -232,7 +213,7 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
             return false;
         w->walkers[i].stems = &w->stems[i];
     }
-    return run->exact || (w->bins = calloc(run->columns, sizeof *w->bins));
+    return true;
 }
 
 static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, unsigned n)
@@ -245,12 +226,7 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
         return CEDUO_NO_MEMORY;
     if (atomic_load(&chunk->stop))
         return CEDUO_CANCELLED;
-    for (unsigned i = 0; i < n; i++)
-        if (workers[i].bins && !ceduo_histograms_reserve(run->bins, workers[i].bins, run->columns))
-            return CEDUO_NO_MEMORY;
-    for (unsigned i = 0; i < n; i++) /* nothing fails from here on: a chunk is there or leaves no trace */
-        if (workers[i].bins)
-            ceduo_histograms_merge(run->bins, workers[i].bins, run->columns);
+    /* nothing fails from here on: a chunk is there or leaves no trace */
     for (size_t i = 0; i < chunk->blocks; i++) {
         bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BLOCK_ROCKS == 0;
         struct block tail = run->tail;
@@ -291,7 +267,6 @@ enum ceduo_status ceduo_run_simulate_chunk(struct ceduo_run *run, uint64_t end)
         for (size_t i = 0; i < chunk.blocks; i++)
             ceduo_run_block_clear(&run->slots[i], run->controls);
     for (struct worker *w = workers; w < workers + n; w++) {
-        ceduo_histograms_free(w->bins, run->columns);
         for (size_t i = 0; w->stems && i < run->lanes; i++)
             ceduo_stems_release(&w->stems[i]);
         free(w->stems);

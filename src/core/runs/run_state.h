@@ -5,16 +5,14 @@
 #include "ceduo/run.h"
 #include "core/walk/lanes.h"
 #include "core/walk/prepared.h"
-#include "histogram.h"
 #include "weighted.h"
 
 /* A run from inside; only the run*.c include this.
  *
  *     run.c          makes, extends and frees a run, chunk by chunk
  *     run_simulate.c simulates the rocks of one chunk on several threads
- *     run_samples.c  sums of a block, merged in the order of the blocks; what is kept of single rocks: every value, or
- *                    histograms where there are too many
- *     run_read.c     arrivals, differences and ends, read from sums and samples; where rocks have weights, from samples alone */
+ *     run_samples.c  sums of a block, merged in the order of the blocks; samples of each rock
+ *     run_read.c     arrivals, differences and ends, read from sums and samples; if rocks have weights, from samples alone */
 
 #ifndef CHUNK_BLOCKS
 #define CHUNK_BLOCKS 256 /* blocks in work at a time: this bounds the memory of their sums */
@@ -47,28 +45,23 @@ struct ceduo_run {
     void (*lanes_walk)(const struct lanes_job *job); /* NULL: rocks are simulated one by one */
     size_t lanes;                                    /* rocks that a thread simulates at once */
     size_t controls, last_control;
-    double stems_from;      /* as ceduo_option_stems_from(): the option may be gone when the run is read */
-    int kept;               /* quantities whose samples are kept; without spin and spread, energy follows from speed */
-    size_t columns;         /* of samples: controls times kept, and the stops */
-    uint64_t rocks;         /* done */
-    size_t chunk;           /* blocks to take on next */
-    struct block whole;     /* all whole blocks */
-    struct block tail;      /* the block that is not full yet */
-    struct block *slots;    /* in work, `slots_count` */
-    size_t slots_count;     /* CHUNK_BLOCKS, or as many as the run can have */
-    bool sized;             /* rocks have weights; their samples are always kept */
-    double *weights;        /* [room] */
-    bool alike;             /* the rocks differ in nothing but their numbers */
-    bool exact;             /* samples are kept; otherwise histograms */
-    uint64_t room;          /* rocks that the samples have room for */
-    double **samples;       /* [control, quantity][room], NaN where a rock did not arrive; then one of the stops: NaN where
-                            * it did not stop */
-    uint64_t pairs_room;    /* where samples are not kept: the first rocks' energies, for differences */
-    double *pairs;          /* [control][pairs_room], NaN where a rock did not arrive */
-    struct histogram *bins; /* [control][quantity], then one of the stops */
+    double stems_from;   /* as ceduo_option_stems_from(): the option may be gone when the run is read */
+    int kept;            /* quantities that have samples: without spin and spread all energy is translation */
+    size_t columns;      /* of samples: controls times kept, then the stops */
+    uint64_t rocks;      /* done */
+    size_t chunk;        /* blocks to take on next */
+    struct block whole;  /* all whole blocks */
+    struct block tail;   /* the block that is not full yet */
+    struct block *slots; /* in work, `slots_count` */
+    size_t slots_count;  /* CHUNK_BLOCKS, or as many as the run can have */
+    bool sized;          /* rocks have weights */
+    double *weights;     /* [capacity] */
+    bool alike;          /* the rocks differ in nothing but their numbers */
+    uint64_t capacity;   /* of the samples, in rocks */
+    double **samples;    /* [columns][capacity]; NaN: the rock did not arrive, or did not stop */
 };
 
-/* NULL where there are none: before the first rock, or beyond what is kept. */
+/* NULL before the first rock. */
 static inline double *samples_of(const struct ceduo_run *run, size_t control, int quantity)
 {
     return run->samples ? run->samples[control * (size_t)run->kept + (size_t)quantity] : NULL;
@@ -77,11 +70,6 @@ static inline double *samples_of(const struct ceduo_run *run, size_t control, in
 static inline double *stops_of(const struct ceduo_run *run)
 {
     return run->samples ? run->samples[run->columns - 1] : NULL;
-}
-
-static inline struct histogram *bins_of(struct histogram *bins, const struct ceduo_run *run, size_t control, int quantity)
-{
-    return &bins[control * (size_t)run->kept + (size_t)quantity];
 }
 
 /* ---- sums ---- */
@@ -94,11 +82,8 @@ struct sums ceduo_run_sums_at(const struct ceduo_run *run, size_t control);
 
 /* ---- samples ---- */
 
-/* Makes room for so many rocks; where they do not fit, turns samples into histograms. False without memory. */
-bool ceduo_run_samples_prepare(struct ceduo_run *run, uint64_t rocks);
+bool ceduo_run_samples_reserve(struct ceduo_run *run, uint64_t rocks); /* false without memory */
 void ceduo_run_samples_free(struct ceduo_run *run);
-/* Energy of a rock at a control, from the samples; NaN where it did not arrive. */
-double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint64_t rock);
 
 /* ---- simulating ---- */
 

@@ -5,9 +5,9 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/gsl_errors.h"
+#include "weighted.h"
 
 void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments *from)
 {
@@ -35,9 +35,9 @@ double ceduo_moments_se(const struct ceduo_moments *m)
     return m->n < 2 ? NAN : ceduo_moments_sd(m) / sqrt((double)m->n);
 }
 
-struct ceduo_rate ceduo_wilson(double share, double max, double n)
+struct ceduo_estimate ceduo_wilson(double share, double max, double n)
 {
-    struct ceduo_rate r = {share, 0, 1};
+    struct ceduo_estimate r = {share, NAN, 0, 1};
     double z2 = CEDUO_Z95 * CEDUO_Z95, scale = 1 + z2 / n;
     if (!(n > 0))
         return r;
@@ -58,7 +58,7 @@ double ceduo_half_width_of_share(double share, double se, uint64_t n)
 {
     if (share > 0 && share < 1)
         return CEDUO_Z95 * se;
-    struct ceduo_rate all_or_none = ceduo_wilson(share > 0, share > 0, (double)n);
+    struct ceduo_estimate all_or_none = ceduo_wilson(share > 0, share > 0, (double)n);
     return all_or_none.hi - all_or_none.lo;
 }
 
@@ -67,11 +67,17 @@ double ceduo_share_se(double share, double n)
     return sqrt(share * (1 - share) / n);
 }
 
-struct ceduo_paired ceduo_paired_of(double mean, const struct ceduo_moments *m, uint64_t rocks)
+struct ceduo_estimate ceduo_estimate_by_se(double mean, double se)
+{
+    return (struct ceduo_estimate){mean, se, mean - CEDUO_Z95 * se, mean + CEDUO_Z95 * se};
+}
+
+struct ceduo_estimate ceduo_estimate_of_pairs(double mean, const struct ceduo_moments *m, uint64_t rocks)
 {
     if (m->n == 0 || m->mean != 0 || m->m2 > 0)
-        return (struct ceduo_paired){mean, ceduo_moments_sd(m) / sqrt((double)rocks), 0};
-    return (struct ceduo_paired){mean, NAN, ceduo_wilson(0, 0, (double)m->n).hi};
+        return ceduo_estimate_by_se(mean, ceduo_moments_sd(m) / sqrt((double)rocks));
+    double hi = ceduo_wilson(0, 0, (double)m->n).hi;
+    return (struct ceduo_estimate){mean, NAN, mean - hi, mean + hi};
 }
 
 size_t ceduo_quantile_rank(size_t n, double p)
@@ -111,6 +117,14 @@ struct ceduo_distribution ceduo_distribution_none(void)
     return (struct ceduo_distribution){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
+struct percentile ceduo_percentile_of(struct ceduo_distribution *d, size_t k)
+{
+    const struct percentile all[PERCENTILES] = {{0.5, &d->p50, &d->p50_lo, &d->p50_hi},
+                                                {0.95, &d->p95, &d->p95_lo, &d->p95_hi},
+                                                {0.99, &d->p99, &d->p99_lo, &d->p99_hi}};
+    return all[k];
+}
+
 struct wanted {
     size_t rank;
     double *to;
@@ -122,10 +136,7 @@ static int by_rank(const void *a, const void *b)
     return (x->rank > y->rank) - (x->rank < y->rank);
 }
 
-#define RANKS 9 /* three percentiles, each with its interval */
-
-struct ceduo_distribution ceduo_distribution_by(ceduo_ranks_fn *of_ranks, void *context, size_t n,
-                                                const struct ceduo_moments *m)
+struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m)
 {
     struct ceduo_distribution d = ceduo_distribution_none();
     if (n == 0)
@@ -134,48 +145,23 @@ struct ceduo_distribution ceduo_distribution_by(ceduo_ranks_fn *of_ranks, void *
     d.sd = ceduo_moments_sd(m);
     d.se = ceduo_moments_se(m);
     d.max = m->max;
-    const struct {
-        double p, *at, *lo, *hi;
-    } percentiles[RANKS / 3] = {
-        {0.5, &d.p50, &d.p50_lo, &d.p50_hi}, {0.95, &d.p95, &d.p95_lo, &d.p95_hi}, {0.99, &d.p99, &d.p99_lo, &d.p99_hi}};
-    struct wanted wanted[RANKS];
-    size_t count = 0, ranks[RANKS];
-    double values[RANKS];
-    for (size_t i = 0; i < RANKS / 3; i++) {
-        size_t lo, hi, at = ceduo_quantile_rank(n, percentiles[i].p);
-        ceduo_quantile_interval(n, percentiles[i].p, &lo, &hi);
-        wanted[count++] = (struct wanted){at, percentiles[i].at};
+    struct wanted wanted[3 * PERCENTILES]; /* each percentile with its interval */
+    size_t count = 0;
+    for (size_t k = 0; k < PERCENTILES; k++) {
+        struct percentile at = ceduo_percentile_of(&d, k);
+        size_t lo, hi;
+        ceduo_quantile_interval(n, at.p, &lo, &hi);
+        wanted[count++] = (struct wanted){ceduo_quantile_rank(n, at.p), at.value};
         if (lo > 0)
-            wanted[count++] = (struct wanted){lo, percentiles[i].lo};
+            wanted[count++] = (struct wanted){lo, at.lo};
         if (hi <= n)
-            wanted[count++] = (struct wanted){hi, percentiles[i].hi};
+            wanted[count++] = (struct wanted){hi, at.hi};
     }
     qsort(wanted, count, sizeof wanted[0], by_rank);
-    for (size_t i = 0; i < count; i++)
-        ranks[i] = wanted[i].rank;
-    of_ranks(context, ranks, count, values);
-    for (size_t i = 0; i < count; i++)
-        *wanted[i].to = fmin(m->max, values[i]);
-    return d;
-}
-
-/* ---- values of ranks ---- */
-
-struct values {
-    double *of;
-    size_t n;
-};
-
-static void exact_ranks(void *context, const size_t *ranks, size_t count, double *to)
-{
-    const struct values *v = context;
     for (size_t i = 0, from = 0; i < count; i++) { /* each among those that are not smaller than the one before */
-        to[i] = gsl_stats_select(v->of + from, 1, v->n - from, ranks[i] - 1 - from);
-        from = ranks[i] - 1;
+        size_t at = wanted[i].rank - 1;
+        *wanted[i].to = fmin(m->max, gsl_stats_select(values + from, 1, n - from, at - from));
+        from = at;
     }
-}
-
-struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m)
-{
-    return ceduo_distribution_by(exact_ranks, &(struct values){values, n}, n, m);
+    return d;
 }

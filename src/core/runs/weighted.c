@@ -51,26 +51,27 @@ static double upper_of_none(const struct released *all, double energy)
     return (all->could ? all->could[lo].weight / all->w : 1) * z2 / ((double)(n - lo) + z2);
 }
 
-struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double energy)
+struct ceduo_estimate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double energy)
 {
     double sum = ones->t / all->w, p = sum < 1 - ROUNDING ? sum : 1; /* all are summed in another order */
     double mean = all->w / all->n, v = variance(all, ones) / (mean * mean);
     double effective = all->w * all->w / all->ww; /* so many equal rocks would have the same error */
     double missing = all->missing / all->w, least = fmin(1, missing + upper_of_none(all, energy));
     if (!(p > 0))
-        return (struct ceduo_rate){p, 0, missing > 0 ? fmax(least, ceduo_wilson(0, missing, effective).hi) : least};
+        return (struct ceduo_estimate){p, NAN, 0, missing > 0 ? fmax(least, ceduo_wilson(0, missing, effective).hi) : least};
     if (p < 1 && v > 0)
         effective = p * (1 - p) * all->n / v;
-    struct ceduo_rate share = ceduo_wilson(p, fmin(1, p + missing), effective);
+    struct ceduo_estimate share = ceduo_wilson(p, fmin(1, p + missing), effective);
     share.hi = fmax(share.hi, least);
     return share;
 }
 
-struct ceduo_paired ceduo_weighted_paired(const struct released *all, const struct weighted_sum *s)
+struct ceduo_estimate ceduo_weighted_paired(const struct released *all, const struct weighted_sum *s)
 {
     if (s->tt > 0)
-        return (struct ceduo_paired){s->t / all->w, ceduo_weighted_se(all, s), 0};
-    return (struct ceduo_paired){0, NAN, ceduo_wilson(0, 0, all->w * all->w / all->ww).hi};
+        return ceduo_estimate_by_se(s->t / all->w, ceduo_weighted_se(all, s));
+    double hi = ceduo_wilson(0, 0, all->w * all->w / all->ww).hi;
+    return (struct ceduo_estimate){0, NAN, -hi, hi};
 }
 
 /* ---- distributions ---- */
@@ -126,19 +127,17 @@ struct ceduo_distribution ceduo_weighted_distribution(const struct released *all
         d.se = ceduo_weighted_se(all, &about) * all->w / w;
     }
     d.max = values[n - 1].value;
-    const struct {
-        double p, *at, *lo, *hi;
-    } percentiles[] = {
-        {0.5, &d.p50, &d.p50_lo, &d.p50_hi}, {0.95, &d.p95, &d.p95_lo, &d.p95_hi}, {0.99, &d.p99, &d.p99_lo, &d.p99_hi}};
-    for (size_t k = 0; k < 3; k++) { /* the share below one is a mean over the n values, whose error moves it up and down */
-        double p = percentiles[k].p, at = ceduo_weighted_quantile(values, n, p);
+    for (size_t k = 0; k < PERCENTILES;
+         k++) { /* the share below one is a mean over the n values, whose error moves it up and down */
+        struct percentile to = ceduo_percentile_of(&d, k);
+        double p = to.p, at = ceduo_weighted_quantile(values, n, p);
         struct weighted_sum below = {0};
         for (size_t i = 0; i < n; i++)
             weighted_sum_add(&below, values[i].weight, (values[i].value <= at) - p);
         double half = CEDUO_Z95 * ceduo_weighted_se(all, &below) * all->w / w;
-        *percentiles[k].at = at;
-        *percentiles[k].lo = p - half > 0 ? ceduo_weighted_quantile(values, n, p - half) : NAN;
-        *percentiles[k].hi = p + half < 1 ? ceduo_weighted_quantile(values, n, p + half) : NAN;
+        *to.value = at;
+        *to.lo = p - half > 0 ? ceduo_weighted_quantile(values, n, p - half) : NAN;
+        *to.hi = p + half < 1 ? ceduo_weighted_quantile(values, n, p + half) : NAN;
     }
     return d;
 }

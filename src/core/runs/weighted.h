@@ -10,6 +10,13 @@
  * known (Cochran 1977): what only says that heavy rocks were drawn a little too often is no error. Where all weights are
  * equal, these are the plain statistics. */
 
+/* One percentile of a distribution. */
+#define PERCENTILES 3
+struct percentile {
+    double p, *value, *lo, *hi;
+};
+struct percentile ceduo_percentile_of(struct ceduo_distribution *distribution, size_t k);
+
 /* All rocks released. */
 struct released {
     double n, w, ww; /* the sums of weights and of their squares */
@@ -40,8 +47,8 @@ static inline void weighted_sum_add(struct weighted_sum *s, double weight, doubl
 /* The standard error of such a sum over the sum of all weights. */
 double ceduo_weighted_se(const struct released *all, const struct weighted_sum *sum);
 
-/* The same of a sum of differences between pairs, as in ceduo_paired_of(). */
-struct ceduo_paired ceduo_weighted_paired(const struct released *all, const struct weighted_sum *sum);
+/* The same of a sum of differences between pairs, as in ceduo_estimate_of_pairs(). */
+struct ceduo_estimate ceduo_weighted_paired(const struct released *all, const struct weighted_sum *sum);
 
 /* Sorts n rocks with the largest energies that they could have, and sums their weights: for `could`. */
 void ceduo_weighted_bound(struct weighted *rocks, size_t n);
@@ -50,7 +57,7 @@ void ceduo_weighted_bound(struct weighted *rocks, size_t n);
  * at the number of equal rocks that would have the same error. The upper end counts the unfinished in. It is nowhere below that of
  * none of the rocks that could have so much energy, as if all of them were as likely to: so it does not rise when fewer rocks
  * arrive, and a few large ones do not bound what small ones do, of which each stands for many. */
-struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double energy);
+struct ceduo_estimate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double energy);
 
 /* Of n values, which are sorted. Percentiles have intervals after Woodruff (1952). */
 struct ceduo_distribution ceduo_weighted_distribution(const struct released *all, struct weighted *values, size_t n);

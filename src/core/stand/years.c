@@ -194,6 +194,13 @@ static enum ceduo_status make_year(void *context, size_t i, struct ceduo_variant
     return CEDUO_OK;
 }
 
+/* True if a rock brings more than is accepted to the last control, or reaches it if nothing is said. */
+static bool is_marked(const struct ceduo_years *years, double energy)
+{
+    double accepted = years->scene.controls[years->last_control].accepted;
+    return isnan(accepted) ? !isnan(energy) : energy > accepted;
+}
+
 /* Rocks that bring too much get a mark. */
 static enum ceduo_status take_year(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
 {
@@ -206,15 +213,16 @@ static enum ceduo_status take_year(void *context, size_t i, struct ceduo_run *ru
     if (status != CEDUO_OK)
         return status;
     ceduo_simulated_meets_nothing(&y->wooded);
-    const double *weights = ceduo_run_weights(run);
-    size_t n = (size_t)years->marked;
+    r->rocks = ceduo_run_rocks(run) < r->rocks ? ceduo_run_rocks(run) : r->rocks;
+    const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
+    const double *energies = ceduo_run_samples(run, years->last_control, CEDUO_SAMPLE_ENERGY);
     if (weights && !years->weights) {
-        if (!(years->weights = malloc((n + 1) * sizeof *years->weights)))
+        if (!(years->weights = malloc((size_t)r->rocks * sizeof *weights)))
             return CEDUO_NO_MEMORY;
-        memcpy(years->weights, weights, n * sizeof *weights);
+        memcpy(years->weights, weights, (size_t)r->rocks * sizeof *weights);
     }
-    if (years->scene.controls_count > 0)
-        years->marked = ceduo_run_mark(run, years->last_control, years->marks, years->marked);
+    for (uint64_t k = 0; energies && k < r->rocks; k++)
+        years->marks[k] = (uint16_t)(years->marks[k] + is_marked(years, energies[k]));
     read_year(r, y);
     return CEDUO_OK;
 }
@@ -225,8 +233,7 @@ static bool clear_marks(struct ceduo_years *years, uint64_t rocks)
     free(years->weights);
     years->weights = NULL;
     years->rocks = 0;
-    years->marked = rocks < CEDUO_PAIRED_ROCKS ? rocks : CEDUO_PAIRED_ROCKS;
-    years->marks = calloc((size_t)years->marked + 1, sizeof *years->marks);
+    years->marks = calloc((size_t)rocks + 1, sizeof *years->marks);
     return years->marks;
 }
 
@@ -303,7 +310,7 @@ enum ceduo_status ceduo_years_simulate_apart(struct ceduo_years *years, const st
         ceduo_run_free(a.runs[i]);
     free(a.runs);
     free(a.scenes);
-    years->rocks = status == CEDUO_OK ? rocks : years->rocks;
+    years->rocks = status == CEDUO_OK ? r.rocks : years->rocks;
     return status;
 }
 
@@ -316,7 +323,8 @@ static double share_of_years(const struct ceduo_years *years, uint64_t rock)
 }
 
 /* The mean of those shares, less those of `less` (NULL: of nothing), by the weights of the rocks. */
-static struct ceduo_paired weighted_difference(const struct ceduo_years *years, const struct ceduo_years *less, uint64_t rocks)
+static struct ceduo_estimate weighted_difference(const struct ceduo_years *years, const struct ceduo_years *less,
+                                                 uint64_t rocks)
 {
     struct released all = {.n = (double)rocks};
     struct weighted_sum sum = {0};
@@ -349,20 +357,20 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
         if (y->wooded.rocks > 0) {
             const struct ceduo_arrivals *a = &y->wooded.arrivals[control];
             double n = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;
-            double share = isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability;
-            struct ceduo_rate rate = ceduo_hazard_feared(&a->hazard);
+            double share = isnan(a->exceed.mean) ? a->reach.mean : a->exceed.mean;
+            struct ceduo_estimate rate = ceduo_hazard_feared(&a->hazard);
             s.simulated++;
-            s.failing_lo += a->exceed_lo > a->limit;
-            s.failing_hi += a->exceed_hi > a->limit;
-            s.rate.rate += rate.rate;
+            s.failing_lo += a->exceed.lo > a->limit;
+            s.failing_hi += a->exceed.hi > a->limit;
+            s.rate.mean += rate.mean;
             s.rate.lo += rate.lo;
             s.rate.hi += rate.hi;
-            s.reach.mean += a->reach_probability;
-            s.reach.se += ceduo_share_se(a->reach_probability, n);
-            s.exceed.mean += a->exceed_probability;
-            s.exceed.se += ceduo_share_se(a->exceed_probability, n);
-            s.energy_per_released.mean += a->energy_per_released;
-            s.energy_per_released.se += a->energy_per_released_se;
+            s.reach.mean += a->reach.mean;
+            s.reach.se += ceduo_share_se(a->reach.mean, n);
+            s.exceed.mean += a->exceed.mean;
+            s.exceed.se += ceduo_share_se(a->exceed.mean, n);
+            s.energy_per_released.mean += a->energy_per_released.mean;
+            s.energy_per_released.se += a->energy_per_released.se;
             if (isnan(s.worst) || share > s.worst) {
                 s.worst = share;
                 s.worst_year = y->year;
@@ -372,20 +380,20 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
             s.worst_year = y->year;
         }
     }
-    struct ceduo_paired *const means[] = {&s.reach, &s.exceed, &s.energy_per_released};
+    struct ceduo_estimate *const means[] = {&s.reach, &s.exceed, &s.energy_per_released};
     for (size_t i = 0; i < 3; i++) { /* of none NaN */
         means[i]->mean /= (double)s.simulated;
         means[i]->se /= (double)s.simulated;
     }
-    s.rate.rate /= (double)s.simulated;
+    s.rate.mean /= (double)s.simulated;
     s.rate.lo /= (double)s.simulated;
     s.rate.hi /= (double)s.simulated;
     if (years->rocks > 0 &&
         control == years->last_control) { /* every rock goes through all years: its own mean is one sample */
         struct ceduo_moments m = {0};
-        for (uint64_t r = 0; r < years->marked && !years->weights; r++)
+        for (uint64_t r = 0; r < years->rocks && !years->weights; r++)
             ceduo_moments_add(&m, share_of_years(years, r));
-        double se = years->weights ? weighted_difference(years, NULL, years->marked).se
+        double se = years->weights ? weighted_difference(years, NULL, years->rocks).se
                                    : ceduo_moments_sd(&m) / sqrt((double)years->rocks);
         (isnan(s.exceed.mean) ? &s.reach : &s.exceed)->se = se;
     }
@@ -394,17 +402,17 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
     return s;
 }
 
-struct ceduo_paired ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less)
+struct ceduo_estimate ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less)
 {
     if (years->rocks == 0 || less->rocks == 0 || years->scene.controls_count == 0)
-        return CEDUO_NOT_PAIRED;
-    uint64_t rocks = less->marked < years->marked ? less->marked : years->marked;
+        return CEDUO_NO_ESTIMATE;
+    uint64_t rocks = less->rocks < years->rocks ? less->rocks : years->rocks;
     if (years->weights)
         return weighted_difference(years, less, rocks);
     struct ceduo_moments m = {0};
     for (uint64_t r = 0; r < rocks; r++)
         ceduo_moments_add(&m, share_of_years(years, r) - share_of_years(less, r));
-    return ceduo_paired_of(m.mean, &m, rocks);
+    return ceduo_estimate_of_pairs(m.mean, &m, rocks);
 }
 
 double ceduo_years_felled(const struct ceduo_years *years)

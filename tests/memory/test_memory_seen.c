@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Without memory: runs of blocks of all sizes, what was seen beside simulated rocks, fits, and surveys. */
 #include "local.h"
-#include "unit/failing.h"
+#include "memory/failing.h"
 
 #include <gsl/gsl_errno.h>
 #include <math.h>
@@ -69,10 +70,10 @@ static bool ask_of_blocks(void)
     enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
     if (status == CEDUO_OK) {
         const struct ceduo_arrivals *a = ceduo_result_wooded(answer.result, 0, 0);
-        assert_true(a->reach_probability > 0);
+        assert_true(a->reach.mean > 0);
         add(&a->hazard.reach, sizeof a->hazard.reach);
         add(&a->hazard.accepted, sizeof a->hazard.accepted);
-        add(&a->reach_probability, sizeof a->reach_probability);
+        add(&a->reach.mean, sizeof a->reach.mean);
     }
     return is_done(status);
 }
@@ -357,8 +358,11 @@ TEST(surveys)
     without_memory(survey);
 }
 
-int main(void)
+static int set_up(void **state)
 {
+    (void)state;
     gsl_set_error_handler_off();
-    return test_run(NULL, NULL);
+    return 0;
 }
+
+AROUND_TESTS(set_up, NULL);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Runs and what stands on them without memory. */
 #include "local.h"
-#include "unit/failing.h"
+#include "memory/failing.h"
 
 #include <math.h>
 
@@ -55,7 +56,7 @@ static bool add_run(const struct ceduo_run *run)
     if (!is_done(status))
         return false;
     assert_true(a.reached > 0 && e.stop_x.n > 0);
-    add(&a, offsetof(struct ceduo_arrivals, exact));
+    add(&a, sizeof a);
     add(&e, sizeof e);
     uint64_t contacts = ceduo_run_contacts(run);
     add(&contacts, sizeof contacts);
@@ -78,11 +79,10 @@ static bool fly(struct ceduo_run_def def)
     return good;
 }
 
-static struct ceduo_run_def def_of(bool wood, size_t exact_bytes)
+static struct ceduo_run_def def_of(bool wood)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.option = wood ? &site.option : NULL;
-    def.exact_bytes = exact_bytes;
     def.threads = 2;
     return def;
 }
@@ -90,14 +90,14 @@ static struct ceduo_run_def def_of(bool wood, size_t exact_bytes)
 static bool fly_bare(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    return fly(def_of(false, CEDUO_EXACT_BYTES));
+    return fly(def_of(false));
 }
 
 static bool fly_scalar_wood(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_CRSP);
     site.plots[0].shoots.dbh_sd = 0.02;
-    return fly(def_of(true, CEDUO_EXACT_BYTES));
+    return fly(def_of(true));
 }
 
 /* A profile of so many vertices that its segments are put into blocks. */
@@ -118,7 +118,7 @@ static bool fly_profile(size_t vertices)
     site.scene.simulation.rocks = 50;
     site.scene.release.x.mean = 20;
     site.scene.release.vx.mean = 3;
-    struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES);
+    struct ceduo_run_def def = def_of(false);
     struct ceduo_run *run;
     if (ceduo_run_create(&def, &run) != CEDUO_OK)
         return false;
@@ -141,23 +141,16 @@ static bool fly_fine(void)
     return fly_profile(VERTICES_MOST);
 }
 
-/* From samples to histograms on the way. */
-static bool fly_histograms(void)
-{
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    return fly(def_of(true, 2000));
-}
-
 /* ---- what stands on runs ---- */
 
 /* Now the second option is clearly worse, and by the other energy law clearly better. */
 static void turn(struct ceduo_result *r)
 {
-    const struct ceduo_paired worse = {0.5, 0.1, 0}, better = {-0.5, 0.1, 0};
-    r->options[1].differences[0].exceed_probability = worse;
+    const struct ceduo_estimate worse = {0.5, 0.1, NAN, NAN}, better = {-0.5, 0.1, NAN, NAN};
+    r->options[1].differences[0].exceed = worse;
     for (size_t i = 0; i < 2; i++)
         r->options[i].others[0] = (struct ceduo_other_energy){.known = true};
-    r->options[1].others[0].to_first.exceed_probability = better;
+    r->options[1].others[0].to_first.exceed = better;
 }
 
 /* Two options, of which one is cut in the second of the years, and blocks of other sizes. */
@@ -175,7 +168,7 @@ static bool question(void)
     struct ceduo_question q = ceduo_question_default(&site.scene);
     LOCAL(ceduo_pool, pool) = NULL;
     LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
-    q.run = def_of(false, CEDUO_EXACT_BYTES);
+    q.run = def_of(false);
     q.rocks = 30;
     q.tolerance = 1;
     q.years = true;
@@ -191,12 +184,12 @@ static bool question(void)
         struct ceduo_years_summary s = ceduo_years_sum(answer.years[0], 0);
         assert_int_equal(verdict.turned_count, 1);
         add(&verdict.choices[0].yield.volume_today, sizeof verdict.choices[0].yield.volume_today);
-        add(ceduo_result_wooded(answer.result, 0, 0), offsetof(struct ceduo_arrivals, exact));
+        add(ceduo_result_wooded(answer.result, 0, 0), sizeof(struct ceduo_arrivals));
         add(&s.reach, sizeof s.reach);
         add(&s.worst, sizeof s.worst);
         for (size_t i = 0; i < 2 * CEDUO_BLOCKS; i++) {
             add(&answer.blocks[i].arrivals.reached, sizeof answer.blocks[i].arrivals.reached);
-            add(&answer.blocks[i].arrivals.exceed_hi, sizeof answer.blocks[i].arrivals.exceed_hi);
+            add(&answer.blocks[i].arrivals.exceed.hi, sizeof answer.blocks[i].arrivals.exceed.hi);
         }
     }
     return is_done(status);
@@ -210,7 +203,7 @@ static bool years_of_blocks(void)
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     site.scene.blocks = &blocks;
     site.scene.blocks_count = 1;
-    struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES);
+    struct ceduo_run_def def = def_of(false);
     LOCAL(ceduo_pool, pool) = NULL;
     LOCAL(ceduo_years, years) = NULL;
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = {0};
@@ -242,7 +235,7 @@ static bool ask(struct ceduo_question q)
     if (is_done(status)) {
         const struct ceduo_option_result *option = &answer.result->options[0];
         assert_int_equal(option->wooded.rocks, 30);
-        add(&option->wooded.arrivals[0], offsetof(struct ceduo_arrivals, exact));
+        add(&option->wooded.arrivals[0], sizeof(struct ceduo_arrivals));
         add(&option->controls[0].residual, sizeof option->controls[0].residual);
     }
     return status == CEDUO_OK;
@@ -442,7 +435,7 @@ static bool assess(void)
     static struct ceduo_arrivals bare = {.released = 10, .reached = 10}, wooded = {.released = 10, .reached = 4};
     const struct ceduo_simulated flown[2] = {{.rocks = 10, .controls = 1, .arrivals = &bare},
                                              {.rocks = 10, .controls = 1, .arrivals = &wooded}};
-    const struct ceduo_difference difference = {.reach_probability = {-.6, .1, 0}};
+    const struct ceduo_difference difference = {.reach = {-.6, .1, NAN, NAN}};
     LOCAL(ceduo_result, result);
     enum ceduo_status status = ceduo_result_assess(&site.scene, &flown[0], &(const struct ceduo_simulated *){&flown[1]},
                                                    &difference, &(const struct ceduo_other_energy){0}, &result);
@@ -566,17 +559,14 @@ static bool see(void)
 
 TEST(what_is_to_be_seen_of_runs)
 {
-    for (int kept = 0; kept < 2; kept++) {
-        init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        def.rocks_most = 40;
-        def.exact_bytes = kept ? CEDUO_EXACT_BYTES : 0;
-        assert_int_equal(ceduo_pool_create(&def, &seen), CEDUO_OK);
-        assert_int_equal(ceduo_pool_fill(seen), CEDUO_OK);
-        assert_int_equal(ceduo_pool_extend(seen, 40), CEDUO_OK);
-        without_memory(see);
-        ceduo_pool_free(seen);
-    }
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.rocks_most = 40;
+    assert_int_equal(ceduo_pool_create(&def, &seen), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(seen), CEDUO_OK);
+    assert_int_equal(ceduo_pool_extend(seen, 40), CEDUO_OK);
+    without_memory(see);
+    ceduo_pool_free(seen);
 }
 
 static enum ceduo_status falls(void *context, double value, double *goal)
@@ -599,7 +589,7 @@ static bool find(void)
 
 TEST(runs_go_on)
 {
-    task *const tasks[] = {fly_bare, fly_long, fly_fine, fly_scalar_wood, fly_histograms};
+    task *const tasks[] = {fly_bare, fly_long, fly_fine, fly_scalar_wood};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }

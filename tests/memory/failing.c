@@ -1,24 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Memory that fails: allocations of a task once each, and from each on all. Of those that one way of calls makes many times it
- * is the first two and the last; with FULL=1 each, where they are few: one fit makes 63 000. The task then says so, frees what
- * it had, and where the library promises that one can go on gives the result that it gives with memory; or it gets along
- * without and gives that at once. The linker puts what stands here in the place of the C library's calls (--wrap). */
-#ifndef FAILING_H
-#define FAILING_H
-
-#include "test.h"
+#include "memory/failing.h"
 
 #include <errno.h>
 #include <execinfo.h>
 #include <pthread.h>
-#include <stdatomic.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "ceduo/ceduo.h"
 #include "full.h"
 
 /* ---- ways of calls ---- */
@@ -55,9 +45,9 @@ static atomic_ulong calls;
 static atomic_long live;
 static atomic_ulong fail_at; /* 0: none */
 static atomic_bool fail_on;  /* all that follow as well */
-static atomic_long grow_at;  /* the call of realloc that fails, counted down; 0: none */
+atomic_long grow_at;
 
-static bool fails(void)
+bool fails(void)
 {
     unsigned long n = atomic_fetch_add(&calls, 1) + 1;
     if (noting && n < WAYS_MOST)
@@ -140,21 +130,19 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, v
 
 static uint64_t found;
 
-static void add(const void *bytes, size_t n)
+void add(const void *bytes, size_t n)
 {
     const unsigned char *p = bytes;
     for (size_t i = 0; i < n; i++)
         found = (found ^ p[i]) * 0x100000001b3u;
 }
 
-/* From here on there is memory again: the task was told that there was none, and goes on. */
-__attribute__((unused)) static void relieve(void)
+void relieve(void)
 {
     fail_at = 0;
 }
 
-/* Done, or without memory: nothing else goes wrong. */
-__attribute__((unused)) static bool is_done(enum ceduo_status status)
+bool is_done(enum ceduo_status status)
 {
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     return status == CEDUO_OK;
@@ -170,15 +158,14 @@ static void sleep_ms(long ms)
 }
 
 /* Waits until other threads have asked for memory n times. */
-__attribute__((unused)) static void wait_for_others(unsigned long n)
+static void wait_for_others(unsigned long n)
 {
     const unsigned long enough = calls + n;
     for (int i = 0; calls < enough && i < PATIENCE; i++)
         sleep_ms(1);
 }
 
-/* The others find no memory for once, and have had time to say so. */
-__attribute__((unused)) static void fail_others(void)
+void fail_others(void)
 {
     fail_on = true;
     fail_at = 1;
@@ -187,15 +174,9 @@ __attribute__((unused)) static void fail_others(void)
     relieve();
 }
 
-/* What was told of a task on several threads; when it is told so often something happens meanwhile (NULL: nothing). */
-static struct {
-    void (*meanwhile)(void);
-    int at;
-    atomic_int inside, most_inside, times;
-} told;
+struct told told;
 
-/* `counts`: this is one of those that are counted. */
-__attribute__((unused)) static void note_told(bool counts)
+void note_told(bool counts)
 {
     int inside = atomic_fetch_add(&told.inside, 1) + 1;
     told.most_inside = inside > told.most_inside ? inside : told.most_inside;
@@ -204,22 +185,19 @@ __attribute__((unused)) static void note_told(bool counts)
     told.inside--;
 }
 
-__attribute__((unused)) static void begin_to_tell(void (*meanwhile)(void), int at)
+void begin_to_tell(void (*meanwhile)(void), int at)
 {
     told.meanwhile = meanwhile;
     told.at = at;
     told.most_inside = told.times = 0;
 }
 
-__attribute__((unused)) static void others_go_on(void)
+void others_go_on(void)
 {
     wait_for_others(500);
 }
 
-/* Does all, and adds what it found; false where there was no memory. */
-typedef bool task(void);
-
-static bool begin(task *todo, unsigned long at, bool on)
+bool begin(task *todo, unsigned long at, bool on)
 {
     found = 0xcbf29ce484222325u;
     calls = 0;
@@ -235,7 +213,7 @@ static bool begin(task *todo, unsigned long at, bool on)
 
 enum { FEW = 1000 };
 
-static void without_memory(task *todo)
+void without_memory(task *todo)
 {
     assert_true(begin(todo, 0, false));
     const uint64_t wanted = found, all = calls;
@@ -257,5 +235,3 @@ static void without_memory(task *todo)
         }
     print_message("# %lu calls, %lu of %lu times the task ended without memory\n", (unsigned long)all, failed, tried);
 }
-
-#endif

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A stand that was measured: from what a sample plot counts, or from a survey in a CSV file. */
+#include <math.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "io/file.h"
+#include "io/survey_file.h"
+#include "popup.h"
+
+/* ==== a sample plot ==== */
+
+enum {
+    COUNT_AREA,
+    COUNT_ANGLE,
+    COUNT_STOOLS,
+    COUNT_SHOOTS,
+    COUNT_SHOOT_DBH,
+    COUNT_SHOOT_HEIGHT,
+    COUNT_TREES,
+    COUNT_TREE_DBH,
+    COUNT_TREE_HEIGHT,
+    COUNTS
+};
+_Static_assert(COUNTS <= POPUP_FIELDS_MAX, "one popup asks for all counts");
+
+static const struct {
+    const char *label;
+    size_t count;     /* that it is the size of; of what was not counted none is read */
+    const char *path; /* of a value of a file, which says what it may be; otherwise: */
+    double most;
+    unsigned flags;
+    const char *meaning;
+} rows[COUNTS] = {
+    [COUNT_AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE, N_("all was counted on it")},
+    [COUNT_ANGLE] = {N_("angle of the slope, degrees"), COUNTS, NULL, 90, FIELD_REQUIRED | FIELD_UNDER,
+                     N_("0 on level ground")},
+    [COUNT_STOOLS] = {N_("stools counted"), COUNTS, NULL, 1e6, 0, NULL},
+    [COUNT_SHOOTS] = {N_("shoots counted on them"), COUNTS, NULL, 1e6, 0, NULL},
+    [COUNT_SHOOT_DBH] = {N_("their mean diameter, cm"), COUNT_SHOOTS, "forest[0].stand.shoots[0].dbh_m", 0, 0, NULL},
+    [COUNT_SHOOT_HEIGHT] = {N_("their mean height, m"), COUNT_SHOOTS, "forest[0].stand.shoots[0].height_m", 0, 0, NULL},
+    [COUNT_TREES] = {N_("single trees counted"), COUNTS, NULL, 1e6, 0, NULL},
+    [COUNT_TREE_DBH] = {N_("their mean diameter, cm"), COUNT_TREES, "forest[0].stand.trees[0].dbh_m", 0, 0, NULL},
+    [COUNT_TREE_HEIGHT] = {N_("their mean height, m"), COUNT_TREES, "forest[0].stand.trees[0].height_m", 0, 0, NULL}};
+
+/* The values in the units of files; false where one is not as it should be, which is said. */
+static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
+{
+    const char *wrong = NULL;
+    for (size_t i = 0; i < COUNTS; i++) {
+        bool sized = rows[i].count != COUNTS;
+        v[i] = 0;
+        if (sized && !(v[rows[i].count] > 0))
+            continue;
+        if (!ceduo_popup_number(app, p, i, &v[i]))
+            return false;
+        if (sized && v[i] == 0)
+            wrong = ceduo_app_format(app, _("%s: it is needed; %s"), _(rows[i].label), _(rows[rows[i].count].label));
+    }
+    if (v[COUNT_SHOOTS] > 0 && v[COUNT_SHOOTS] < v[COUNT_STOOLS])
+        wrong = _("fewer shoots than stools: a stool has one shoot at least");
+    else if ((v[COUNT_SHOOTS] > 0) != (v[COUNT_STOOLS] > 0))
+        wrong = _("stools and shoots belong together: count both");
+    if (wrong)
+        ceduo_app_warn(app, "%s", wrong);
+    return !wrong;
+}
+
+#define SPACING 0.35 /* m, where the stand had no stools yet: assumed as in the presets */
+
+static bool filled_counts(struct app *app, struct popup *p)
+{
+    double v[COUNTS];
+    struct changes changes = {.document = &app->document}, *c = &changes;
+    if (!read_plot(app, p, v))
+        return false;
+    double area = v[COUNT_AREA] * cos(v[COUNT_ANGLE] * M_PI / 180), per = 10000 / area; /* m2, horizontal */
+    const struct ceduo_stand *now = &ceduo_app_option(app)->belts[app->belt].stand;
+    const char *stools = ceduo_app_format(app, "%s.stools", p->path);
+    if (v[COUNT_STOOLS] > 0)
+        ceduo_changes_set(c, stools, "{per_ha: %.6g, spacing_m: %.10g}", v[COUNT_STOOLS] * per,
+                          now->stools_per_ha > 0 ? now->spacing : SPACING);
+    else
+        ceduo_changes_add(c, CHANGE_DELETE, stools, NULL);
+    for (int i = 0; i < 2; i++) { /* one class of stems in the place of those that stand there, or none */
+        const double *stems = &v[i == 0 ? COUNT_SHOOTS : COUNT_TREES];
+        const char *list = ceduo_app_format(app, "%s.%s", p->path, i == 0 ? "shoots" : "trees");
+        if (stems[0] > 0)
+            ceduo_changes_set(c, list, "[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", stems[0] * per, stems[1], stems[2]);
+        else
+            ceduo_changes_add(c, CHANGE_DELETE, list, NULL);
+    }
+    if (now->system == CEDUO_BARE)
+        ceduo_changes_add(c, CHANGE_DELETE, ceduo_app_format(app, "%s.system", p->path), NULL);
+    LOCAL_TEXT(name);
+    ceduo_emit_scalar(&name, _("sample plot"), true);
+    ceduo_changes_add(c, CHANGE_SET, ceduo_app_format(app, "%s.name", p->path), name.bytes);
+    bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot"), &app->problems));
+    if (good)
+        ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
+    return good;
+}
+
+/* ---- asking ---- */
+
+void ceduo_popup_counts(struct app *app)
+{
+    if (ceduo_app_option(app)->belts_count == 0) {
+        ceduo_app_say(app, "%s", _("there is no belt yet: a adds one in view 1"));
+        return;
+    }
+    const struct ceduo_belt *belt = &ceduo_app_option(app)->belts[app->belt];
+    const struct ceduo_stand *stand = &belt->stand;
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    double fall = ceduo_slope_height(s, belt->from) - ceduo_slope_height(s, belt->to);
+    struct popup *p = ceduo_popup_fields(app, _("Stand from the counts of a sample plot"), ceduo_app_stand(app), filled_counts);
+    ceduo_text_format(&p->text,
+                      _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2, and "
+                        "400 m2 of a map, of 0 degrees, are 400. Nothing counted is nothing there. Species, growth and cuts "
+                        "stay those of %s."),
+                      belt->name);
+    const double offered[COUNTS] = {
+        [COUNT_AREA] = 400,
+        [COUNT_ANGLE] = round(atan2(fabs(fall), belt->to - belt->from) * 180 / M_PI),
+        [COUNT_SHOOT_DBH] = stand->shoots_count ? stand->shoots[0].dbh * 100 : 0,
+        [COUNT_SHOOT_HEIGHT] = stand->shoots_count ? stand->shoots[0].height : 0,
+        [COUNT_TREE_DBH] = stand->trees_count ? stand->trees[0].dbh * 100 : 0,
+        [COUNT_TREE_HEIGHT] = stand->trees_count ? stand->trees[0].height : 0,
+    };
+    for (size_t i = 0; i < COUNTS; i++) {
+        const char *value = offered[i] > 0 ? ceduo_number_spoken(ceduo_app_format(app, "%.4g", offered[i])) : "";
+        struct field *own =
+            ceduo_popup_value(p, _(rows[i].label), value, rows[i].path ? ceduo_schema_at(rows[i].path) : &ceduo_popup_amount);
+        own->flags = rows[i].path ? own->flags & ~(unsigned)FIELD_REQUIRED : rows[i].flags;
+        own->hi = rows[i].path ? own->hi : rows[i].most;
+        own->meaning = rows[i].meaning;
+    }
+}
+
+/* ==== a survey ==== */
+
+/* Questions of the form, and their answers. */
+static const struct {
+    const char *label, *answers[2];
+} questions[SURVEY_QUESTIONS] = {
+    [SURVEY_SLOPES] = {N_("slopes are in"), {N_("degrees"), N_("percent")}},
+    [SURVEY_DIAMETERS] = {N_("diameters or circumferences are in"), {N_("cm"), N_("mm")}},
+    [SURVEY_AREAS] = {N_("areas of plots are in m2"), {N_("yes"), NULL}},
+    [SURVEY_HEIGHTS] = {N_("heights are"), {N_("heights of stems, m"), N_("altitudes")}},
+};
+
+/* ---- reading ---- */
+
+/* Reads a survey: its stand on one line, as a change takes it, and how its table was understood. */
+static bool read_survey(const char *path, struct survey_answers *answers, struct text *value, struct text *understood,
+                        struct problems *problems)
+{
+    LOCAL_ARENA(arena);
+    struct survey_file file;
+    LOCAL_TEXT(yaml);
+    if (!ceduo_survey_read(&file, &arena, path, answers, problems) || !ceduo_survey_stand(&file, &yaml, problems))
+        return false;
+    const struct source source = {.name = path, .bytes = yaml.bytes, .length = yaml.length};
+    const struct node *root = ceduo_yaml_read(&arena, &source, problems);
+    if (root) {
+        ceduo_emit_flow(value, root);
+        ceduo_text_put(understood, file.understood);
+    }
+    return root != NULL;
+}
+
+static void take_stand(struct app *app, const char *path, const char *value, const char *understood)
+{
+    app->message[0] = '\0';
+    if (!ceduo_popup_replace_stand(app, path, value))
+        return;
+    if (app->message[0])
+        ceduo_app_say(app, "%s; %s", ceduo_app_format(app, "%s", app->message), understood);
+    else
+        ceduo_app_say(app,
+                      ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
+                          ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
+                          : _("the stand of the survey; it has no growth and cutting; %s"),
+                      understood);
+}
+
+static void open_form(struct app *app, const char *path, const char *survey, const struct survey_answers *answers);
+
+/* Reads a survey and takes its stand, or asks what its table leaves open, or says why it is refused. */
+static void try_survey(struct app *app, const char *path, const char *survey, struct survey_answers *answers)
+{
+    LOCAL_TEXT(value);
+    LOCAL_TEXT(understood);
+    bool asked = false;
+    if (read_survey(survey, answers, &value, &understood, &app->problems)) {
+        take_stand(app, path, ceduo_text_string(&value), ceduo_text_string(&understood));
+        return;
+    }
+    for (int q = 0; q < SURVEY_QUESTIONS; q++)
+        asked |= answers->asked[q];
+    if (asked)
+        open_form(app, path, survey, answers);
+    else
+        ceduo_app_edited(app, false);
+}
+
+/* ---- the form: the row of a field is its question ---- */
+
+static void offer_answers(struct app *app, struct popup *p)
+{
+    (void)app;
+    const char *const *answers = questions[p->fields[p->at].row].answers;
+    for (int i = 0; i < 2 && answers[i]; i++)
+        ceduo_popup_item(p, _(answers[i]), _(answers[i]));
+}
+
+static bool filled_form(struct app *app, struct popup *p)
+{
+    struct survey_answers answers = {0};
+    for (const struct popup_field *f = p->fields; f < p->fields + p->fields_count; f++) {
+        for (int i = 0; i < 2 && questions[f->row].answers[i]; i++)
+            if (strcmp(f->line.text, _(questions[f->row].answers[i])) == 0)
+                answers.given[f->row] = i + 1;
+        if (answers.given[f->row] == 0) {
+            ceduo_app_warn(app, _("%s: choose an answer, or Esc and name the column with its unit"), f->label);
+            return false;
+        }
+    }
+    try_survey(app, p->path, p->kept, &answers);
+    return true;
+}
+
+static void open_form(struct app *app, const char *path, const char *survey, const struct survey_answers *answers)
+{
+    const char *why = ceduo_text_string(&app->problems.text);
+    struct popup *p = ceduo_popup_fields(app, _("How is the survey to be read?"), path, filled_form);
+    p->kept = ceduo_arena_string(&p->arena, survey);
+    ceduo_text_add(&p->text, why, strcspn(why, "\n"));
+    ceduo_problems_free(&app->problems);
+    for (int q = 0; q < SURVEY_QUESTIONS; q++)
+        if (answers->asked[q] || answers->given[q])
+            ceduo_popup_choice(p, _(questions[q].label),
+                               answers->given[q] ? _(questions[q].answers[answers->given[q] - 1]) : "", offer_answers)
+                ->row = q;
+}
+
+/* ---- the file ---- */
+
+static void offer_surveys(struct app *app, struct popup *p)
+{
+    const char *shipped = ceduo_file_find(&p->arena, "surveys/six-plots.csv", NULL, "surveys");
+    ceduo_popup_offer_files(app, p);
+    if (shipped && !ceduo_picker_has(&p->picker, shipped))
+        ceduo_popup_item(p, _("six-plots.csv: an example, made up"), shipped);
+}
+
+static void chose_survey(struct app *app, struct popup *p)
+{
+    try_survey(app, p->path, p->value, &(struct survey_answers){0});
+}
+
+void ceduo_popup_survey(struct app *app)
+{
+    struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem, or for each class"),
+                                       ceduo_app_stand(app), chose_survey);
+    ceduo_text_put(&p->text,
+                   _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, status; "
+                     "see ceduo-stand(5)."));
+    p->fields[0].offer = offer_surveys;
+    p->endings = ".csv .txt";
+}

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Two charts of all options with a legend: how often which energy arrives, and protection against yield. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/language.h"
+#include "plot_parts.h"
+
+struct chart_size {
+    int axis, below;   /* columns of the left axis, rows of the bottom axis */
+    int legend;        /* columns */
+    int width, height; /* the least of the picture */
+};
+
+/* Places the frame of a chart, whose ranges stay 0, and its legend of so many lines: beside it where the area is wide, otherwise
+ * below it, and nowhere where that leaves no `height`. False where there is no room. */
+static bool place_chart(struct ceduo_drawing *d, const struct chart_size *size, size_t lines)
+{
+    const struct ceduo_area *a = &d->area;
+    bool beside = a->width >= size->width + size->axis + size->legend + 16;
+    int below = !beside && a->height - (int)lines >= size->height + 3 ? (int)lines : 0;
+    d->frame = (struct ceduo_frame){.left = a->left + size->axis,
+                                    .top = a->top + 1,
+                                    .width = a->width - size->axis - 1 - (beside ? size->legend + 2 : 0),
+                                    .height = a->height - 1 - size->below - below};
+    d->legend = (struct ceduo_area){a->left, a->top + a->height - below, a->width, below};
+    if (beside)
+        d->legend = (struct ceduo_area){a->left + a->width - size->legend, a->top + 1, size->legend, a->height - 1};
+    return a->width >= size->width && a->height >= size->height;
+}
+
+/* A sign at a point, or beside it; a little lower where another stands there. */
+static void put_sign(const struct ceduo_drawing *d, double x, double y, bool beside, enum ceduo_role role, const char *sign)
+{
+    const struct ceduo_frame *f = &d->frame;
+    int column, row, width = ceduo_canvas_label_width(d->canvas, sign);
+    if (!ceduo_frame_cell(f, d->canvas, x, y, &column, &row))
+        return;
+    if (beside)
+        column += column + 1 + width > f->left + f->width ? -width : 1;
+    while (row + 1 < f->top + f->height && !ceduo_canvas_is_blank(d->canvas, column, row))
+        row++;
+    ceduo_canvas_label(d->canvas, column, row, role, sign);
+}
+
+/* ---- how often ---- */
+
+/* How often which energy is exceeded at a control: years from one such rock to the next, upwards the more often, against
+ * energy, both by decades. The slope without forest and each option by its number; the limits of Swiss practice are rules.
+ * Rarer than once in a thousand years nothing is shown. */
+
+#define RAREST (-3) /* log10 of the lowest rate shown, 1/y */
+#define FIRST  10   /* of the energies: 1 kJ */
+
+static const struct chart_size hazard_size = {.axis = 8, .below = 1, .legend = 30, .width = 24, .height = 8};
+
+/* Item 0: without forest. NULL: not known. */
+static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_t item)
+{
+    const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_of(d->picture->snapshot, d->scene, item - 1);
+    const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
+    return a && !isnan(a->hazard.per_year) ? &a->hazard : NULL;
+}
+
+static enum ceduo_role role_of(size_t item)
+{
+    return item == 0 ? CEDUO_ROLE_BARE : CEDUO_ROLE_WOOD;
+}
+
+/* log10, of a rate of 0 as if it lay below the frame. */
+static double logarithm(double value)
+{
+    return value > 0 ? log10(value) : 2 * RAREST;
+}
+
+static double log_kJ(const struct ceduo_exceeding *e)
+{
+    return log10(e->energy * J_TO_KJ);
+}
+
+/* The curve, upright down to 0; with intervals, if the picture is of this option. */
+static void draw_curve(const struct ceduo_drawing *d, size_t item)
+{
+    const struct ceduo_hazard *h = hazard_of(d, item);
+    const struct ceduo_frame *f = &d->frame;
+    for (size_t i = FIRST; h && i + 1 < h->energies && h->exceed[i].rate.mean > 0; i++) {
+        const struct ceduo_exceeding *a = &h->exceed[i], *b = a + 1;
+        ceduo_canvas_line(d->canvas, f, role_of(item), log_kJ(a), logarithm(a->rate.mean), log_kJ(b->rate.mean > 0 ? b : a),
+                          logarithm(b->rate.mean));
+    }
+    for (size_t i = FIRST; h && item == d->picture->option + 1 && i < h->energies; i += 2) {
+        const struct ceduo_exceeding *e = &h->exceed[i];
+        double x = log_kJ(e);
+        if (x >= f->x0 && logarithm(e->rate.hi) > RAREST)
+            ceduo_canvas_line(d->canvas, f, CEDUO_ROLE_MEAN, x, fmax(RAREST, logarithm(e->rate.lo)), x,
+                              fmin(f->y1, logarithm(e->rate.hi)));
+    }
+}
+
+static void put_years(const struct ceduo_drawing *d, double years)
+{
+    const struct ceduo_frame *f = &d->frame;
+    int column, row;
+    if (!ceduo_frame_cell(f, d->canvas, f->x0, -log10(years), &column, &row))
+        return;
+    if (ceduo_canvas_is_blank(d->canvas, f->left - 2, row))
+        ceduo_plot_say(d->canvas, f->left - 2, row, 2 - hazard_size.axis, CEDUO_ROLE_AXIS, _("%g y"), years);
+}
+
+static void put_energy(const struct ceduo_drawing *d, double kJ)
+{
+    const struct ceduo_frame *f = &d->frame;
+    int column, row;
+    if (!ceduo_frame_cell(f, d->canvas, log10(kJ), RAREST, &column, &row))
+        return;
+    ceduo_plot_say(d->canvas, column, f->top + f->height, 12, CEDUO_ROLE_AXIS, kJ == 1 ? _("%g kJ") : "%g", kJ);
+}
+
+const char *ceduo_plot_hazard(struct ceduo_drawing *d)
+{
+    static const double energies[] = {30, 300}, years[] = {30, 100, 300};
+    bool blocks = d->scene->blocks_count > 0;
+    const struct ceduo_hazard *bare = blocks ? hazard_of(d, 0) : NULL;
+    size_t items = d->wooded ? d->scene->options_count + 1 : 1, last = bare ? bare->energies : 0;
+    if (!bare)
+        return blocks ? _("not computed yet") : _("the scene does not say which blocks come down");
+    if (!place_chart(d, &hazard_size, items))
+        return _("too narrow");
+    while (last > 0 && logarithm(bare->exceed[last - 1].rate.mean) < RAREST)
+        last--;
+    d->frame.x1 = last > 0 ? log10(bare->exceed[last - 1].energy * J_TO_KJ * 1.3) : 0;
+    d->frame.y0 = RAREST;
+    d->frame.y1 = ceil(logarithm(bare->reach.mean) + 1e-9);
+    if (!(d->frame.x1 > 0 && d->frame.y1 > RAREST))
+        return _("rocks arrive less than once in a thousand years");
+    ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
+                   _("years from one rock with more than this energy to the next"));
+    for (int i = 0; i < 2; i++) {
+        ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_AXIS, log10(energies[i]));
+        put_energy(d, energies[i]);
+    }
+    for (int i = 0; i < 3; i++) {
+        ceduo_canvas_rule_y(d->canvas, &d->frame, CEDUO_ROLE_AXIS, -log10(years[i]));
+        put_years(d, years[i]);
+    }
+    for (int decade = (int)d->frame.y1; decade >= RAREST; decade--)
+        put_years(d, pow(10, -decade));
+    for (int decade = 0; decade <= (int)d->frame.x1; decade++)
+        put_energy(d, pow(10, decade));
+    for (size_t i = 0; i < items; i++)
+        draw_curve(d, i);
+    for (size_t i = 0; i < items; i++) {
+        const struct ceduo_hazard *h = hazard_of(d, i);
+        char sign[24];
+        size_t at = 14 + 4 * i; /* its number on the curve */
+        snprintf(sign, sizeof sign, "%zu", i);
+        while (h && at > 0 && (at >= h->energies || logarithm(h->exceed[at].rate.mean) < RAREST))
+            at--;
+        if (h)
+            put_sign(d, log_kJ(&h->exceed[at]), logarithm(h->exceed[at].rate.mean), false, role_of(i), sign);
+        if ((int)i < d->legend.height)
+            ceduo_plot_say(d->canvas, d->legend.left, d->legend.top + (int)i, d->legend.width, role_of(i), "%zu %s", i,
+                           i == 0 ? _("without forest") : d->scene->options[i - 1].name);
+    }
+    return NULL;
+}
+
+/* ---- protection against yield ---- */
+
+/* Protection against yield: what an option lets through over its rotation, upwards, and the wood it gives a year, to the right.
+ * The best corner is below on the right. An option that another beats in both stands in brackets. */
+
+static bool is_known(const struct ceduo_choice *c)
+{
+    return !isnan(c->mean.mean) && !isnan(c->yield.cut_per_year);
+}
+
+const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
+{
+    static const struct chart_size size = {.axis = 6, .below = 2, .legend = 34, .width = 24, .height = 6};
+    const struct ceduo_verdict *v = d->picture->verdict;
+    double yield = 0, share = 0;
+    size_t known = 0;
+    if (!v || !v->wooded)
+        return !v ? _("not computed yet") : _("without rocks among stems there is nothing to compare");
+    if (!place_chart(d, &size, v->n + 1))
+        return _("too narrow");
+    for (size_t i = 0; i < v->n; i++) {
+        const struct ceduo_choice *c = &v->choices[i];
+        if (!is_known(c))
+            continue;
+        known++;
+        yield = fmax(yield, c->yield.cut_per_year);
+        share = fmax(share, 1000 * (c->mean.mean + c->mean.half));
+    }
+    if (known == 0)
+        return isnan(v->choices[0].mean.mean) ? _("not computed yet") : _("no option says how it grows and is cut");
+    d->frame.x1 = yield > 0 ? 1.15 * yield : 1;
+    d->frame.y1 = share > 0 ? 1.1 * share : 1;
+    ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
+                   v->accepted ? _("dangerous of 1000, against m\xc2\xb3 per ha and year")
+                               : _("arriving of 1000, against m\xc2\xb3 per ha and year"));
+    ceduo_plot_axes(d, 0, 0, _("m\xc2\xb3"));
+    for (size_t i = 0; i < v->n; i++) {
+        const struct ceduo_choice *c = &v->choices[i];
+        if (is_known(c))
+            ceduo_canvas_line(d->canvas, &d->frame, CEDUO_ROLE_MEAN, c->yield.cut_per_year,
+                              1000 * (c->mean.mean - c->mean.half), c->yield.cut_per_year,
+                              1000 * (c->mean.mean + c->mean.half));
+    }
+    for (size_t i = 0; i <= v->n; i++) { /* signs and names, after all errors */
+        const struct ceduo_choice *c = &v->choices[i];
+        int row = d->legend.top + (int)i, width = (int)i < d->legend.height ? d->legend.width : 0;
+        char sign[24];
+        if (i == v->n) {
+            ceduo_plot_say(d->canvas, d->legend.left, row, width, CEDUO_ROLE_AXIS, _("( ) another is better in both"));
+        } else if (is_known(c)) {
+            enum ceduo_role role = c->beaten ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD;
+            snprintf(sign, sizeof sign, c->beaten ? "(%zu)" : "%zu", i + 1);
+            put_sign(d, c->yield.cut_per_year, 1000 * c->mean.mean, true, role, sign);
+            ceduo_plot_say(d->canvas, d->legend.left, row, width, role, "%s %s", sign, d->scene->options[i].name);
+        } else {
+            ceduo_plot_say(d->canvas, d->legend.left, row, width, CEDUO_ROLE_AXIS, _("- %s: no yield known"),
+                           d->scene->options[i].name);
+        }
+    }
+    return NULL;
+}
