@@ -54,10 +54,9 @@ void ceduo_progress_scenes(struct progress *progress, size_t computed, size_t do
 /* What is asked of one scene, and the answer. */
 struct asked {
     struct ceduo_question question;
-    bool pictures, cells; /* with what they need; with envelopes along the slope as well, */
-    size_t trajectories;  /* and so many of these */
+    bool pictures, envelopes; /* with what they need; with envelopes along the slope as well, */
+    size_t trajectories;      /* and so many of these */
     struct progress progress;
-    double cell_x[CEDUO_SNAPSHOT_CELLS];
     struct ceduo_answer answer;
     double seconds; /* that the runs took */
     struct ceduo_snapshot *snapshot;
