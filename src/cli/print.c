@@ -67,7 +67,7 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
                                             .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed}};
         if (!print_figures(a, ceduo_result_figures, ceduo_result_csv(a->stands, a->years),
                            &(struct ceduo_place){.report = &report}, out)) {
-            (a->details ? ceduo_report_table : ceduo_report_short)(out, &report, !ceduo_say_utf8());
+            ceduo_report_page(out, &report, a->details, !ceduo_say_utf8());
             ceduo_say_plainly(out);
             ceduo_profiles_add(a->profiles, &report, a->label);
         }
