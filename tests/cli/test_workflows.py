@@ -16,7 +16,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 import harness
-from harness import CEDUO, PATIENCE, ROOT, Folder, expect, expect_equal, expect_in, expect_near
+from harness import CEDUO, FULL, PATIENCE, ROOT, Folder, expect, expect_equal, expect_in, expect_near
 
 PAGE = ROOT / "man" / "ceduo-workflows.7"
 PAGINA = ROOT / os.environ.get("BUILD", "build/release") / "man/it/ceduo-workflows.7"
@@ -98,7 +98,8 @@ class Walk:
 
 @functools.cache
 def walked(way):
-    return Walk(way, understood if way == "survey" else names_columns)
+    few = {"CEDUO_ROCKS": "1024"} if way == "four-systems" and not FULL else {}  # on its screens, which take long
+    return Walk(way, understood if way == "survey" else names_columns, **few)
 
 
 def understood(err):
@@ -318,8 +319,9 @@ def test_four_systems_keys():
     expect_in("ADC 29.2 m < 30", after)
     expect(re.search(r"30 m free [\d.]+ % > 10 +✘", after), after)
     expect_in("380", after)
-    found = tuple(int(re.search(r"above 50 kJ +(\d+)±", screen)[1]) for screen in (after, before))
-    expect_equal(told(r"(\d+) of 1000 rocks arrive with too much energy instead of (\d+)\."), found, "of 1000")
+    if FULL:
+        found = tuple(int(re.search(r"above 50 kJ +(\d+)±", screen)[1]) for screen in (after, before))
+        expect_equal(told(r"(\d+) of 1000 rocks arrive with too much energy instead of (\d+)\."), found, "of 1000")
 
 
 def test_four_systems_in_italian():

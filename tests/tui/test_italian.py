@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: brief
 """The terminal program in Italian: at 80x24 nothing is cut that English shows whole, and columns stand where they stood."""
 import re
 import sys
