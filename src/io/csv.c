@@ -290,6 +290,8 @@ static void find_head(struct csv *csv, const struct csv_head *heads, size_t n)
     }
     csv->next = best_line;
     csv->separator = best;
+    csv->cells = trial.cells; /* the list that has grown serves the table, too */
+    csv->cells_capacity = trial.cells_capacity;
 }
 
 /* Units that may stand in a row of their own. */
