@@ -16,6 +16,8 @@
 #   make net        compare what the program prints with an earlier commit: BEFORE=v0.2 ONLY=plot
 #   make coverage   list branches of the library and src/io that no test takes, with the reason for each: slow
 
+.DEFAULT_GOAL := all
+
 # ---- a fresh machine ----
 
 DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc gettext po4a pkgconf python3 \

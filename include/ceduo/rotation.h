@@ -34,6 +34,8 @@
  * as many stand as there are shoots, with one shoot each. As every year is computed by itself, a cut finds all stools of the
  * inventory again. */
 
+#define CEDUO_YEAR_MOST 100000 /* the last year of a window */
+
 /* Year of a cut that never comes. */
 #define CEDUO_NEVER UINT_MAX
 

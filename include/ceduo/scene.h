@@ -205,7 +205,7 @@ struct ceduo_stems ceduo_stems_default(void);
 struct ceduo_control ceduo_control_default(void);
 
 /* Checks that the parts fit together: rock, slope, release on it, controls beyond the release and on the slope. `where`
- * (may be NULL) is set to the index of the offending control. */
+ * (may be NULL) is set to the index of the offending control. CEDUO_BAD_ARGUMENT for NULL. */
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where);
 
 /* Whether rocks differ in size, mass or shape. */

@@ -32,11 +32,10 @@ struct ceduo_window {
     unsigned first, last, step;
 };
 
-#define CEDUO_YEARS_MOST  1000   /* computed at a time */
-#define CEDUO_YEAR_MOST   100000 /* the last year of a window */
-#define CEDUO_YEARS_AHEAD 20     /* of a window of CEDUO_WINDOW_AHEAD, at least, */
-#define CEDUO_AHEAD_MOST  60     /* and at most */
-#define CEDUO_PERIOD_MOST 120    /* years: beyond it belts of several rotations count as repeating with the longest */
+#define CEDUO_YEARS_MOST  1000 /* computed at a time */
+#define CEDUO_YEARS_AHEAD 20   /* of a window of CEDUO_WINDOW_AHEAD, at least, */
+#define CEDUO_AHEAD_MOST  60   /* and at most */
+#define CEDUO_PERIOD_MOST 120  /* years: beyond it belts of several rotations count as repeating with the longest */
 
 /* One whole rotation of an option: after its first cut a forest repeats itself, so a rotation has each of its states once. If its
  * belts have several rotations, all of them must have ended together. Without a cut the next CEDUO_YEARS_AHEAD years

@@ -2,7 +2,8 @@
 #ifndef CEDUO_YIELD_H
 #define CEDUO_YIELD_H
 
-#include "years.h"
+#include "rotation.h"
+#include "scene.h"
 
 /* What a forest yields, from the volumes of its stems, their growth and their cuts (rotation.h). All is stem wood
  * in m3 per hectare of forest: the mean over the belts, each weighted by its length.

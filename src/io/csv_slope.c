@@ -46,7 +46,7 @@ static const struct csv_head heads[COLUMNS] = {
 /* A point as its file has it. */
 struct raw {
     double along, x, y, z; /* m: distance, place on the map, height */
-    size_t layer, line, column;
+    size_t layer, line;
 };
 
 struct reader {
@@ -65,15 +65,19 @@ struct reader {
 
 static bool refuse_at(struct reader *r, const struct raw *raw, const char *why)
 {
-    const struct problem_place place = {r->csv.source, raw->line, raw->column, NULL, false};
-    return ceduo_problem_at(r->problems, place, "%s", why);
+    return ceduo_problem(r->problems, r->csv.source, raw->line, 1, "%s", why);
 }
 
 /* ---- points ---- */
 
-/* Number of a layer, which is added if it is new. */
+/* Number of a layer, which is added if it is new. One without a name is called by its number. */
 static size_t layer_of(struct reader *r, const char *name, size_t n)
 {
+    char number[32];
+    if (n == 0) {
+        n = (size_t)snprintf(number, sizeof number, "%zu", r->layers_count + 1);
+        name = number;
+    }
     for (size_t i = r->layers_count; i-- > 0;)
         if (strlen(r->layers[i]) == n && memcmp(r->layers[i], name, n) == 0)
             return i;
@@ -81,16 +85,6 @@ static size_t layer_of(struct reader *r, const char *name, size_t n)
         return LAYERS_MAX - 1;
     r->layers[r->layers_count] = ceduo_arena_copy(r->arena, name, n);
     return r->layers[r->layers_count] ? r->layers_count++ : 0;
-}
-
-/* A layer without a name is called by its number. */
-static size_t next_layer(struct reader *r, const char *name, size_t n)
-{
-    char number[32];
-    if (n > 0)
-        return layer_of(r, name, n);
-    snprintf(number, sizeof number, "%zu", r->layers_count + 1);
-    return layer_of(r, number, strlen(number));
 }
 
 static void add_point(struct reader *r, struct raw raw)
@@ -137,7 +131,7 @@ static bool has_places(const struct reader *r)
 static void read_row(struct reader *r, size_t layer)
 {
     struct csv *csv = &r->csv;
-    struct raw raw = {.layer = layer, .column = 1};
+    struct raw raw = {.layer = layer};
     bool good = r->map || read_coordinate(r, DISTANCE, &raw.along);
     if (has_places(r)) {
         good = read_coordinate(r, EAST, &raw.x) && good;
@@ -185,7 +179,7 @@ static size_t read_tuple(const char **p, const char *end, double values[4])
 /* Read the lines of a WKT text: each pair of innermost brackets is one. */
 static bool read_wkt(struct reader *r, const char *p, const char *end, size_t line, struct csv_cell name)
 {
-    struct raw raw = {.line = line, .column = 1};
+    struct raw raw = {.line = line};
     const char *semicolon = memchr(p, ';', (size_t)(end - p)); /* after SRID=… */
     p = semicolon ? semicolon + 1 : p;
     const char *open = memchr(p, '(', (size_t)(end - p)), *tag = open ? open : end;
@@ -199,7 +193,7 @@ static bool read_wkt(struct reader *r, const char *p, const char *end, size_t li
             within &= *p++ != ')';
             continue;
         }
-        raw.layer = within ? raw.layer : next_layer(r, name.p, name.n);
+        raw.layer = within ? raw.layer : layer_of(r, name.p, name.n);
         within = true;
         size_t n = read_tuple(&p, end, values);
         if (n < 2)
@@ -373,11 +367,9 @@ static bool read_rows(struct reader *r)
             continue;
         }
         if (r->columns[LAYER] != CEDUO_CSV_NONE)
-            layer = next_layer(r, name.p, name.n);
-        else if (gmt || begins_again(r))
-            layer = next_layer(r, gmt ? gmt : "", gmt ? length : 0);
-        else if (r->layers_count == 0)
-            layer = next_layer(r, "", 0);
+            layer = layer_of(r, name.p, name.n);
+        else if (gmt || begins_again(r) || r->layers_count == 0)
+            layer = layer_of(r, gmt, gmt ? length : 0);
         read_row(r, layer);
     }
     return r->problems->met == before;
@@ -555,13 +547,11 @@ static bool is_text_order(const struct reader *r)
 
 static bool refuse_order(struct reader *r, const struct raw *raw, double before)
 {
-    const struct problem_place place = {r->csv.source, raw->line, raw->column, NULL, false};
     if (is_text_order(r))
-        return ceduo_problem_at(r->problems, place,
-                                _("the rows stand in the order of their text; sort them by distance, as numbers"));
-    return ceduo_problem_at(r->problems, place,
-                            _("distance %s does not lie beyond %s; distances must rise: sort the rows by distance"),
-                            NUMERAL(raw->along), NUMERAL(before));
+        return refuse_at(r, raw, _("the rows stand in the order of their text; sort them by distance, as numbers"));
+    return ceduo_problem(r->problems, r->csv.source, raw->line, 1,
+                         _("distance %s does not lie beyond %s; distances must rise: sort the rows by distance"),
+                         NUMERAL(raw->along), NUMERAL(before));
 }
 
 static void add_vertex(struct points *p, double x, double z)

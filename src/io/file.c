@@ -346,12 +346,10 @@ bool ceduo_file_place(struct pending_file *file)
     if (!file->wait)
         return true;
     /* the rename itself must survive a power cut; where the folder cannot be synced, nothing is lost by going on */
-    char *slash = strrchr(file->target, '/'), after = slash ? slash[1] : '\0';
+    char *slash = strrchr(file->target, '/');
     if (slash)
         slash[1] = '\0';
     int fd = open(slash ? file->target : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (slash)
-        slash[1] = after;
     if (fd >= 0) {
         fsync(fd);
         close(fd);
@@ -369,16 +367,12 @@ void ceduo_file_drop(struct pending_file *file)
     errno = why;
 }
 
-bool ceduo_file_save(struct pending_file file)
+bool ceduo_file_write(const char *path, const char *bytes, size_t n)
 {
+    struct pending_file file = {.path = path, .bytes = bytes, .n = n, .wait = true};
     bool good = ceduo_file_prepare(&file) && ceduo_file_place(&file);
     ceduo_file_drop(&file);
     return good;
-}
-
-bool ceduo_file_write(const char *path, const char *bytes, size_t n)
-{
-    return ceduo_file_save((struct pending_file){.path = path, .bytes = bytes, .n = n, .wait = true});
 }
 
 bool ceduo_file_same(const char *a, const char *b)

@@ -62,10 +62,6 @@ bool ceduo_file_finish(struct pending_file *file, int fd);
 /* Takes away what has not taken its place. */
 void ceduo_file_drop(struct pending_file *file);
 
-/* All three at once: as ceduo_file_write(), or without waiting for the disk, so that it survives the program, but maybe not a power
- * cut. */
-bool ceduo_file_save(struct pending_file file);
-
 /* Whether two paths lead to one regular file; `b` may be "-", standard input. */
 bool ceduo_file_same(const char *a, const char *b);
 

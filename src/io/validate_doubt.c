@@ -321,16 +321,11 @@ static void take_stands(struct validator *v)
 
 /* ---- draws of a calibration ---- */
 
-/* A place, and the draws of its column. */
+/* A place, and the column of its draws. */
 struct drawn {
     const char *place;
-    const double *values;
-};
-
-/* What the draws of a column are. */
-struct head {
-    size_t column;
     const struct field *field;
+    size_t column;
 };
 
 struct draws {
@@ -338,9 +333,8 @@ struct draws {
     struct csv csv;
     size_t columns, rows;
     double **values; /* [column][row] */
-    size_t heads_count, heads_room, places_count, places_room;
-    struct head *heads; /* column by column */
-    struct drawn *places;
+    size_t places_count, places_room;
+    struct drawn *places; /* column by column, then sorted */
 };
 
 /* All places of a path that is fitted, to input->places; NULL where it is no number of a scene. */
@@ -357,8 +351,8 @@ static const struct field *find_fitted(struct validator *v, const char *path, st
     return v->arena->failed ? NULL : field;
 }
 
-/* The places that the paths in the heads of the columns set; each must name one. Of a foreign table only the beginning is shown.
- * Afterwards the places are sorted, and none may be there twice. */
+/* The places that the paths in the heads of the columns set; each must name one. Of a foreign table only the beginning is
+ * shown. */
 static bool take_header(struct draws *t)
 {
     struct validator *v = t->v;
@@ -378,22 +372,14 @@ static bool take_header(struct draws *t)
                 return ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"),
                                         _("the table has a column '%s', which is no value of this scene"), path);
             }
-            t->heads = ceduo_arena_more(v->arena, t->heads, t->heads_count, 1, &t->heads_room, sizeof *t->heads);
             t->places =
                 ceduo_arena_more(v->arena, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places);
-            if (!t->heads || !t->places)
+            if (!t->places)
                 return false;
-            const struct head *last = t->heads_count > 0 ? &t->heads[t->heads_count - 1] : NULL;
-            if (!last || last->column != c || last->field != f) /* not another item of the same list */
-                t->heads[t->heads_count++] = (struct head){c, f};
             for (size_t i = 0; i < found.places_count; i++)
-                t->places[t->places_count++] = (struct drawn){found.places[i], t->values[c]};
+                t->places[t->places_count++] = (struct drawn){found.places[i], f, c};
         } while ((path = strtok_r(NULL, " ", &rest)));
     }
-    qsort(t->places, t->places_count, sizeof *t->places, by_name);
-    for (size_t i = 1; i < t->places_count; i++)
-        if (by_name(&t->places[i - 1], &t->places[i]) == 0)
-            ceduo_problem(v->problems, t->csv.source, 1, 1, _("'%s' is given twice"), t->places[i].place);
     return true;
 }
 
@@ -419,14 +405,18 @@ static bool read_table(struct draws *t, const char *path)
             struct csv_cell cell = ceduo_csv_cell(csv, c);
             double *to = &t->values[c][t->rows];
             bool number = ceduo_csv_number(csv, cell, -1e12, 1e12, "", to);
-            for (; h < t->heads_count && t->heads[h].column == c; h++) {
-                const struct field *f = t->heads[h].field;
+            for (; h < t->places_count && t->places[h].column == c; h++) { /* one range is reported once */
+                const struct field *f = t->places[h].field;
                 if (number && !ceduo_schema_in_range(f, *to))
                     ceduo_csv_complain(csv, cell, _("%s is outside the range of %s: %s"), NUMERAL(*to), f->key,
                                        ceduo_range(t->v, f));
             }
         }
     }
+    qsort(t->places, t->places_count, sizeof *t->places, by_name);
+    for (size_t i = 1; i < t->places_count; i++)
+        if (by_name(&t->places[i - 1], &t->places[i]) == 0)
+            ceduo_problem(problems, t->csv.source, 1, 1, _("'%s' is given twice"), t->places[i].place);
     if (t->rows == 0)
         ceduo_problem_at(problems, ceduo_node_place(t->v->draws, "doubt.draws"), _("the table has no row"));
     return problems->met == before;
@@ -450,7 +440,7 @@ static void add_draws(struct validator *v)
     const double **draws = ceduo_room(v, t.places_count, sizeof *draws);
     for (size_t i = 0; places && draws && i < t.places_count; i++) {
         places[i] = t.places[i].place;
-        draws[i] = t.places[i].values;
+        draws[i] = t.values[t.places[i].column];
     }
     const struct ceduo_input input = {.path = "draws",
                                       .kind = CEDUO_INPUT_DRAWS,

@@ -81,7 +81,7 @@ bool ceduo_document_undo_or_redo(struct document *d, int by)
     if (ceduo_document_unsaved(d))
         ceduo_document_keep(d);
     else
-        ceduo_document_forget(d);
+        ceduo_recovery_delete(&d->recovery);
     return true;
 }
 

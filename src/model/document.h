@@ -123,7 +123,6 @@ void ceduo_document_text(struct document *document, const char *path, struct tex
 
 /* Recovery: a copy of unsaved work, kept while there is some. */
 void ceduo_document_keep(struct document *document);
-void ceduo_document_forget(struct document *document);
 /* Puts the text of a copy that was left behind (ceduo_recovery_list()) in place, as one state that can be undone. */
 bool ceduo_document_recover(struct document *document, const char *text, struct problems *problems);
 

@@ -142,7 +142,7 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
     d->shipped = false;
     d->saved = d->at;
     ceduo_document_note_disk(d);
-    ceduo_document_forget(d);
+    ceduo_recovery_delete(&d->recovery);
     if (d->recovery.path && !same) { /* what is unsaved from now on is this file's */
         ceduo_recovery_end(&d->recovery);
         d->recovery = ceduo_recovery_begin(d->path);
@@ -159,11 +159,6 @@ void ceduo_document_keep(struct document *d)
         return;
     ceduo_document_text(d, NULL, &text);
     ceduo_recovery_write(&d->recovery, d->path, ceduo_text_string(&text), text.length);
-}
-
-void ceduo_document_forget(struct document *d)
-{
-    ceduo_recovery_delete(&d->recovery);
 }
 
 bool ceduo_document_recover(struct document *d, const char *text, struct problems *problems)

@@ -94,8 +94,7 @@ void ceduo_jobs_free(struct jobs *jobs);
 /* A number for all that decides the runs of a scene: two scenes of one number have the same figures. */
 uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
 
-/* ---- requests: all copy the scene; what it points to must stay until the jobs are freed. True if something is to be done.
- * ---- */
+/* ---- requests: all copy the scene; what it points to stays until the jobs are freed. True if something is to be done ---- */
 
 /* Asks for the figures of a scene, first those of option `shown` and without forest, then those of all options and their years.
  * Runs of unchanged forests are kept; a request for the same runs changes nothing. */

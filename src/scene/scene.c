@@ -43,8 +43,29 @@ static enum ceduo_status check_options(const struct ceduo_scene *scene)
     return CEDUO_OK;
 }
 
+enum ceduo_status ceduo_check_stands(const struct ceduo_option *option)
+{
+    bool good = option->belts || option->belts_count == 0;
+    for (size_t i = 0; good && i < option->belts_count; i++)
+        if (!ceduo_schema_holds(ceduo_schema_stand(), &option->belts[i].stand))
+            return CEDUO_BAD_STAND;
+    return good ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
+}
+
+bool ceduo_option_has_lists(const struct ceduo_option *option)
+{
+    bool good = !option || option->belts || option->belts_count == 0;
+    for (size_t i = 0; good && option && i < option->belts_count; i++) {
+        const struct ceduo_stand *s = &option->belts[i].stand;
+        good = (s->shoots || s->shoots_count == 0) && (s->trees || s->trees_count == 0);
+    }
+    return good;
+}
+
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)
 {
+    if (!scene)
+        return CEDUO_BAD_ARGUMENT;
     struct ceduo_rock rock;
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &rock);
     /* what is counted is there; lists that are not looked at here, ceduo_schema_holds() does */

@@ -219,6 +219,12 @@ bool ceduo_schema_spread_fits(const struct field *field, struct ceduo_number num
 bool ceduo_schema_holds(const struct object *object, const void *item);
 bool ceduo_schema_field_holds(const struct field *field, const void *item);
 
+/* Check the belts of an option that may not be of a scene. */
+enum ceduo_status ceduo_check_stands(const struct ceduo_option *option);
+
+/* True if the lists of an option are there. Its numbers may be any, as in a year that no scene has. `option` may be NULL. */
+bool ceduo_option_has_lists(const struct ceduo_option *option);
+
 /* Adds the range of a field; false where it has none. */
 bool ceduo_schema_range_text(const struct field *field, struct text *text);
 

@@ -62,7 +62,7 @@ static bool is_own_good(const struct ceduo_doubt_def *def)
 
 enum ceduo_status ceduo_check_doubt_def(const struct ceduo_doubt_def *def)
 {
-    enum ceduo_status status = ceduo_check_scene(def->scene);
+    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
     if (status != CEDUO_OK)
         return status;
     size_t options = def->scene->options_count;
@@ -92,7 +92,7 @@ enum ceduo_status ceduo_check_observations(const struct ceduo_observation *seen,
 
 static enum ceduo_status check_fitted_scene(const struct ceduo_calibration_scene *s, size_t parameters)
 {
-    enum ceduo_status status = ceduo_check_scene(s->scene);
+    enum ceduo_status status = ceduo_scene_check(s->scene, NULL);
     if (status == CEDUO_OK)
         status = good_or_not(s->scene->options_count > 0 && s->inputs);
     if (status == CEDUO_OK)

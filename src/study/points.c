@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "ceduo/variants.h"
-#include "core/walk/random.h"
 #include "inputs.h"
 
 struct work {

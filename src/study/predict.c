@@ -9,10 +9,9 @@
 
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "ceduo/statistics.h"
 #include "check_study.h"
-#include "core/runs/check.h"
-#include "core/walk/random.h"
 #include "fitting.h"
 #include "sequence.h"
 
@@ -228,7 +227,7 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
 {
     GSL_RETURNS_ERRORS;
     size_t n = scene->observations_count;
-    enum ceduo_status status = ceduo_check_scene(scene->scene);
+    enum ceduo_status status = ceduo_scene_check(scene->scene, NULL);
     if (status == CEDUO_OK)
         status = ceduo_check_observations(scene->observations, n, scene->scene->options_count);
     if (status == CEDUO_OK && (rocks == 0 || rocks > CEDUO_ROCKS_MOST || scene->scene->options_count == 0))

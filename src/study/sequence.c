@@ -3,7 +3,7 @@
 
 #include <limits.h>
 
-#include "core/walk/random.h"
+#include "base/random.h"
 
 static void set(void *state, unsigned long seed)
 {

@@ -5,7 +5,7 @@
 #include <gsl/gsl_rng.h>
 #include <stdint.h>
 
-/* The program's one generator (core/walk/random.h) as GSL draws from it: numbers one after the other, of a seed and one of many
+/* The program's one generator (base/random.h) as GSL draws from it: numbers one after the other, of a seed and one of many
  * streams. Nothing is allocated: the generator lasts as long as its sequence. */
 struct sequence {
     uint64_t seed, stream, drawn;

@@ -24,10 +24,10 @@
 
 #include "base/arena.h"
 #include "base/gsl_errors.h"
+#include "base/random.h"
 #include "ceduo/doubt.h"
 #include "ceduo/statistics.h"
 #include "check_study.h"
-#include "core/walk/random.h"
 
 #define GROUPS      CEDUO_SURFACE_GROUPS
 #define COORDINATES 40  /* of GSL's Sobol' points */

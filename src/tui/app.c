@@ -233,7 +233,7 @@ static void took_document(struct app *app, const struct problems *problems)
     ceduo_cells_free(app->kept.cells);
     app->kept.cells = NULL;
     if (app->no_recovery) {
-        ceduo_document_forget(&app->document);
+        ceduo_recovery_delete(&app->document.recovery);
         ceduo_recovery_end(&app->document.recovery);
     }
     app->option = app->belt = app->year = 0;
@@ -257,7 +257,7 @@ static bool take_opened(struct app *app, struct document *next, unsigned threads
         return false;
     }
     ceduo_live_free(&app->live);
-    ceduo_document_forget(&app->document);
+    ceduo_recovery_delete(&app->document.recovery);
     ceduo_document_close(&app->document);
     app->live = live;
     app->document = *next;

@@ -4,9 +4,9 @@
 
 #include "form.h"
 #include "keys.h"
-#include "line.h"
 #include "model/document.h"
 #include "model/live.h"
+#include "picker.h"
 #include "view/cells.h"
 #include "view/pane.h"
 #include "view/plot.h"

@@ -91,7 +91,7 @@ enum key {
     X(CHARSET, 'b', "b", K_NONE, "", 0, N_("braille, blocks or ASCII"), DO(next_charset))                                      \
     X(THEME, 't', "t", K_NONE, "", 0, N_("colours: dark, light, none"), DO(next_theme))                                        \
     X(REDRAW, K_CTRL_L, "Ctrl-L", K_NONE, "", 0, N_("draw the screen anew"), DO(redraw))                                       \
-    X(HELP, '?', "?", K_F1, "F1", 2, N_("help"), DO(ceduo_popup_help))                                                         \
+    X(HELP, '?', "?", K_F1, "F1", 2, N_("help"), DO(show_help))                                                                \
     X(QUIT, 'q', "q", K_F10, "F10", 2, N_("quit"), DO(ceduo_popup_quit))
 
 enum action {

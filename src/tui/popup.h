@@ -100,7 +100,6 @@ void ceduo_popup_close(struct app *app);
 
 /* ---- those that there are: each call opens one, or says why it does not ---- */
 
-void ceduo_popup_help(struct app *app);
 void ceduo_popup_presets(struct app *app);
 void ceduo_popup_new_option(struct app *app);
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell);

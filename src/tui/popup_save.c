@@ -197,7 +197,7 @@ void ceduo_popup_once_saved(struct app *app, void (*then)(struct app *app))
 
 static void quit(struct app *app)
 {
-    ceduo_document_forget(&app->document);
+    ceduo_recovery_delete(&app->document.recovery);
     app->quit = true;
 }
 

@@ -6,12 +6,6 @@
 
 #include "ceduo/status.h"
 
-#define VERSION                                                                                                                \
-    {                                                                                                                          \
-        "version", "", "version of the program", .value = version_of                                                           \
-    }
-VALUE(version_of, place, TEXT, WORD(CEDUO_VERSION))
-
 /* ---- a sensitivity ---- */
 
 static const struct ceduo_doubt_figure *figure_of(const struct ceduo_place *p)

@@ -70,6 +70,12 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
         return i < (n);                                                                                                        \
     }
 
+#define VERSION                                                                                                                \
+    {                                                                                                                          \
+        "version", "", "version of the program", .value = version_of                                                           \
+    }
+VALUE(version_of, place, TEXT, WORD(CEDUO_VERSION))
+
 /* Why something is not known. */
 #define NO_ROCK "no rock arrives"
 #define FEW     "fewer than two rocks arrive"

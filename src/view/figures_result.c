@@ -189,7 +189,6 @@ static void say_of_all(const struct ceduo_place *place, ceduo_words_say *say, vo
 /* ---- what is more than a member ---- */
 
 VALUE(format_of, place, TEXT, WORD("ceduo-result-1"))
-VALUE(version_of, place, TEXT, WORD(CEDUO_VERSION))
 VALUE(path_of, report, TEXT, WORD(o->file->name))
 VALUE(rocks_of, report, COUNT, COUNT(o->rocks_asked > 0 ? o->rocks_asked : ceduo_result_rocks(o->result)))
 VALUE(points_of, slope, COUNT, COUNT(o->points > 0 ? o->points : o->vertices))
@@ -689,7 +688,7 @@ static const struct ceduo_figure work[] = {
 
 const struct ceduo_figure ceduo_result_figures[] = {
     {"format", "", "always ceduo-result-1", .value = format_of},
-    {"version", "", "version of the program", .value = version_of},
+    VERSION,
     {.of = scene},
     {"warnings", "",
      "sentences about the whole run: tolerance not met, rocks unfinished, shares too close to call, ground assumed",
@@ -761,7 +760,7 @@ static const struct ceduo_figure search_rows[] = {
     END};
 
 const struct ceduo_figure ceduo_find_figures[] = {{"format", "", "always ceduo-find-1", .value = find_format},
-                                                  {"version", "", "version of the program", .value = version_of},
+                                                  VERSION,
                                                   {.of = sought},
                                                   {.of = found_row},
                                                   {.of = value_row},

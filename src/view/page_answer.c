@@ -193,8 +193,7 @@ static void say_doubt(struct text *text, const struct ceduo_report *report)
     const struct ceduo_verdict *v = report->verdict && report->verdict->n > 1 ? report->verdict : NULL;
     bool over = v && v->rotation.known && doubt && doubt->answer && doubt->answer->rotation;
     size_t option = over ? v->rotation.best : v ? v->today.best : 0;
-    struct ceduo_measure m = ceduo_judged(place_of(r), ceduo_result_wooded(r, option, r->last_control));
-    ceduo_measure_doubt(&m, doubt, option, r->last_control);
+    const struct ceduo_measure m = ceduo_subject_of(report, option, r->last_control).today;
     if (!doubt || !doubt->answer) {
         ceduo_text_then(text, "; ", "%s.",
                         doubt && (ceduo_doubt_is_off(doubt) || doubt->inputs->n == 0) ? ceduo_doubt_none(doubt)

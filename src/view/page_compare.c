@@ -2,6 +2,7 @@
 /* The options side by side at the last control, today and over the years; one option year by year; one energy law against the
  * other. */
 #include <math.h>
+#include <stdio.h>
 
 #include "base/language.h"
 #include "page_parts.h"
@@ -126,20 +127,20 @@ static void add_rotations(struct ceduo_page *page, const struct ceduo_result *r,
         {NP_("head", "free run|years in which free runs fail"), -9, 0, 0},
         {NP_("head", "m3/y|felled, m3 per ha and year"), -6, 0, 0},
         {NP_("head", "m3|standing, m3 per ha"), -7, 0, 0}};
-    LOCAL_TEXT(span);
-    ceduo_words_span(&span, v);
+    char span[CEDUO_WORDS_ROOM];
+    snprintf(span, sizeof span, _("years %u to %u"), v->choices[0].window.first, v->choices[0].window.last);
     if (v->wooded)
         ceduo_page_say(
             page, CEDUO_PAGE_CAPTION,
             _("Over %s: of 1000 released, in the mean and in the worst of these years, counted from today, with %llu "
               "rocks in each; years in which a test fails; wood felled per hectare and year, and standing:"),
-            ceduo_text_string(&span), (unsigned long long)v->choices[0].rocks);
+            span, (unsigned long long)v->choices[0].rocks);
     else
         ceduo_page_say(
             page, CEDUO_PAGE_CAPTION,
             _("Over %s: the worst year, counted from today; years in which a test fails; wood felled per hectare and "
               "year, and standing:"),
-            ceduo_text_string(&span));
+            span);
     if (v->choices[0].over.simulated > 0) {
         CEDUO_PAGE_TABLE_OF(page, simulated);
         ceduo_page_limit(page, last_control(r), CEDUO_SHORT_HEAD);

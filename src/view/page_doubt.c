@@ -254,7 +254,7 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
     ceduo_page_table(page, over ? rotation : today, judged ? 5 : 4);
     for (size_t i = 0; i < r.file->scene.options_count; i++) {
         const struct ceduo_measure m = measure_of(&r, i, NULL);
-        ceduo_text_safe(ceduo_page_text(page), r.file->scene.options[i].name);
+        ceduo_page_write(page, "%s", r.file->scene.options[i].name);
         ceduo_page_write(page, "%s", VALUE_OF(m));
         ceduo_page_write(page, "%s", SPAN(m, m.lo, m.hi));
         ceduo_page_write(page, "%s", SPAN(m, m.may_lo, m.may_hi));
@@ -423,14 +423,10 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
     const struct ceduo_doubt_order *o = &ranking->orders[i];
-    LOCAL_TEXT(better);
-    LOCAL_TEXT(than);
-    ceduo_text_safe(&better, s->options[o->better].name);
-    ceduo_text_safe(&than, s->options[o->than].name);
     ceduo_text_format(text,
                       ranking->rotation ? _("Over the years %s is better than %s in %.0f %% of what may be true")
                                         : _("Today %s is better than %s in %.0f %% of what may be true"),
-                      ceduo_text_string(&better), ceduo_text_string(&than), o->probability * 100);
+                      s->options[o->better].name, s->options[o->than].name, o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
     ceduo_text_format(text, ": %s.", /* of two that differ in few cases the order is not sure, but neither is it open */
@@ -469,14 +465,12 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_control *c = &s->controls[ceduo_scene_last_control(s)];
     bool several = s->options_count > 1;
-    LOCAL_TEXT(place);
-    ceduo_text_safe(&place, c->name ? c->name : "");
+    const char *place = c->name ? c->name : "";
     if (r->answer->main == CEDUO_DOUBT_EXCEED)
         ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"),
-                       ceduo_text_string(&place), c->x_given, ceduo_words_accepted(c));
+                       place, c->x_given, ceduo_words_accepted(c));
     else
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"),
-                       ceduo_text_string(&place), c->x_given);
+        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"), place, c->x_given);
     add_options(page, r, false);
     ceduo_doubt_outside(r, ceduo_page_warn, page);
     size_t chosen = ceduo_doubt_chosen(r);
@@ -489,11 +483,9 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
         ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
     for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change within what may be true */
         LOCAL_TEXT(words);
-        LOCAL_TEXT(name);
         ceduo_doubt_light_words(&words, r, i / 3, i % 3);
-        ceduo_text_safe(&name, s->options[i / 3].name);
         if (words.length > 0)
-            ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s%s%s", several ? ceduo_text_string(&name) : "", several ? ": " : "",
+            ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s%s%s", several ? s->options[i / 3].name : "", several ? ": " : "",
                            words.bytes);
     }
     if (r->answer->rotation && all) {

@@ -59,7 +59,7 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     const struct ceduo_control *place = &r->scene->controls[r->last_control];
     size_t option = ceduo_result_best(r, report->verdict);
     const struct ceduo_outcome o = ceduo_report_outcome(report, option, r->last_control);
-    struct ceduo_measure m = ceduo_judged(place, NULL);
+    struct ceduo_measure m = ceduo_judged(place, NULL); /* without its value the range stays as it is */
     ceduo_measure_doubt(&m, doubt, option, r->last_control);
     if (isnan(m.may_lo)) {
         if (!doubt || ceduo_doubt_is_off(doubt) || !doubt->inputs || doubt->inputs->n > 0)

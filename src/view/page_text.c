@@ -346,6 +346,7 @@ static void print_cell(struct printer *p, const struct ceduo_page_column *column
 
 #define COLUMNS_MAX 24
 #define ANY_WIDTH   400 /* a cell without limits */
+#define MEAN_WIDTH  12  /* a mean and its error with a blank, as wide as tables of pages have it */
 
 /* The widest cell of a column; `*bars`: there is a bar in it. */
 static int widest_cell(const struct printer *p, const struct ceduo_page_block *table, size_t column, bool *bars)
@@ -354,7 +355,7 @@ static int widest_cell(const struct printer *p, const struct ceduo_page_block *t
     for (size_t i = column; i < table->cells_count; i += table->columns_count) {
         LOCAL_TEXT(text);
         *bars |= table->cells[i].kind == CEDUO_CELL_BAR;
-        write_cell(p, &text, &table->cells[i], ANY_WIDTH);
+        write_cell(p, &text, &table->cells[i], table->cells[i].kind == CEDUO_CELL_MEAN ? MEAN_WIDTH : ANY_WIDTH);
         int width = (int)ceduo_utf8_width(ceduo_text_string(&text));
         widest = width > widest ? width : widest;
     }

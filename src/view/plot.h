@@ -51,17 +51,7 @@ struct ceduo_picture {
  *   to the right, where the area has room.
  * histogram: how the energies of the rocks that reach the control are spread, through the forest (bars) and without
  *   (marks); with the contact model index without forest alone.
- * rotation: the option over the years: ADC, how many bring too much energy, the lights, the cuts, on one axis.
- * stand: a stand from above, to scale, with the strip that the rock clears. One pattern of many: the same for the same
- *   stand. Where the selected rock came to stems of this belt, those instead, around the last of them: to scale along
- *   the trajectory, stretched across it by the factor that is written.
- * compare: the options side by side, up to the control: ADC of the worst belt, how many of 1000 arrive with too much
- *   energy (or at all, where no accepted energy is given), the mean energy of those that arrive; with the contact model
- *   index ADC, kJ taken per 100 m, kJ left.
- * tradeoff: what the options yield against what they let through, over one whole rotation of each: a point with its error
- *   for each option, marked where another is better in both.
- * hazard: how often which energy is exceeded at the control, without forest and with each option, where the scene has
- *   blocks: years against energy, both by decades, with the limits of intensity and return period of Swiss practice. */
+ * The files of the others say what they show. */
 #define CEDUO_PLOT_LIST(X)                                                                                                     \
     X(PROFILE, profile, CEDUO_PICTURE_OF_ROCKS, N_("slope, forest, and ways"))                                                 \
     X(ENERGY, energy, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("energy of the rocks"))                                 \

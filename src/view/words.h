@@ -91,9 +91,6 @@ void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_words_say *say, 
 /* Why an option has no rotation; nothing if it has one. */
 void ceduo_words_window(struct text *text, const struct ceduo_option *option);
 
-/* Years of a verdict in a few words: "years 1 to 25". */
-void ceduo_words_span(struct text *text, const struct ceduo_verdict *verdict);
-
 /* What is to be said of the years of an option together, up to the last control: how much gets through, in how many a test fails,
  * what is to be expected. */
 void ceduo_words_years_sum(struct text *text, const struct ceduo_result *result, const struct ceduo_years *years);

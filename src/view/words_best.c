@@ -15,12 +15,6 @@ static const struct ceduo_window *window_of(const struct ceduo_verdict *v)
     return &v->choices[0].window;
 }
 
-void ceduo_words_span(struct text *text, const struct ceduo_verdict *v)
-{
-    const struct ceduo_window *w = window_of(v);
-    ceduo_text_format(text, _("years %u to %u"), w->first, w->last);
-}
-
 void ceduo_words_window(struct text *text, const struct ceduo_option *option)
 {
     const struct ceduo_belt *still = NULL;

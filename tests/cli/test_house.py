@@ -16,6 +16,8 @@ BUILD = ROOT / os.environ.get("BUILD", "build/release")
 KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene core", "io": "base scene core study",
          "view": "base scene core study io", "model": "base scene core study io",
          "tui": "base scene core study io view model", "cli": "base scene core study io view model tui"}
+# The folders of core likewise.
+CORE = {"stand": "", "wood": "stand", "walk": "stand wood", "runs": "stand wood walk"}
 # The room of each public header: a header knows what its room knows.
 HEADERS = {"base": "flag", "scene": "rock scene slope stand status",
            "core": "adc assess blocks hazard key other pool question record result rotation run statistics trajectory variants years yield",
@@ -59,6 +61,10 @@ def who_knows_whom():
     for path in sources():
         allowed = {room_of(path), *KNOWS.get(room_of(path), "").split()}
         bad += [f"{path} includes {other}" for other in includes(path) if room_of(other) not in allowed]
+        if path.parts[:2] == ("src", "core"):
+            known = {path.parts[2], *CORE[path.parts[2]].split()}
+            bad += [f"{path} includes {other}" for other in includes(path)
+                    if other.parts[:2] == ("src", "core") and other.parts[2] not in known]
     return bad
 
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/walk/random.h"
+#include "base/random.h"
 
 void line_scene_init(struct line_scene *s, size_t vertices, const double *x, const double *z, struct line_ground ground,
                      double radius, enum ceduo_law law)

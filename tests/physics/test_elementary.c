@@ -8,8 +8,8 @@
 
 #define REAL_LANES 2
 #include "base/elementary.h"
+#include "base/random.h"
 #include "base/real.h"
-#include "core/walk/random.h"
 /* Their header is not written for our warnings. */
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"

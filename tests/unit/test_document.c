@@ -81,7 +81,7 @@ static void close_scene(void)
 static int tear_down(void **state)
 {
     if (d.path)
-        ceduo_document_forget(&d);
+        ceduo_recovery_delete(&d.recovery);
     close_scene();
     return folder_tear_down(state);
 }
@@ -608,7 +608,7 @@ TEST_WITH(the_copy_leads_to_the_same_files, set_up, tear_down)
     set("forest[0].stand.trees[0].per_ha", "50");
     assert_non_null(copy_of());
     strcpy(text, copy_of());
-    ceduo_document_forget(&d);
+    ceduo_recovery_delete(&d.recovery);
     reopen(there);
     must(ceduo_document_recover(&d, text, &problems));
     expect_files();

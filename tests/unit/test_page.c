@@ -160,6 +160,22 @@ static struct ceduo_page bars(size_t width)
     return page;
 }
 
+/* A pane of 49 columns holds a name, a mean, a percentile and a share with its interval. */
+TEST(a_mean_makes_its_column_no_wider_than_eleven)
+{
+    static const struct ceduo_page_column means[] = {{"", 4, 0, CEDUO_FILLS}, {"", -6, 1, CEDUO_FITS}};
+    struct ceduo_page page = {.width = 40};
+    CEDUO_PAGE_TABLE_OF(&page, means);
+    ceduo_page_write(&page, "name");
+    struct ceduo_page_cell *mean = ceduo_page_cell(&page);
+    mean->kind = CEDUO_CELL_MEAN;
+    mean->value = 9.8764;
+    mean->half = .0069;
+    expect_page(&page, false,
+                "name 9.88\xc2\xb1"
+                "0.01\n");
+}
+
 /* Columns are as wide as their cells; a name that is too long keeps its end, which tells it from the others; bars take what is
  * left, and without room the columns of the highest rank go, whole. */
 TEST(columns_find_their_widths)

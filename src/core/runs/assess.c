@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "core/wood/strata.h"
+#include "core/stand/strata.h"
 
 /* ---- stems that count ---- */
 

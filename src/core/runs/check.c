@@ -5,11 +5,6 @@
 
 #include "scene/schema.h"
 
-enum ceduo_status ceduo_check_scene(const struct ceduo_scene *scene)
-{
-    return scene ? ceduo_scene_check(scene, NULL) : CEDUO_BAD_ARGUMENT;
-}
-
 enum ceduo_status ceduo_check_window(struct ceduo_window w)
 {
     bool good = w.step > 0 && w.first <= w.last && w.last <= CEDUO_YEAR_MOST;
@@ -24,27 +19,16 @@ static bool cells_rise(const struct ceduo_run_def *def)
     return good;
 }
 
-/* True if the lists of an option are there, which may be none of the scene's: of a year its numbers may be any. */
-static bool has_lists(const struct ceduo_option *option)
-{
-    bool good = !option || option->belts || option->belts_count == 0;
-    for (size_t i = 0; good && option && i < option->belts_count; i++) {
-        const struct ceduo_stand *s = &option->belts[i].stand;
-        good = (s->shoots || s->shoots_count == 0) && (s->trees || s->trees_count == 0);
-    }
-    return good;
-}
-
 /* True if a run of the scene may be made so. */
 static bool is_run_good(const struct ceduo_run_def *def)
 {
     return def->rocks_most <= CEDUO_ROCKS_MOST && def->threads <= CEDUO_THREADS_MOST && def->kernel <= CEDUO_KERNEL_AVX512 &&
-           cells_rise(def) && has_lists(def->option);
+           cells_rise(def) && ceduo_option_has_lists(def->option);
 }
 
 enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def)
 {
-    enum ceduo_status status = ceduo_check_scene(def->scene);
+    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
     return status == CEDUO_OK && !is_run_good(def) ? CEDUO_BAD_ARGUMENT : status;
 }
 
@@ -60,24 +44,8 @@ enum ceduo_status ceduo_check_question(const struct ceduo_question *q)
 
 enum ceduo_status ceduo_check_blocks_def(const struct ceduo_blocks_def *def)
 {
-    enum ceduo_status status = ceduo_check_scene(def->scene);
+    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
     bool good = def->option && status == CEDUO_OK && def->control < def->scene->controls_count &&
                 def->rocks <= CEDUO_ROCKS_MOST && def->threads <= CEDUO_THREADS_MOST;
     return status == CEDUO_OK ? good ? ceduo_check_stands(def->option) : CEDUO_BAD_ARGUMENT : status;
-}
-
-enum ceduo_status ceduo_check_record_def(const struct ceduo_record_def *def)
-{
-    enum ceduo_status status = ceduo_check_scene(def->scene);
-    bool good = def->rocks <= CEDUO_ROCKS_MOST && (def->stretches || def->stretches_count == 0) && has_lists(def->option);
-    return status == CEDUO_OK && !good ? CEDUO_BAD_ARGUMENT : status;
-}
-
-enum ceduo_status ceduo_check_stands(const struct ceduo_option *option)
-{
-    bool good = option->belts || option->belts_count == 0;
-    for (size_t i = 0; good && i < option->belts_count; i++)
-        if (!ceduo_schema_holds(ceduo_schema_stand(), &option->belts[i].stand))
-            return CEDUO_BAD_STAND;
-    return good ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
 }

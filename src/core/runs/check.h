@@ -4,19 +4,13 @@
 
 #include "ceduo/blocks.h"
 #include "ceduo/question.h"
-#include "ceduo/record.h"
 
 /* Check what a caller fills before any of it is used: pointers, counts, indices, windows. Each returns CEDUO_OK,
  * CEDUO_BAD_ARGUMENT, or the status of a bad scene. Requires arrays as long as their counts: no check can see that. */
 
-enum ceduo_status ceduo_check_scene(const struct ceduo_scene *scene); /* may be NULL: CEDUO_BAD_ARGUMENT */
 enum ceduo_status ceduo_check_window(struct ceduo_window window);
 enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def);
 enum ceduo_status ceduo_check_question(const struct ceduo_question *question);
 enum ceduo_status ceduo_check_blocks_def(const struct ceduo_blocks_def *def);
-enum ceduo_status ceduo_check_record_def(const struct ceduo_record_def *def);
-
-/* Check the belts of an option that may not be of a scene. */
-enum ceduo_status ceduo_check_stands(const struct ceduo_option *option);
 
 #endif

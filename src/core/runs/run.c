@@ -4,8 +4,8 @@
 
 #include "base/clock.h"
 #include "check.h"
-#include "core/walk/kernel.h"
 #include "core/walk/walk.h"
+#include "core/wood/kernel.h"
 #include "run_state.h"
 
 #define CHUNK_SECONDS 0.5 /* about so long a chunk takes: somebody waits for a sign of progress */

@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/elementary.h"
-#include "core/wood/energy.h"
-#include "core/wood/strata.h"
+#include "energy.h"
+#include "strata.h"
 
 /* ---- stems that count ---- */
 

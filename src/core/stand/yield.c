@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/runs/check.h"
+#include "scene/schema.h"
 
 /* ---- one stand ---- */
 

@@ -4,7 +4,7 @@
  * target. What is computed here and in lanes_*.h is computed by walk.c for one rock: the same operations in the same order, where
  * it is not the same text. Each stage is done for one register after the other: short enough that the processor begins one before
  * the other is done, and small enough to stay in its registers. */
-#include "kernel.h"
+#include "core/wood/kernel.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 

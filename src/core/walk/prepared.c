@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "base/elementary.h"
+#include "base/random.h"
 #include "envelope.h"
-#include "random.h"
 
 /* ---- sizes of blocks ---- */
 

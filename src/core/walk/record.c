@@ -9,7 +9,7 @@
 #include "base/must.h"
 #include "base/parallel.h"
 #include "base/real.h"
-#include "core/runs/check.h"
+#include "scene/schema.h"
 
 /* Sums along a stretch; they become means at the end. */
 struct along {
@@ -188,7 +188,10 @@ enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_
 {
     struct recorder r = {.def = def, .record = record};
     *record = (struct ceduo_record){0};
-    enum ceduo_status status = ceduo_check_record_def(def);
+    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
+    bool good = def->rocks <= CEDUO_ROCKS_MOST && (def->stretches || def->stretches_count == 0);
+    if (status == CEDUO_OK && !(good && ceduo_option_has_lists(def->option)))
+        status = CEDUO_BAD_ARGUMENT;
     if (status != CEDUO_OK)
         return status;
     struct ceduo_follower *follower = ceduo_follower_create(def->scene, def->option);

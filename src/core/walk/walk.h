@@ -7,12 +7,12 @@
 #include <stdint.h>
 
 #include "base/elementary.h"
+#include "base/random.h"
 #include "ceduo/trajectory.h"
 #include "core/wood/stems.h"
 #include "envelope.h"
 #include "flight.h"
 #include "prepared.h"
-#include "random.h"
 
 /* The section in which a rock meets the ground under the law arm: an ellipse whose half-axes are one of the three pairs of
  * the rock's, so scaled that their mean over the pairs is R. */

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/elementary.h"
-#include "core/walk/kernel.h"
-#include "core/walk/random.h"
+#include "base/random.h"
+#include "kernel.h"
 #define REAL_LANES 2
 #include "stems_fill.h"
 

@@ -5,8 +5,8 @@
 #define CEDUO_STEMS_FILL_H
 
 #include "base/elementary.h"
+#include "base/random.h"
 #include "base/real.h"
-#include "core/walk/random.h"
 #include "stems_state.h"
 
 /* What costs little is counted as a part of a stem: steps over others in a list, belts that are passed over. */

@@ -80,7 +80,7 @@ struct belt_rates {
 
 struct stems {
     const struct wood *wood;
-    const struct kernel *kernel; /* core/walk/kernel.h */
+    const struct kernel *kernel; /* core/wood/kernel.h */
     uint64_t seed, number;       /* of the rock */
     double b;                    /* its mean diameter, m */
     double start;                /* x of its release */

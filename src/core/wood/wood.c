@@ -10,7 +10,7 @@
 #include "base/elementary.h"
 #include "base/hash.h"
 #include "ceduo/trajectory.h"
-#include "strata.h"
+#include "core/stand/strata.h"
 
 /* ---- kinds ---- */
 

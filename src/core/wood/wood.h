@@ -3,7 +3,7 @@
 #define CEDUO_WOOD_H
 
 #include "ceduo/scene.h"
-#include "energy.h"
+#include "core/stand/energy.h"
 
 /* An option's forest, prepared for many rocks: what drawing stems needs, belt by belt. */
 

@@ -6,10 +6,11 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "ceduo/variants.h"
-#include "core/runs/check.h"
-#include "core/runs/weighted.h"
-#include "core/walk/random.h"
+#include "check.h"
+#include "scene/schema.h"
+#include "weighted.h"
 
 /* ---- windows ---- */
 
