@@ -27,16 +27,14 @@ struct ceduo_run_def {
     unsigned threads;                  /* at most CEDUO_THREADS_MOST; 0: one; the results do not depend on it */
     enum ceduo_kernel kernel;          /* nor on this */
     uint64_t rocks_most;               /* no longer than this will it be made; at most CEDUO_ROCKS_MOST */
-    size_t cells;                      /* envelopes at this many places, 0: none */
-    const double *cell_x;              /* rising, on the slope */
-    bool arrivals_only;                /* trajectories stop behind the last control or cell: their ends are not known */
+    bool arrivals_only;                /* trajectories stop behind the last control: their ends are not known */
     bool other_energy;                 /* of a pool: each forest under the other energy law as well, see other.h */
     const ceduo_flag *cancel;          /* may be NULL; raised by another thread: the call returns soon */
     void (*progress)(void *context, uint64_t rocks); /* may be NULL; called now and then by a worker, one at a time */
     void *context;
 };
 
-/* No forest, one thread, the scene's rocks, no envelopes. */
+/* No forest, one thread, the scene's rocks. */
 struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene);
 
 /* A run without rocks yet. CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or what ceduo_scene_check() says. */
@@ -136,19 +134,6 @@ struct ceduo_ends {
 
 /* In a run of arrivals only all counts are 0 and all places NaN. */
 enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends);
-
-/* Of the rocks that pass a cell: how many, and 5, 50, 95 % and the largest of each. Percentiles from a histogram of
- * relative width 1/64 of an octave. */
-struct ceduo_spread_of_cell {
-    double p5, p50, p95, max;
-};
-struct ceduo_envelope {
-    uint64_t passed;
-    double mean_energy; /* J, of those that pass */
-    struct ceduo_spread_of_cell speed, height, energy;
-};
-
-void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_envelope *envelope);
 
 /* Values of single rocks, in the order of the rocks. Speed (m/s), height (m) and energy (J) are NaN if a rock does not reach the
  * control. The place where it stops (m) is NaN if it does not stop; the weight is NULL if the scene has no blocks. */

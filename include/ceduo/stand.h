@@ -20,7 +20,7 @@ enum ceduo_system {
 #undef X
 };
 
-/* The laws of what a contact with a stem takes from a rock. A new law is a file like src/core/wood/energy_dorren.c and a line
+/* The laws of what a contact with a stem takes from a rock. A new law is a file like src/core/stand/energy_dorren.c and a line
  * here. */
 #define CEDUO_ENERGY_MODELS(X)                                                                                                 \
     X(BRAUNER, brauner)                                                                                                        \

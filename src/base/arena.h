@@ -15,24 +15,24 @@ struct arena {
     const struct source *sources; /* files that were read into it, the last first: see io/file.h */
 };
 
-/* `size` zeroed bytes, aligned for anything; NULL without memory. */
+/* Return `size` zeroed bytes, aligned for any type; NULL on failure. */
 void *ceduo_arena_take(struct arena *arena, size_t size);
 
-/* A list of n items of `size` bytes with room for `more`; `*room` is how many it holds. It may have moved. NULL without memory, and
- * the list stays as it was. */
+/* Grow a list of n items of `size` bytes so that it holds `more` items more; `*room` is the number that it holds. Returns the list,
+ * which may have moved. NULL on failure: the list stays as it was. */
 void *ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
 
-/* A copy of n bytes as a string; of a string. NULL without memory. */
+/* Copy n bytes to a string; copy a string. NULL on failure. */
 char *ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *ceduo_arena_string(struct arena *arena, const char *string);
 
-/* A string as printf() makes it. NULL without memory. */
+/* Make a string as printf() does. NULL on failure. */
 char *ceduo_arena_format(struct arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 char *ceduo_arena_vformat(struct arena *arena, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 
 void ceduo_arena_free(struct arena *arena);
 
-/* An arena that is freed where its block ends. */
+/* An arena that is freed at the end of its block. */
 #define LOCAL_ARENA(name) __attribute__((cleanup(ceduo_arena_free))) struct arena name = {0}
 
 #endif

@@ -4,11 +4,11 @@
 
 #include <stdbool.h>
 
-/* At the head of a function: until it returns, an error of GSL in this thread is what its call returns, and does not end the
- * program. Every call of the library that lets GSL allocate or fit has it, and every thread that the library starts. */
+/* First line of a function: until it returns, an error of GSL in this thread does not end the program, but is the status of GSL's
+ * call. Every function of the library that lets GSL allocate or fit has it, and every thread of the library. */
 #define GSL_RETURNS_ERRORS __attribute__((cleanup(ceduo_gsl_leave), unused)) bool gsl_returned_errors = ceduo_gsl_enter()
 
-/* Calls what goes on with memory that it does not get, as GSL's singular value decomposition does. What it returns, or
+/* Call a function that would go on without memory, such as GSL's singular value decomposition. Returns its status, or
  * GSL_ENOMEM. */
 int ceduo_gsl_try(int (*call)(void *context), void *context);
 

@@ -7,15 +7,15 @@
 
 #include "text.h"
 
-/* Writes JSON into a text, on one line. Commas are put where they are needed. A key of NULL: an item of a list. */
+/* Write JSON into a text, on one line, with its commas. `key` NULL: an item of a list. */
 struct json {
     struct text *text;
-    bool more; /* a value stands before, on this level */
+    bool more; /* this level has a value already */
 };
 
 void ceduo_json_open(struct json *json, const char *key, char bracket);
 void ceduo_json_close(struct json *json, char bracket);
-void ceduo_json_number(struct json *json, const char *key, double value); /* null where not finite */
+void ceduo_json_number(struct json *json, const char *key, double value); /* null if not finite */
 void ceduo_json_count(struct json *json, const char *key, uint64_t value);
 void ceduo_json_string(struct json *json, const char *key, const char *value); /* null for NULL */
 void ceduo_json_flag(struct json *json, const char *key, bool value);

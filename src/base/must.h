@@ -5,21 +5,19 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* Running out of memory. The library returns an error, which its caller reports. The program sets a hook, which restores
- * the terminal, says one sentence and ends the program; then text, arenas and ceduo_grow() never fail, and what stands on
- * view, model, tui or cli needs no check. */
+/* Running out of memory. The library returns an error. The program sets a hook, which restores the terminal, prints a sentence and
+ * ends the program: there text, arenas and ceduo_grow() never fail, and need no check. */
 
-/* NULL: an error is returned. Otherwise it does not return; any thread may call it. */
+/* Does not return; any thread may call it. NULL: an error is returned. */
 extern void (*ceduo_memory_hook)(void);
 
-/* Memory has run out: calls the hook if there is one, and notes it. */
+/* Note that memory ran out, and call the hook if there is one. */
 void ceduo_no_memory(void);
 
-/* Whether memory ran out in this thread since this was asked last. Who makes much of many small pieces asks once at its end, for
- * what was made without one of them must not pass for whole. */
+/* True if memory ran out in this thread since the last call. Call it once after many small allocations. */
 bool ceduo_memory_lost(void);
 
-/* Returns what was allocated, and never NULL. */
+/* Return the allocated memory, never NULL. */
 static inline void *ceduo_must(void *allocated)
 {
     if (!allocated) {

@@ -6,17 +6,18 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Items 0…n - 1 on several threads, of which the caller's is one; each thread takes the next item as soon as it is free. Where
- * no other thread can be started the caller does all. What an item finds must not depend on the thread or on the order. */
+/* Items 0…n - 1 on several threads, the caller's among them. Each thread takes the next item as soon as it is free. If no thread can
+ * be started, the caller does all. The result of an item must not depend on the thread or on the order. */
 struct parallel {
     size_t n;
     unsigned threads;
-    /* `worker`: 0…threads - 1, one thread at a time, for what a thread has for itself. 0: go on; anything else ends the work. */
+    /* `worker`: 0…threads - 1, of one thread at a time, to index memory of a thread. Returns 0 to go on; another status ends the
+     * work. */
     int (*item)(void *context, size_t item, size_t worker);
     void *context;
 };
 
-/* 0 once all items are done; otherwise the first status that is not 0: no item was begun after it was known. */
+/* Return 0 after all items, otherwise the first status that is not 0. No item begins after it. */
 int ceduo_parallel(const struct parallel *work);
 
 /* True if the caller has raised its flag. `cancel` may be NULL. */
@@ -25,8 +26,8 @@ static inline bool ceduo_cancelled(const atomic_bool *cancel)
     return cancel && atomic_load_explicit(cancel, memory_order_relaxed);
 }
 
-/* Calls a callback of the caller from one thread at a time. A thread that finds another one in it goes on without, so that none
- * waits: progress that is missed is soon reported again. Starts zeroed. */
+/* Guard for a callback that one thread at a time may call. A thread that finds it taken goes on without the call: missed progress
+ * is soon reported again. Starts zeroed. */
 struct talk {
     atomic_flag busy;
 };

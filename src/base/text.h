@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A string that grows. Starts zeroed; `bytes` is NULL or ends in NUL. Once memory fails, `failed` stays set and nothing
- * more is added: who makes it checks it once at the end, or asks ceduo_memory_lost(). In the program it never fails (must.h). */
+/* A string that grows. Starts zeroed; `bytes` is NULL or ends in NUL. If memory runs out, `failed` stays set and nothing more is
+ * added: check it once at the end, or call ceduo_memory_lost(). In the program memory never fails (must.h). */
 struct text {
     char *bytes;
     size_t length, room;
@@ -17,41 +17,41 @@ struct text {
 
 void ceduo_text_add(struct text *text, const char *bytes, size_t n);
 void ceduo_text_put(struct text *text, const char *string);
-/* Takes off what follows the first `length` bytes. */
+/* Remove all but the first `length` bytes. */
 void ceduo_text_cut(struct text *text, size_t length);
-/* In quotes, as a shell reads it. */
+/* Append a string in the quotes of a shell. */
 void ceduo_text_quoted(struct text *text, const char *string);
 void ceduo_text_char(struct text *text, char c);
 void ceduo_text_format(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* With %'g, as translations write it for people (%'.1f, %'.3g): the decimal sign of the language. */
+/* %'.1f and its like, in translations, print the decimal sign of the language. */
 void ceduo_text_vformat(struct text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
-/* A clause or sentence after what comes between it and the one before: "; ", ", " or " ". */
+/* Append `between`, such as "; ", then a clause or sentence. */
 void ceduo_text_then(struct text *text, const char *between, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void ceduo_text_free(struct text *text);
 
-/* A text that is freed where its block ends. */
+/* A text that is freed at the end of its block. */
 #define LOCAL_TEXT(name) __attribute__((cleanup(ceduo_text_free))) struct text name = {0}
 
-/* The words with a separator between them. */
+/* Append n words with a separator between them. */
 void ceduo_text_words(struct text *text, const char *const *words, size_t n, const char *separator);
 
-/* Its string, "" if it has none. */
+/* Return the string; "" if there is none. */
 static inline const char *ceduo_text_string(const struct text *text)
 {
     return text->bytes ? text->bytes : "";
 }
 
-/* A string that is safe to print: control characters and bytes that are no UTF-8 are written as \xHH. */
+/* Append a string that is safe to print: control characters and bytes that are no UTF-8 become \xHH. */
 void ceduo_text_safe(struct text *text, const char *string);
 void ceduo_text_safe_n(struct text *text, const char *string, size_t n);
 
-/* The shortest decimal that reads back as the same number; "null" where it is not finite. */
+/* Print the shortest decimal that reads back as the same number; "null" if it is not finite. Returns `room`. */
 #define CEDUO_NUMBER_ROOM 32
 char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM]);
-/* The same in the memory of a block. */
+/* The same in memory of the block around it. */
 #define NUMERAL(value) ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0})
 
-/* Numbers as people of the language read them: with its decimal sign in place of each dot. */
+/* Replace each dot by the decimal sign of the language. Returns `number`. */
 char *ceduo_number_spoken(char *number);
 
 /* As snprintf(), vsnprintf() and strtod() without its second argument, but with a dot in whatever locale the host program has set: in
@@ -62,21 +62,20 @@ double ceduo_decimal_read(const char *string);
 
 enum ceduo_number_reading { CEDUO_NUMBER_GOOD, CEDUO_NUMBER_NONE, CEDUO_NUMBER_TOO_LARGE };
 
-/* Reads a decimal number with a dot: 12, -0.5, .5, 1e-3. Not: 1,5 1_000 0x10 010 inf nan, or anything after it. */
+/* Read a decimal number with a dot: 12, -0.5, .5, 1e-3. Not: 1,5 1_000 0x10 010 inf nan, or text after it. */
 enum ceduo_number_reading ceduo_number_read(const char *string, double *value);
 
-/* Reads a whole number from lo to hi, exactly: CEDUO_NUMBER_TOO_LARGE where it lies outside. */
+/* Read a whole number exactly. CEDUO_NUMBER_TOO_LARGE if it lies outside lo to hi. */
 enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double hi, uint64_t *value);
 
-/* A field of CSV, in quotes where it needs them; behind an apostrophe where a spreadsheet would read a formula. */
+/* Append a field of CSV, in quotes if it needs them, after an apostrophe if a spreadsheet would read a formula. */
 void ceduo_text_csv(struct text *text, const char *value);
 
-/* The nearest of some words, NULL where none is near. */
+/* Return the nearest of n words; NULL: none is near. */
 const char *ceduo_text_nearest(const char *word, const char *const *words, size_t n);
 
-/* How well a text matches what was typed: the letters typed must stand in it in their order, in whatever case. -1:
- * they do not. Better where words begin with them and where they stand together; best where the text begins with all
- * of them. */
+/* Return how well a text matches typed letters, which it must hold in their order, in any case; -1: it does not. Letters that
+ * begin words or follow each other count more; a text that begins with all of them counts most. */
 int ceduo_fuzzy_match(const char *typed, const char *text);
 
 #endif

@@ -11,7 +11,7 @@
 #include "view/plot.h"
 #include "view/report.h"
 
-/* The command line: exit statuses, as the manual has them, and what is asked for. */
+/* The command line: exit statuses, as in the manual, and modes. */
 enum exit_status { EXIT_DONE = 0, EXIT_RUN = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_OUTPUT = 4 };
 
 enum mode {
@@ -44,45 +44,45 @@ struct path_range {
 
 struct arguments {
     enum mode mode;
-    uint64_t given; /* options, as bits: see ceduo_arguments_given() */
+    uint64_t given; /* a bit for each option: see ceduo_arguments_given() */
     enum ceduo_format format;
     enum ceduo_plot plot;        /* a picture instead of the page */
-    int plot_width, plot_height; /* cells, title and all */
+    int plot_width, plot_height; /* cells, with the title */
     const char *script;          /* keys and commands for the terminal program; NULL: none */
     enum ceduo_charset charset;
     int language;       /* a word of the option's row */
     const char *output; /* NULL: standard output */
-    int stands;         /* CSV rows are stands */
+    int stands;         /* rows of CSV are stands */
     bool details;       /* the whole page, not the short one */
     bool quiet;
     uint64_t rocks;   /* 0: the scene's */
     double tolerance; /* 0: none */
     uint64_t threads;
     struct word_list sets; /* PATH=VALUE, in their order, --seed among them */
-    size_t cells;          /* of a row of --each: the last of these */
+    size_t cells;          /* number of sets from a row of --each: the last ones */
     struct word_list options;
     size_t calibrates_count;
     struct path_range calibrates[CEDUO_CALIBRATION_MOST];
     char **scenes;
     size_t scenes_count;
-    const char *called; /* how messages call the present scene where there are several; NULL: they need not */
-    const char *label;  /* how a table calls its row of --each; NULL: there is none */
+    const char *called; /* name of the present scene in messages; NULL: there is one scene */
+    const char *label;  /* of its row of --each in tables; NULL: no row */
     uint64_t seed;
-    char seed_set[64];          /* as one of the changes */
+    char seed_set[64];          /* the seed as PATH=VALUE */
     bool years;                 /* every option year by year */
-    struct ceduo_window window; /* those years; step 0: one whole rotation of each */
+    struct ceduo_window window; /* step 0: one whole rotation of each option */
     struct path_range find;
     enum ceduo_goal goal;
     double goal_value;               /* NaN: the light's own limit */
-    double sure;                     /* share of what may be true in which the goal is reached; 0: not asked for */
+    double sure;                     /* share of plausible cases in which the goal is reached; 0: not asked */
     uint64_t points;                 /* of --sensitivity */
     const char *survey;              /* a CSV file of plots; NULL: none */
-    const char *each;                /* a CSV file of which each row changes the scenes; NULL: none */
-    const char *columns;             /* of CSV, by their heads with a comma between them; NULL: all */
+    const char *each;                /* a CSV file whose rows change the scenes; NULL: none */
+    const char *columns;             /* heads of CSV with commas between them; NULL: all */
     int schema;                      /* a word of the option's row */
-    bool resume;                     /* go on with what the output holds */
-    struct ceduo_profiles *profiles; /* of pages of several scenes: what the table before them says */
-    struct text *title;              /* of a report: that of the first scene */
+    bool resume;                     /* keep what the output holds */
+    struct ceduo_profiles *profiles; /* of several scenes, for the table before their pages */
+    struct text *title;              /* of a report: title of the first scene */
 };
 
 /* Options that another option needs. */
@@ -105,14 +105,14 @@ struct option_row {
 
 const struct option_row *ceduo_option_rows(size_t *n);
 
-/* EXIT_DONE, or another status once the reason is told. Free the arguments in any case. */
+/* Read the command line. Another status than EXIT_DONE is reported. Free the arguments in any case. */
 enum exit_status ceduo_arguments_read(struct arguments *arguments, int argc, char **argv);
 void ceduo_arguments_free(struct arguments *arguments);
 
-/* Whether the option of this name stands on the command line. */
+/* True if this option stands on the command line. */
 bool ceduo_arguments_given(const struct arguments *arguments, const char *name);
 
-/* The page of --help. */
+/* Append the page of --help. */
 void ceduo_arguments_help(struct text *text);
 
 #endif

@@ -213,19 +213,14 @@ void ceduo_ask_years(struct ceduo_question *q)
 
 enum ceduo_status ceduo_ask_runs(struct asked *c)
 {
-    struct ceduo_run_def *run = &c->question.run;
     struct ceduo_pool *pool = NULL; /* for the pictures */
-    run->cells = c->cells ? ceduo_snapshot_places(run->scene, c->cell_x) : 0;
-    run->cell_x = c->cell_x;
     enum ceduo_status status = ceduo_ask(&c->question, c->pictures ? &pool : NULL, &c->answer);
     c->seconds = ceduo_clock() - c->progress.start;
-    const struct ceduo_snapshot_def def = {.scene = run->scene,
-                                           .figures = pool,
-                                           .pictures = pool,
-                                           .cells = run->cells,
-                                           .cell_x = c->cell_x,
+    const struct ceduo_snapshot_def def = {.scene = c->question.run.scene,
+                                           .runs = pool,
+                                           .envelope_rocks = c->envelopes ? CEDUO_ENVELOPE_ROCKS : 0,
                                            .trajectories = c->trajectories,
-                                           .cancel = run->cancel};
+                                           .cancel = c->question.run.cancel};
     if (status == CEDUO_OK && c->pictures)
         status = ceduo_snapshot_create(&def, &c->snapshot);
     ceduo_pool_free(pool);

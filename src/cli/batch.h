@@ -6,7 +6,7 @@
 #include "ceduo/question.h"
 #include "study/snapshot.h"
 
-/* ---- commands: each prints to standard output or to --output and returns the exit status ---- */
+/* ---- commands: print to standard output or --output, and return the exit status ---- */
 
 enum exit_status ceduo_batch_run(const struct arguments *arguments);
 enum exit_status ceduo_batch_calibrate(const struct arguments *arguments);
@@ -16,75 +16,73 @@ enum exit_status ceduo_batch_columns(const struct arguments *arguments);
 enum exit_status ceduo_batch_schema(const struct arguments *arguments);
 enum exit_status ceduo_batch_survey(const struct arguments *arguments);
 
-/* ---- answers of one scene, which they add: the modes of ceduo_batch_run() ---- */
+/* ---- modes of ceduo_batch_run(): append the answer of one scene ---- */
 
 typedef enum exit_status ceduo_batch_answer(const struct arguments *arguments, struct scene_file *file, struct text *out);
 ceduo_batch_answer ceduo_print_report, ceduo_print_plots, ceduo_print_find, ceduo_print_doubt, ceduo_print_chapter;
 
 /* ---- reading ---- */
 
-/* Reads a scene with the changes and the options of the command line (with --find all of its options); what is wrong with
- * it goes to standard error. EXIT_OUTPUT where --output is one of the files that it was read from. */
+/* Read a scene with the changes of the command line and its chosen options, with --find all options. Reports errors on standard
+ * error. EXIT_OUTPUT if --output is one of its files. */
 enum exit_status ceduo_batch_read(const struct arguments *arguments, const char *path, struct scene_file *file);
 
-/* The option of a name. EXIT_USAGE where there is none, once that is told. */
+/* Find an option by its name. EXIT_USAGE if there is none, which is reported. */
 enum exit_status ceduo_batch_option(const struct scene_file *file, const char *name, size_t *index);
 
 /* Print a warning to standard error if hardly a rock arrives even without forest, so that the scene has no answer. Simulates at
  * most LOOK_ROCKS rocks. `stands`: warn of unusual stands, too. */
 void ceduo_batch_warn(const struct arguments *arguments, const struct scene_file *file, bool stands);
 
-/* Says why there is no answer; an interruption says nothing. EXIT_RUN. */
+/* Report the reason for no answer, unless it is an interruption. Returns EXIT_RUN. */
 enum exit_status ceduo_batch_failed(const struct scene_file *file, enum ceduo_status status);
 
-/* ---- progress: on standard error, once a second is over ---- */
+/* ---- progress: on standard error, after a second ---- */
 
 struct progress {
     double start, shown;
     bool wanted;
 };
 struct progress ceduo_progress_begin(const struct arguments *arguments);
-/* Whether it is time to show how far it is; `*seconds`: since the start. */
+/* True if it is time to show progress. Sets *seconds since the start. */
 bool ceduo_progress_due(struct progress *progress, double *seconds);
-/* How many of all scenes are done, some of them now, and for how long the others may take. */
+/* Show the number of scenes that are done and the time for the rest. `computed`: scenes of this run. */
 void ceduo_progress_scenes(struct progress *progress, size_t computed, size_t done, size_t all);
 
 /* ---- asking ---- */
 
-/* What is asked of one scene, and the answer. */
+/* A question about one scene, and the answer. */
 struct asked {
     struct ceduo_question question;
-    bool pictures, cells; /* with what they need; with envelopes along the slope as well, */
-    size_t trajectories;  /* and so many of these */
+    bool pictures, envelopes; /* keep data of pictures, and of envelopes along the slope */
+    size_t trajectories;      /* number of trajectories to keep */
     struct progress progress;
-    double cell_x[CEDUO_SNAPSHOT_CELLS];
     struct ceduo_answer answer;
-    double seconds; /* that the runs took */
+    double seconds; /* of the runs */
     struct ceduo_snapshot *snapshot;
     struct ceduo_verdict verdict;
-    struct scene_inputs inputs; /* that are in doubt */
+    struct scene_inputs inputs; /* that are uncertain */
     struct ceduo_doubt_answer doubt_answer;
-    struct ceduo_doubt_report doubt; /* its answer is NULL where nothing is in doubt, its file where that is not asked */
+    struct ceduo_doubt_report doubt; /* answer NULL: nothing is uncertain; file NULL: not asked */
 };
 
-/* Begins with what the command line asks of a scene: rocks as -n, -e or the scene says, threads, years. */
+/* Set the question of the command line: rocks by -n, -e or the scene; threads, years. */
 void ceduo_ask_begin(struct asked *asked, const struct arguments *arguments, const struct scene_file *file);
 
-/* Asks for one rotation of each option as well, with as few rocks as tell its mean: where --years is not given. */
+/* Ask for one rotation of each option as well, with few rocks, if --years is not given. */
 void ceduo_ask_years(struct ceduo_question *question);
 
-/* Simulates what the question asks for. */
+/* Simulate the runs of the question. */
 enum ceduo_status ceduo_ask_runs(struct asked *asked);
 
-/* Asks what doubt does to the scene, with the points and rocks of the command line. */
+/* Compute the uncertainty of the scene, with the points and rocks of the command line. */
 enum ceduo_status ceduo_ask_doubt(struct asked *asked, const struct arguments *arguments, struct scene_file *file);
 
-/* The same beside the answer, with no more rocks than that has, and over the rotation of each option if there is one.
- * Nothing is computed where rocks among stems are not simulated, where nothing can be said, or where it would take far
- * longer than most scenes. */
+/* The same in addition to the answer, with at most its rocks, and over the rotation of each option if there is one. Nothing is
+ * computed if rocks among stems are not simulated, if there is no answer, or if it would take far longer than for most scenes. */
 enum ceduo_status ceduo_ask_doubt_beside(struct asked *asked, const struct arguments *arguments, struct scene_file *file);
 
-/* Releases all, and says where it failed. Otherwise EXIT_DONE, or EXIT_RUN where more than one rock of 1000 is unfinished. */
+/* Release all, and report a failure. Otherwise EXIT_DONE, or EXIT_RUN if more than one rock of 1000 is unfinished. */
 enum exit_status ceduo_ask_end(struct asked *asked, const struct scene_file *file, enum ceduo_status status);
 
 #endif

@@ -67,7 +67,7 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
                                             .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed}};
         if (!print_figures(a, ceduo_result_figures, ceduo_result_csv(a->stands, a->years),
                            &(struct ceduo_place){.report = &report}, out)) {
-            (a->details ? ceduo_report_table : ceduo_report_short)(out, &report, !ceduo_say_utf8());
+            ceduo_report_page(out, &report, a->details, !ceduo_say_utf8());
             ceduo_say_plainly(out);
             ceduo_profiles_add(a->profiles, &report, a->label);
         }
@@ -192,7 +192,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
     } else if (ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_RUN) {
         ceduo_batch_warn(a, file, false);
         c.pictures = true;
-        c.cells = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS;
+        c.envelopes = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS;
         c.trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0;
         c.question.run.other_energy = false;
         c.question.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
@@ -245,7 +245,7 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
 {
     struct asked c;
     ceduo_ask_begin(&c, a, file);
-    c.pictures = c.cells = true;
+    c.pictures = c.envelopes = true;
     c.trajectories = WAYS;
     if (a->window.step > 0)
         c.question.year_rocks = YEAR_ROCKS;

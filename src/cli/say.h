@@ -8,54 +8,52 @@
 #include "arguments.h"
 #include "io/file.h"
 
-/* Prints to standard error, as ASCII where the terminal knows no more. */
+/* Print to standard error, as ASCII if the locale is not UTF-8. */
 void ceduo_say(struct text *text);
 
-/* Prints what is wrong, and frees it. */
+/* Print problems, and free them. */
 void ceduo_say_problems(struct problems *problems);
 
-/* Shows how far it is, on standard error: on one line, over what was shown before. What else is printed takes it away, as does the
- * end of the program. */
+/* Show progress on one line of standard error, over the line before. Other output and the end of the program remove it. */
 void ceduo_say_progress(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void ceduo_say_no_progress(void);
 
-/* A line on standard error: what, and why. */
+/* Print a line "what: why" to standard error. */
 void ceduo_say_why(const char *what, const char *why);
 
-/* Makes a text for people plain ASCII where the terminal knows no more. */
+/* Make a text plain ASCII if the locale is not UTF-8. */
 void ceduo_say_plainly(struct text *text);
 
-/* Whether the locale is UTF-8. */
+/* True if the locale is UTF-8. */
 bool ceduo_say_utf8(void);
 
-/* Says on standard error what is wrong with the command line, or with this option of it. EXIT_USAGE. */
+/* Report an error of the command line. `option` may be NULL. Returns EXIT_USAGE. */
 enum exit_status ceduo_usage(const char *option, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The language and characters of the environment. Numbers have a dot in every language: LC_NUMERIC stays that of C. */
+/* Set language and characters from the environment. LC_NUMERIC stays that of C: numbers have a dot in every language. */
 void ceduo_language_start(void);
 
-/* Another language: "it" or "en". Where its translation is not found, text stays English. */
+/* Set the language "it" or "en". Text stays English if the translation is not found. */
 void ceduo_language_set(const char *language);
 
-/* From here on SIGINT, SIGTERM and SIGHUP raise a flag instead of ending the program; a second one ends it. */
+/* Make SIGINT, SIGTERM and SIGHUP raise a flag; a second signal ends the program. */
 void ceduo_interrupt_catch(void);
 
-/* The flag, for a run to look at. */
+/* The flag, for runs. */
 const atomic_bool *ceduo_interrupt_flag(void);
 
-/* Lets signals act again, and ends the program by the one that was caught, if one was. */
+/* Let signals act again. Ends the program by a signal that was caught. */
 void ceduo_interrupt_release(void);
 
 /* ---- output.c ---- */
 
-/* Whether it can be written to where --output says, as far as that can be told, and that is none of the files given;
- * says why not. */
+/* True if --output can probably be written and is none of the files on the command line. Reports the reason otherwise. */
 bool ceduo_output_check(const struct arguments *arguments);
 
-/* Whether --output is this file, by whatever name. Says so. */
+/* True if --output is this file, by any name, which is reported. */
 bool ceduo_output_is(const struct arguments *arguments, const char *path);
 
-/* Writes to where --output says. EXIT_OUTPUT with the reason on standard error where that fails. */
+/* Write to --output. EXIT_OUTPUT on failure, which is reported. */
 enum exit_status ceduo_output_write(const struct arguments *arguments, const struct text *text);
 
 /* The output of many scenes. With --output they wait for the last scene: in memory if they are few, otherwise in a file beside the

@@ -15,6 +15,8 @@
 #define HEADS_MAX  1000 /* heads of a table whose heads are known */
 #define NAMES_MAX  10   /* names that a list shows */
 
+#define BLANKS " \t"
+
 /* ---- records ---- */
 
 static void trim(struct csv_cell *cell)
@@ -99,13 +101,6 @@ static const char *read_cell(struct csv *csv, const char *p, const char *end, st
     return p;
 }
 
-static const char *skip_blanks(const char *p, const char *end)
-{
-    while (p < end && (*p == ' ' || *p == '\t'))
-        p++;
-    return p;
-}
-
 /* Read the record at csv->next. */
 static bool read_record(struct csv *csv)
 {
@@ -116,14 +111,14 @@ static bool read_record(struct csv *csv)
     csv->place = csv->next;
     csv->cells_count = 0;
     csv->bad = false;
-    for (p = blanks ? skip_blanks(p, end) : p; more;) {
+    for (p += blanks ? strspn(p, BLANKS) : 0; more;) {
         csv->cells = ceduo_arena_more(csv->arena, csv->cells, csv->cells_count, 1, &csv->cells_capacity, sizeof *csv->cells);
         if (!csv->cells) {
             csv->cells_count = csv->cells_capacity = 0;
             return false;
         }
         p = read_cell(csv, p, end, &csv->cells[csv->cells_count++]);
-        p = blanks ? skip_blanks(p, end) : p;
+        p += blanks ? strspn(p, BLANKS) : 0;
         more = !is_end_of_line(p, end);
         p += more && !blanks;
     }
@@ -295,6 +290,8 @@ static void find_head(struct csv *csv, const struct csv_head *heads, size_t n)
     }
     csv->next = best_line;
     csv->separator = best;
+    csv->cells = trial.cells; /* the list that has grown serves the table, too */
+    csv->cells_capacity = trial.cells_capacity;
 }
 
 /* Units that may stand in a row of their own. */

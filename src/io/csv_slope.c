@@ -493,12 +493,6 @@ static bool measure_line(struct reader *r)
     return check_coordinates(r, r->n > 0 ? r->raw[r->n - 1].along : 0) && check_turns(r) && check_crossings(r);
 }
 
-/* Check the places on the map, and set the distances that they give. */
-static bool check_places(struct reader *r)
-{
-    return r->map ? measure_line(r) : !has_places(r) || check_four(r);
-}
-
 /* ---- heights ---- */
 
 static bool is_jump(const struct raw *a, const struct raw *b)
@@ -690,8 +684,9 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *lay
         return false;
     *r = (struct reader){.arena = arena, .problems = problems};
     bool good = ceduo_csv_open(&r->csv, arena, path, problems) && check_table(&r->csv, problems) && read_points(r) &&
-                (r->n == 0 || (choose_layer(r, layer) && check_places(r) && check_heights(r))) && make_points(r, points) &&
-                problems->met == before;
+                (r->n == 0 || (choose_layer(r, layer) && (r->map ? measure_line(r) : !has_places(r) || check_four(r)) &&
+                               check_heights(r))) &&
+                make_points(r, points) && problems->met == before;
     points->lines = r->several;
     if (good && points->n > 0)
         understand(r, points, path);

@@ -72,12 +72,6 @@ static enum column size_column(const struct survey_reader *r)
     return has_column(r, DBH) ? DBH : CIRCUMFERENCE;
 }
 
-/* True if a head of heights may mean altitudes even with a unit. */
-static bool is_altitude(struct csv_cell head)
-{
-    return ceduo_csv_among(head.p, head.n, "alt|alt m|alt mt|alt metri");
-}
-
 static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *survey)
 {
     const struct sizes s = measure_sizes(survey);
@@ -85,7 +79,9 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
     const enum column size = size_column(r), area = has_column(r, AREA) ? AREA : RADIUS;
     const bool sized = have_units(r, DBH, CIRCUMFERENCE), laid = have_units(r, AREA, RADIUS);
     const struct csv_cell head = head_of(r, size);
-    const bool may_be_altitude = has_column(r, HEIGHT) && (!r->units[HEIGHT] || is_altitude(r->csv.heads[r->columns[HEIGHT]]));
+    const struct csv_cell height = has_column(r, HEIGHT) ? r->csv.heads[r->columns[HEIGHT]] : (struct csv_cell){.p = ""};
+    const bool may_be_altitude =
+        has_column(r, HEIGHT) && (!r->units[HEIGHT] || ceduo_csv_among(height.p, height.n, "alt|alt m|alt mt|alt metri"));
     bool *asked = r->answers->asked;
     if (may_be_altitude && s.height > HEIGHT_BARE && !r->answers->given[SURVEY_HEIGHTS]) {
         asked[SURVEY_HEIGHTS] = true;

@@ -513,12 +513,6 @@ static size_t tries_of(const struct ceduo_input *input)
     return input->kind == CEDUO_INPUT_WORDS ? input->words_count : input->kind == CEDUO_INPUT_DRAWS ? 0 : 2;
 }
 
-static bool is_place(const struct ceduo_input *input)
-{
-    const struct field *f = input->places_count > 0 ? ceduo_schema_at(input->places[0]) : NULL;
-    return f && ceduo_schema_is_place(f);
-}
-
 /* Value k of input i in words. */
 static const char *value_text(struct validator *v, size_t i, size_t k)
 {
@@ -586,7 +580,9 @@ void ceduo_validate_ends(struct validator *v)
                 ceduo_inputs_open(&e.copy, &v->draft.scene, v->file->inputs, n) == CEDUO_OK;
     for (size_t i = 0; good && i < n; i++) {
         e.u[i] = NAN;
-        if (is_place(&v->file->inputs[i]))
+        const struct ceduo_input *input = &v->file->inputs[i];
+        const struct field *f = input->places_count > 0 ? ceduo_schema_at(input->places[0]) : NULL;
+        if (f && ceduo_schema_is_place(f))
             places[places_count++] = i;
     }
     for (size_t i = 0; good && i < n; i++)

@@ -11,10 +11,8 @@ struct runs {
     unsigned threads;
     const atomic_bool *cancel;
     uint64_t scene_key;
-    struct ceduo_pool *pictures, *figures, *years, *others;
-    struct ceduo_scene other; /* that the pool of the others is turned to */
-    double cells[CEDUO_SNAPSHOT_CELLS];
-    size_t cells_count;
+    struct ceduo_pool *figures, *years, *others;
+    struct ceduo_scene other;    /* that the pool of the others is turned to */
     struct ceduo_snapshot *last; /* what was last made of the runs */
 };
 
@@ -33,12 +31,11 @@ void ceduo_runs_free(struct runs *r)
     ceduo_pool_free(r->figures);
     ceduo_pool_free(r->years);
     ceduo_pool_free(r->others);
-    ceduo_pool_free(r->pictures);
     ceduo_other_scene_release(&r->other);
     free(r);
 }
 
-static enum ceduo_status turn_pool(struct runs *r, const struct ceduo_scene *scene, bool arrivals_only, bool cells,
+static enum ceduo_status turn_pool(struct runs *r, const struct ceduo_scene *scene, bool arrivals_only,
                                    struct ceduo_pool **pool)
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
@@ -46,8 +43,6 @@ static enum ceduo_status turn_pool(struct runs *r, const struct ceduo_scene *sce
     def.rocks_most = RUNS_MAX;
     def.cancel = r->cancel;
     def.arrivals_only = arrivals_only;
-    def.cells = cells ? r->cells_count : 0;
-    def.cell_x = r->cells;
     return ceduo_pool_for(&def, pool);
 }
 
@@ -60,11 +55,8 @@ static enum ceduo_status turn(struct runs *r, const struct ceduo_scene *scene)
         r->last = NULL;
     }
     r->scene_key = key;
-    r->cells_count = ceduo_snapshot_places(scene, r->cells);
-    enum ceduo_status status = turn_pool(r, scene, false, false, &r->figures);
-    if (status == CEDUO_OK)
-        status = turn_pool(r, scene, true, false, &r->years);
-    return status == CEDUO_OK ? turn_pool(r, scene, false, true, &r->pictures) : status;
+    enum ceduo_status status = turn_pool(r, scene, false, &r->figures);
+    return status == CEDUO_OK ? turn_pool(r, scene, true, &r->years) : status;
 }
 
 /* ---- figures ---- */
@@ -84,10 +76,8 @@ static enum ceduo_status hand_over(struct runs *r, const struct runs_step *step)
 {
     struct ceduo_snapshot *mine, *theirs;
     struct ceduo_snapshot_def def = {.scene = step->scene,
-                                     .figures = r->figures,
-                                     .pictures = r->pictures,
-                                     .cells = r->cells_count,
-                                     .cell_x = r->cells,
+                                     .runs = r->figures,
+                                     .envelope_rocks = step->rocks > RUNS_FIRST ? CEDUO_ENVELOPE_ROCKS : RUNS_SKETCH,
                                      .trajectories = CEDUO_SNAPSHOT_TRAJECTORIES,
                                      .cancel = r->cancel,
                                      .last = r->last};
@@ -102,25 +92,17 @@ static enum ceduo_status hand_over(struct runs *r, const struct runs_step *step)
     return status;
 }
 
-/* Makes the run of one forest as long as `rocks`. */
-static enum ceduo_status simulate_forest(struct runs *r, const struct ceduo_option *option, uint64_t rocks)
-{
-    struct ceduo_pool *pool = rocks <= RUNS_PICTURE ? r->pictures : r->figures;
-    struct ceduo_run *run;
-    enum ceduo_status status = ceduo_pool_run(r->pictures, option, &run);
-    return status == CEDUO_OK ? ceduo_pool_simulate(pool, option, rocks, &run) : status;
-}
-
 /* Hands over after each forest: once something is known it is shown with its own error until better is known. */
 enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
 {
     const struct ceduo_scene *scene = step->scene;
     bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
+    struct ceduo_run *run;
     enum ceduo_status status = turn(r, scene);
     if (status == CEDUO_OK)
-        status = simulate_forest(r, NULL, step->rocks);
+        status = ceduo_pool_simulate(r->figures, NULL, step->rocks, &run);
     for (size_t k = 0, n = scene->options_count; wooded && k < n && status == CEDUO_OK; k++) {
-        status = simulate_forest(r, &scene->options[(step->shown + k) % n], step->rocks);
+        status = ceduo_pool_simulate(r->figures, &scene->options[(step->shown + k) % n], step->rocks, &run);
         bool says = k + 1 < n && (k == 0 || step->rocks >= RUNS_MAX);
         if (status == CEDUO_OK && says)
             status = hand_over(r, step);
@@ -132,7 +114,7 @@ enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
     bool precise = is_precise(r->last->bare);
     for (size_t i = 0; i < r->last->options; i++)
         precise = precise && is_precise(r->last->wooded[i]);
-    step->enough = step->rocks * 10 > RUNS_MAX || (step->rocks >= RUNS_PICTURE && precise);
+    step->enough = step->rocks * 10 > RUNS_MAX || (step->rocks >= RUNS_LEAST && precise);
     return CEDUO_OK;
 }
 
@@ -146,7 +128,7 @@ enum ceduo_status ceduo_runs_others(struct runs *r, const struct ceduo_scene *sc
     struct ceduo_run *first = NULL;
     if (!ceduo_other_scene(scene, &other))
         ceduo_no_memory();
-    enum ceduo_status status = turn_pool(r, &other, true, false, &r->others);
+    enum ceduo_status status = turn_pool(r, &other, true, &r->others);
     r->other = status == CEDUO_OK ? other : before; /* that the pool is turned to */
     ceduo_other_scene_release(status == CEDUO_OK ? &before : &other);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {

@@ -5,15 +5,15 @@
 #include "ceduo/years.h"
 #include "study/snapshot.h"
 
-/* Runs that the live program keeps, simulated in steps from coarse to fine. Short runs carry the envelopes of pictures, long
- * ones the figures, those of years only arrivals. */
+/* Runs that the live program keeps, simulated in steps from coarse to fine. Those of years hold only arrivals. */
 struct runs;
 
 #define RUNS_FIRST     1024   /* rocks of the first level; each further one simulates ten times as many */
+#define RUNS_SKETCH    500    /* rocks of the envelopes of the first level */
 #define RUNS_LEVELS    3      /* of each forest; of each year and of the other energy law one less */
-#define RUNS_PICTURE   10240  /* enough for envelopes */
 #define RUNS_MAX       102400 /* of each forest */
-#define RUNS_TOLERANCE 0.004  /* fewer once mean energies are known to this (95 %) */
+#define RUNS_LEAST     10240  /* enough once mean energies are known to RUNS_TOLERANCE (95 %) */
+#define RUNS_TOLERANCE 0.004
 
 struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel);
 void ceduo_runs_free(struct runs *runs);

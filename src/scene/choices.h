@@ -4,11 +4,11 @@
 
 #include <stddef.h>
 
-/* The words of the files for what the scene counts: an enum, or a row of a library. Word i stands for value i. */
+/* Words of files for an enum, or for rows of a library. Word i stands for value i. */
 struct choices {
     const char *const *names;
     size_t n;
-    const char *const *also; /* of each: it and other words that files may have, with | between them; NULL: none has any */
+    const char *const *also; /* of each value: all words that files may have, with | between them; NULL: only names */
 };
 
 extern const struct choices ceduo_shape_words, ceduo_facets_words, ceduo_system_words, ceduo_energy_words, ceduo_offset_words,
@@ -25,8 +25,7 @@ extern const struct choices ceduo_shape_words, ceduo_facets_words, ceduo_system_
 #define LIBRARY_ROW(name, also, ...) {name, __VA_ARGS__},
 #define LIBRARY_NAME(name, ...)      name,
 
-/* The value that a word stands for, -1 where it is none of them. Of words that have others beside them, case, blanks and hyphens do
- * not matter. */
+/* Return the value of a word; -1: none. In lists with other words, case, blanks and hyphens do not matter. */
 int ceduo_choice_find(const struct choices *choices, const char *word);
 
 /* Remedy for an option, a key (alone or at the end of a path) or a word that only earlier versions had. Marked for translation; NULL:

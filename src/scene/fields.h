@@ -10,7 +10,7 @@
 
 #define FAR 1e9 /* m: survey coordinates and more */
 
-/* Where a value goes: a member; a member and what belongs to it. */
+/* The member of a value, alone or with the member that belongs to it. */
 #define AT(type, member)             offsetof(struct type, member), sizeof((struct type *)0)->member, 0
 #define PAIR(type, member, other)    offsetof(struct type, member), sizeof((struct type *)0)->member, offsetof(struct type, other)
 #define LIST(type, items, count)     PAIR(type, items, count)
@@ -18,13 +18,13 @@
 #define POINTS(type, x, count)       offsetof(struct type, x), 2 * sizeof((struct type *)0)->x, offsetof(struct type, count)
 #define SAME                         0, 0, 0 /* a group whose members are of the structure around it */
 #define NOWHERE                      0, 0, 0
-/* Of the draft, but within the slope. */
+/* Members of the draft for keys of the slope. */
 #define IN_SLOPE(member)       (offsetof(struct scene_draft, member) - offsetof(struct scene_draft, scene.slope))
 #define OF_SLOPE(items, count) IN_SLOPE(items), sizeof((struct scene_draft *)0)->items, IN_SLOPE(count)
 _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x) + sizeof(double *), "points are x, z");
 
-/* The flags of a row whose member is a pointer to text, which the key of a run must not hold: its address says nothing. Such a row
- * compiles only with a flag that keeps it out of the keys. */
+/* Flags of a row whose member is a pointer to text. It compiles only with a flag that keeps it out of the key of a run, which must not
+ * hold an address. */
 #define KEYLESS (FIELD_NOWHERE | FIELD_DRAFT | FIELD_NO_RUN)
 #define TEXT_FLAGS(kind, flags)                                                                                                \
     ((flags) + 0 * sizeof(struct {                                                                                             \
@@ -64,8 +64,7 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
     ROW("ceduo", FIELD_TAG, NOWHERE, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value, N_("what kind of file this is"), NULL,      \
         NULL, NAMED(N_("kind of file")))
 
-/* What people call it: a label, and a short one for the head of a column; what is usual, in the file's unit; another unit that
- * people use. */
+/* How people see it: a label, a short one for the head of a column, the usual range in the file's unit, another unit. */
 #define SHOWN(label, brief, least, most)       ROW(label, brief, NULL, 1, least, most)
 #define NAMED(label)                           SHOWN(label, NULL, -INFINITY, INFINITY)
 #define BRIEF(label, brief)                    SHOWN(label, brief, -INFINITY, INFINITY)

@@ -5,14 +5,14 @@
 #include "ceduo/slope.h"
 #include "schema.h"
 
-/* How far a value that is only assumed may be from what is true, if the scene does not say it. */
+/* Range of an assumed value, if the scene does not give one. */
 struct range {
     const char *path; /* of such a value */
     enum ceduo_input_kind kind;
     double lo, hi;        /* as in struct ceduo_input; unused for words */
-    const char *words[3]; /* CEDUO_INPUT_WORDS: each; NULL behind the last */
-    const char *source;   /* where the range comes from; marked for translation */
-    const char *measured; /* what would measure the value; marked for translation; NULL: nothing can */
+    const char *words[3]; /* CEDUO_INPUT_WORDS; NULL after the last */
+    const char *source;   /* of the range; marked for translation */
+    const char *measured; /* how to measure the value; marked for translation; NULL: impossible */
     bool research;        /* true: only research measures it, so that no page advises it */
 };
 

@@ -6,25 +6,24 @@
 #include "ceduo/scene.h"
 #include "choices.h"
 
-/* The table of the scene: one row for each key of the files, with the member of the scene that holds its value. Everything
- * that knows keys reads it here: the files' reader, --set, --list-parameters, the manual, the forms, typed get and put
- * (value.h), the keys of runs. The rows are in fields.c. */
+/* The table of keys: a row for each key of the files, with the member of the scene that holds its value. The reader of files, --set,
+ * --list-parameters, the manual, the forms, value.h and the keys of runs read it. The rows are in fields.c. */
 
 /* Paths of values: keys joined by '.', items of lists as [0] or [name]: forest[0].stand.trees[oak].per_ha */
 
-/* One step of a path: a key, or what stands in brackets. */
+/* One step of a path: a key, or the text in brackets. */
 struct path_step {
     const char *p;
     size_t n;
     bool bracket;
 };
 
-/* The step at *at, which then is behind it; false at the end or where the path is malformed (then *at stays). */
+/* Read the step at *at, and move *at after it. False at the end, or if the path is malformed: *at stays. */
 bool ceduo_path_next(const char *path, size_t length, size_t *at, struct path_step *step);
 
 bool ceduo_path_is(const struct path_step *step, const char *word);
 
-/* Whether a step is a place in a list. */
+/* True if a step is the number of an item. */
 bool ceduo_path_index(const struct path_step *step, size_t *index);
 
 /* The terminal program asks for all fields of some mappings in one popup, and for one of the kinds of observations by a digit. */
@@ -54,41 +53,41 @@ enum field_flag {
     FIELD_REQUIRED = 1 << 0,
     FIELD_ABOVE = 1 << 1,    /* lo itself is outside */
     FIELD_UNDER = 1 << 2,    /* hi itself is outside */
-    FIELD_FOLLOWS = 1 << 3,  /* a group that may be a path to a file holding it */
-    FIELD_MEANLESS = 1 << 4, /* a spread may leave its mean out */
-    FIELD_ZERO = 1 << 5,     /* 0 where it is not given; without it and without a default NaN */
-    FIELD_ONE_OF = 1 << 6,   /* another key may be given instead: the default holds where neither is */
+    FIELD_FOLLOWS = 1 << 3,  /* a group that may be a path to its file */
+    FIELD_MEANLESS = 1 << 4, /* a spread without mean is valid */
+    FIELD_ZERO = 1 << 5,     /* 0 if not given; otherwise NaN, unless there is a default */
+    FIELD_ONE_OF = 1 << 6,   /* another key may be given instead; the default holds if neither is given */
     FIELD_PLACE = 1 << 7,    /* an x in the slope's coordinates; relative to its first vertex beside, or itself */
-    FIELD_NOWHERE = 1 << 8,  /* no member holds it: what reads the files takes it from them */
-    FIELD_DRAFT = 1 << 9,    /* as the files have it: the scene holds what follows from it */
-    FIELD_WOOD = 1 << 10,    /* it decides about stems, not about trajectories without them */
-    FIELD_YEARS = 1 << 11,   /* it decides about the years to come */
-    FIELD_OR_NONE = 1 << 13, /* a list instead of which the word none may stand */
-    FIELD_OR_ONE = 1 << 14,  /* a list instead of which its only item may stand */
-    FIELD_NO_RUN = 1 << 12,  /* it decides about no rock: a name, a limit that figures are held against */
-    /* no answer is in doubt because of it or what it holds: how much is computed or shown, what was seen */
+    FIELD_NOWHERE = 1 << 8,  /* no member holds it: the reader of files uses it */
+    FIELD_DRAFT = 1 << 9,    /* as in the files: the scene holds values derived from it */
+    FIELD_WOOD = 1 << 10,    /* decides about stems, not about trajectories without stems */
+    FIELD_YEARS = 1 << 11,   /* decides about the years to come */
+    FIELD_OR_NONE = 1 << 13, /* a list, or the word none */
+    FIELD_OR_ONE = 1 << 14,  /* a list, or its only item */
+    FIELD_NO_RUN = 1 << 12,  /* decides about no rock: a name, a limit */
+    /* makes no answer uncertain, nor do its parts: amount of computing, observations */
     FIELD_SETTLED = 1 << 15
 };
 
 struct object;
 
-/* How people read and type a value, where files say it otherwise: see view/typed.h. */
+/* How people read and type a value, see view/typed.h. */
 struct field_shown {
     const char *label, *brief; /* marked for translation; brief: for the head of a column, NULL: the label */
     const char *unit;          /* NULL: the file's */
-    double per;                /* so many of it are one of the file's */
-    double least, most;        /* usual, in the file's unit: beyond it a person is asked back, and a reader warns */
+    double per;                /* units of people in one unit of the file */
+    double least, most;        /* usual range, in the file's unit: outside it, the form asks and the reader warns */
 };
 
 struct field {
     const char *key;
     enum field_type type;
-    size_t offset, size, beside; /* of the member; beside: of the count of items, or of the relative place */
+    size_t offset, size, beside; /* of the member; beside: offset of the count of items, or of the relative place */
     const char *unit;            /* "" for a pure number */
     double scale;                /* SI per unit of the file */
     double lo, hi;               /* in the file's unit */
     unsigned flags;
-    const char *value;   /* the default as it would be written; NULL: none */
+    const char *value;   /* the default as in a file; NULL: none */
     const char *meaning; /* marked for translation */
     const struct choices *choices;
     const struct object *object;
@@ -99,7 +98,7 @@ struct object {
     const struct field *fields;
     size_t n;
     size_t size;        /* of the structure that it fills */
-    const char *folder; /* of profiles, where it may be a file of its own */
+    const char *folder; /* of profiles, for files of its own */
 };
 
 struct material_belt {
@@ -108,7 +107,7 @@ struct material_belt {
     double rn, rt, roughness, friction, mu; /* instead of the library's; NaN: that */
 };
 
-/* What a scene says of a value that is not known: lo and hi, mean and sd, or one_of. */
+/* Uncertainty of a value in a scene: lo and hi, mean and sd, or one_of. */
 struct doubt {
     char *path;
     double lo, hi, mean, sd; /* NaN: not given */
@@ -116,12 +115,12 @@ struct doubt {
     char **one_of;
 };
 
-/* Something that was observed, as a scene says it: values, or what they have in common. */
+/* An observation in a scene: values, or their statistics. */
 struct observed_values {
     double x, from, to; /* m; NaN: not given, as all numbers here */
     size_t values_count;
     double *values;
-    char *csv, *column, *only; /* where they stand instead */
+    char *csv, *column, *only; /* of a table with the values */
     double mean, sd;
     uint64_t n, count, of; /* 0: not given */
     double seen_from, share_seen;
@@ -137,7 +136,7 @@ struct observed {
     struct observed_values values[CEDUO_OBSERVED_KINDS];
 };
 
-/* A scene as its files give it. Behind struct ceduo_scene stands what the files may say in another form. */
+/* A scene as in its files: struct ceduo_scene, and the values that files may give in another form. */
 struct scene_draft {
     struct ceduo_scene scene;
     size_t materials_count, controls_m_count, belts_count, doubts_count, observed_count;
@@ -148,7 +147,7 @@ struct scene_draft {
     struct observed *observed;
 };
 
-/* The scene, the root of all: it fills a struct scene_draft. */
+/* The root, which fills a struct scene_draft, and some of its parts. */
 const struct object *ceduo_schema_scene(void);
 const struct object *ceduo_schema_slope(void);
 const struct object *ceduo_schema_segment(void);
@@ -156,22 +155,21 @@ const struct object *ceduo_schema_belt(void);
 const struct object *ceduo_schema_stand(void);
 
 const struct field *ceduo_schema_field(const struct object *object, const char *key);
-/* The key that says the same in another way, so that only one of the two may stand there; NULL: there is none. Who sets one
- * of two numbers takes the other out. */
+/* Return the other key for the same value, such as per_ha for per_stool; NULL: none. Only one of the two may be given. */
 const char *ceduo_schema_other(const struct object *object, const char *key);
-/* The same where one member holds both: a value in another unit. */
+/* Return the row of the same member in another unit; NULL: none. */
 const struct field *ceduo_schema_unit(const struct object *object, const struct field *field);
 
-/* Whether two paths are of one value: they are the same, or end in such keys of the same mapping. */
+/* True if two paths are equal, or end in two such keys of one mapping. */
 bool ceduo_schema_same(const char *a, const char *b);
 
 const struct field *ceduo_schema_step(const struct object *object, const struct path_step *step);
 
-/* The row of the value at a path of a scene; NULL where none is there, or the path goes on within it. */
+/* Return the row of the value at a path of a scene; NULL: no value, or the path goes on within it. */
 const struct field *ceduo_schema_at(const char *path);
-/* The same of a value that is fitted, which may be of a ground of the library: slope.materials[NAME].KEY. */
+/* The same for a fitted value, also slope.materials[NAME].KEY for a ground of the library. */
 const struct field *ceduo_schema_fitted(const char *path);
-/* The same, also where it is a group or a list. */
+/* The same, also for a group or a list. */
 const struct field *ceduo_schema_row(const char *path);
 
 /* Kind of what --set can change at a path: a value, a part of one such as rock.diameter_m.mean or slope.vertices_m[0][1], a mapping,
@@ -186,36 +184,35 @@ enum path_value {
 };
 enum path_value ceduo_schema_value(const char *path);
 
-/* Whether the row of that value, or one around it, has FIELD_SETTLED. */
+/* True if the row of a path, or a row around it, has FIELD_SETTLED. */
 bool ceduo_schema_is_settled(const char *path);
 
-/* Whether it is a place along the slope, which may be told from its end: x_m, from_m, to_m, controls_m. */
+/* True for a place along the slope, which may be given from the end: x_m, from_m, to_m, controls_m. */
 bool ceduo_schema_is_place(const struct field *field);
 
-/* Reads such a place, "end" or "end-10": so many metres before the end of the profile. False where it is none. */
+/* Read "end" or "end-10", metres before the end of the profile. False if the text is neither. */
 bool ceduo_schema_place_read(const char *text, double *back);
 
-/* Fills an item with its defaults. */
+/* Fill an item with its defaults. */
 void ceduo_schema_init(const struct object *object, void *item);
 
-/* Sets a FIELD_COUNT. */
+/* Set a FIELD_COUNT. */
 void ceduo_schema_set_count(const struct field *field, void *to, uint64_t count);
 
-/* The default of a number in SI; NaN or 0 where it has none. */
+/* Return the default of a number in SI; NaN or 0 if there is none. */
 double ceduo_schema_default(const struct field *field);
 
-/* Whether a number, in the file's unit, lies in the field's range. */
+/* True if a number, in the file's unit, lies in the field's range. */
 bool ceduo_schema_in_range(const struct field *field, double value);
 
-/* True if a number, in the file's unit, is usual, or 0. Who types or writes another one may have meant another unit. */
+/* True if a number, in the file's unit, is usual, or 0. Another number may be in a wrong unit. */
 bool ceduo_schema_is_usual(const struct field *field, double value);
 
-/* Whether all that can be drawn of a number, in SI, lies in the range; what is cut at 0 and 1 need not. */
+/* True if all numbers that can be drawn, in SI, lie in the range, or if draws are cut at 0 and 1. */
 bool ceduo_schema_spread_fits(const struct field *field, struct ceduo_number number);
 
-/* Whether all numbers and words of an item, and of what it holds, lie in the ranges of their fields, and its lists are there. A
- * number without a default may be NaN or 0: whether it must be given is for others to check. So are spreads: those of a rock, its
- * release and the ground. */
+/* True if all numbers and words of an item and its parts lie in their ranges, and its lists exist. A number without a default may be
+ * NaN or 0. Spreads are not checked. */
 bool ceduo_schema_holds(const struct object *object, const void *item);
 bool ceduo_schema_field_holds(const struct field *field, const void *item);
 
@@ -225,10 +222,10 @@ enum ceduo_status ceduo_check_stands(const struct ceduo_option *option);
 /* True if the lists of an option are there. Its numbers may be any, as in a year that no scene has. `option` may be NULL. */
 bool ceduo_option_has_lists(const struct ceduo_option *option);
 
-/* Adds the range of a field; false where it has none. */
+/* Append the range of a field; false if it has none. */
 bool ceduo_schema_range_text(const struct field *field, struct text *text);
 
-/* Calls `visit` for each parameter with its whole path, groups and lists unfolded. */
+/* Call `visit` for each parameter below groups and lists, with its whole path. */
 void ceduo_schema_visit(const struct object *object, const char *prefix,
                         void (*visit)(void *context, const char *path, const struct field *field), void *context);
 

@@ -6,15 +6,15 @@
 
 #include "ceduo/stand.h"
 
-/* The volume of a stem by its diameter, made ready for many stems of one kind: as given, by the equation of the species
- * inside its rectangle of dbh and height, beyond it with the form factor of its nearest point, so that a volume has no jump
- * (assumed); without a species form factor × basal area × height. */
+/* The volume of a stem by its diameter, prepared for many stems of one kind: as given, or by the equation of the species inside its
+ * rectangle of dbh and height. Outside it, by the form factor of the nearest point, so that a volume has no jump (assumed). Without a
+ * species: form factor × basal area × height. */
 struct stem_volume {
     double given;                        /* m3, of the mean stem; NaN: not given */
     double squares;                      /* m2: the mean of dbh2 */
     double dbh;                          /* m, of the mean stem */
     double height;                       /* m */
-    const struct ceduo_species *species; /* NULL: not said */
+    const struct ceduo_species *species; /* NULL: not given */
 };
 
 static inline struct stem_volume stem_volume_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
@@ -29,7 +29,7 @@ static inline struct stem_volume stem_volume_of(const struct ceduo_stand *stand,
     return v;
 }
 
-/* m3 of a stem of diameter dbh whose volume is not given. `from` may be NULL. */
+/* Return m3 of a stem of diameter dbh without a given volume. `from` may be NULL. */
 static inline double stem_volume_computed(const struct stem_volume *v, double dbh, enum ceduo_volume_from *from)
 {
     const struct ceduo_species *s = v->species;
@@ -47,7 +47,7 @@ static inline double stem_volume_computed(const struct stem_volume *v, double db
     return equation * (cm * cm * v->height / (d * d * h));
 }
 
-/* m3 of the mean stem. `from` may be NULL. */
+/* Return m3 of the mean stem. `from` may be NULL. */
 static inline double stem_volume_mean(const struct stem_volume *v, enum ceduo_volume_from *from)
 {
     if (isnan(v->given))
@@ -57,7 +57,7 @@ static inline double stem_volume_mean(const struct stem_volume *v, enum ceduo_vo
     return v->given;
 }
 
-/* m3 of one stem: a given volume is the mean of all stems, and goes with the square of the diameter. */
+/* Return m3 of one stem. A given volume is the mean of all stems, and grows with the square of the diameter. */
 static inline double stem_volume_one(const struct stem_volume *v, double dbh)
 {
     return isnan(v->given) ? stem_volume_computed(v, dbh, NULL) : v->given * (dbh * dbh / v->squares);

@@ -77,7 +77,7 @@ static enum ceduo_status trace(struct ceduo_follower *follower, uint64_t rock, s
 
 /* ---- places ---- */
 
-size_t ceduo_snapshot_places(const struct ceduo_scene *scene, double *x)
+static size_t place_cells(const struct ceduo_scene *scene, double *x)
 {
     double from = ceduo_number_highest(scene->release.x), to = scene->slope.x[scene->slope.vertices - 1];
     if (!(to > from))
@@ -112,8 +112,40 @@ static void let_go(struct ceduo_run_snapshot *s)
     free(s);
 }
 
-static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const struct ceduo_option *option,
-                                    const struct ceduo_run *run, const struct ceduo_run *pictures, struct ceduo_run_snapshot *s)
+static struct ceduo_run_snapshot *find_sight(const struct ceduo_snapshot *o, uint64_t key)
+{
+    for (size_t i = 0; o && i <= o->options; i++) {
+        struct ceduo_run_snapshot *s = i == 0 ? o->bare : o->wooded[i - 1];
+        if (s && s->key == key)
+            return s;
+    }
+    return NULL;
+}
+
+/* The envelopes, copied from the last snapshot if it has them from as many rocks. */
+static enum ceduo_status read_envelopes(const struct ceduo_snapshot_def *def, const struct ceduo_snapshot *o,
+                                        const struct ceduo_option *option, struct ceduo_run_snapshot *s)
+{
+    const struct ceduo_run_snapshot *last = find_sight(def->last, s->key);
+    if (o->cells == 0)
+        return CEDUO_OK;
+    s->envelope_rocks = s->flown.rocks < def->envelope_rocks ? s->flown.rocks : def->envelope_rocks;
+    if (last && last->envelope_rocks == s->envelope_rocks) {
+        memcpy(s->envelopes, last->envelopes, o->cells * sizeof *s->envelopes);
+        return CEDUO_OK;
+    }
+    const struct ceduo_envelopes_def envelopes = {.scene = def->scene,
+                                                  .option = option,
+                                                  .rocks = s->envelope_rocks,
+                                                  .places = o->cells,
+                                                  .x = o->cell_x,
+                                                  .cancel = def->cancel};
+    return ceduo_envelopes(&envelopes, s->envelopes);
+}
+
+static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const struct ceduo_snapshot *o,
+                                    const struct ceduo_option *option, const struct ceduo_run *run,
+                                    struct ceduo_run_snapshot *s)
 {
     const struct ceduo_slope *slope = &def->scene->slope;
     size_t controls = def->scene->controls_count;
@@ -122,7 +154,7 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
         return status;
     size_t trajectories = def->trajectories < s->flown.rocks ? def->trajectories : (size_t)s->flown.rocks;
     s->energies = ceduo_arena_take(&s->memory, (controls + 1) * sizeof *s->energies);
-    s->envelopes = ceduo_arena_take(&s->memory, (def->cells + 1) * sizeof *s->envelopes);
+    s->envelopes = ceduo_arena_take(&s->memory, (o->cells + 1) * sizeof *s->envelopes);
     s->trajectories = ceduo_arena_take(&s->memory, (trajectories + 1) * sizeof *s->trajectories);
     struct ceduo_follower *follower = ceduo_follower_create(def->scene, option);
     struct tracer *tracer = malloc(sizeof *tracer);
@@ -132,8 +164,8 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
         tracer->gravity = def->scene->simulation.gravity;
         tracer->step = (slope->x[slope->vertices - 1] - slope->x[0]) / RESOLUTION;
     }
-    for (size_t i = 0; i < def->cells && status == CEDUO_OK && pictures; i++)
-        ceduo_run_envelope(pictures, i, &s->envelopes[i]);
+    if (status == CEDUO_OK)
+        status = read_envelopes(def, o, option, s);
     if (status == CEDUO_OK)
         status = read_energies(run, s);
     for (size_t i = 0; i < trajectories && status == CEDUO_OK; i++)
@@ -145,37 +177,25 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
 
 /* ---- all runs ---- */
 
-/* The run of a forest that figures are read from. */
-static const struct ceduo_run *longest_run(const struct ceduo_snapshot_def *def, const struct ceduo_option *option)
+/* The run of a forest; NULL: it has no rocks yet. */
+static const struct ceduo_run *find_run(const struct ceduo_snapshot_def *def, const struct ceduo_option *option)
 {
-    const struct ceduo_run *a = ceduo_pool_find(def->figures, option), *b = ceduo_pool_find(def->pictures, option);
-    uint64_t in_a = a ? ceduo_run_rocks(a) : 0, in_b = b ? ceduo_run_rocks(b) : 0;
-    return in_b > 0 && in_b >= in_a ? b : in_a > 0 ? a : NULL;
-}
-
-static struct ceduo_run_snapshot *find_sight(const struct ceduo_snapshot *o, uint64_t key, uint64_t rocks, uint64_t pictures)
-{
-    for (size_t i = 0; o && i <= o->options; i++) {
-        struct ceduo_run_snapshot *s = i == 0 ? o->bare : o->wooded[i - 1];
-        if (s && s->key == key && s->flown.rocks == rocks && s->picture_rocks == pictures)
-            return s;
-    }
-    return NULL;
+    const struct ceduo_run *run = ceduo_pool_find(def->runs, option);
+    return run && ceduo_run_rocks(run) > 0 ? run : NULL;
 }
 
 /* A new reference to what is to be seen of a forest, NULL where it was not simulated yet. */
 static enum ceduo_status get_sight(const struct ceduo_snapshot_def *def, const struct ceduo_snapshot *o,
                                    const struct ceduo_option *option, struct ceduo_run_snapshot **sight)
 {
-    const struct ceduo_run *run = longest_run(def, option), *pictures = ceduo_pool_find(def->pictures, option);
+    const struct ceduo_run *run = find_run(def, option);
     *sight = NULL;
     if (!run)
         return CEDUO_OK;
     uint64_t key = ceduo_option_key(def->scene, option), rocks = ceduo_run_rocks(run);
-    uint64_t picture_rocks = pictures ? ceduo_run_rocks(pictures) : 0;
-    struct ceduo_run_snapshot *s = find_sight(o, key, rocks, picture_rocks);
-    s = s ? s : find_sight(def->last, key, rocks, picture_rocks);
-    if (s) {
+    struct ceduo_run_snapshot *s = find_sight(o, key);
+    s = s ? s : find_sight(def->last, key);
+    if (s && s->flown.rocks == rocks) {
         atomic_fetch_add(&s->references, 1);
         *sight = s;
         return CEDUO_OK;
@@ -185,8 +205,7 @@ static enum ceduo_status get_sight(const struct ceduo_snapshot_def *def, const s
         return CEDUO_NO_MEMORY;
     atomic_init(&s->references, 1);
     s->key = key;
-    s->picture_rocks = picture_rocks;
-    enum ceduo_status status = read_sight(def, option, run, pictures, s);
+    enum ceduo_status status = read_sight(def, o, option, run, s);
     if (status == CEDUO_OK)
         *sight = s;
     else
@@ -201,20 +220,18 @@ enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, st
     if (!o)
         return CEDUO_NO_MEMORY;
     o->controls = scene->controls_count;
-    o->cell_x = ceduo_arena_take(&o->memory, (def->cells + 1) * sizeof *o->cell_x);
+    o->cell_x = ceduo_arena_take(&o->memory, CEDUO_SNAPSHOT_CELLS * sizeof *o->cell_x);
     o->wooded = ceduo_arena_take(&o->memory, (scene->options_count + 1) * sizeof *o->wooded);
     o->differences = ceduo_arena_take(&o->memory, (scene->options_count * o->controls + 1) * sizeof *o->differences);
     enum ceduo_status status = o->memory.failed ? CEDUO_NO_MEMORY : CEDUO_OK;
     if (status == CEDUO_OK) {
-        o->cells = def->cells;
+        o->cells = def->envelope_rocks > 0 ? place_cells(scene, o->cell_x) : 0;
         o->options = scene->options_count;
-        for (size_t i = 0; i < def->cells; i++)
-            o->cell_x[i] = def->cell_x[i];
         status = get_sight(def, o, NULL, &o->bare);
     }
     bool flies = scene->simulation.contact_model != CEDUO_INDEX;
     for (size_t i = 0; flies && i < o->options && status == CEDUO_OK; i++) {
-        const struct ceduo_run *run = longest_run(def, &scene->options[i]), *first = longest_run(def, &scene->options[0]);
+        const struct ceduo_run *run = find_run(def, &scene->options[i]), *first = find_run(def, &scene->options[0]);
         status = get_sight(def, o, &scene->options[i], &o->wooded[i]);
         for (size_t c = 0; c < o->controls; c++)
             o->differences[i * o->controls + c] = ceduo_run_difference(run, first, c);

@@ -8,6 +8,7 @@
 
 #include "base/arena.h"
 #include "ceduo/result.h"
+#include "core/walk/envelope.h"
 
 /* What runs give for pictures: plain columns, never changed once they are made, so that one thread may make them and
  * another draw them. All x and z are relative to the slope's first vertex. */
@@ -30,7 +31,7 @@ struct ceduo_run_snapshot {
     struct arena memory; /* of envelopes, energies and trajectories */
     uint64_t key;        /* ceduo_option_key() of its forest */
     struct ceduo_simulated flown;
-    uint64_t picture_rocks;           /* of the envelopes */
+    uint64_t envelope_rocks;          /* of the envelopes */
     struct ceduo_envelope *envelopes; /* one for each cell */
     struct ceduo_energies *energies;  /* one for each control: the first CEDUO_SNAPSHOT_SAMPLE at most */
     size_t trajectories_count;
@@ -47,24 +48,18 @@ struct ceduo_snapshot {
     struct ceduo_difference *differences; /* of those to the first option: options × controls, in rows by option */
 };
 
-#define CEDUO_SNAPSHOT_CELLS        200    /* places along the slope where a run should keep envelopes */
+#define CEDUO_SNAPSHOT_CELLS        200    /* places along the slope with an envelope */
 #define CEDUO_SNAPSHOT_TRAJECTORIES 200    /* trajectories that make a dense picture */
 #define CEDUO_SNAPSHOT_SAMPLE       100000 /* energies kept for a histogram */
-
-/* Writes CEDUO_SNAPSHOT_CELLS places, evenly from the release to the end of the slope, for a run's cells; returns how
- * many: none where the release may lie at the end. */
-size_t ceduo_snapshot_places(const struct ceduo_scene *scene, double *x);
 
 /* What a snapshot is made from. */
 struct ceduo_snapshot_def {
     const struct ceduo_scene *scene;
-    const struct ceduo_pool *figures;  /* the runs; those of options may be missing, or have no rocks yet */
-    const struct ceduo_pool *pictures; /* runs of the same rocks with envelopes, which may be shorter: envelopes make a
-                                        * run five times as slow, and a picture needs no more than some thousand rocks;
-                                        * where one is as long or longer, figures are read from it too */
-    size_t cells;
-    const double *cell_x;
-    size_t trajectories;       /* trajectories that are followed for each */
+    const struct ceduo_pool *runs; /* those of options may be missing, or have no rocks yet */
+    uint64_t
+        envelope_rocks;  /* at most CEDUO_ENVELOPE_ROCKS; 0: no envelopes. They lie evenly from the release to the end of the
+                              * slope */
+    size_t trajectories; /* trajectories that are followed for each */
     const atomic_bool *cancel; /* may be NULL; raised by another thread: the call returns soon */
     const struct ceduo_snapshot
         *last; /* whose snapshots of runs are taken over where nothing has changed; NULL: none. It must be

@@ -92,10 +92,8 @@ static void append_export(struct app *app, enum export export, struct text *text
         free(screen);
     } else if (!app->live.result) {
         return;
-    } else if (export == EXPORT_PAGE) {
-        ceduo_report_short(text, report, ascii);
-    } else if (export == EXPORT_TABLE) {
-        ceduo_report_table(text, report, ascii);
+    } else if (export == EXPORT_PAGE || export == EXPORT_TABLE) {
+        ceduo_report_page(text, report, export == EXPORT_TABLE, ascii);
     } else if (export == EXPORT_CSV) {
         ceduo_csv_head(text, &ceduo_control_csv);
         ceduo_csv_rows(text, &ceduo_control_csv, &(struct ceduo_place){.report = report});

@@ -6,7 +6,7 @@
 
 #include "base/language.h"
 #include "popup.h"
-#include "view/plot_parts.h"
+#include "view/plot.h"
 
 /* ---- the form ---- */
 

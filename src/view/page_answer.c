@@ -7,7 +7,7 @@
 #include "base/language.h"
 #include "base/utf8.h"
 #include "page_parts.h"
-#include "plot_parts.h"
+#include "plot.h"
 
 /* The last control, up to which all is compared. */
 static const struct ceduo_control *place_of(const struct ceduo_result *r)
@@ -291,17 +291,22 @@ void ceduo_page_warn(void *page, const char *sentence)
     ceduo_page_say(page, CEDUO_PAGE_WARNING, "%s", sentence);
 }
 
-void ceduo_page_once(struct ceduo_page *page, enum ceduo_page_kind kind, const char *sentence)
+void ceduo_page_once(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...)
 {
-    for (const struct ceduo_page_block *b = page->first; b; b = b->next)
-        if (strcmp(ceduo_text_string(&b->text), sentence) == 0)
-            return;
-    ceduo_page_say(page, kind, "%s", sentence);
+    const struct ceduo_page_block *b = page->first;
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(ceduo_page_add(page, kind), format, args);
+    va_end(args);
+    while (b && strcmp(ceduo_text_string(&b->text), ceduo_text_string(&page->last->text)) != 0)
+        b = b->next;
+    if (b && b != page->last)
+        ceduo_page_drop(page);
 }
 
 void ceduo_page_warn_once(void *page, const char *sentence)
 {
-    ceduo_page_once(page, CEDUO_PAGE_WARNING, sentence);
+    ceduo_page_once(page, CEDUO_PAGE_WARNING, "%s", sentence);
 }
 
 void ceduo_page_note(void *page, const char *sentence)

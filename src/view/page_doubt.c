@@ -8,7 +8,7 @@
 
 #include "base/language.h"
 #include "page_parts.h"
-#include "plot_parts.h"
+#include "plot.h"
 #include "report.h"
 #include "scene/ranges.h"
 #include "scene/value.h"

@@ -7,7 +7,7 @@
 
 #include "base/language.h"
 #include "page_parts.h"
-#include "plot_parts.h"
+#include "plot.h"
 
 /* What arrives at a control without forest (item 0) and through the forest of each option. NULL: not known. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_result *r, size_t item, size_t control)

@@ -78,7 +78,7 @@ void ceduo_page_yes(struct ceduo_page *page, bool yes);                   /* yes
 void ceduo_page_warn(void *page, const char *sentence);
 void ceduo_page_note(void *page, const char *sentence);
 void ceduo_page_warn_once(void *page, const char *sentence);
-void ceduo_page_once(struct ceduo_page *page, enum ceduo_page_kind kind,
-                     const char *sentence); /* unless the page says it already */
+/* Adds a sentence unless the page has it already. */
+void ceduo_page_once(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...) CEDUO_PAGE_FORMAT(3);
 
 #endif

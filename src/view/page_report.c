@@ -7,7 +7,7 @@
 #include "ceduo/status.h"
 #include "io/node.h"
 #include "page_parts.h"
-#include "plot_parts.h"
+#include "plot.h"
 #include "svg.h"
 
 /* ---- pictures ---- */

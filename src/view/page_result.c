@@ -447,8 +447,7 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     const char *said = ceduo_in_language(note->text, note->text_it);
     LOCAL_TEXT(where);
     if (!places) {
-        ceduo_text_add(&where, said, strcspn(said, ";")); /* its first clause */
-        ceduo_page_once(page, CEDUO_PAGE_ITEM, ceduo_text_string(&where));
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(said, ";"), said); /* its first clause */
         return;
     }
     const struct ceduo_scene *scene = report->result->scene;
@@ -496,43 +495,41 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
 
 /* ---- the page ---- */
 
-void ceduo_report_short(struct text *text, const struct ceduo_report *report, bool plain)
-{
-    LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
-    ceduo_page_short(&page, report);
-    ceduo_page_print(text, &page, plain);
-}
-
-void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain)
+static void add_whole(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_scene *scene = report->result->scene;
-    LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
-    ceduo_page_say(&page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
-    ceduo_page_facts(&page, report);
-    ceduo_page_question(&page, report->result);
-    ceduo_page_answer(&page, report);
-    ceduo_page_sure(&page, report);
-    ceduo_page_over(&page, report);
+    ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
+    ceduo_page_facts(page, report);
+    ceduo_page_question(page, report->result);
+    ceduo_page_answer(page, report);
+    ceduo_page_sure(page, report);
+    ceduo_page_over(page, report);
     if (scene->options_count > 1) /* what they share */
-        ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
+        ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
     for (size_t k = 0; scene->options_count > 1 && k < scene->controls_count; k++) {
         const struct ceduo_arrivals *bare = &report->result->bare.arrivals[k];
-        add_place(&page, report, k);
-        add_arrivals_table(&page, &scene->controls[k], NULL, bare);
-        say_released(&page, NULL, bare);
+        add_place(page, report, k);
+        add_arrivals_table(page, &scene->controls[k], NULL, bare);
+        say_released(page, NULL, bare);
         if (report->result->bare.rocks > 0)
-            ceduo_page_percentiles(&page, report->result, SIZE_MAX, k, true);
+            ceduo_page_percentiles(page, report->result, SIZE_MAX, k, true);
     }
     for (size_t i = 0; i < scene->options_count; i++) {
-        ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", scene->options[i].name);
-        ceduo_page_option(&page, report, i, scene->options_count == 1);
+        ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", scene->options[i].name);
+        ceduo_page_option(page, report, i, scene->options_count == 1);
     }
     if (scene->options_count > 1 && scene->controls_count > 0)
-        ceduo_page_comparison(&page, report);
+        ceduo_page_comparison(page, report);
     for (size_t c = 0; c < scene->controls_count; c++)
-        ceduo_page_hazard(&page, report, c, c == 0);
+        ceduo_page_hazard(page, report, c, c == 0);
     if (report->years && scene->options_count > 1 && scene->controls_count > 0)
-        ceduo_page_years_beside(&page, report);
-    ceduo_page_notes(&page, report);
+        ceduo_page_years_beside(page, report);
+    ceduo_page_notes(page, report);
+}
+
+void ceduo_report_page(struct text *text, const struct ceduo_report *report, bool whole, bool plain)
+{
+    LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
+    (whole ? add_whole : ceduo_page_short)(&page, report);
     ceduo_page_print(text, &page, plain);
 }

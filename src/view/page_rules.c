@@ -29,26 +29,23 @@ static void say_rule(struct ceduo_page *page, const struct ceduo_belt *belt, con
     item *asked = turn ? c->turn_item : c->standards_item;
     bool met = turn ? c->turn_met : c->standards_met;
     size_t count;
-    LOCAL_TEXT(sentence);
     LOCAL_TEXT(wanted);
     if (!all && (!asked || met))
         return;
     if (!asked) {
-        ceduo_text_format(&sentence,
-                          turn ? _("%s: the rules of %s as filed name no rotation for this species (%s); none is checked.")
-                               : _("%s: the rules of %s as filed name no number of standards for this species (%s); none is "
-                                   "checked."),
-                          belt->name, c->of->name, _(ceduo_species_list(&count)[belt->stand.species].common));
-        ceduo_page_once(page, CEDUO_PAGE_SENTENCE, sentence.bytes);
+        ceduo_page_once(page, CEDUO_PAGE_SENTENCE,
+                        turn ? _("%s: the rules of %s as filed name no rotation for this species (%s); none is checked.")
+                             : _("%s: the rules of %s as filed name no number of standards for this species (%s); none is "
+                                 "checked."),
+                        belt->name, c->of->name, _(ceduo_species_list(&count)[belt->stand.species].common));
         return;
     }
     append_asked(&wanted, asked);
-    ceduo_text_format(&sentence,
-                      turn ? _("%s: %s asks for a rotation of %s years (%s, %u); shoots are cut at %.4g: %s.")
-                           : _("%s: %s asks for %s standards a hectare (%s, %u); %.4g are kept: %s."),
-                      belt->name, c->of->name, wanted.bytes, asked->article, asked->year, turn ? c->turn : c->standards,
-                      met ? _("met") : _("NOT met"));
-    ceduo_page_once(page, met ? CEDUO_PAGE_SENTENCE : CEDUO_PAGE_WARNING, sentence.bytes);
+    ceduo_page_once(page, met ? CEDUO_PAGE_SENTENCE : CEDUO_PAGE_WARNING,
+                    turn ? _("%s: %s asks for a rotation of %s years (%s, %u); shoots are cut at %.4g: %s.")
+                         : _("%s: %s asks for %s standards a hectare (%s, %u); %.4g are kept: %s."),
+                    belt->name, c->of->name, wanted.bytes, asked->article, asked->year, turn ? c->turn : c->standards,
+                    met ? _("met") : _("NOT met"));
 }
 
 void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *r, size_t option, bool all)
@@ -57,7 +54,6 @@ void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *
     for (size_t i = 0; i < o->belts_count; i++) {
         const struct ceduo_belt *belt = &o->belts[i];
         const struct ceduo_compliance *c = &r->options[option].stands[i].rules;
-        LOCAL_TEXT(sentence);
         LOCAL_TEXT(note);
         if (!c->of)
             continue;
@@ -66,12 +62,11 @@ void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *
             if (!c->turn_item || !isnan(c->turn))
                 say_rule(page, belt, c, true, all);
         } else if (all) {
-            ceduo_text_format(&sentence, _("%s: the stand names no species; nothing that %s asks is checked."), belt->name,
-                              c->of->name);
-            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, sentence.bytes);
+            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, _("%s: the stand names no species; nothing that %s asks is checked."),
+                            belt->name, c->of->name);
         }
         if (all)
-            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, note_of(c->of, &note));
+            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, "%s", note_of(c->of, &note));
     }
 }
 

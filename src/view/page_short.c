@@ -8,7 +8,7 @@
 #include "base/language.h"
 #include "base/utf8.h"
 #include "page_parts.h"
-#include "plot_parts.h"
+#include "plot.h"
 
 #define LINES        24 /* of one option */
 #define LINES_SHARED 14 /* of several … */

@@ -6,7 +6,7 @@
 #include "base/language.h"
 #include "page_parts.h"
 #include "pane.h"
-#include "plot_parts.h"
+#include "plot.h"
 #include "report.h"
 
 #define WIDE       34 /* columns with room for intervals */

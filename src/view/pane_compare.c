@@ -7,7 +7,7 @@
 #include "base/utf8.h"
 #include "page_parts.h"
 #include "pane.h"
-#include "plot_parts.h"
+#include "plot.h"
 
 /* Columns behind the name; without rocks among stems two of them are of the index. */
 enum column { NAME, TODAY, MAY_BE, MEAN, WORST, FAILS, YIELD, MARK, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "base/language.h"
-#include "plot_parts.h"
+#include "plot.h"
 
 struct chart_size {
     int axis, below;   /* columns of the left axis, rows of the bottom axis */

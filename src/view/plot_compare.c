@@ -5,7 +5,7 @@
 
 #include "base/language.h"
 #include "ceduo/assess.h"
-#include "plot_parts.h"
+#include "plot.h"
 #include "report.h"
 
 enum { ADC, SHARE, ENERGY, BARS };

@@ -5,7 +5,7 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "plot_parts.h"
+#include "plot.h"
 #include "report.h"
 
 /* Energies at a control as horizontal bars. */

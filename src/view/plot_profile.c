@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/language.h"
-#include "plot_parts.h"
+#include "plot.h"
 
 /* ---- the scale ---- */
 

@@ -5,7 +5,7 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "base/utf8.h"
-#include "plot_parts.h"
+#include "plot.h"
 
 /* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on one
  * axis. */

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/language.h"
-#include "plot_parts.h"
+#include "plot.h"
 
 /* A stand from above, or a rock's trajectory through it. The stems of a stand are spread evenly and without chance, each kind
  * for itself: when a number changes, the stems that stay do not move. */

@@ -6,7 +6,7 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "plot_parts.h"
+#include "plot.h"
 
 /* Strips along the slope: curves of what the rocks that pass each place have in height or energy. */
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "plot_parts.h"
+#include "plot.h"
 
 /* ---- the pictures ---- */
 

@@ -204,9 +204,8 @@ static inline const struct ceduo_choice *ceduo_report_ahead(const struct ceduo_r
 /* Whether no place is asked for, or nothing can be said of the last one. */
 bool ceduo_page_says_nothing(const struct ceduo_result *result);
 
-/* The page that a forester reads first, and the whole one with every figure; 80 columns. `plain`: ASCII alone. */
-void ceduo_report_short(struct text *text, const struct ceduo_report *report, bool plain);
-void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain);
+/* The page that a forester reads first, or the `whole` one with every figure; 80 columns. `plain`: ASCII alone. */
+void ceduo_report_page(struct text *text, const struct ceduo_report *report, bool whole, bool plain);
 
 /* A page to hand in: the question and its answer first, then what it rests on, and how to compute it again. */
 

@@ -260,67 +260,41 @@ static void say_lost(const struct ceduo_result *result, ceduo_words_say *say, vo
                    NAME_OF(&result->scene->options[option]), most * 1000, CEDUO_EARLY_M);
 }
 
-/* A control where more or fewer rocks arrive than its place suggests. */
-static void say_terrain(struct text *text, const char *where, const struct ceduo_arrivals *bare)
-{
-    const struct ceduo_topography *t = &bare->topography;
-    enum ceduo_terrain terrain = ceduo_terrain(bare);
-    if (terrain == CEDUO_TERRAIN_BENCH)
-        ceduo_text_format(
-            text,
-            _("%s: few rocks arrive without forest, though it lies under a reach angle of %.0f\xc2\xb0. A bench of "
-              "%.0f m may hold them: check on the ground that it does."),
-            where, t->reach * DEGREES, t->bench);
-    if (terrain == CEDUO_TERRAIN_FAR)
-        ceduo_text_format(text,
-                          _("%s: %.0f of 1000 rocks arrive without forest, though it lies under a shadow angle of only "
-                            "%.0f\xc2\xb0. Evans and Hungr (1993) suggest 27.5\xc2\xb0 as the smallest: check the friction of "
-                            "the ground."),
-                          where, bare->reach.mean * 1000, t->shadow * DEGREES);
-}
-
-/* Speeds that rocks on slopes do not have. */
-static void say_fast(struct text *text, const char *where, const struct ceduo_arrivals *bare, enum ceduo_law law)
-{
-    if (bare->speed.mean > CEDUO_SPEED_USUAL)
-        ceduo_text_format(text,
-                          law == CEDUO_LAW_LUMPED
-                              ? _("%s: the mean speed without forest is %.0f m/s, and more than %.0f is unusual. The law "
-                                  "lumped has no limit of speed on long slopes: use crsp.")
-                              : _("%s: the mean speed without forest is %.0f m/s, and more than %.0f is unusual. Check "
-                                  "roughness and friction of the ground."),
-                          where, bare->speed.mean, CEDUO_SPEED_USUAL);
-}
-
-static void say_high(struct text *text, const char *where, const struct ceduo_arrivals *bare)
-{
-    if (bare->height.p95 > CEDUO_HEIGHT_USUAL)
-        ceduo_text_format(
-            text,
-            _("%s: 1 rock in 20 passes more than %.0f m above the ground without forest, and more than %.0f m is unusual. "
-              "Check roughness and restitution of the ground, and the profile."),
-            where, bare->height.p95, CEDUO_HEIGHT_USUAL);
-}
-
-/* Warns of controls with unusual rocks: more or fewer than the terrain suggests, faster or higher. */
+/* Warns of controls with unusual rocks: more or fewer than the terrain suggests, faster or higher than on slopes. */
 static void say_ground(const struct ceduo_result *r, ceduo_words_say *say, void *context)
 {
     for (size_t c = 0; c < r->scene->controls_count; c++) {
         const struct ceduo_arrivals *bare = &r->bare.arrivals[c];
+        const struct ceduo_topography *t = &bare->topography;
+        enum ceduo_terrain terrain = ceduo_terrain(bare);
         LOCAL_TEXT(name);
         ceduo_words_place(&name, &r->scene->controls[c]);
         const char *where = ceduo_text_string(&name);
-        for (int i = 0; i < 3; i++) {
-            LOCAL_TEXT(sentence);
-            if (i == 0)
-                say_terrain(&sentence, where, bare);
-            else if (i == 1)
-                say_fast(&sentence, where, bare, r->scene->simulation.law);
-            else
-                say_high(&sentence, where, bare);
-            if (sentence.length > 0)
-                say(context, sentence.bytes);
-        }
+        if (terrain == CEDUO_TERRAIN_BENCH)
+            say_format(say, context,
+                       _("%s: few rocks arrive without forest, though it lies under a reach angle of %.0f\xc2\xb0. A bench of "
+                         "%.0f m may hold them: check on the ground that it does."),
+                       where, t->reach * DEGREES, t->bench);
+        if (terrain == CEDUO_TERRAIN_FAR)
+            say_format(say, context,
+                       _("%s: %.0f of 1000 rocks arrive without forest, though it lies under a shadow angle of only "
+                         "%.0f\xc2\xb0. Evans and Hungr (1993) suggest 27.5\xc2\xb0 as the smallest: check the friction of "
+                         "the ground."),
+                       where, bare->reach.mean * 1000, t->shadow * DEGREES);
+        if (bare->speed.mean > CEDUO_SPEED_USUAL)
+            say_format(say, context,
+                       r->scene->simulation.law == CEDUO_LAW_LUMPED
+                           ? _("%s: the mean speed without forest is %.0f m/s, and more than %.0f is unusual. The law "
+                               "lumped has no limit of speed on long slopes: use crsp.")
+                           : _("%s: the mean speed without forest is %.0f m/s, and more than %.0f is unusual. Check "
+                               "roughness and friction of the ground."),
+                       where, bare->speed.mean, CEDUO_SPEED_USUAL);
+        if (bare->height.p95 > CEDUO_HEIGHT_USUAL)
+            say_format(
+                say, context,
+                _("%s: 1 rock in 20 passes more than %.0f m above the ground without forest, and more than %.0f m is unusual. "
+                  "Check roughness and restitution of the ground, and the profile."),
+                where, bare->height.p95, CEDUO_HEIGHT_USUAL);
     }
 }
 

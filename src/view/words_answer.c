@@ -5,7 +5,7 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "plot_parts.h"
+#include "plot.h"
 #include "report.h"
 #include "words.h"
 

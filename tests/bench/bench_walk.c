@@ -14,7 +14,6 @@
 
 #include "frame.h"
 
-#define CELLS       200
 #define MANY_ROCKS  1000000
 #define ROCKS_LEAST 1000 /* fewer say nothing about agreement */
 #define AGREE       4.0  /* combined standard errors */
@@ -40,7 +39,6 @@ struct measure {
     unsigned threads;
     enum ceduo_kernel kernel;
     uint64_t rocks;
-    size_t cells;
     double seconds[REPEATS_MOST];
     uint64_t contacts;
     struct ceduo_arrivals arrivals;
@@ -86,15 +84,10 @@ static double time_plain(struct site *site, uint64_t rocks, size_t repeat)
 
 static double time_core(const struct site *site, struct measure *m)
 {
-    double cell_x[CELLS];
-    for (size_t i = 0; i < m->cells; i++)
-        cell_x[i] = paper_x[PAPER_SEGMENTS] * (double)(i + 1) / (double)m->cells;
     double start = ceduo_clock();
     struct ceduo_run_def def = ceduo_run_def_default(&site->paper.scene);
     def.threads = m->threads;
     def.kernel = m->kernel;
-    def.cells = m->cells;
-    def.cell_x = m->cells > 0 ? cell_x : NULL;
     struct ceduo_run *run = fly_run(&def, m->rocks);
     double seconds = ceduo_clock() - start;
     m->contacts = ceduo_run_contacts(run);
@@ -155,7 +148,6 @@ static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
         {.what = "ceduo-1-thread-avx2", .threads = 1, .kernel = CEDUO_KERNEL_AVX2, .rocks = rocks},
         {.what = "ceduo-1-thread", .threads = 1, .rocks = rocks},
         {.what = "ceduo-2-threads", .threads = 2, .rocks = rocks},
-        {.what = "ceduo-1-thread-200-cells", .threads = 1, .rocks = rocks, .cells = CELLS},
     };
     size_t n = sizeof core / sizeof core[0];
     double plain[REPEATS_MOST];

@@ -75,11 +75,6 @@ static bool fly(struct ceduo_run_def def)
     bool good = add_run(run);
     struct ceduo_difference d = ceduo_run_difference(run, run, 0);
     add(&d, sizeof d);
-    for (size_t i = 0; i < def.cells; i++) {
-        struct ceduo_envelope e;
-        ceduo_run_envelope(run, i, &e);
-        add(&e, sizeof e);
-    }
     ceduo_run_free(run);
     return good;
 }
@@ -94,12 +89,8 @@ static struct ceduo_run_def def_of(bool wood)
 
 static bool fly_bare(void)
 {
-    static const double cells[] = {20, 60, 130};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_run_def def = def_of(false);
-    def.cells = 3;
-    def.cell_x = cells;
-    return fly(def);
+    return fly(def_of(false));
 }
 
 static bool fly_scalar_wood(void)
@@ -552,9 +543,7 @@ static struct ceduo_pool *seen;
 
 static bool see(void)
 {
-    const double x[] = {125, 130};
-    const struct ceduo_snapshot_def def = {
-        .scene = &site.scene, .figures = seen, .pictures = seen, .cells = 2, .cell_x = x, .trajectories = 3};
+    const struct ceduo_snapshot_def def = {.scene = &site.scene, .runs = seen, .envelope_rocks = 20, .trajectories = 3};
     LOCAL(ceduo_snapshot, o);
     if (!is_done(ceduo_snapshot_create(&def, &o))) {
         assert_null(o);
@@ -562,6 +551,7 @@ static bool see(void)
     }
     const struct ceduo_run_snapshot *sight = ceduo_snapshot_of(o, &site.scene, 0);
     add(sight->energies[0].values, sight->energies[0].n * sizeof(double));
+    add(sight->envelopes, o->cells * sizeof *sight->envelopes);
     for (size_t i = 0; i < sight->trajectories_count; i++)
         add(sight->trajectories[i].x, sight->trajectories[i].n * sizeof(double));
     return true;
@@ -570,11 +560,8 @@ static bool see(void)
 TEST(what_is_to_be_seen_of_runs)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    const double x[] = {125, 130};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.rocks_most = 40;
-    def.cells = 2;
-    def.cell_x = x;
     assert_int_equal(ceduo_pool_create(&def, &seen), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(seen), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(seen, 40), CEDUO_OK);

@@ -20,7 +20,6 @@
 #define SCENES        FULL_OR(1200u, 700u) /* in 689 a rock flies back to a stem before the low end, where it would leave */
 #define LASTING_EVERY 600                  /* scenes of which one may go on for ever */
 #define CONTROLS_MOST 4
-#define CELLS_MOST    150
 #define LONG_VERTICES 4097
 #define KINDS_MOST    3 /* cohorts, classes of trees */
 
@@ -49,16 +48,9 @@ static void compare_control(const char *scene, const struct ceduo_run *a, const 
         fail_msg("%s: a rock fares differently", scene);
 }
 
-/* Controls and cells. */
 static void compare_places(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b,
                            const struct ceduo_run_def *def)
 {
-    for (size_t i = 0; i < def->cells; i++) {
-        struct ceduo_envelope g, h;
-        ceduo_run_envelope(a, i, &g);
-        ceduo_run_envelope(b, i, &h);
-        expect_same_bits(scene, "envelopes", &g, &h, sizeof g);
-    }
     for (size_t c = 0; c < def->scene->controls_count; c++)
         compare_control(scene, a, b, c);
 }
@@ -129,7 +121,6 @@ static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, 
 struct wild {
     struct line_scene line;
     struct ceduo_control controls[CONTROLS_MOST];
-    double cell_x[CELLS_MOST];
     struct paper_plot plots[2];
     struct ceduo_stems shoots[2][KINDS_MOST], trees[2][KINDS_MOST];
     struct ceduo_belt belts[2];
@@ -174,10 +165,6 @@ static void add_places(struct wild *w, struct line_random *r)
         w->controls[i].x = at + (end - at) * line_uniform(r, 0.01, 1);
         w->controls[i].accepted = line_chance(r, 0.5) ? NAN : line_log_uniform(r, 1, 1e6);
     }
-    w->def.cells = line_chance(r, 0.4) ? (size_t)line_uniform(r, 1, CELLS_MOST) : 0;
-    w->def.cell_x = w->cell_x;
-    for (size_t i = 0; i < w->def.cells; i++)
-        w->cell_x[i] = end * (double)(i + 1) / (double)w->def.cells;
 }
 
 /* Up to three kinds of stems after a pattern. */
@@ -298,9 +285,6 @@ TEST(random_scenes_of_rocks_that_are_not_round)
 /* Every reading of the paper's site: laws, theta, facets, scaled Rn, forest, with and without the friction bound. */
 TEST(the_papers_site)
 {
-    double cell_x[50];
-    for (int i = 0; i < 50; i++)
-        cell_x[i] = paper_x[PAPER_SEGMENTS] * (i + 1) / 50;
     const uint64_t rocks = FULL_OR(3000, 1000);
     for (unsigned i = 0; i < CEDUO_LAW_COUNT * 2 * 2 * 2 * 4 * 2; i++) {
         struct paper_site site;
@@ -319,8 +303,6 @@ TEST(the_papers_site)
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
         def.option = forest == 0 ? NULL : &site.option;
         def.threads = 2;
-        def.cells = 50;
-        def.cell_x = cell_x;
         expect_same(name, &def, rocks / 2, rocks);
     }
 }

@@ -340,5 +340,5 @@ TEST(options_with_the_same_stems_share_a_run)
     assert_int_equal(work.rocks, 3000);
     struct ceduo_run *run = ceduo_pool_find(pool, &options[0]);
     LOCAL(ceduo_run, alone) = run_option(&site.scene, &options[1], 1000, 1);
-    expect_same_run(run, alone, 0);
+    expect_same_run(run, alone);
 }

@@ -75,7 +75,7 @@ static void set_forest(struct site *s)
 }
 
 static const struct ceduo_envelope no_rock = {
-    .mean_energy = NAN, .speed = {NAN, NAN, NAN, NAN}, .height = {NAN, NAN, NAN, NAN}, .energy = {NAN, NAN, NAN, NAN}};
+    .mean_energy = NAN, .height = {NAN, NAN, NAN, NAN}, .energy = {NAN, NAN, NAN, NAN}};
 
 /* Heights of 1, 2, 3 m and energies of 10 kJ a cell more from place to place; eight rocks of ten at the path. */
 static void set_bare(struct site *s)
@@ -103,7 +103,7 @@ static void set_bare(struct site *s)
     s->energies[1] = (struct ceduo_energies){0, s->values};
     s->bare = (struct ceduo_run_snapshot){.references = 1,
                                           .flown = {.rocks = 10, .controls = 2, .arrivals = s->arrivals},
-                                          .picture_rocks = 10,
+                                          .envelope_rocks = 10,
                                           .envelopes = s->envelopes,
                                           .energies = s->energies,
                                           .trajectories_count = 1,
@@ -137,7 +137,7 @@ static void set_wood(struct site *s)
     s->wood = (struct ceduo_run_snapshot){.references = 1,
                                           .key = 1,
                                           .flown = {.rocks = 10, .controls = 2, .arrivals = s->wood_arrivals},
-                                          .picture_rocks = 10,
+                                          .envelope_rocks = 10,
                                           .envelopes = s->wood_envelopes,
                                           .energies = s->wood_energies,
                                           .trajectories_count = 1,

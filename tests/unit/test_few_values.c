@@ -10,7 +10,6 @@
 
 #include "bench/measure.h"
 #include "ceduo/ceduo.h"
-#include "core/walk/envelope.h"
 
 /* ---- few values ---- */
 
@@ -54,28 +53,6 @@ TEST(distributions_of_few_values)
         expect_near(exact.sd, n > 1 ? sqrt(squares / (double)(n - 1)) : NAN, 1e-12);
         expect_near(exact.se, n > 1 ? exact.sd / sqrt((double)n) : NAN, 1e-12);
     }
-}
-
-/* The highest and fastest of all: its size is kept, whatever its bin. */
-TEST(cells_take_any_value)
-{
-    LOCAL_BYTES struct envelope_cell *cell = calloc(1, sizeof *cell);
-    LOCAL_BY(ceduo_envelopes_release) struct envelopes cells;
-    struct ceduo_envelope e;
-    assert_non_null(cell);
-    assert_true(ceduo_envelopes_init(&cells, 1, 1));
-    struct envelope_row row = ceduo_envelopes_begin(&cells, 0, 0);
-    envelope_note(&row, 0, (double[]){1e200, 1e-200, 1e300});
-    ceduo_envelopes_end(&cells, 0, 1);
-    ceduo_envelopes_merge(cell, &cells);
-    ceduo_envelope_read(cell, &e);
-    assert_int_equal(e.passed, 1);
-    EXPECT(e.speed.max, ==, 1e200);
-    EXPECT(e.energy.max, ==, 1e300);
-    EXPECT(e.height.max, ==, 1e-200);
-    EXPECT(e.speed.p50, >, 1e4);
-    EXPECT(e.energy.p50, >, 1e9);
-    EXPECT(e.height.p50, ==, 0);
 }
 
 /* ---- looking for a value that is given up ---- */

@@ -59,8 +59,8 @@ TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
     assert_int_equal(results.snapshot->key, ceduo_jobs_key(&file.scene));
     assert_int_equal(results.snapshot->snapshot->bare->flown.rocks, RUNS_MAX);
     assert_int_equal(results.snapshot->snapshot->wooded[0]->flown.rocks, RUNS_MAX);
-    EXPECT(results.snapshot->snapshot->bare->picture_rocks, ==, RUNS_PICTURE); /* envelopes cost time: so many, and no more */
-    EXPECT(results.snapshot->snapshot->wooded[0]->picture_rocks, ==, RUNS_PICTURE);
+    EXPECT(results.snapshot->snapshot->bare->envelope_rocks, ==, CEDUO_ENVELOPE_ROCKS);
+    EXPECT(results.snapshot->snapshot->wooded[0]->envelope_rocks, ==, CEDUO_ENVELOPE_ROCKS);
     assert_non_null(results.years);
     assert_int_equal(results.years->n, 1);
     assert_int_equal(results.years->items[0]->years[0].wooded.rocks, 10 * RUNS_FIRST);

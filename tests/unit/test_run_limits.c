@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "ceduo/ceduo.h"
+#include "core/walk/envelope.h"
 #include "physics/paper_site.h"
 #include "physics/runs.h"
 
@@ -84,7 +85,7 @@ TEST(looking_on_changes_nothing)
 /* A rock that bounces in its place for ever is given up, unfinished before the control; the cells do not see it. */
 TEST(a_rock_without_end)
 {
-    static const double cells[] = {1, 50};
+    static const double places[] = {50};
     paper_site_init(&site);
     struct ceduo_slope *slope = &site.scene.slope;
     slope->vertices = 2;
@@ -95,13 +96,12 @@ TEST(a_rock_without_end)
     site.scene.release =
         (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    def.cells = 2;
-    def.cell_x = cells;
     LOCAL(ceduo_run, run) = run_of(&def, 1);
     struct ceduo_arrivals a;
     struct ceduo_envelope e;
     assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-    ceduo_run_envelope(run, 0, &e);
+    const struct ceduo_envelopes_def envelopes = {.scene = &site.scene, .rocks = 1, .places = 1, .x = places};
+    assert_int_equal(ceduo_envelopes(&envelopes, &e), CEDUO_OK);
     EXPECT(a.unfinished, ==, 1);
     EXPECT(a.reached, ==, 0);
     EXPECT(e.passed, ==, 0);
@@ -254,7 +254,6 @@ TEST(years_before_they_are_flown)
 /* 300 rocks without speed, which friction holds where they are released. */
 static struct ceduo_run *held_rocks(void)
 {
-    static const double cells[] = {20, 152};
     paper_site_init(&site);
     site.scene.simulation.rocks = 300;
     site.scene.slope.segments[0].friction = 9;
@@ -262,19 +261,19 @@ static struct ceduo_run *held_rocks(void)
         (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.threads = 0; /* as one */
-    def.cells = 2;
-    def.cell_x = cells;
     return run_of(&def, 300);
 }
 
-TEST(cells_that_no_rock_reaches)
+TEST(places_that_no_rock_reaches)
 {
-    LOCAL(ceduo_run, run) = held_rocks();
+    static const double places[] = {20, 152};
+    struct ceduo_envelope e[2];
+    ceduo_run_free(held_rocks());
+    const struct ceduo_envelopes_def def = {.scene = &site.scene, .rocks = 300, .places = 2, .x = places};
+    assert_int_equal(ceduo_envelopes(&def, e), CEDUO_OK);
     for (size_t i = 0; i < 2; i++) {
-        struct ceduo_envelope e;
-        ceduo_run_envelope(run, i, &e);
-        assert_int_equal(e.passed, 0);
-        EXPECT_NAN(e.mean_energy, e.speed.p5, e.energy.max);
+        assert_int_equal(e[i].passed, 0);
+        EXPECT_NAN(e[i].mean_energy, e[i].height.p5, e[i].energy.max);
     }
 }
 
@@ -321,24 +320,6 @@ TEST(room_is_taken_twice)
     assert_int_equal(ceduo_run_arrivals(one, 0, &once), CEDUO_OK);
     EXPECT(steps.reached, >, 0);
     assert_memory_equal(&steps, &once, sizeof steps);
-}
-
-TEST(a_cell_where_a_control_is)
-{
-    paper_site_init(&site);
-    const double of_control[] = {site.control.x};
-    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    def.cells = 1;
-    def.cell_x = of_control;
-    LOCAL(ceduo_run, run) = run_of(&def, 300);
-    struct ceduo_arrivals a;
-    struct ceduo_envelope e;
-    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-    ceduo_run_envelope(run, 0, &e);
-    EXPECT(a.reached, >, 0);
-    assert_int_equal(e.passed, a.reached);
-    EXPECT(e.speed.max, ==, a.speed.max);
-    EXPECT(e.energy.max, ==, a.energy.max);
 }
 
 /* Without a control it is still counted how rocks end. */

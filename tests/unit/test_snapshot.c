@@ -8,14 +8,11 @@
 #include "unit/site.h"
 
 static struct site s; /* before each test it is made anew, with wood or with the index */
-static double x[CEDUO_SNAPSHOT_CELLS];
-static size_t cells;
 
 static int wooded(void **state)
 {
     (void)state;
     wooded_site_init(&s);
-    cells = ceduo_snapshot_places(&s.scene, x);
     return 0;
 }
 
@@ -26,14 +23,12 @@ static int by_index(void **state)
     return 0;
 }
 
-/* The runs of the scene, flown; with the cells where `pictures`. */
-static struct ceduo_pool *pool_of(uint64_t rocks, bool pictures)
+/* The runs of the scene, flown. */
+static struct ceduo_pool *pool_of(uint64_t rocks)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&s.scene);
     struct ceduo_pool *pool;
     def.rocks_most = 5000;
-    def.cells = pictures ? cells : 0;
-    def.cell_x = x;
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, rocks), CEDUO_OK);
@@ -50,27 +45,26 @@ static struct ceduo_snapshot *snapshot_of(const struct ceduo_snapshot_def *def)
 /* Of one pool. */
 static struct ceduo_snapshot *snapshot_at(struct ceduo_pool *pool, size_t trajectories)
 {
-    return snapshot_of(
-        &(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = trajectories});
+    return snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .runs = pool, .trajectories = trajectories});
 }
 
-TEST_WITH(places_lie_beyond_the_release, by_index, NULL)
+TEST_WITH(envelopes_lie_beyond_the_release, by_index, NULL)
 {
     s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_UNIFORM};
-    assert_int_equal(ceduo_snapshot_places(&s.scene, x), CEDUO_SNAPSHOT_CELLS);
-    EXPECT(x[0], >, 12);
-    for (int i = 1; i < CEDUO_SNAPSHOT_CELLS; i++)
-        EXPECT(x[i], >, x[i - 1]);
-    EXPECT(x[CEDUO_SNAPSHOT_CELLS - 1], <=, 100);
-    s.scene.release.x = ceduo_number(100);
-    assert_int_equal(ceduo_snapshot_places(&s.scene, x), 0);
+    LOCAL(ceduo_pool, pool) = pool_of(10);
+    LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .runs = pool, .envelope_rocks = 10});
+    assert_int_equal(o->cells, CEDUO_SNAPSHOT_CELLS);
+    for (size_t i = 0; i < o->cells; i++) {
+        EXPECT(o->cell_x[i], >, i > 0 ? o->cell_x[i - 1] : 12);
+        EXPECT(o->cell_x[i], <=, 100);
+    }
 }
 
 static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ceduo_run *run)
 {
     assert_non_null(sight);
     assert_int_equal(sight->flown.rocks, ceduo_run_rocks(run));
-    assert_int_equal(sight->picture_rocks, ceduo_run_rocks(run));
+    assert_int_equal(sight->envelope_rocks, ceduo_run_rocks(run));
     for (size_t c = 0; c < 2; c++) {
         const struct ceduo_arrivals *found = &sight->flown.arrivals[c];
         struct ceduo_arrivals a;
@@ -82,23 +76,19 @@ static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ce
         /* Kept as floats. The deviation is as counted; the mean is not. */
         EXPECT_NEAR(gsl_stats_sd(sight->energies[c].values, 1, a.reached), found->energy.sd, 1e-6 * found->energy.sd);
     }
-    for (size_t i = 0; i < cells; i++) {
-        struct ceduo_envelope e;
-        ceduo_run_envelope(run, i, &e);
-        assert_int_equal(sight->envelopes[i].passed, e.passed);
-    }
+    for (size_t i = 1; i < CEDUO_SNAPSHOT_CELLS; i++)
+        EXPECT(sight->envelopes[i].passed, <=, sight->envelopes[i - 1].passed);
+    EXPECT(sight->envelopes[0].passed, >, 0);
 }
 
 TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, true);
+    LOCAL(ceduo_pool, pool) = pool_of(300);
     LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){
-        .scene = &s.scene, .figures = pool, .pictures = pool, .cells = cells, .cell_x = x, .trajectories = 20});
-    assert_int_equal(o->cells, cells);
+        .scene = &s.scene, .runs = pool, .envelope_rocks = CEDUO_ENVELOPE_ROCKS, .trajectories = 20});
+    assert_int_equal(o->cells, CEDUO_SNAPSHOT_CELLS);
     assert_int_equal(o->controls, 2);
     assert_int_equal(o->options, 2);
-    for (size_t i = 0; i < cells; i++)
-        EXPECT(o->cell_x[i], ==, x[i]);
     expect_sight(o->bare, ceduo_pool_find(pool, NULL));
     expect_sight(o->wooded[0], ceduo_pool_find(pool, &s.options[0]));
     EXPECT(o->wooded[0]->flown.arrivals[1].reached, <, o->bare->flown.arrivals[1].reached);
@@ -113,7 +103,7 @@ TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
 /* Without stems the rocks are those without forest: the same sight, and it is flown once. */
 TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, false);
+    LOCAL(ceduo_pool, pool) = pool_of(300);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     assert_int_equal(ceduo_pool_work(pool).runs, 2);
     assert_ptr_equal(o->wooded[1], o->bare);
@@ -128,7 +118,7 @@ TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
 /* With the contact model index there is one sight, that of all options. */
 TEST_WITH(the_index_looks_at_the_bare_slope, by_index, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, false);
+    LOCAL(ceduo_pool, pool) = pool_of(300);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     assert_int_equal(ceduo_pool_work(pool).runs, 1);
     assert_null(o->wooded[0]);
@@ -145,7 +135,7 @@ TEST_WITH(what_is_not_flown_yet_is_not_known, wooded, NULL)
     struct ceduo_run *run;
     assert_int_equal(ceduo_pool_create(&run_def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_run(pool, NULL, &run), CEDUO_OK);
-    struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
+    struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool};
     struct ceduo_snapshot *o = snapshot_of(&def);
     assert_null(o->bare);
     ceduo_snapshot_free(o);
@@ -159,46 +149,22 @@ TEST_WITH(what_is_not_flown_yet_is_not_known, wooded, NULL)
     ceduo_snapshot_free(o);
 }
 
-/* Figures come from the longer run, curves from the one that keeps them. */
-TEST_WITH(figures_come_from_the_longer_run, wooded, NULL)
+/* Envelopes are of as many rocks as are asked for, and those of the last snapshot if it has as many. */
+TEST_WITH(envelopes_are_kept, wooded, NULL)
 {
-    LOCAL(ceduo_pool, figures) = pool_of(600, false);
-    LOCAL(ceduo_pool, pictures) = pool_of(300, true);
-    struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
-    struct ceduo_snapshot *o = snapshot_of(&def);
-    assert_int_equal(o->wooded[0]->flown.rocks, 600);
-    assert_int_equal(o->wooded[0]->picture_rocks, 300);
-    EXPECT(o->wooded[0]->envelopes[0].passed, <=, 300);
-    ceduo_snapshot_free(o);
-    assert_int_equal(ceduo_pool_extend(pictures, 900), CEDUO_OK);
-    o = snapshot_of(&def);
-    assert_int_equal(o->wooded[0]->flown.rocks, 900);
-    assert_int_equal(o->bare->flown.rocks, 900);
-    ceduo_snapshot_free(o);
-}
-
-/* Figures do not wait for pictures; and where the run of the pictures alone has grown, all is read again. */
-TEST_WITH(pictures_may_be_behind, wooded, NULL)
-{
-    LOCAL(ceduo_pool, figures) = pool_of(600, false), *pictures;
-    struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
-    run_def.cells = cells;
-    run_def.cell_x = x;
-    assert_int_equal(ceduo_pool_create(&run_def, &pictures), CEDUO_OK);
-    struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
-    const uint64_t rocks[] = {0, 300, 400};
+    LOCAL(ceduo_pool, pool) = pool_of(300);
+    struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .envelope_rocks = 400};
+    const uint64_t rocks[] = {300, 400, 400};
     struct ceduo_snapshot *o[3];
     for (int i = 0; i < 3; i++) {
-        if (i > 0)
-            assert_int_equal(ceduo_pool_fill(pictures), CEDUO_OK);
-        assert_int_equal(ceduo_pool_extend(pictures, rocks[i]), CEDUO_OK);
+        assert_int_equal(ceduo_pool_extend(pool, 300 * (uint64_t)(i + 1)), CEDUO_OK);
         def.last = i > 0 ? o[i - 1] : NULL;
         o[i] = snapshot_of(&def);
-        assert_int_equal(o[i]->bare->flown.rocks, 600);
-        assert_int_equal(o[i]->bare->picture_rocks, rocks[i]);
+        assert_int_equal(o[i]->bare->flown.rocks, 300 * (i + 1));
+        assert_int_equal(o[i]->bare->envelope_rocks, rocks[i]);
         assert_int_equal(o[i]->bare->envelopes[0].passed, rocks[i]);
-        assert_true(i == 0 || o[i]->bare != o[i - 1]->bare);
     }
+    assert_memory_equal(o[1]->wooded[0]->envelopes, o[2]->wooded[0]->envelopes, o[1]->cells * sizeof(struct ceduo_envelope));
     for (int i = 0; i < 3; i++)
         ceduo_snapshot_free(o[i]);
 }
@@ -209,7 +175,7 @@ TEST_WITH(a_changed_forest_shows_what_it_was, wooded, NULL)
 {
     static struct site b;
     wooded_site_init(&b);
-    LOCAL(ceduo_pool, pool) = pool_of(100, false);
+    LOCAL(ceduo_pool, pool) = pool_of(100);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     struct ceduo_option options[4] = {b.options[0], b.options[1], s.options[0], b.options[0]};
     b.scene.options = options;
@@ -231,8 +197,8 @@ TEST(sights_are_taken_over)
         wooded_site_init(&b);
         b.belts[1].stand = b.belts[0].stand; /* trees where the other has none */
         b.belts[1].stand.shoots_count = 0;
-        struct ceduo_pool *pool = pool_of(300, false);
-        struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 5};
+        struct ceduo_pool *pool = pool_of(300);
+        struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .trajectories = 5};
         struct ceduo_snapshot *first = snapshot_of(&def);
         ceduo_pool_turn(pool, &b.scene);
         def.scene = &b.scene;
@@ -261,8 +227,8 @@ TEST(sights_are_taken_over)
 
 TEST_WITH(longer_runs_are_read_again, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300, false);
-    struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
+    LOCAL(ceduo_pool, pool) = pool_of(300);
+    struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool};
     LOCAL(ceduo_snapshot, first) = snapshot_of(&def);
     assert_int_equal(ceduo_pool_extend(pool, 301), CEDUO_OK);
     def.last = first;
@@ -275,7 +241,7 @@ TEST_WITH(longer_runs_are_read_again, wooded, NULL)
 /* Starts and ends where the rock does, never far below the ground, and never jumps. */
 TEST_WITH(trajectories_follow_the_rocks, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(20, false);
+    LOCAL(ceduo_pool, pool) = pool_of(20);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 20);
     uint64_t hit = 0;
     for (uint64_t i = 0; i < 40; i++) {
@@ -301,7 +267,7 @@ TEST_WITH(flights_are_sampled_finely, by_index, NULL)
 {
     s.scene.release.vx = ceduo_number(10);
     s.scene.release.vz = ceduo_number(10);
-    LOCAL(ceduo_pool, pool) = pool_of(1, false);
+    LOCAL(ceduo_pool, pool) = pool_of(1);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     size_t checked = 0;
@@ -328,7 +294,7 @@ static int endless(void **state)
 
 TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(1, false);
+    LOCAL(ceduo_pool, pool) = pool_of(1);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     struct ceduo_trajectory way;
@@ -343,9 +309,8 @@ TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
 TEST_WITH(nobody_waits_for_an_endless_trajectory, endless, NULL)
 {
     atomic_bool cancel = true;
-    LOCAL(ceduo_pool, pool) = pool_of(1, false);
-    struct ceduo_snapshot_def def = {
-        .scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1, .cancel = &cancel};
+    LOCAL(ceduo_pool, pool) = pool_of(1);
+    struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .trajectories = 1, .cancel = &cancel};
     LOCAL(ceduo_snapshot, o);
     assert_int_equal(ceduo_snapshot_create(&def, &o), CEDUO_CANCELLED);
     assert_null(o);

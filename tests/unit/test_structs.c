@@ -205,7 +205,7 @@ static enum ceduo_status ask_any(void)
     q.run.rocks_most = any_count(8);
     q.run.threads = any_threads();
     q.run.kernel = (enum ceduo_kernel)any_count(3);
-    q.run.cells = draw(8) ? 0 : any_count(2);
+    q.run.arrivals_only = draw(2);
     q.only = draw(2) ? CEDUO_ALL_OPTIONS : any_count(1);
     q.window = any_window();
     q.years = draw(3) == 0;
@@ -342,7 +342,6 @@ TEST(each_bad_argument_is_refused)
     REFUSED(run.scene, NULL);
     REFUSED(run.threads, UINT32_MAX);
     REFUSED(run.kernel, (enum ceduo_kernel)9);
-    REFUSED(run.cells, 3);
     REFUSED(window, ((struct ceduo_window){CEDUO_WINDOW_GIVEN, 1, 2000000000, 1}));
     REFUSED(window, ((struct ceduo_window){CEDUO_WINDOW_GIVEN, 2, 1, 1}));
     site.belts[0].stand.trees->per_ha = DBL_MAX;

@@ -11,19 +11,11 @@ enum ceduo_status ceduo_check_window(struct ceduo_window w)
     return good && (w.last - w.first) / w.step < CEDUO_YEARS_MOST ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
 }
 
-static bool cells_rise(const struct ceduo_run_def *def)
-{
-    bool good = def->cells == 0 || def->cell_x;
-    for (size_t i = 0; good && i < def->cells; i++)
-        good = isfinite(def->cell_x[i]) && (i == 0 || def->cell_x[i] >= def->cell_x[i - 1]);
-    return good;
-}
-
 /* True if a run of the scene may be made so. */
 static bool is_run_good(const struct ceduo_run_def *def)
 {
     return def->rocks_most <= CEDUO_ROCKS_MOST && def->threads <= CEDUO_THREADS_MOST && def->kernel <= CEDUO_KERNEL_AVX512 &&
-           cells_rise(def) && ceduo_option_has_lists(def->option);
+           ceduo_option_has_lists(def->option);
 }
 
 enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def)

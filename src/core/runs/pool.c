@@ -181,7 +181,6 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
     /* of the other law arrivals are asked for alone */
     struct ceduo_run_def def = pool->def;
     def.arrivals_only = true;
-    def.cells = 0;
     def.rocks_most = def.rocks_most > CEDUO_OTHER_ROCKS ? CEDUO_OTHER_ROCKS : def.rocks_most;
     struct ceduo_scene other = {0};
     if (status == CEDUO_OK && !pool->filled && wooded && def.other_energy)

@@ -69,12 +69,11 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->lanes_walk = ceduo_kernel(def->kernel)->walk;
     run->lanes = run->lanes_walk ? LANES : 1;
     run->slots = calloc(run->slots_count, sizeof *run->slots);
-    run->cells = def->cells > 0 ? calloc(def->cells, sizeof *run->cells) : NULL;
-    bool good = run->slots && (run->cells || def->cells == 0) && ceduo_run_block_init(&run->whole, run->controls) &&
-                ceduo_run_block_init(&run->tail, run->controls);
+    bool good =
+        run->slots && ceduo_run_block_init(&run->whole, run->controls) && ceduo_run_block_init(&run->tail, run->controls);
     for (size_t i = 0; good && i < run->slots_count; i++)
         good = ceduo_run_block_init(&run->slots[i], run->controls);
-    good = good && ceduo_prepared_init(&run->ready, def->scene, def->option, def->cells, def->cell_x) == CEDUO_OK;
+    good = good && ceduo_prepared_init(&run->ready, def->scene, def->option) == CEDUO_OK;
     run->ground_of_lanes = good && run->lanes_walk ? ceduo_lanes_ground_create(&run->ready.ground) : NULL;
     if (!good || (run->lanes_walk && !run->ground_of_lanes)) {
         ceduo_run_free(run);
@@ -95,7 +94,6 @@ void ceduo_run_free(struct ceduo_run *run)
         free(run->slots[i].controls);
     free(run->slots);
     ceduo_run_samples_free(run);
-    free(run->cells);
     free(run->ground_of_lanes);
     ceduo_prepared_release(&run->ready);
     free(run);

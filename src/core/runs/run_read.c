@@ -363,13 +363,6 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
     return CEDUO_OK;
 }
 
-void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_envelope *envelope)
-{
-    *envelope = (struct ceduo_envelope){0};
-    if (cell < run->def.cells)
-        ceduo_envelope_read(&run->cells[cell], envelope);
-}
-
 const double *ceduo_run_samples(const struct ceduo_run *run, size_t control, enum ceduo_sample quantity)
 {
     static const enum quantity column[] = {

@@ -28,7 +28,6 @@ struct worker {
     struct arrival *arrivals;              /* [control][CEDUO_BLOCK_ROCKS] */
     double stops[CEDUO_BLOCK_ROCKS];       /* NaN: it did not stop */
     unsigned char ends[CEDUO_BLOCK_ROCKS]; /* enum ceduo_end, where rocks have weights */
-    struct envelopes cells;
     bool no_memory;
     struct chunk *chunk;
 };
@@ -76,8 +75,6 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
     const struct marks *marks = &w->run->ready.marks;
     for (size_t m = walker->next_mark; m < marks->n; m++) /* it counts at each control that it did not reach */
         w->block->controls[marks->at[m].what].ended[end]++;
-    if (walker->row.at[0])
-        ceduo_envelopes_end(&w->cells, lane, walker->next_cell);
     if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
         w->stops[walker->number - w->from] = walker->at.x;
     if (walker->cancelled)
@@ -110,10 +107,6 @@ static bool next_rock(void *context, size_t lane)
                 w->block->controls[c].ended[CEDUO_UNFINISHED]++;
             continue;
         }
-        /* pictures along the slope show blocks as frequent as they come down */
-        bool shown = !run->sized || ceduo_size_is_typical(&run->ready.sizes, run->ready.scene.simulation.seed, number);
-        if (w->cells.n > 0)
-            walker->row = shown ? ceduo_envelopes_begin(&w->cells, lane, walker->next_cell) : (struct envelope_row){0};
         return true;
     }
     return false;
@@ -220,7 +213,7 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
             return false;
         w->walkers[i].stems = &w->stems[i];
     }
-    return run->def.cells == 0 || ceduo_envelopes_init(&w->cells, run->def.cells, run->lanes);
+    return true;
 }
 
 static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, unsigned n)
@@ -233,9 +226,7 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
         return CEDUO_NO_MEMORY;
     if (atomic_load(&chunk->stop))
         return CEDUO_CANCELLED;
-    for (unsigned i = 0; i < n; i++) /* nothing fails from here on: a chunk is there or leaves no trace */
-        if (workers[i].cells.n > 0)
-            ceduo_envelopes_merge(run->cells, &workers[i].cells);
+    /* nothing fails from here on: a chunk is there or leaves no trace */
     for (size_t i = 0; i < chunk->blocks; i++) {
         bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BLOCK_ROCKS == 0;
         struct block tail = run->tail;
@@ -276,7 +267,6 @@ enum ceduo_status ceduo_run_simulate_chunk(struct ceduo_run *run, uint64_t end)
         for (size_t i = 0; i < chunk.blocks; i++)
             ceduo_run_block_clear(&run->slots[i], run->controls);
     for (struct worker *w = workers; w < workers + n; w++) {
-        ceduo_envelopes_release(&w->cells);
         for (size_t i = 0; w->stems && i < run->lanes; i++)
             ceduo_stems_release(&w->stems[i]);
         free(w->stems);

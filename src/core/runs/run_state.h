@@ -3,7 +3,6 @@
 #define CEDUO_RUN_STATE_H
 
 #include "ceduo/run.h"
-#include "core/walk/envelope.h"
 #include "core/walk/lanes.h"
 #include "core/walk/prepared.h"
 #include "weighted.h"
@@ -60,7 +59,6 @@ struct ceduo_run {
     bool alike;          /* the rocks differ in nothing but their numbers */
     uint64_t capacity;   /* of the samples, in rocks */
     double **samples;    /* [columns][capacity]; NaN: the rock did not arrive, or did not stop */
-    struct envelope_cell *cells;
 };
 
 /* NULL before the first rock. */

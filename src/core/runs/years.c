@@ -278,7 +278,6 @@ static int simulate_apart(void *context, size_t i, size_t worker)
     def.option = &r->years->years[i].option;
     def.threads = 1;
     def.rocks_most = r->rocks;
-    def.cells = 0;
     def.progress = r->def.progress ? report_year : NULL;
     def.context = r;
     enum ceduo_status status = ceduo_run_create(&def, &r->runs[i]);

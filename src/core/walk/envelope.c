@@ -1,139 +1,103 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Each place is a control of a copy of the scene, which rocks pass one by one. */
 #include "envelope.h"
 
+#include <gsl/gsl_statistics.h>
 #include <math.h>
 #include <stdlib.h>
 
-#define WAITING 128 /* rows */
-#define AT_ONCE 8   /* cells whose bins fit the fastest cache */
+#include "base/parallel.h"
+#include "ceduo/trajectory.h"
+#include "prepared.h"
 
-static double middle_of(int quantity, size_t bin)
+/* Values of the rocks that pass a place. */
+struct passed {
+    size_t n;
+    double *height, *energy;
+};
+
+static void add_rock(struct passed *to, const struct ceduo_rock *rock, const struct ceduo_crossing *at)
 {
-    return bin == 0 ? 0 : ldexp(1 + ((double)(bin & 31) + 0.5) / 32, (int)(bin >> 5)) * envelope_min[quantity];
+    if (!at->reached)
+        return;
+    to->height[to->n] = at->height;
+    to->energy[to->n++] = 0.5 * rock->mass * (at->vx * at->vx + at->vz * at->vz) + 0.5 * rock->moment * (at->spin * at->spin);
 }
 
-/* ---- rows ---- */
-
-bool ceduo_envelopes_init(struct envelopes *e, size_t cells, size_t lanes)
+/* Return the values of the ranks p n, rounded up. Each selection leaves smaller values before its rank and larger ones after. */
+static struct ceduo_spread_of_cell select_ranks(double *values, size_t n)
 {
-    size_t width = (cells + ENVELOPE_VECTOR + 31) / 32 * 32, rows = lanes + WAITING;
-    *e = (struct envelopes){.n = cells, .lanes = lanes};
-    e->rows = malloc(rows * sizeof *e->rows);
-    e->cells = calloc(cells, sizeof *e->cells);
-    e->places = malloc(rows * ENVELOPE_QUANTITIES * width * sizeof *e->places);
-    e->max = calloc(ENVELOPE_QUANTITIES * width, sizeof *e->max);
-    if (!e->rows || !e->cells || !e->places || !e->max)
-        return false;
-    for (size_t i = 0; i < rows; i++)
-        for (size_t q = 0; q < ENVELOPE_QUANTITIES; q++) {
-            e->rows[i].at[q] = &e->places[(i * ENVELOPE_QUANTITIES + q) * width];
-            e->rows[i].max[q] = &e->max[q * width];
-        }
-    return true;
+    if (n == 0)
+        return (struct ceduo_spread_of_cell){NAN, NAN, NAN, NAN};
+    size_t low = (size_t)ceil(0.05 * (double)n) - 1, middle = (n + 1) / 2 - 1, high = (size_t)ceil(0.95 * (double)n) - 1;
+    double p50 = gsl_stats_select(values, 1, n, middle), p5 = gsl_stats_select(values, 1, middle + 1, low);
+    double p95 = gsl_stats_select(values + middle, 1, n - middle, high - middle);
+    return (struct ceduo_spread_of_cell){p5, p50, p95, gsl_stats_max(values + high, 1, n - high)};
 }
 
-void ceduo_envelopes_release(struct envelopes *e)
+static bool is_cancelled(void *flag)
 {
-    free(e->rows);
-    free(e->cells);
-    free(e->places);
-    free(e->max);
+    return ceduo_cancelled(flag);
 }
 
-/* Where the rock of a row does not pass. */
-static void leave_out(struct envelope_row *row, size_t from, size_t to)
+/* Follow rocks, of blocks those whose sizes are as frequent as those that come down, and add what they bring to each place. */
+static enum ceduo_status follow_rocks(struct ceduo_follower *f, const struct sizes *sizes,
+                                      const struct ceduo_envelopes_def *def, struct ceduo_crossing *crossings,
+                                      struct passed *places)
 {
-    for (int q = 0; q < ENVELOPE_QUANTITIES; q++)
-        for (size_t i = from; i < to; i++)
-            row->at[q][i] = (uint16_t)(envelope_place(q, 0) + ENVELOPE_BINS);
-}
-
-/* Counts some cells of the rows that wait, from `cell` on. */
-static inline __attribute__((always_inline)) void count(struct envelopes *e, int q, size_t cell, size_t n)
-{
-    const struct envelope_row *rows = e->rows + e->lanes;
-    uint32_t *bins = e->cells[cell].bins[q];
-    const size_t first = envelope_place(q, 0), step = sizeof *e->cells / sizeof *bins;
-    for (size_t i = 0; i < e->waiting; i++) {
-        const uint16_t *at = &rows[i].at[q][cell];
-#pragma GCC unroll 8
-        for (size_t k = 0; k < n; k++)
-            bins[k * step + at[k] - first]++;
+    const struct ceduo_watch watch = {.enough = is_cancelled, .context = (void *)def->cancel};
+    enum ceduo_status status = CEDUO_OK;
+    uint64_t followed = 0;
+    for (uint64_t rock = 0; followed < def->rocks && status == CEDUO_OK; rock++) {
+        struct ceduo_trajectory way;
+        if (ceduo_cancelled(def->cancel))
+            return CEDUO_CANCELLED;
+        if (sizes->n > 0 && !ceduo_size_is_typical(sizes, def->scene->simulation.seed, rock))
+            continue;
+        followed++;
+        status = ceduo_follower_follow(f, rock, &watch, &way, crossings);
+        for (size_t i = 0; i < def->places && status == CEDUO_OK; i++)
+            add_rock(&places[i], &way.rock, &crossings[i]);
     }
+    return status;
 }
 
-static void settle(struct envelopes *e)
+enum ceduo_status ceduo_envelopes(const struct ceduo_envelopes_def *def, struct ceduo_envelope *envelopes)
 {
-    size_t cell = 0;
-    for (; cell + AT_ONCE <= e->n; cell += AT_ONCE)
-        for (int q = 0; q < ENVELOPE_QUANTITIES; q++)
-            count(e, q, cell, AT_ONCE);
-    for (; cell < e->n; cell++)
-        for (int q = 0; q < ENVELOPE_QUANTITIES; q++)
-            count(e, q, cell, 1);
-    e->waiting = 0;
-}
-
-struct envelope_row ceduo_envelopes_begin(struct envelopes *e, size_t lane, size_t first)
-{
-    leave_out(&e->rows[lane], 0, first);
-    return e->rows[lane];
-}
-
-void ceduo_envelopes_end(struct envelopes *e, size_t lane, size_t behind)
-{
-    struct envelope_row ended = e->rows[lane], *to = &e->rows[e->lanes + e->waiting];
-    leave_out(&ended, behind, e->n);
-    e->rows[lane] = *to;
-    *to = ended;
-    if (++e->waiting == WAITING)
-        settle(e);
-}
-
-/* ---- cells ---- */
-
-void ceduo_envelopes_merge(struct envelope_cell *into, struct envelopes *from)
-{
-    settle(from);
-    for (size_t cell = 0; cell < from->n; cell++)
-        for (int q = 0; q < ENVELOPE_QUANTITIES; q++) {
-            double max = from->rows[0].max[q][cell];
-            size_t last = envelope_place(q, max) - envelope_place(q, 0); /* of those that are not empty */
-            into[cell].max[q] = fmax(into[cell].max[q], max);
-            for (size_t i = 0; i <= last; i++)
-                into[cell].bins[q][i] += from->cells[cell].bins[q][i];
-        }
-}
-
-static struct ceduo_spread_of_cell spread_of(const struct envelope_cell *cell, int q, uint64_t passed)
-{
-    struct ceduo_spread_of_cell s = {NAN, NAN, NAN, NAN};
-    if (passed == 0)
-        return s;
-    const double p[3] = {0.05, 0.5, 0.95};
-    double *to[3] = {&s.p5, &s.p50, &s.p95};
-    uint64_t before = 0;
-    int next = 0;
-    for (size_t i = 0; i < ENVELOPE_BINS && next < 3; i++) {
-        before += cell->bins[q][i];
-        while (next < 3 && (double)before >= p[next] * (double)passed)
-            *to[next++] = fmin(middle_of(q, i), cell->max[q]);
+    const size_t n = def->places, each = (size_t)def->rocks;
+    struct ceduo_scene scene = *def->scene;
+    struct ceduo_control *controls = calloc(n + 1, sizeof *controls);
+    struct ceduo_crossing *crossings = calloc(n + 1, sizeof *crossings);
+    struct passed *places = calloc(n + 1, sizeof *places);
+    double *values = malloc((2 * n * each + 1) * sizeof *values);
+    struct ceduo_follower *follower = NULL;
+    struct sizes sizes = {0};
+    enum ceduo_status status = CEDUO_NO_MEMORY;
+    if (!controls || !crossings || !places || !values || !ceduo_sizes_init(&sizes, def->scene))
+        goto done;
+    for (size_t i = 0; i < n; i++) {
+        controls[i].x = def->x[i];
+        places[i].height = &values[2 * i * each];
+        places[i].energy = places[i].height + each;
     }
-    s.max = cell->max[q];
-    return s;
-}
-
-void ceduo_envelope_read(const struct envelope_cell *cell, struct ceduo_envelope *envelope)
-{
-    uint64_t passed = 0;
-    double energy = 0;
-    for (size_t i = 0; i < ENVELOPE_BINS; i++) {
-        passed += cell->bins[2][i];
-        energy += cell->bins[2][i] > 0 ? middle_of(2, i) * cell->bins[2][i] : 0;
+    scene.controls = controls;
+    scene.controls_count = n;
+    follower = ceduo_follower_create(&scene, def->option);
+    if (follower)
+        status = follow_rocks(follower, &sizes, def, crossings, places);
+    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
+        struct passed *p = &places[i];
+        envelopes[i] = (struct ceduo_envelope){.passed = p->n,
+                                               .mean_energy = p->n > 0 ? gsl_stats_mean(p->energy, 1, p->n) : NAN,
+                                               .height = select_ranks(p->height, p->n),
+                                               .energy = select_ranks(p->energy, p->n)};
     }
-    envelope->passed = passed;
-    envelope->speed = spread_of(cell, 0, passed);
-    envelope->height = spread_of(cell, 1, passed);
-    envelope->energy = spread_of(cell, 2, passed);
-    envelope->mean_energy = passed > 0 ? energy / (double)passed : NAN;
+done:
+    ceduo_follower_free(follower);
+    ceduo_sizes_release(&sizes);
+    free(controls);
+    free(crossings);
+    free(places);
+    free(values);
+    return status;
 }

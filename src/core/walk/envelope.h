@@ -2,76 +2,36 @@
 #ifndef CEDUO_ENVELOPE_H
 #define CEDUO_ENVELOPE_H
 
-#include <string.h>
+#include <stdatomic.h>
+#include <stddef.h>
 
-#include "ceduo/run.h"
+#include "ceduo/scene.h"
 
-/* Coarse counts for pictures: 1/32 of an octave, 40 octaves; the first bin holds all that is smaller, the last all that is
- * larger. */
-#define ENVELOPE_BINS       (40 * 32)
-#define ENVELOPE_QUANTITIES 3 /* speed, height, energy */
-#define ENVELOPE_VECTOR     8 /* numbers that a vector may read or write behind the last cell */
+/* Order statistics of rocks along the slope. */
 
-/* The smallest octaves begin at a millimetre, or a millimetre a second, and at 1/16 J. */
-static const double envelope_min[ENVELOPE_QUANTITIES] = {0x1p-10, 0x1p-10, 0x1p-4};
-static const double envelope_max[ENVELOPE_QUANTITIES] = {0x1.fffffffffffffp29, 0x1.fffffffffffffp29, 0x1.fffffffffffffp35};
+#define CEDUO_ENVELOPE_ROCKS 2000
 
-/* What is counted of a value within them: its exponent, and the first 5 bits behind the point. */
-#define ENVELOPE_SHIFT 47
-
-/* All that was counted in a cell, the last place of `bins` for rocks that did not pass. */
-struct envelope_cell {
-    double max[ENVELOPE_QUANTITIES];
-    uint32_t bins[ENVELOPE_QUANTITIES][ENVELOPE_BINS + 1];
+struct ceduo_envelopes_def {
+    const struct ceduo_scene *scene;   /* checked */
+    const struct ceduo_option *option; /* NULL: without forest */
+    uint64_t rocks;                    /* at most CEDUO_ENVELOPE_ROCKS */
+    size_t places;
+    const double *x;           /* rising, on the slope, below each release */
+    const atomic_bool *cancel; /* may be NULL */
 };
 
-/* A rock's way through all cells: what is counted in each. */
-struct envelope_row {
-    uint16_t *at[ENVELOPE_QUANTITIES]; /* [cell], and room for a vector; NULL: it is not shown */
-    double *max[ENVELOPE_QUANTITIES];  /* likewise: the largest of all rocks */
+/* Values that 5, 50, 95 and 100 % of the rocks that pass a place do not exceed; NaN if none passes. */
+struct ceduo_spread_of_cell {
+    double p5, p50, p95, max;
+};
+struct ceduo_envelope {
+    uint64_t passed;                            /* rocks of those followed */
+    double mean_energy;                         /* J, of those that pass; NaN: none */
+    struct ceduo_spread_of_cell height, energy; /* m, J */
 };
 
-/* One thread's envelopes. Rows wait until there are some: a rock goes through all cells, and one bin in each of them, every
- * time in another place, is more than fits a fast cache. */
-struct envelopes {
-    size_t n, lanes, waiting;
-    struct envelope_row *rows;   /* those of the rocks under way, then those that wait, and others without use */
-    struct envelope_cell *cells; /* their `max` is not used here */
-    uint16_t *places;
-    double *max;
-};
-
-/* False without memory; release it in any case. */
-bool ceduo_envelopes_init(struct envelopes *e, size_t cells, size_t lanes);
-void ceduo_envelopes_release(struct envelopes *e);
-
-/* The row of the rock in a lane, which passes no cell before `first`; and its end: none from `behind` on. */
-struct envelope_row ceduo_envelopes_begin(struct envelopes *e, size_t lane, size_t first);
-void ceduo_envelopes_end(struct envelopes *e, size_t lane, size_t behind);
-
-/* Adds up cells, once no rock is under way. */
-void ceduo_envelopes_merge(struct envelope_cell *into, struct envelopes *from);
-
-void ceduo_envelope_read(const struct envelope_cell *cell, struct ceduo_envelope *envelope);
-
-/* What is counted of a value. */
-static inline uint16_t envelope_place(int quantity, double value)
-{
-    double min = envelope_min[quantity], max = envelope_max[quantity];
-    uint64_t bits;
-    value = value > min ? value : min;
-    value = value < max ? value : max;
-    memcpy(&bits, &value, sizeof bits);
-    return (uint16_t)(bits >> ENVELOPE_SHIFT);
-}
-
-/* Notes what a rock brings to a cell. */
-static inline void envelope_note(const struct envelope_row *row, size_t cell, const double values[ENVELOPE_QUANTITIES])
-{
-    for (int q = 0; q < ENVELOPE_QUANTITIES; q++) {
-        row->at[q][cell] = envelope_place(q, values[q]);
-        row->max[q][cell] = values[q] > row->max[q][cell] ? values[q] : row->max[q][cell];
-    }
-}
+/* Follow rocks and write an envelope for each place. If the scene has blocks, follow those that are as frequent as blocks of their size.
+ * Returns CEDUO_NO_MEMORY, CEDUO_CANCELLED or CEDUO_OK. */
+enum ceduo_status ceduo_envelopes(const struct ceduo_envelopes_def *def, struct ceduo_envelope *envelopes);
 
 #endif

@@ -45,29 +45,6 @@ static inline void pass_mark(struct walker *w, double vx, double vz, double spin
     w->cross(w->context, w, w->next_mark++, &c);
 }
 
-static inline void skip_cells(struct walker *w, double x)
-{
-    while (is_cell_before(w, x))
-        w->next_cell++;
-}
-
-/* Whether there are cells up to x, and what it brings to them is noted. */
-static inline bool comes_to_cells(struct walker *w, double x)
-{
-    if (w->row.at[0])
-        return is_cell_before(w, x);
-    skip_cells(w, x);
-    return false;
-}
-
-/* What a rock brings into the next cell. */
-static inline void note_in_cell(struct walker *w, double vx, double vz, double spin, double height)
-{
-    double speed = sqrt(vx * vx + vz * vz);
-    double energy = 0.5 * w->rock.mass * (speed * speed) + 0.5 * w->rock.moment * (spin * spin);
-    envelope_note(&w->row, w->next_cell++, (double[]){speed, height, energy});
-}
-
 /* A flight `at` when it comes to a place. */
 static inline struct flight flight_to(const struct walker *w, const struct flight *at, double x, double t_end)
 {
@@ -78,15 +55,10 @@ static inline struct flight flight_to(const struct walker *w, const struct fligh
 
 void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double t_end)
 {
-    while (comes_to_cells(w, x)) {
-        struct flight f = flight_to(w, &at, w->marks->cell_x[w->next_cell], t_end);
-        note_in_cell(w, f.vx, f.vz, w->spin, f.z - w->marks->cell_z[w->next_cell]);
-    }
-    for (; w->mark_x <= x; set_next_x(w)) {
-        struct flight f = flight_to(w, &at, w->mark_x, t_end);
+    for (; w->next_x <= x; set_next_x(w)) {
+        struct flight f = flight_to(w, &at, w->next_x, t_end);
         pass_mark(w, f.vx, f.vz, w->spin, f.z - w->marks->at[w->next_mark].z);
     }
-    set_next_x(w);
 }
 
 SELDOM void show_flight(const struct walker *w, struct flight at, double x1, double z1, double vz1, double seconds)

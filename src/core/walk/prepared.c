@@ -6,7 +6,6 @@
 
 #include "base/elementary.h"
 #include "base/random.h"
-#include "envelope.h"
 
 /* ---- sizes of blocks ---- */
 
@@ -82,29 +81,19 @@ static int by_x(const void *a, const void *b)
     return (p->what > q->what) - (p->what < q->what);
 }
 
-/* The controls, and the cells. */
-static bool make_marks(struct marks *marks, const struct ceduo_scene *scene, size_t cells, const double *cell_x)
+static bool make_marks(struct marks *marks, const struct ceduo_scene *scene)
 {
-    size_t n = scene->controls_count, room = cells + ENVELOPE_VECTOR;
+    size_t n = marks->n = scene->controls_count;
     marks->at = malloc((n + 1) * sizeof *marks->at);
-    marks->cell_x = malloc(2 * room * sizeof *marks->cell_x);
-    if (!marks->at || !marks->cell_x)
+    if (!marks->at)
         return false;
-    marks->n = n;
     for (size_t i = 0; i < n; i++)
         marks->at[i] = (struct mark){scene->controls[i].x, ceduo_slope_height(&scene->slope, scene->controls[i].x), i};
     qsort(marks->at, n, sizeof *marks->at, by_x);
-    marks->cells = cells;
-    marks->cell_z = marks->cell_x + room;
-    for (size_t i = 0; i < room; i++) {
-        marks->cell_x[i] = i < cells ? cell_x[i] : NAN;
-        marks->cell_z[i] = i < cells ? ceduo_slope_height(&scene->slope, cell_x[i]) : NAN;
-    }
     return true;
 }
 
-enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene, const struct ceduo_option *option,
-                                      size_t cells, const double *cell_x)
+enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene, const struct ceduo_option *option)
 {
     *to = (struct prepared){.scene = *scene, .varies = ceduo_rock_varies(&scene->rock)};
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &to->mean);
@@ -116,7 +105,7 @@ enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_sc
     if (to->simplified.x)
         to->scene.slope = to->simplified;
     bool good = ceduo_sizes_init(&to->sizes, scene) && ceduo_wood_init(&to->wood, &scene->simulation, option, &to->mean) &&
-                make_marks(&to->marks, &to->scene, cells, cell_x) &&
+                make_marks(&to->marks, &to->scene) &&
                 ceduo_ground_init(&to->ground, &to->scene.slope, scene->simulation.gravity, to->mean.radius,
                                   ceduo_scene_rock_varies(scene));
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -149,7 +138,6 @@ void ceduo_prepared_release(struct prepared *p)
     ceduo_sizes_release(&p->sizes);
     ceduo_wood_release(&p->wood);
     free(p->marks.at);
-    free(p->marks.cell_x);
     ceduo_ground_release(&p->ground);
     ceduo_slope_simplified_free(&p->simplified);
 }

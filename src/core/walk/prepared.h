@@ -48,12 +48,9 @@ struct mark {
     size_t what; /* the control's index */
 };
 
-/* Controls, and cells of the envelopes, where rocks are noted many at once. */
 struct marks {
-    size_t n, cells;
-    struct mark *at;         /* rising along x */
-    double *cell_x, *cell_z; /* likewise; behind the last NaN, as many as a vector reads: compare with isless() and its like,
-                              * which raise no exception */
+    size_t n;
+    struct mark *at; /* rising along x */
 };
 
 /* A scene made ready to simulate rocks through one forest: what a walker reads. */
@@ -68,10 +65,8 @@ struct prepared {
     struct wood wood;
 };
 
-/* `option` NULL: without forest. `cell_x`: places of envelopes. CEDUO_BAD_ROCK or CEDUO_NO_MEMORY; release it in any
- * case. */
-enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene, const struct ceduo_option *option,
-                                      size_t cells, const double *cell_x);
+/* `option` NULL: without forest. CEDUO_BAD_ROCK or CEDUO_NO_MEMORY; release it in any case. */
+enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene, const struct ceduo_option *option);
 void ceduo_prepared_release(struct prepared *p);
 
 /* How a control (in the scene's order) lies below the mean release, on the profile that is simulated. */

@@ -73,15 +73,10 @@ SELDOM void pass_in_roll(struct walker *w, const struct roll *r, double ds, doub
 {
     const struct ground_segment *s = &w->g->segments[w->at.segment];
     double rate = ds > 0 ? (u2_end - r->u2) / ds : 0; /* untaken: rounding */
-    while (comes_to_cells(w, x)) {
-        double u = speed_at(w, r, rate, w->marks->cell_x[w->next_cell], w->marks->cell_z[w->next_cell]);
-        note_in_cell(w, u * s->c, u * s->s, w->k > 0 ? u / w->rock.radius : 0, 0);
-    }
-    for (; w->mark_x <= x; set_next_x(w)) {
-        double u = speed_at(w, r, rate, w->mark_x, w->marks->at[w->next_mark].z);
+    for (; w->next_x <= x; set_next_x(w)) {
+        double u = speed_at(w, r, rate, w->next_x, w->marks->at[w->next_mark].z);
         pass_mark(w, u * s->c, u * s->s, w->k > 0 ? u / w->rock.radius : 0, 0);
     }
-    set_next_x(w);
 }
 
 SELDOM void show_roll(struct walker *w, const struct roll *r, double u2_end, double x1, double z1)

@@ -31,7 +31,7 @@ struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, co
     struct ceduo_follower *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
-    if (ceduo_prepared_init(&f->ready, scene, option, 0, NULL) == CEDUO_OK &&
+    if (ceduo_prepared_init(&f->ready, scene, option) == CEDUO_OK &&
         ceduo_stems_init(&f->stems, &f->ready.wood, CEDUO_KERNEL_BEST))
         return f;
     ceduo_follower_free(f);

@@ -61,8 +61,6 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     w->cancelled = w->gives_up = false;
     w->facets.of = w->turns.of = UINT64_MAX;
     w->next_mark = 0; /* all stand below each release */
-    w->next_cell = 0;
-    skip_cells(w, x);
     set_next_x(w);
     w->stems_hit = w->stools_met = 0;
     w->stem_ahead = INFINITY;
@@ -92,8 +90,6 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
     w->cancelled = false;
     w->facets.of = w->turns.of = UINT64_MAX;
     w->next_mark = first->next_mark;
-    w->next_cell = first->next_cell;
-    w->mark_x = first->mark_x;
     w->next_x = first->next_x;
     if (w->has_section)
         draw_section(w);

@@ -10,7 +10,6 @@
 #include "base/random.h"
 #include "ceduo/trajectory.h"
 #include "core/wood/stems.h"
-#include "envelope.h"
 #include "flight.h"
 #include "prepared.h"
 
@@ -51,10 +50,8 @@ struct walker {
     uint64_t contacts;
     uint64_t pause;       /* contacts after which to look up: at the most, or whether to stop */
     uint64_t stems_pause; /* the same, of the effort spent on stems */
-    size_t next_mark, next_cell;
-    double mark_x;                  /* of that mark, infinite behind the last; */
-    double next_x;                  /* or of that cell, which comes first */
-    struct envelope_row row;        /* what it brings to the cells */
+    size_t next_mark;
+    double next_x;                  /* of that mark, infinite behind the last */
     struct stems *stems;            /* NULL: no forest */
     double stem_ahead, stem_behind; /* x of the next stem in either direction; infinite: none */
     uint64_t stems_hit, stools_met;
@@ -86,20 +83,12 @@ struct course {
 
 static inline bool is_behind_marks(const struct walker *w)
 {
-    return w->next_mark == w->marks->n && w->next_cell == w->marks->cells;
-}
-
-static inline bool is_cell_before(const struct walker *w, double x)
-{
-    return islessequal(w->marks->cell_x[w->next_cell], x);
+    return w->next_mark == w->marks->n;
 }
 
 static inline void set_next_x(struct walker *w)
 {
-    const struct marks *m = w->marks;
-    w->mark_x = w->next_mark < m->n ? m->at[w->next_mark].x : INFINITY;
-    double cell_x = m->cell_x[w->next_cell];
-    w->next_x = isless(cell_x, w->mark_x) ? cell_x : w->mark_x;
+    w->next_x = is_behind_marks(w) ? INFINITY : w->marks->at[w->next_mark].x;
     if (w->arrivals_only && is_behind_marks(w))
         w->pause = 0;
 }
