@@ -44,11 +44,16 @@ struct ceduo_exceeding {
     struct ceduo_estimate rate;
 };
 
+/* Rates of exceeding energies, up to the first that no rock exceeds. */
+struct ceduo_hazard_curve {
+    size_t count;
+    struct ceduo_exceeding at[CEDUO_HAZARD_ENERGIES];
+};
+
 struct ceduo_hazard {
     double per_year;  /* blocks that come down a year; NaN: the scene does not say, and nothing else holds */
     double effective; /* effective sample size (Kish): (sum w)^2/sum w^2 */
-    size_t energies;  /* of the curve, up to the first that no rock exceeds */
-    struct ceduo_exceeding exceed[CEDUO_HAZARD_ENERGIES];
+    const struct ceduo_hazard_curve *curve; /* of the struct ceduo_simulated that holds it; NULL: not read */
     struct ceduo_return returns[CEDUO_RETURNS];
     struct ceduo_estimate reach;    /* rocks that arrive */
     struct ceduo_estimate accepted; /* rocks that arrive with more than is accepted; NaN where that is not said */

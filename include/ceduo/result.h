@@ -11,6 +11,7 @@ struct ceduo_simulated {
     uint64_t rocks; /* 0: nothing is known */
     size_t controls;
     struct ceduo_arrivals *arrivals;
+    struct ceduo_hazard_curve *curves; /* to which the arrivals point; NULL without blocks */
     struct ceduo_ends ends;
 };
 

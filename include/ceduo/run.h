@@ -90,6 +90,10 @@ static inline struct ceduo_estimate ceduo_judged_share(const struct ceduo_arriva
 /* CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK. `control` counts in the scene's order. */
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals);
 
+/* As ceduo_run_arrivals(), and of a run with blocks the curve of the hazard, to which the arrivals then point. */
+enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals,
+                                   struct ceduo_hazard_curve *curve);
+
 /* Return the mean energy (J) of the rocks that reach a control, without interval, and set how many do. It is cheap. */
 struct ceduo_estimate ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached);
 

@@ -265,7 +265,7 @@ static const void *hazard_of(const void *arrivals)
 static const void *exceed_item(const void *object, size_t i)
 {
     const struct ceduo_hazard *h = object;
-    return i < h->energies ? &h->exceed[i] : NULL;
+    return h->curve && i < h->curve->count ? &h->curve->at[i] : NULL;
 }
 
 static const void *return_item(const void *object, size_t i)

@@ -59,7 +59,7 @@ static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_
 {
     const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_of(d->picture->snapshot, d->scene, item - 1);
     const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
-    return a && !isnan(a->hazard.per_year) ? &a->hazard : NULL;
+    return a && a->hazard.curve ? &a->hazard : NULL;
 }
 
 static enum ceduo_role role_of(size_t item)
@@ -83,13 +83,13 @@ static void draw_curve(const struct ceduo_drawing *d, size_t item)
 {
     const struct ceduo_hazard *h = hazard_of(d, item);
     const struct ceduo_frame *f = &d->frame;
-    for (size_t i = FIRST; h && i + 1 < h->energies && h->exceed[i].rate.mean > 0; i++) {
-        const struct ceduo_exceeding *a = &h->exceed[i], *b = a + 1;
+    for (size_t i = FIRST; h && i + 1 < h->curve->count && h->curve->at[i].rate.mean > 0; i++) {
+        const struct ceduo_exceeding *a = &h->curve->at[i], *b = a + 1;
         ceduo_canvas_line(d->canvas, f, role_of(item), log_kJ(a), logarithm(a->rate.mean), log_kJ(b->rate.mean > 0 ? b : a),
                           logarithm(b->rate.mean));
     }
-    for (size_t i = FIRST; h && item == d->picture->option + 1 && i < h->energies; i += 2) {
-        const struct ceduo_exceeding *e = &h->exceed[i];
+    for (size_t i = FIRST; h && item == d->picture->option + 1 && i < h->curve->count; i += 2) {
+        const struct ceduo_exceeding *e = &h->curve->at[i];
         double x = log_kJ(e);
         if (x >= f->x0 && logarithm(e->rate.hi) > RAREST)
             ceduo_canvas_line(d->canvas, f, CEDUO_ROLE_MEAN, x, fmax(RAREST, logarithm(e->rate.lo)), x,
@@ -121,14 +121,14 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
     static const double energies[] = {30, 300}, years[] = {30, 100, 300};
     bool blocks = d->scene->blocks_count > 0;
     const struct ceduo_hazard *bare = blocks ? hazard_of(d, 0) : NULL;
-    size_t items = d->wooded ? d->scene->options_count + 1 : 1, last = bare ? bare->energies : 0;
+    size_t items = d->wooded ? d->scene->options_count + 1 : 1, last = bare ? bare->curve->count : 0;
     if (!bare)
         return blocks ? _("not computed yet") : _("the scene does not say which blocks come down");
     if (!place_chart(d, &hazard_size, items))
         return _("too narrow");
-    while (last > 0 && logarithm(bare->exceed[last - 1].rate.mean) < RAREST)
+    while (last > 0 && logarithm(bare->curve->at[last - 1].rate.mean) < RAREST)
         last--;
-    d->frame.x1 = last > 0 ? log10(bare->exceed[last - 1].energy * J_TO_KJ * 1.3) : 0;
+    d->frame.x1 = last > 0 ? log10(bare->curve->at[last - 1].energy * J_TO_KJ * 1.3) : 0;
     d->frame.y0 = RAREST;
     d->frame.y1 = ceil(logarithm(bare->reach.mean) + 1e-9);
     if (!(d->frame.x1 > 0 && d->frame.y1 > RAREST))
@@ -154,10 +154,10 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
         char sign[24];
         size_t at = 14 + 4 * i; /* its number on the curve */
         snprintf(sign, sizeof sign, "%zu", i);
-        while (h && at > 0 && (at >= h->energies || logarithm(h->exceed[at].rate.mean) < RAREST))
+        while (h && at > 0 && (at >= h->curve->count || logarithm(h->curve->at[at].rate.mean) < RAREST))
             at--;
         if (h)
-            put_sign(d, log_kJ(&h->exceed[at]), logarithm(h->exceed[at].rate.mean), false, role_of(i), sign);
+            put_sign(d, log_kJ(&h->curve->at[at]), logarithm(h->curve->at[at].rate.mean), false, role_of(i), sign);
         if ((int)i < d->legend.height)
             ceduo_plot_say(d->canvas, d->legend.left, d->legend.top + (int)i, d->legend.width, role_of(i), "%zu %s", i,
                            i == 0 ? _("without forest") : d->scene->options[i - 1].name);

@@ -247,7 +247,7 @@ TEST(few_rocks_bound_what_they_can)
     const struct released all = {.n = N, .w = N, .ww = N, .per_year = 0.5};
     struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
     struct ceduo_hazard h;
-    assert_true(ceduo_hazard_read(&all, energies, 3, 5e4, &h));
+    assert_true(ceduo_hazard_read(&all, energies, 3, 5e4, &h, NULL));
     ROWS(EXPECT_NEAR, (h.reach.mean, 0.0015, 1e-15), (h.accepted.mean, 0.001, 1e-15),
          (ceduo_hazard_feared(&h).mean, 0.001, 1e-15));
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
@@ -256,7 +256,7 @@ TEST(few_rocks_bound_what_they_can)
                 isnan(h.returns[3].energy.lo));  /* 0.0015 a year: less than one in 300 years */
     EXPECT_NEAR(h.returns[3].energy.hi, 1e5, 0); /* 1/150 of the blocks: more than one of N may be by Wilson, two may not */
     assert_true(isnan(h.returns[1].energy.hi));  /* one in 30 years is more than all three may be */
-    assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h));
+    assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h, NULL));
     assert_true(isnan(h.accepted.mean));
     EXPECT_NEAR(ceduo_hazard_feared(&h).mean, 0.0015, 1e-15);
     struct ceduo_hazard none = ceduo_hazard_none();
@@ -269,7 +269,7 @@ TEST(rocks_count_by_their_weights)
 {
     const struct released all = {.n = N, .w = N, .ww = 500 * (1.9 * 1.9 + .1 * .1), .per_year = 1};
     struct ceduo_hazard h;
-    assert_true(ceduo_hazard_read(&all, NULL, 0, 5, &h));
+    assert_true(ceduo_hazard_read(&all, NULL, 0, 5, &h, NULL));
     EXPECT_NEAR(h.effective, 1e6 / 1810, 1e-9);
 }
 
@@ -279,9 +279,10 @@ TEST(a_curve_ends_where_its_energies_do)
     const struct released all = {.n = 2, .w = 2, .ww = 2, .per_year = 1};
     struct weighted energies[] = {{1e10, 1}, {1e10, 1}};
     struct ceduo_hazard h;
-    assert_true(ceduo_hazard_read(&all, energies, 2, NAN, &h));
-    assert_int_equal(h.energies, CEDUO_HAZARD_ENERGIES);
-    EXPECT_NEAR(h.exceed[CEDUO_HAZARD_ENERGIES - 1].rate.mean, 1, 0);
+    struct ceduo_hazard_curve curve;
+    assert_true(ceduo_hazard_read(&all, energies, 2, NAN, &h, &curve));
+    assert_int_equal(curve.count, CEDUO_HAZARD_ENERGIES);
+    EXPECT_NEAR(curve.at[CEDUO_HAZARD_ENERGIES - 1].rate.mean, 1, 0);
 }
 
 /* An energy that a rock has is not exceeded by it; a class begins with its lower limit; a return period is met by a rate that
@@ -291,15 +292,16 @@ TEST(at_a_limit)
     const struct released all = {.n = N, .w = N, .ww = N, .per_year = 10};
     struct weighted energies[] = {{3e5, 1}, {3e4, 1}};
     struct ceduo_hazard h;
-    assert_true(ceduo_hazard_read(&all, energies, 2, 3e5, &h));
+    struct ceduo_hazard_curve curve;
+    assert_true(ceduo_hazard_read(&all, energies, 2, 3e5, &h, &curve));
     ROWS(EXPECT_NEAR, (h.accepted.mean, 0, 0), (h.intensity[0].within.mean, 0, 0), (h.intensity[1].within.mean, 0.01, 1e-15),
          (h.intensity[2].within.mean, 0.01, 1e-15));
-    for (size_t i = 0; i < h.energies; i++)
-        EXPECT_NEAR(h.exceed[i].rate.mean, h.exceed[i].energy < 3e4 ? 0.02 : h.exceed[i].energy < 3e5 ? 0.01 : 0, 1e-15);
+    for (size_t i = 0; i < curve.count; i++)
+        EXPECT_NEAR(curve.at[i].rate.mean, curve.at[i].energy < 3e4 ? 0.02 : curve.at[i].energy < 3e5 ? 0.01 : 0, 1e-15);
     assert_int_equal(h.returns[2].years, 100);
     EXPECT_NEAR(h.returns[2].energy.mean, 3e5, 0);
     assert_true(isnan(h.returns[2].energy.hi)); /* of none among 1000 up to 0.038 a year may be: no energy is too high */
-    assert_true(ceduo_hazard_read(&all, energies, 2, nextafter(3e5, 0), &h));
+    assert_true(ceduo_hazard_read(&all, energies, 2, nextafter(3e5, 0), &h, &curve));
     EXPECT_NEAR(h.accepted.mean, 0.01, 1e-15);
 }
 
@@ -308,10 +310,11 @@ TEST(nobody_arrives)
 {
     const struct released all = {.n = 200, .w = 200, .ww = 200, .per_year = 1};
     struct ceduo_hazard h;
-    assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h));
+    struct ceduo_hazard_curve curve;
+    assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h, &curve));
     EXPECT_NEAR(h.reach.mean, 0, 0);
     EXPECT_NEAR(h.reach.hi, 3.8414588 / (200 + 3.8414588), 1e-8); /* Wilson of 0 among 200 */
-    assert_int_equal(h.energies, 1);
+    assert_int_equal(curve.count, 1);
     for (size_t i = 0; i < CEDUO_RETURNS; i++)
         assert_true(isnan(h.returns[i].energy.mean) && isnan(h.returns[i].energy.lo) && isnan(h.returns[i].energy.hi));
     assert_true(isnan(h.left));
@@ -335,13 +338,13 @@ TEST(fewer_arrivals_raise_no_upper_end)
     ROWS(EXPECT_NEAR, (could[0].weight, N, 1e-9), (could[N / 2].weight, 50, 1e-9), (could[N - 1].weight, 0.1, 1e-12));
     for (size_t n = 0; n <= LENGTH(energies); n++) {
         struct ceduo_hazard h;
-        assert_true(ceduo_hazard_read(&all, energies, n, 5, &h));
+        assert_true(ceduo_hazard_read(&all, energies, n, 5, &h, NULL));
         EXPECT_NEAR(h.reach.hi, of_all, 1e-8);
         if (n == 0)
             EXPECT_NEAR(h.accepted.hi, of_large, 1e-9);
         EXPECT(h.accepted.hi, >=, before);
         before = h.accepted.hi;
-        assert_true(ceduo_hazard_read(&all, energies, n, 10, &h)); /* as much as none could have */
+        assert_true(ceduo_hazard_read(&all, energies, n, 10, &h, NULL)); /* as much as none could have */
         EXPECT_NEAR(h.accepted.hi, 0, 0);
     }
     EXPECT(before, >, 1.5 * of_large);

@@ -89,18 +89,22 @@ static struct ceduo_estimate exceeding(const struct curve *c, double energy)
     return rate_of(c, &c->sums[above(c, energy)], energy);
 }
 
+static void set_curve(const struct curve *c, struct ceduo_hazard_curve *to)
+{
+    for (size_t i = 0; i < CEDUO_HAZARD_ENERGIES; i++) {
+        double energy = ceduo_hazard_energy(i);
+        to->at[i] = (struct ceduo_exceeding){energy, exceeding(c, energy)};
+        to->count = i + 1;
+        if (!(to->at[i].rate.mean > 0))
+            break;
+    }
+}
+
 static void read_curve(const struct curve *c, double accepted, struct ceduo_hazard *h)
 {
     h->reach = rate_of(c, &c->sums[c->n], -1);
     if (!isnan(accepted))
         h->accepted = exceeding(c, accepted);
-    for (size_t i = 0; i < CEDUO_HAZARD_ENERGIES; i++) {
-        double energy = ceduo_hazard_energy(i);
-        h->exceed[i] = (struct ceduo_exceeding){energy, exceeding(c, energy)};
-        h->energies = i + 1;
-        if (!(h->exceed[i].rate.mean > 0))
-            break;
-    }
     for (size_t i = 0; i < CEDUO_RETURNS; i++) {
         struct ceduo_estimate *to = &h->returns[i].energy;
         double wanted = 1.0 / h->returns[i].years;
@@ -124,7 +128,8 @@ static void read_curve(const struct curve *c, double accepted, struct ceduo_haza
     }
 }
 
-bool ceduo_hazard_read(const struct released *all, struct weighted *energies, size_t n, double accepted, struct ceduo_hazard *h)
+bool ceduo_hazard_read(const struct released *all, struct weighted *energies, size_t n, double accepted, struct ceduo_hazard *h,
+                       struct ceduo_hazard_curve *to)
 {
     struct weighted_sum *sums = malloc((n + 1) * sizeof *sums);
     *h = ceduo_hazard_none();
@@ -138,7 +143,11 @@ bool ceduo_hazard_read(const struct released *all, struct weighted *energies, si
     }
     h->per_year = all->per_year;
     h->effective = all->w * all->w / all->ww;
-    read_curve(&(struct curve){all, energies, sums, n}, accepted, h);
+    const struct curve curve = {all, energies, sums, n};
+    read_curve(&curve, accepted, h);
+    if (to)
+        set_curve(&curve, to);
+    h->curve = to;
     ceduo_hazard_compare(h, h);
     free(sums);
     return true;

@@ -9,20 +9,24 @@
 
 /* ---- what a run found ---- */
 
-static bool allocate_simulated(struct ceduo_simulated *f, size_t controls)
+static bool allocate_simulated(struct ceduo_simulated *f, size_t controls, bool curves)
 {
     *f = (struct ceduo_simulated){.controls = controls, .arrivals = calloc(controls + 1, sizeof *f->arrivals)};
-    return f->arrivals != NULL;
+    f->curves = f->arrivals && curves ? calloc(controls + 1, sizeof *f->curves) : NULL;
+    if (f->arrivals && (f->curves || !curves))
+        return true;
+    ceduo_simulated_free(f);
+    return false;
 }
 
 enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *f)
 {
-    if (!allocate_simulated(f, controls))
+    if (!allocate_simulated(f, controls, ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT)))
         return CEDUO_NO_MEMORY;
     f->rocks = ceduo_run_rocks(run);
     enum ceduo_status status = ceduo_run_ends(run, &f->ends);
     for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
-        status = ceduo_run_arrivals(run, c, &f->arrivals[c]);
+        status = ceduo_run_hazard(run, c, &f->arrivals[c], f->curves ? &f->curves[c] : NULL);
     if (status != CEDUO_OK)
         ceduo_simulated_free(f);
     return status;
@@ -30,18 +34,23 @@ enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t contr
 
 static enum ceduo_status copy(const struct ceduo_simulated *from, struct ceduo_simulated *to)
 {
-    if (!allocate_simulated(to, from->controls))
+    if (!allocate_simulated(to, from->controls, from->curves))
         return CEDUO_NO_MEMORY;
     to->rocks = from->rocks;
     to->ends = from->ends;
-    if (from->controls > 0)
-        memcpy(to->arrivals, from->arrivals, from->controls * sizeof *to->arrivals);
+    for (size_t c = 0; c < from->controls; c++) {
+        to->arrivals[c] = from->arrivals[c];
+        if (from->curves)
+            to->curves[c] = from->curves[c];
+        to->arrivals[c].hazard.curve = from->curves ? &to->curves[c] : NULL;
+    }
     return CEDUO_OK;
 }
 
 void ceduo_simulated_free(struct ceduo_simulated *f)
 {
     free(f->arrivals);
+    free(f->curves);
     *f = (struct ceduo_simulated){0};
 }
 
@@ -167,7 +176,7 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
     if (!r)
         return CEDUO_NO_MEMORY;
     enum ceduo_status status = bare ? ceduo_simulated_read(bare, controls, &r->bare) : CEDUO_OK;
-    if (!bare && !allocate_simulated(&r->bare, controls))
+    if (!bare && !allocate_simulated(&r->bare, controls, false))
         status = CEDUO_NO_MEMORY;
     for (size_t c = 0; !bare && status == CEDUO_OK && c < controls; c++) { /* of a run that is not there nothing is known */
         r->bare.arrivals[c].energy = ceduo_distribution_none();

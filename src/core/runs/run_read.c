@@ -91,7 +91,7 @@ static double top_p95(const struct ceduo_run *run, size_t control, double height
 
 /* From the samples, in the order of the rocks, and from sums of the weights by the ways that rocks end. */
 static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t control, const struct sums *s,
-                                       struct ceduo_arrivals *a)
+                                       struct ceduo_arrivals *a, struct ceduo_hazard_curve *curve)
 {
     struct released all = released_of(run, s->missed[CEDUO_UNFINISHED]);
     const double accepted = run->ready.scene.controls[control].accepted;
@@ -110,7 +110,7 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
         *to[q] = ceduo_weighted_distribution(&all, values, gather_weighted(run, samples_of(run, control, q), values));
     a->top_p95 = top_p95(run, control, a->height.p95, values);
     size_t n = gather_weighted(run, samples_of(run, control, ENERGY), values);
-    bool good = ceduo_hazard_read(&all, values, n, accepted, &a->hazard); /* which sorts them */
+    bool good = ceduo_hazard_read(&all, values, n, accepted, &a->hazard, curve); /* which sorts them */
     a->hazard.accepted_return = isnan(accepted) ? NAN : ceduo_accepted_return(&run->ready.scene.controls[control]);
     for (size_t i = 0; i < n; i++) {
         weighted_sum_add(&reach, values[i].weight, 1);
@@ -162,6 +162,12 @@ double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_co
 
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
 {
+    return ceduo_run_hazard(run, control, a, NULL);
+}
+
+enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a,
+                                   struct ceduo_hazard_curve *curve)
+{
     *a = (struct ceduo_arrivals){0};
     if (control >= run->controls)
         return CEDUO_BAD_ARGUMENT;
@@ -177,7 +183,7 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
                                  .topography = ceduo_prepared_topography(&run->ready, control)};
     memcpy(a->ended, s.ended, sizeof a->ended);
     if (run->sized)
-        return read_weighted(run, control, &s, a);
+        return read_weighted(run, control, &s, a, curve);
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = (double)s.ended[e] / (double)run->rocks;
     a->reach = share_of(a->reached, a->unfinished, run->rocks);

@@ -70,8 +70,8 @@ double ceduo_weighted_quantile(const struct weighted *values, size_t n, double p
 
 void ceduo_weighted_sort(struct weighted *values, size_t n);
 
-/* The hazard from the energies of the n rocks that arrive, which are sorted. CEDUO_NO_MEMORY: false. */
+/* The hazard from the energies of the n rocks that arrive, which are sorted. `curve` may be NULL. False without memory. */
 bool ceduo_hazard_read(const struct released *all, struct weighted *energies, size_t n, double accepted,
-                       struct ceduo_hazard *hazard);
+                       struct ceduo_hazard *hazard, struct ceduo_hazard_curve *curve);
 
 #endif
