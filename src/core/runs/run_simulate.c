@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "core/walk/kernel.h"
 #include "core/walk/walk.h"
 #include "run_state.h"
 
@@ -209,7 +210,7 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     if (!run->ready.wood.bare && !(w->stems = calloc(run->lanes, sizeof *w->stems)))
         return false;
     for (size_t i = 0; w->stems && i < run->lanes; i++) {
-        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood, run->def.kernel))
+        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood, ceduo_kernel(run->def.kernel)->stems))
             return false;
         w->walkers[i].stems = &w->stems[i];
     }

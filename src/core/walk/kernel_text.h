@@ -154,7 +154,8 @@ static void walk_job(const struct lanes_job *job)
     walks[job->law](&k, small, w->stems);
 }
 
-const struct kernel KERNEL = {walk_job, fill_points, make_stools};
+static const struct stems_kernel stems_kernel = {fill_points, make_stools};
+const struct kernel KERNEL = {walk_job, &stems_kernel};
 
 #ifdef __clang__
 #pragma clang attribute pop

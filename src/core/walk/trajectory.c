@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernel.h"
 #include "prepared.h"
 #include "walk.h"
 
@@ -32,7 +33,7 @@ struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, co
     if (!f)
         return NULL;
     if (ceduo_prepared_init(&f->ready, scene, option) == CEDUO_OK &&
-        ceduo_stems_init(&f->stems, &f->ready.wood, CEDUO_KERNEL_BEST))
+        ceduo_stems_init(&f->stems, &f->ready.wood, ceduo_kernel(CEDUO_KERNEL_BEST)->stems))
         return f;
     ceduo_follower_free(f);
     return NULL;

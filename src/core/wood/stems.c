@@ -11,14 +11,13 @@
 #include <string.h>
 
 #include "base/elementary.h"
-#include "core/walk/kernel.h"
 #include "core/walk/random.h"
 #define REAL_LANES 2
 #include "stems_fill.h"
 
 #define PAUSE_STEMS 4096 /* effort between two looks at whether the rock is still waited for */
 
-const struct kernel ceduo_kernel_scalar = {NULL, fill_points, make_stools};
+const struct stems_kernel ceduo_stems_plain = {fill_points, make_stools};
 
 /* ---- diameters ---- */
 
@@ -372,10 +371,10 @@ void ceduo_stems_meet_behind(struct stems *s, uint64_t stool)
 
 /* ---- making and freeing ---- */
 
-bool ceduo_stems_init(struct stems *stems, const struct wood *wood, enum ceduo_kernel kernel)
+bool ceduo_stems_init(struct stems *stems, const struct wood *wood, const struct stems_kernel *kernel)
 {
     stems->wood = wood;
-    stems->kernel = ceduo_kernel(kernel);
+    stems->kernel = kernel;
     bool good = true;
     for (int i = 0; i < 2; i++) {
         struct stems_side *side = &stems->side[i];

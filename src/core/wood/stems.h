@@ -6,7 +6,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "ceduo/run.h"
 #include "ceduo/trajectory.h"
 #include "stems_state.h"
 
@@ -22,11 +21,13 @@ static inline bool ceduo_stems_too_many(const struct stems *stems)
 }
 
 /* `stems` is zeroed: it is large, and mostly never touched. False without memory. */
-bool ceduo_stems_init(struct stems *stems, const struct wood *wood, enum ceduo_kernel kernel);
+bool ceduo_stems_init(struct stems *stems, const struct wood *wood, const struct stems_kernel *kernel);
 void ceduo_stems_release(struct stems *stems);
 
 /* Begins the trajectory of rock `number`, of mean diameter b, released at x. */
 void ceduo_stems_begin(struct stems *stems, uint64_t seed, uint64_t number, double b, double x);
+
+extern const struct stems_kernel ceduo_stems_plain; /* for any machine */
 
 /* The next stem of a side, where next_known. */
 static inline struct stem *ceduo_stems_next(struct stems_side *side)

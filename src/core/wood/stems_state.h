@@ -78,13 +78,24 @@ struct belt_rates {
     double b, rate[STREAMS], metres[STREAMS];
 };
 
+struct stems;
+
+/* Functions of stems_fill.h, compiled for some kind of registers. */
+struct stems_kernel {
+    /* Draws the next places of a stream. */
+    void (*fill)(struct stems *stems, int side, enum stem_stream stream);
+    /* Makes some of the stools that come next on a side, of which the shoots are alike and stand ahead of the release;
+     * there is room for SHOOTS_AT_ONCE. */
+    void (*make_stools)(struct stems *stems, int side);
+};
+
 struct stems {
     const struct wood *wood;
-    const struct kernel *kernel; /* core/walk/kernel.h */
-    uint64_t seed, number;       /* of the rock */
-    double b;                    /* its mean diameter, m */
-    double start;                /* x of its release */
-    struct belt_rates *rates;    /* of the belts of wood->along[0] */
+    const struct stems_kernel *kernel;
+    uint64_t seed, number;    /* of the rock */
+    double b;                 /* its mean diameter, m */
+    double start;             /* x of its release */
+    struct belt_rates *rates; /* of the belts of wood->along[0] */
     struct stems_side side[2];
     bool behind_ready;
     uint64_t *met;   /* stools that were hit, each at the place of its number's last bits: those that the way is among
