@@ -83,6 +83,12 @@ struct ceduo_arrivals {
 #define CEDUO_EXCEED_MOST 0.05
 double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_control *control);
 
+/* Return the share by which a control is judged: exceed, or reach without an accepted energy. */
+static inline struct ceduo_estimate ceduo_judged_share(const struct ceduo_arrivals *arrivals)
+{
+    return isnan(arrivals->exceed.mean) ? arrivals->reach : arrivals->exceed;
+}
+
 /* CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK. `control` counts in the scene's order. */
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals);
 

@@ -8,11 +8,6 @@
 #include "ceduo/doubt.h"
 #include "ceduo/key.h"
 
-double ceduo_share_of(const struct ceduo_arrivals *arrivals)
-{
-    return isnan(arrivals->exceed.mean) ? arrivals->reach.mean : arrivals->exceed.mean;
-}
-
 /* Half the interval if rocks have weights, otherwise by the number of rocks. */
 static struct ceduo_portion portion_of(const struct ceduo_arrivals *a, struct ceduo_estimate share)
 {
@@ -34,7 +29,7 @@ struct ceduo_portion ceduo_share_exceeding(const struct ceduo_arrivals *a)
 
 struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *a)
 {
-    return a && isnan(a->exceed.mean) ? ceduo_share_arriving(a) : ceduo_share_exceeding(a);
+    return a ? portion_of(a, ceduo_judged_share(a)) : (struct ceduo_portion){NAN, NAN};
 }
 
 /* The difference of what is compared. */

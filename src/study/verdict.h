@@ -16,8 +16,6 @@
  * back. */
 #define CEDUO_CLEAR 3.0
 
-double ceduo_share_of(const struct ceduo_arrivals *arrivals);
-
 /* A share of the released and half the width of its 95 % interval; NaN: not known (yet). */
 struct ceduo_portion {
     double mean, half;

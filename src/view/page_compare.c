@@ -343,7 +343,7 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
         ceduo_page_write(page, "%.0f", 1000 * ceduo_share_at(a).mean);
         ceduo_page_number(page, a->energy.mean * J_TO_KJ, 3);
         ceduo_page_write(page, "%s", other ? ceduo_words_law(ceduo_energy_words.names[other->model]) : "-");
-        ceduo_page_write(page, "%s", other ? WRITTEN(1000 * ceduo_share_of(&other->arrivals), 0) : "-");
+        ceduo_page_write(page, "%s", other ? WRITTEN(1000 * ceduo_judged_share(&other->arrivals).mean, 0) : "-");
         ceduo_page_number(page, other ? other->arrivals.energy.mean * J_TO_KJ : NAN, 3);
     }
 }

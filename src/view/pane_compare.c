@@ -45,7 +45,7 @@ static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
         double max = 0;
         for (int k = x * n / shown; k < (x + 1) * n / shown; k++)
             if (years->years[k].wooded.rocks > 0)
-                max = fmax(max, ceduo_share_of(&years->years[k].wooded.arrivals[years->last_control]));
+                max = fmax(max, ceduo_judged_share(&years->years[k].wooded.arrivals[years->last_control]).mean);
         char bytes[4]; /* a block of eighths, U+2581 … U+2588 */
         uint32_t eighths = (uint32_t)fmin(8, ceil(max * 8));
         ceduo_text_add(&cell->text, bytes, ceduo_utf8_encode(eighths > 0 ? 0x2580 + eighths : ' ', bytes));

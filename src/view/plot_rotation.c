@@ -56,7 +56,7 @@ static void draw_strips(struct ceduo_drawing *d, int height, const double *x, do
         if (!d->wooded)
             y[i] = year->controls[d->picture->control].per_100m * J_TO_KJ;
         else
-            y[i] = year->wooded.rocks > 0 ? 1000 * ceduo_share_of(&year->wooded.arrivals[d->picture->control]) : NAN;
+            y[i] = year->wooded.rocks > 0 ? 1000 * ceduo_judged_share(&year->wooded.arrivals[d->picture->control]).mean : NAN;
         most = fmax(most, 1.1 * y[i]);
     }
     most = d->wooded ? 1000 : most > 0 ? most : 1;

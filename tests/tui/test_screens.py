@@ -448,7 +448,7 @@ def test_charset_of_locale():
         expect(place.text("c.txt").isascii(), place.text("c.txt"))
         before = play.home
         try:
-            play.home = lambda *arguments: {**before(*arguments), "LC_ALL": "C"}
+            play.home = lambda *words: {**before(*words), "LC_ALL": "C"}
             run_script(place.path, "wait idle\ndump d.txt\nkey ?\ndump e.txt\n", "fast.yaml")
         finally:
             play.home = before

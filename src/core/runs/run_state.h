@@ -45,7 +45,7 @@ struct ceduo_run {
     struct lanes_ground *ground_of_lanes;
     void (*lanes_walk)(const struct lanes_job *job); /* NULL: rocks are simulated one by one */
     size_t lanes;                                    /* rocks that a thread simulates at once */
-    size_t controls, last_control;
+    size_t controls;
     double stems_from;   /* as ceduo_option_stems_from(): the option may be gone when the run is read */
     int kept;            /* quantities that have samples: without spin and spread all energy is translation */
     size_t columns;      /* of samples: controls times kept, then the stops */

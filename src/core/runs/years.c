@@ -172,7 +172,10 @@ struct years_run {
     struct ceduo_years *years;
     struct ceduo_pool *pool;
     const struct ceduo_simulated *bare;
-    uint64_t rocks; /* 0: nothing is simulated */
+    uint64_t rocks;           /* 0: nothing is simulated */
+    struct ceduo_run_def def; /* of years with rocks of their own */
+    struct ceduo_run **runs;  /* likewise, one for each year */
+    struct talk talk;
 };
 
 static void read_year(const struct years_run *r, struct ceduo_year *y)
@@ -241,7 +244,8 @@ static bool clear_marks(struct ceduo_years *years, uint64_t rocks)
 enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_simulated *bare,
                                        uint64_t rocks)
 {
-    struct years_run r = {years, pool, bare, years->scene.simulation.contact_model != CEDUO_INDEX ? rocks : 0};
+    struct years_run r = {.years = years, .pool = pool, .bare = bare};
+    r.rocks = years->scene.simulation.contact_model != CEDUO_INDEX ? rocks : 0;
     if (r.rocks > 0 && !clear_marks(years, rocks))
         return CEDUO_NO_MEMORY;
     enum ceduo_status status = ceduo_variants_run(
@@ -252,66 +256,48 @@ enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_p
 
 /* ---- rocks of their own ---- */
 
-/* The runs of all years. */
-struct apart {
-    const struct ceduo_years *years;
-    struct ceduo_run_def def;
-    uint64_t rocks;
-    struct ceduo_scene *scenes;
-    struct ceduo_run **runs;
-    struct talk talk;
-};
-
 /* The years are simulated at the same time. */
 static void report_year(void *context, uint64_t rocks)
 {
-    struct apart *a = context;
-    if (!ceduo_talk_begin(&a->talk))
+    struct years_run *r = context;
+    if (!ceduo_talk_begin(&r->talk))
         return;
-    a->def.progress(a->def.context, rocks);
-    ceduo_talk_end(&a->talk);
+    r->def.progress(r->def.context, rocks);
+    ceduo_talk_end(&r->talk);
 }
 
 /* Options have the same rocks in years that are as far into their rotations: what differs between them is their forests. */
 static int simulate_apart(void *context, size_t i, size_t worker)
 {
-    struct apart *a = context;
-    struct ceduo_scene *scene = &a->scenes[i];
-    struct ceduo_run_def def = a->def;
+    struct years_run *r = context;
+    struct ceduo_scene scene = r->years->scene;
+    struct ceduo_run_def def = r->def;
     (void)worker;
-    *scene = a->years->scene;
-    def.scene = scene;
-    def.option = &a->years->years[i].option;
-    scene->simulation.seed = random_seed(scene->simulation.seed, VARIANT_YEAR, i);
-    def.progress = a->def.progress ? report_year : NULL;
-    def.context = a;
-    enum ceduo_status status = ceduo_run_create(&def, &a->runs[i]);
-    if (status == CEDUO_OK)
-        status = ceduo_run_extend(a->runs[i], a->rocks);
-    return (int)status;
+    scene.simulation.seed = random_seed(scene.simulation.seed, VARIANT_YEAR, i);
+    def.scene = &scene;
+    def.option = &r->years->years[i].option;
+    def.threads = 1;
+    def.rocks_most = r->rocks;
+    def.cells = 0;
+    def.progress = r->def.progress ? report_year : NULL;
+    def.context = r;
+    enum ceduo_status status = ceduo_run_create(&def, &r->runs[i]);
+    return (int)(status == CEDUO_OK ? ceduo_run_extend(r->runs[i], r->rocks) : status);
 }
 
 enum ceduo_status ceduo_years_simulate_apart(struct ceduo_years *years, const struct ceduo_run_def *def,
                                              const struct ceduo_simulated *bare, uint64_t rocks)
 {
-    struct apart a = {.years = years,
-                      .def = *def,
-                      .rocks = rocks,
-                      .scenes = calloc(years->count, sizeof *a.scenes),
-                      .runs = calloc(years->count, sizeof *a.runs)};
-    struct years_run r = {.years = years, .bare = bare, .rocks = rocks};
-    a.def.threads = 1;
-    a.def.rocks_most = rocks;
-    a.def.cells = 0;
-    enum ceduo_status status = a.scenes && a.runs && clear_marks(years, rocks) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    struct years_run r = {.years = years, .bare = bare, .rocks = rocks, .def = *def};
+    r.runs = calloc(years->count, sizeof *r.runs);
+    enum ceduo_status status = r.runs && clear_marks(years, rocks) ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(&(const struct parallel){years->count, def->threads, simulate_apart, &a});
+        status = (enum ceduo_status)ceduo_parallel(&(const struct parallel){years->count, def->threads, simulate_apart, &r});
     for (size_t i = 0; i < years->count && status == CEDUO_OK; i++)
-        status = take_year(&r, i, a.runs[i], &rocks);
-    for (size_t i = 0; a.runs && i < years->count; i++)
-        ceduo_run_free(a.runs[i]);
-    free(a.runs);
-    free(a.scenes);
+        status = take_year(&r, i, r.runs[i], &rocks);
+    for (size_t i = 0; r.runs && i < years->count; i++)
+        ceduo_run_free(r.runs[i]);
+    free(r.runs);
     years->rocks = status == CEDUO_OK ? r.rocks : years->rocks;
     return status;
 }
@@ -359,7 +345,7 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
         if (y->wooded.rocks > 0) {
             const struct ceduo_arrivals *a = &y->wooded.arrivals[control];
             double n = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;
-            double share = isnan(a->exceed.mean) ? a->reach.mean : a->exceed.mean;
+            double share = ceduo_judged_share(a).mean;
             struct ceduo_estimate rate = ceduo_hazard_feared(&a->hazard);
             s.simulated++;
             s.failing_lo += a->exceed.lo > a->limit;
