@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Fits whose likelihood is known in closed form: a rock's speed as it leaves is the value that is fitted, so that a mean speed that
  * was seen is its normal law. And p of what the model itself has made. */
 #include "expect.h"

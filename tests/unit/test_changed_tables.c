@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* A random change in a good table: a cell removed or doubled, a quote or a separator put in, a line cut short. The figures are
  * those of the good table, or the table is refused. CHANGES=10000 tries as many of each kind. Two changes leave a good table that
  * says something else, and are not made: a cut within the last cell of a line, and a cut before its first byte. */

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tags: slow */
 /* Doubt of a known law, what a light depends on, and inputs at the ends of their ranges. */
 #include "expect.h"
 
