@@ -33,7 +33,7 @@ const struct object ceduo_rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL
 static const struct field block_fields[] = {
     NUMBER("per_year", SHOWN(N_("blocks per year"), N_("per year"), 0.0001, 1000), AT(ceduo_block_class, per_year), "1/y", 0,
            1e6, REQUIRED | ABOVE, NULL, N_("blocks of these sizes that come down in a year")),
-    NUM(FIELD_NUMBERS, "volume_m3", SHOWN(N_("volume, m3"), N_("m3"), 0.0001, 2000),
+    NUM(FIELD_NUMBERS, "volume_m3", SHOWN(N_("volumes, m3"), N_("m3"), 0.0001, 2000),
         LIST(ceduo_block_class, volumes, volumes_count), "m3", 1, 0, 1e6, REQUIRED | ABOVE, NULL,
         N_("the smallest and the largest: [lo, hi]")),
     NUMBER("exponent", USUAL(N_("exponent"), 0.2, 2), AT(ceduo_block_class, exponent), "", 0, 10, FIELD_ZERO, NULL,

@@ -9,10 +9,10 @@
 #define ASSUMED N_("assumed")
 
 #define PLOTS  N_("error of a few sample plots; assumed")
-#define AGED   N_("stems of known age, measured")
-#define TALL   N_("stems of known age, measured")
+#define AGED   N_("dbh of stems of known age")
+#define TALL   N_("heights of stems of known age")
 #define COUNTS N_("shoots counted on stools of known age")
-#define PULLED N_("pulling tests on such stems")
+#define PULLED N_("pulling tests on stems of this species and size")
 
 #define SEGMENT "slope.segments[0]."
 #define STAND   "forest[0].stand."
@@ -44,21 +44,21 @@ static const struct range ranges[] = {
     ROW(FACTOR, STAND "stools.per_ha", 0.85, 1.15, PLOTS, N_("more sample plots")),
     ROW(FACTOR, STAND "shoots[0].per_stool", 0.85, 1.15, PLOTS, N_("more sample plots")),
     ROW(FACTOR, STEMS "per_ha", 0.85, 1.15, PLOTS, N_("more sample plots")),
-    ROW(FACTOR, STEMS "dbh_m", 0.9, 1.1, PLOTS, N_("more sample plots")),
+    ROW(FACTOR, STEMS "dbh_m", 0.9, 1.1, PLOTS, N_("dbh on more plots")),
     ROW(FACTOR, STEMS "volume_m3", 0.75, 1.25, N_("volume tables of single stems; assumed"),
         N_("some stems, felled and measured")),
     ROW(FACTOR, STAND "energy.u_J_m3", 0.8, 1.2, ASSUMED, PULLED),
     ROW(FACTOR, STAND "energy.fracture_ratio", 0.8, 1.2, ASSUMED, PULLED),
-    ROW(FACTOR, STAND "stumps.energy_kJ", 0.5, 2, ASSUMED, N_("pulling tests")),
-    ROW(FACTOR, STAND "logs.energy_kJ", 0.5, 2, ASSUMED, N_("pulling tests")),
+    ROW(FACTOR, STAND "stumps.energy_kJ", 0.5, 2, ASSUMED, N_("pulling tests on stumps")),
+    ROW(FACTOR, STAND "logs.energy_kJ", 0.5, 2, ASSUMED, N_("pulling tests on lying logs")),
     ROW(FACTOR, CURVE "dbh_most_m", 0.85, 1.15, ASSUMED, AGED),
     ROW(FACTOR, CURVE "dbh_rate_1_y", 0.8, 1.2, ASSUMED, AGED),
     ROW(FACTOR, CURVE "height_most_m", 0.85, 1.15, ASSUMED, TALL),
     ROW(FACTOR, CURVE "height_rate_1_y", 0.8, 1.2, ASSUMED, TALL),
     ROW(FACTOR, GROWTH "shoots_young", 0.75, 1.25, ASSUMED, COUNTS),
     ROW(FACTOR, GROWTH "shoots_old", 0.75, 1.25, ASSUMED, COUNTS),
-    ROW(FACTOR, GROWTH "sdi_most", 0.8, 1.2, ASSUMED, N_("plots of full stands of this kind")),
-    ROW(FACTOR, GROWTH "trees_sdi_most", 0.5, 2, ASSUMED, N_("plots of full stands of this kind")),
+    ROW(FACTOR, GROWTH "sdi_most", 0.8, 1.2, ASSUMED, N_("plots of full coppices of this species")),
+    ROW(FACTOR, GROWTH "trees_sdi_most", 0.5, 2, ASSUMED, N_("plots of full woods of these standards")),
     ROW_WORDS(STAND "energy.model", "brauner", N_("two published laws (Brauner et al. 2005; Dorren et al. 2006)")),
     ROW_WORDS(STAND "energy.offset", "whole", N_("two published choices (Ciabocco et al. 2009; Dorren et al. 2006)")),
 };

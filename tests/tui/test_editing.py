@@ -496,7 +496,7 @@ def test_blocks():
             dump""", "fast.yaml")
         expect_in("none; a adds one", none.body, "no blocks")
         refused.has("blocks per year: 'viel' is not a number")
-        expect(re.search(r"blocks per year +0\.1_? +volume, m³ +1 10\b", asked.popup), "what is offered", asked)
+        expect(re.search(r"blocks per year +0\.1_? +volumes, m³ +1 10\b", asked.popup), "what is offered", asked)
         found = [re.findall(r"^\d +(\S+) +(\S+ \S+) +(\S+)$", s.body.split("Blocks that come down")[1], re.M) for s in (one, two)]
         expect_equal(found, [[("1", "0.05 1", "1")], [("1", "0.05 1", "1"), ("0.1", "1 10", "-")]], "blocks")
         expect_in("none; a adds one", gone.body, "after d d")
@@ -546,7 +546,7 @@ def test_blocks_from_anywhere():
         place.write("law.yaml", place.text("fast.yaml") + law)
         place.write("counted.yaml", place.text("fast.yaml") + "rocks_per_year: 3\n")
         asked, two, gone = place.play("resize 120 60\nkey 3 a\ndump\nkey Enter Enter Enter\ndump\nkey s u\nfind blocks.exponent\nkey d\ndump", "law.yaml")
-        expect(re.search(r"blocks per year +0\.2_? +volume, m³ +5 50\b", asked.popup), "what is offered", asked)
+        expect(re.search(r"blocks per year +0\.2_? +volumes, m³ +5 50\b", asked.popup), "what is offered", asked)
         expect_in("A class of blocks that come down", asked.text)
         two.has("Rock: shape and density; blocks need no size here")
         check_good(place.path, "law.yaml")
