@@ -50,7 +50,6 @@ static void fly(const struct ceduo_scene *scene, const struct ceduo_option *opti
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     uint64_t reached;
-    double se;
     def.option = option;
     def.rocks_most = rocks;
     def.kernel = m->kernel;
@@ -59,7 +58,7 @@ static void fly(const struct ceduo_scene *scene, const struct ceduo_option *opti
     m->seconds[repeat] = processor_s() - start;
     m->contacts = ceduo_run_contacts(run);
     m->stems = ceduo_run_stems(run);
-    ceduo_run_energy(run, ceduo_scene_last_control(scene), &reached, &m->energy, &se);
+    m->energy = ceduo_run_energy(run, ceduo_scene_last_control(scene), &reached).mean;
     ceduo_run_free(run);
 }
 

@@ -8,7 +8,7 @@
 #include "physics/line_scene.h"
 #include "physics/paper_site.h"
 #include "plain_walk.h"
-#include "report.h"
+#include "measure.h"
 
 #define REPEATS_MOST 101
 
