@@ -23,8 +23,8 @@ def bounded(*arguments, **options):
 
 
 def test_no_rocks():
-    """Questions that no rock answers fly none: the index by stands, pictures of stands and ADC, the ADC that is looked for"""
-    for question in (["--batch", "-f", "csv", "--rows", "stands"], ["--plot", "stand"], ["--plot", "adc"], ["--check"],
+    """Questions that no rock answers fly none: the index by stands, pictures of stands, the ADC that is looked for"""
+    for question in (["--batch", "-f", "csv", "--rows", "stands"], ["--plot", "stand"], ["--check"],
                      ["--find", f"{RESERVES}=1:5000", "--goal", "adc"], ["--find", f"{RESERVES}=1:5000", "--goal", "free-run"]):
         bounded(*question, *([] if "--check" in question else ["-n", MANY]), "-j", 1, "paper-site")
 
