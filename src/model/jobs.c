@@ -15,6 +15,7 @@
 #include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"
+#include "base/text.h"
 #include "ceduo/key.h"
 #include "study/effort.h"
 
@@ -431,8 +432,9 @@ struct jobs *ceduo_jobs_create(unsigned threads)
     struct jobs *q = ceduo_must(calloc(1, sizeof *q));
     q->threads = threads;
     q->working = JOB_KINDS;
-    const char *most = getenv("CEDUO_ROCKS"); /* set by tests of the screen: most of them read no figure */
-    q->rocks_max = most ? strtoull(most, NULL, 10) : 0;
+    const char *rocks = getenv("CEDUO_ROCKS");
+    if (!rocks || ceduo_count_read(rocks, 1, CEDUO_ROCKS_MOST, &q->rocks_max) != CEDUO_NUMBER_GOOD)
+        q->rocks_max = 0;
     q->runs = ceduo_runs_create(threads, &q->cancel);
     q->pipe[0] = -1;
     pthread_mutex_init(&q->lock, NULL);
