@@ -265,7 +265,7 @@ static void add_mean(struct ceduo_page *page, const char *name, const char *mean
 void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     static const struct ceduo_page_column columns[] = {
-        {"", 14, 0, CEDUO_FILLS}, {"", -6, 1, CEDUO_FITS}, {N_("95 %"), -5, 1, CEDUO_FITS}, {"", -7, 2, CEDUO_FITS}};
+        {"", 14, 0, CEDUO_FILLS}, {"", -6, 1, CEDUO_FITS}, {N_("95 %"), -5, 1, CEDUO_FITS}, {"", -7, 1, CEDUO_FITS}};
     const struct ceduo_result *r = pane->report->result;
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control],

@@ -5,10 +5,10 @@
 
 #include "ceduo/ceduo.h"
 #include "io/scene_file.h"
+#include "measure.h"
 #include "physics/line_scene.h"
 #include "physics/paper_site.h"
 #include "plain_walk.h"
-#include "measure.h"
 
 #define REPEATS_MOST 101
 

@@ -233,7 +233,7 @@ def test_no_stems():
         years, belts = place.play("wait idle\nkey 6\nwait idle\nresize 80 24\nkey Tab\ndump\nkey Tab 4\ndump",
                                   "bare.yaml")
     expect_in("m: no stems.", flat(years))
-    expect(re.search(r"bare +2–38 m +│ +none", belts.body), belts)
+    expect(re.search(r"bare +2–38 m +none", belts.body), belts)
     expect(re.search(r"^30 m free 100\.0 % > 10 +✘$", years.now, re.M), years)
 
 
