@@ -1003,7 +1003,7 @@ def test_find_refused():
                        ("adc=-1", "below 0"), ("adc=nan", "nan"), ("exceed=1e999", "1e999"), ("ADC", "'ADC'")):
         refused(mapping, [f"{RESERVES}=1:5000", "--goal", goal], "--goal", word)
     refused(reserves(controls=[{"x_m": 135}]), [f"{RESERVES}=1:5000", "--goal", "exceed"], "accepted_kJ")
-    for more in (["--years", "0:5"], ["--plot", "adc"], ["-e", "0.1"]):
+    for more in (["--years", "0:5"], ["--plot", "stand"], ["-e", "0.1"]):
         refused(mapping, [f"{RESERVES}=1:5000", "--goal", "adc", *more], "--find")
     done = ceduo("--batch", "--goal", "adc", "paper-site")
     expect(done.status == USAGE and "--find" in done.err, done)
