@@ -96,7 +96,7 @@ static const struct object material_object = OBJECT(material_belt, material_fiel
 
 static const struct field slope_fields[] = {
     TAG("slope/1"),
-    TEXT("name", NAMED(N_("name")), NOWHERE, FIELD_NOWHERE | NO_RUN, N_("its name")),
+    TEXT("name", NAMED(N_("name")), NOWHERE, FIELD_NOWHERE | NO_RUN, N_("name of the slope")),
     NAME_IT(NOWHERE, FIELD_NOWHERE),
     WORD("facets", NAMED(N_("facets")), AT(ceduo_slope, facets), 0, "against",
          N_("which way the ground's small facets are turned"), &ceduo_facets_words),
@@ -149,7 +149,7 @@ static const struct object turns_object = OBJECT(ceduo_regulation_item, turns_fi
 
 static const struct field rules_fields[] = {
     TAG("rules/1"),
-    TEXT("name", NAMED(N_("region")), AT(ceduo_regulation, name), REQUIRED | NO_RUN, N_("its name")),
+    TEXT("name", NAMED(N_("region")), AT(ceduo_regulation, name), REQUIRED | NO_RUN, N_("name of the region")),
     TEXT("note", NAMED(N_("note")), AT(ceduo_regulation, note), NO_RUN,
          N_("what must be known beside; it is printed with the rules")),
     TEXT("note_it", NAMED(N_("in Italian")), AT(ceduo_regulation, note_it), NO_RUN,
@@ -327,7 +327,7 @@ static const struct object cutting_object = OBJECT(ceduo_stand, cutting_fields, 
 
 static const struct field stand_fields[] = {
     TAG("stand/1"),
-    TEXT("name", NAMED(N_("name")), NOWHERE, FIELD_NOWHERE | NO_RUN, N_("its name")),
+    TEXT("name", NAMED(N_("name")), NOWHERE, FIELD_NOWHERE | NO_RUN, N_("name of the stand")),
     NAME_IT(NOWHERE, FIELD_NOWHERE),
     OTHER(FIELD_FILE, "base", NAMED(N_("made from")), NOWHERE, FIELD_NOWHERE, NULL,
           N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL, NULL),
@@ -362,7 +362,7 @@ static const struct field belt_fields[] = {
 static const struct object belt_object = OBJECT(ceduo_belt, belt_fields, NULL);
 
 static const struct field option_fields[] = {
-    TEXT("name", NAMED(N_("name")), AT(ceduo_option, name_given), REQUIRED | NO_RUN, N_("its name")),
+    TEXT("name", NAMED(N_("name")), AT(ceduo_option, name_given), REQUIRED | NO_RUN, N_("name of the option")),
     NAME_IT(AT(ceduo_option, name), 0),
     ITEMS("forest", N_("belt"), LIST(ceduo_option, belts, belts_count), 0, &belt_object),
 };
@@ -455,7 +455,7 @@ static const struct object window_object = OBJECT(scene_draft, window_fields, NU
 
 static const struct field scene_fields[] = {
     TAG("scene/1"),
-    TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), NO_RUN, N_("its title")),
+    TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), NO_RUN, N_("title of the scene")),
     TEXT("title_it", NAMED(N_("in Italian")), AT(scene_draft, scene.title_it), NO_RUN,
          N_("the same in Italian pages, screens and lists; without it in English")),
     GROUP("page", N_("head of the report"), AT(scene_draft, scene.page), NO_RUN, &page_object),
