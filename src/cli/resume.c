@@ -84,7 +84,7 @@ static uint64_t hash_columns(const struct each *e, const struct text *head)
     return hash;
 }
 
-/* What the lines of the identity are called, in their order. */
+/* Names of the lines of the identity, in their order. */
 static const char *const identity_names[] = {N_("version"), N_("scene"), N_("options"), N_("seed"), N_("rocks"), N_("columns")};
 enum { IDENTITY = sizeof identity_names / sizeof identity_names[0] };
 
@@ -225,6 +225,13 @@ static size_t find_lines(const char *bytes, size_t n, size_t from, struct resume
     return end;
 }
 
+static int compare_parts(const void *a, const void *b)
+{
+    const struct resume_part *x = a, *y = b;
+    int order = (x->key > y->key) - (x->key < y->key);
+    return order != 0 ? order : (x->from > y->from) - (x->from < y->from);
+}
+
 /* Find the parts of the output that are whole, and cut off both files after the last of them. */
 static bool find_parts(struct resume *r, const char *output, size_t output_n, const char *side, size_t side_n)
 {
@@ -241,6 +248,8 @@ static bool find_parts(struct resume *r, const char *output, size_t output_n, co
         r->end = from;
         side_end = at + PART_LENGTH;
     }
+    if (r->known_count > 0)
+        qsort(r->known, r->known_count, sizeof *r->known, compare_parts);
     return ftruncate(r->file, (off_t)r->end) == 0 && ftruncate(r->side, (off_t)side_end) == 0;
 }
 
@@ -314,17 +323,23 @@ static void add_to_order(struct resume *r, struct resume_part part)
 
 bool ceduo_resume_has(struct resume *r, uint64_t key, enum exit_status *status)
 {
-    for (size_t i = 0; i < r->known_count; i++) {
-        struct resume_part *part = &r->known[(r->next + i) % r->known_count];
-        if (part->key != key || part->used)
-            continue;
-        part->used = true;
-        r->next = (size_t)(part - r->known) + 1;
-        add_to_order(r, *part);
-        *status = part->status;
-        return true;
+    size_t lo = 0, hi = r->known_count; /* bounds of the first part of this key */
+    while (lo < hi) {
+        size_t middle = lo + (hi - lo) / 2;
+        if (r->known[middle].key < key)
+            lo = middle + 1;
+        else
+            hi = middle;
     }
-    return false;
+    if (lo == r->known_count)
+        return false;
+    struct resume_part *first = &r->known[lo], *part = first + first->used;
+    if (first->key != key || part == r->known + r->known_count || part->key != key)
+        return false;
+    first->used++;
+    add_to_order(r, *part);
+    *status = part->status;
+    return true;
 }
 
 /* Append the line of a part to the text of a side file. */

@@ -13,7 +13,7 @@ struct resume_part {
     uint64_t hash;  /* of its lines */
     size_t from, n; /* bytes */
     size_t lines;
-    bool used; /* for a row of this run */
+    size_t used; /* of the first part of a key: number of parts of this key that are used */
     enum exit_status status;
 };
 
@@ -23,10 +23,10 @@ struct resume {
     const struct text *head; /* head of the output */
     struct text identity;    /* first lines of the side file: what the run is */
     char *side_path;
-    int file, side;            /* descriptors; -1: not open */
-    size_t end;                /* bytes of the output */
-    size_t known_count, next;  /* next: after the part that was used last; rows and parts mostly come in one order */
-    struct resume_part *known; /* that the output held before */
+    int file, side; /* descriptors; -1: not open */
+    size_t end;     /* bytes of the output */
+    size_t known_count;
+    struct resume_part *known; /* parts that the output held before, by key, then by place */
     size_t order_count, order_capacity;
     struct resume_part *order; /* in the order of the rows */
 };
