@@ -56,7 +56,7 @@ struct ceduo_hazard {
     const struct ceduo_hazard_curve *curve; /* of the struct ceduo_simulated that holds it; NULL: not read */
     struct ceduo_return returns[CEDUO_RETURNS];
     struct ceduo_estimate reach;    /* rocks that arrive */
-    struct ceduo_estimate accepted; /* rocks that arrive with more than is accepted; NaN where that is not said */
+    struct ceduo_estimate accepted; /* rocks that arrive with more than the accepted energy; NaN: none is given */
     double accepted_return;         /* years: ceduo_accepted_return() of the control */
     double left;                    /* share of the rate without forest of what is feared; NaN: it is 0 there, or not known */
     struct ceduo_intensity intensity[CEDUO_INTENSITIES];

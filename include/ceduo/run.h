@@ -71,7 +71,7 @@ struct ceduo_arrivals {
     struct ceduo_estimate energy_per_released;                    /* J; no interval */
     double top_p95; /* m: 95th percentile of the height of the rocks' tops above the ground, their underside's and their mean
                      * diameter; NaN where the scene asks for no design values, or no rock arrives */
-    struct ceduo_estimate contacts;     /* with stems, of those that reached; no interval; NaN: bare run */
+    struct ceduo_estimate contacts;     /* with stems, of rocks that reach; no interval; NaN: bare run */
     struct ceduo_hazard hazard;         /* where the scene has blocks */
     struct ceduo_topography topography; /* of the control */
 };
@@ -113,7 +113,7 @@ struct ceduo_difference {
 };
 
 /* Return `run` less `baseline`, two runs of one scene; all NaN if one is NULL. If one is longer, only rocks that both have count.
- * Both simulate the same rocks, so the more alike the forests, the smaller the error of the difference. */
+ * Both simulate the same rocks. The error of the difference is small if the forests are similar. */
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control);
 
 /* Between two that are the same: 0, without an error. `accepted` NaN: what exceeds it is not known. */
@@ -136,7 +136,7 @@ struct ceduo_ends {
 enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends);
 
 /* Values of single rocks, in the order of the rocks. Speed (m/s), height (m) and energy (J) are NaN if a rock does not reach the
- * control. The place where it stops (m) is NaN if it does not stop; the weight is NULL if the scene has no blocks. */
+ * control. The place of its stop (m) is NaN if it does not stop; the weight is NULL if the scene has no blocks. */
 enum ceduo_sample { CEDUO_SAMPLE_SPEED, CEDUO_SAMPLE_HEIGHT, CEDUO_SAMPLE_ENERGY, CEDUO_SAMPLE_STOP, CEDUO_SAMPLE_WEIGHT };
 
 /* Return one value for each rock, or NULL if there is none. It is valid until the run is extended or freed. `control` is not used

@@ -144,14 +144,14 @@ struct ceduo_report_head {
     char *place, *owner, *parcel, *author, *date, *note;
 };
 
-/* What the forest regulation of a region asks of a coppice. */
+/* Requirements of the forest regulation of a region for a coppice. */
 struct ceduo_regulation_item {
     size_t species_count; /* 0: all others */
     char **species;       /* by their names in ceduo_species_list() */
     int system;           /* of this system alone; -1: of any */
-    double least, most;   /* standards per ha, or years; most: NaN where there is none */
+    double least, most;   /* standards per ha, or years; NaN: no maximum */
     char *article;        /* and the act that it is of */
-    unsigned year;        /* of that act */
+    unsigned year;        /* of the act */
 };
 
 struct ceduo_regulation {
@@ -234,11 +234,11 @@ enum ceduo_where {
     CEDUO_WHERE_AT_REST,  /* where a rock came to rest or was stopped */
     CEDUO_WHERE_AT_PLACE, /* on rocks that pass a place */
     CEDUO_WHERE_LARGEST,  /* the largest of each rock on its way */
-    CEDUO_WHERE_ALONG,    /* each rock's mean along a stretch, metre by metre, of those that enter it */
+    CEDUO_WHERE_ALONG,    /* each rock's mean along a stretch, metre by metre, of rocks that enter it */
     CEDUO_WHERE_ON_STEMS  /* where rocks strike stems along a stretch: their centre */
 };
 
-/* What is observed; its row has the unit. Heights are those of the underside above the ground, on stems of the centre. */
+/* Quantity that is observed; its row has the unit. Heights are of the underside above the ground, on stems of the centre. */
 enum ceduo_quantity {
     CEDUO_QUANTITY_PLACE,
     CEDUO_QUANTITY_COUNT,

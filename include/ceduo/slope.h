@@ -111,7 +111,7 @@ struct ceduo_material {
 /* The library: `*count` rows, static. */
 const struct ceduo_material *ceduo_materials(size_t *count);
 
-/* The row that is taken where nothing is said of the ground. */
+/* Row of the ground that is assumed if none is given. */
 const struct ceduo_material *ceduo_material_talus(void);
 
 #endif

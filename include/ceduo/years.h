@@ -99,8 +99,8 @@ struct ceduo_years_summary {
     struct ceduo_estimate rate;           /* with blocks: ceduo_hazard_feared() a year; its interval is at most this wide */
     struct ceduo_estimate reach, exceed;  /* of the released */
     struct ceduo_estimate energy_per_released; /* J */
-    unsigned worst_year;                       /* with the largest share that exceeds, or where that is not said arrives; by the
-                                        * index the one with the largest ADC */
+    unsigned worst_year;                       /* with the largest share that exceeds, or arrives if no energy is accepted; by
+                                        * the index the year with the largest ADC */
     double worst;                              /* that share, or that ADC in m */
     double passes_per_year, exceeds_per_year;  /* expected, where the scene says how many rocks come down a year */
 };

@@ -88,7 +88,8 @@ static locale_t dotted_locale(void)
     return dotted;
 }
 
-int ceduo_decimal_vformat(char *to, size_t size, const char *format, va_list args)
+/* As vsnprintf(), with a dot in every locale. Allocates no memory. */
+static int vformat_dotted(char *to, size_t size, const char *format, va_list args)
 {
     locale_t before = uselocale(dotted_locale());
     int n = vsnprintf(to, size, format, args);
@@ -100,7 +101,7 @@ int ceduo_decimal_format(char *to, size_t size, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    int n = ceduo_decimal_vformat(to, size, format, args);
+    int n = vformat_dotted(to, size, format, args);
     va_end(args);
     return n;
 }
@@ -121,9 +122,9 @@ __attribute__((format(printf, 2, 0))) static void format_plain(struct text *text
 {
     va_list again;
     va_copy(again, args);
-    int n = ceduo_decimal_vformat(NULL, 0, format, args);
+    int n = vformat_dotted(NULL, 0, format, args);
     if (n >= 0 && reserve(text, (size_t)n)) { /* untaken: system */
-        ceduo_decimal_vformat(text->bytes + text->length, (size_t)n + 1, format, again);
+        vformat_dotted(text->bytes + text->length, (size_t)n + 1, format, again);
         text->length += (size_t)n;
     }
     va_end(again);

@@ -54,9 +54,8 @@ char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM]);
 /* Replace each dot by the decimal sign of the language. Returns `number`. */
 char *ceduo_number_spoken(char *number);
 
-/* As snprintf(), vsnprintf() and strtod() without its second argument, but with a dot in whatever locale the host program has set: in
- * Italian or German strtod() reads "9.81" as 9. */
-int ceduo_decimal_vformat(char *to, size_t size, const char *format, va_list args) __attribute__((format(printf, 3, 0)));
+/* As snprintf(), and strtod() without its second argument, but with a dot in every locale of the host program: in Italian or German
+ * strtod() reads "9.81" as 9. */
 int ceduo_decimal_format(char *to, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
 double ceduo_decimal_read(const char *string);
 
