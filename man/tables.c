@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes a table into a manual page, between its two marks: tables keys PAGE that of the keys of the terminal program (in a
- * third word's language), goals and search those of a search, ranges those of doubt, figures those of JSON, synopsis the forms of
+ * third word's language), goals and search those of a search, ranges those of uncertainty, figures those of JSON, synopsis the forms of
  * the command line. */
 #include <ctype.h>
 #include <stdio.h>
@@ -233,7 +233,7 @@ static void put_option(FILE *out, const char *macro, const struct option_row *ro
 static bool takes(const struct form *form, const struct option_row *row)
 {
     bool list = form->mode >= MODE_PARAMETERS, years = strcmp(row->name, "years") == 0, rows = strcmp(row->name, "rows") == 0;
-    bool plot = strcmp(form->required, "plot") == 0, doubt = strcmp(row->name, "sensitivity") == 0;
+    bool plot = strcmp(form->required, "plot") == 0, uncertainty = strcmp(row->name, "sensitivity") == 0;
     const struct option_row *format = find_option("format", 6);
     bool format_goes = !plot && !(format->without >> form->mode & 1);
     if (form->mode == MODE_HELP)
@@ -242,7 +242,8 @@ static bool takes(const struct form *form, const struct option_row *row)
         return true;
     if (row->mode != MODE_TERMINAL && form->mode == MODE_TERMINAL)
         return false;
-    if (row->mode != MODE_TERMINAL && !years && strcmp(row->name, "details") != 0 && !(doubt && form->mode == MODE_REPORT))
+    if (row->mode != MODE_TERMINAL && !years && strcmp(row->name, "details") != 0 &&
+        !(uncertainty && form->mode == MODE_REPORT))
         return false;
     if (row->without >> (list ? MODE_SURVEY : form->mode) & 1)
         return false;

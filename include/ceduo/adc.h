@@ -49,10 +49,10 @@ enum ceduo_stand_warning {
 };
 
 /* Beyond these a stand is unlikely (assumed). */
-#define CEDUO_BASAL_AREA_MOST   60  /* m2/ha */
-#define CEDUO_SHOOTS_MOST       15  /* on a stool, all cohorts together */
-#define CEDUO_SLENDERNESS_MOST  150 /* height over dbh */
-#define CEDUO_SLENDERNESS_LEAST 25
+#define CEDUO_BASAL_AREA_MAX  60  /* m2/ha */
+#define CEDUO_SHOOTS_MAX      15  /* on a stool, all cohorts together */
+#define CEDUO_SLENDERNESS_MAX 150 /* height over dbh */
+#define CEDUO_SLENDERNESS_MIN 25
 
 /* How one kind of stem is unlikely: of SLENDER, STOUT and THICK. */
 unsigned ceduo_stem_unlikely(const struct ceduo_stand *stand, const struct ceduo_stems *stems);

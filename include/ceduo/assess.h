@@ -8,8 +8,8 @@
 
 enum ceduo_light { CEDUO_UNKNOWN, CEDUO_PASS, CEDUO_FAIL };
 
-#define CEDUO_FREE_RUN_MOST 0.1  /* chance of a free run that a belt may leave */
-#define CEDUO_ARRIVE_LEAST  1000 /* of so many released one must arrive without forest */
+#define CEDUO_FREE_RUN_MAX 0.1  /* chance of a free run that a belt may leave */
+#define CEDUO_ARRIVE_MIN   1000 /* of so many released one must arrive without forest */
 
 /* One belt of an option, as the index sees it. */
 struct ceduo_stand_result {
@@ -68,7 +68,7 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 #define CEDUO_SPEED_USUAL  35.0
 #define CEDUO_HEIGHT_USUAL 10.0
 
-/* Whether nothing can be said of a forest: even without it no rock arrives, or fewer than one of CEDUO_ARRIVE_LEAST released
+/* Whether nothing can be said of a forest: even without it no rock arrives, or fewer than one of CEDUO_ARRIVE_MIN released
  * if at least that many were simulated, or the ground contradicts the terrain (CEDUO_TERRAIN_CONTRADICTS). Unfinished rocks count
  * as arriving. False if no rock was simulated. */
 bool ceduo_says_nothing(const struct ceduo_arrivals *bare);

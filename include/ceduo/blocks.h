@@ -31,7 +31,7 @@ struct ceduo_blocks_def {
      * where they meet hundreds of times as many stems as the scene's own, none. */
     double effort;
     const struct ceduo_arrivals *own; /* of the scene's own block, taken if at least as many were simulated; may be NULL */
-    unsigned threads;                 /* at most CEDUO_THREADS_MOST; 0: one */
+    unsigned threads;                 /* at most CEDUO_THREADS_MAX; 0: one */
     const ceduo_flag *cancel;         /* may be NULL */
 };
 

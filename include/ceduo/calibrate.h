@@ -2,22 +2,22 @@
 #ifndef CEDUO_CALIBRATE_H
 #define CEDUO_CALIBRATE_H
 
-#include "doubt.h"
 #include "flag.h"
 #include "observe.h"
+#include "uncertainty.h"
 
 /* Values of scenes that are fitted to what was seen there. The likelihood of a list is multinomial, of a count binomial, of a
  * mean normal (observe.h); their logarithms add. Every evaluation simulates the same rocks. A search over Sobol' points and by
  * the simplex of Nelder and Mead finds the best values; then adaptive Metropolis chains (Haario, Saksman and Tamminen 2001)
  * draw from the posterior, with a uniform prior within the bounds. */
 
-#define CEDUO_CALIBRATION_MOST   12 /* values fitted at once */
+#define CEDUO_CALIBRATION_MAX    12 /* values fitted at once */
 #define CEDUO_CALIBRATION_CHAINS 4
 #define CEDUO_CALIBRATION_DRAWS  200 /* that predictions are made from */
 #define CEDUO_CALIBRATION_ROCKS  2000
 #define CEDUO_CALIBRATION_STEPS  1000000 /* of a chain, at most */
-#define CEDUO_RHAT_MOST          1.05    /* chains agree (Gelman and Rubin 1992) */
-#define CEDUO_EFFECTIVE_LEAST    200     /* independent draws that theirs are worth */
+#define CEDUO_RHAT_MAX           1.05    /* chains agree (Gelman and Rubin 1992) */
+#define CEDUO_EFFECTIVE_MIN      200     /* independent draws that theirs are worth */
 #define CEDUO_NOT_DETERMINED     0.8     /* of the bounds: a wider range says nothing */
 #define CEDUO_MISFIT             0.05    /* p below it: the model cannot give what was seen */
 
@@ -36,17 +36,17 @@ enum ceduo_calibration_stage { CEDUO_SEARCH, CEDUO_REFINE, CEDUO_CHAINS };
 struct ceduo_calibration_state {
     enum ceduo_calibration_stage stage;
     uint64_t evaluations;
-    double best[CEDUO_CALIBRATION_MOST], log_likelihood;
+    double best[CEDUO_CALIBRATION_MAX], log_likelihood;
     double rhat, effective_size; /* NaN before the chains */
 };
 
 struct ceduo_calibration_def {
     size_t scenes_count;
     const struct ceduo_calibration_scene *scenes;
-    size_t parameters_count; /* 1…CEDUO_CALIBRATION_MOST */
+    size_t parameters_count; /* 1…CEDUO_CALIBRATION_MAX */
     uint64_t rocks;          /* of each evaluation and setting */
     uint64_t seed;
-    unsigned threads;         /* at most CEDUO_THREADS_MOST; 0: one */
+    unsigned threads;         /* at most CEDUO_THREADS_MAX; 0: one */
     size_t steps_most;        /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: the usual number */
     const ceduo_flag *cancel; /* may be NULL */
     void (*progress)(void *context, const struct ceduo_calibration_state *state); /* may be NULL; by one thread at a time */
@@ -74,8 +74,8 @@ struct ceduo_predicted {
 
 struct ceduo_calibration {
     size_t parameters_count;
-    struct ceduo_fitted parameters[CEDUO_CALIBRATION_MOST];
-    double correlation[CEDUO_CALIBRATION_MOST][CEDUO_CALIBRATION_MOST];
+    struct ceduo_fitted parameters[CEDUO_CALIBRATION_MAX];
+    double correlation[CEDUO_CALIBRATION_MAX][CEDUO_CALIBRATION_MAX];
     size_t predicted_count;
     struct ceduo_predicted *predicted; /* of all scenes */
     bool misfit;                       /* of something that was to be fitted */
@@ -100,7 +100,7 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
 
 /* Which values to leave as they are, so that what was seen tells the others: first those that may be anything within their bounds,
  * then one of each two that are known only together. One value stays. Returns how many. */
-size_t ceduo_calibration_loose(const struct ceduo_calibration *answer, bool loose[CEDUO_CALIBRATION_MOST]);
+size_t ceduo_calibration_loose(const struct ceduo_calibration *answer, bool loose[CEDUO_CALIBRATION_MAX]);
 
 /* CEDUO_NO_MEMORY, CEDUO_CANCELLED (at once, of whatever is known), CEDUO_BAD_ARGUMENT, or what ceduo_scene_check() says; then nothing
  * is to be freed. */

@@ -7,7 +7,7 @@
 #include "status.h"
 
 #define CEDUO_BREAST_HEIGHT 1.3 /* m */
-#define CEDUO_NASLUND_LEAST 5   /* heights that a curve is fitted to */
+#define CEDUO_NASLUND_MIN   5   /* heights that a curve is fitted to */
 
 /* Näslund's curve of height over diameter: h = 1.3 + d2/(a + b d)2, h in m, d in cm. */
 struct ceduo_naslund {

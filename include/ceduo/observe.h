@@ -47,16 +47,16 @@ struct ceduo_observation ceduo_observation_default(void);
 
 /* A list is compared in classes between its own quantiles: as many as there are times five values, at most ten, at least
  * two. One more is for rocks that have no value: those that did not stop, where it is known how many were released. */
-#define CEDUO_CLASSES_MOST 11
-#define CEDUO_CLASSES_FEW  10 /* simulated rocks for each class, below which a list counts as rarer than it is */
+#define CEDUO_CLASSES_MAX 11
+#define CEDUO_CLASSES_FEW 10 /* simulated rocks for each class, below which a list counts as rarer than it is */
 
 /* What simulated rocks say of one observation. */
 #define CEDUO_SOME_VALUES 40
 struct ceduo_counterpart {
-    uint64_t rocks;                                             /* simulated rocks that it is of */
-    size_t classes;                                             /* 0: compared by their means */
-    double seen[CEDUO_CLASSES_MOST], count[CEDUO_CLASSES_MOST]; /* in each class: seen, simulated */
-    double mean, sd;                                            /* of the simulated values */
+    uint64_t rocks;                                           /* simulated rocks that it is of */
+    size_t classes;                                           /* 0: compared by their means */
+    double seen[CEDUO_CLASSES_MAX], count[CEDUO_CLASSES_MAX]; /* in each class: seen, simulated */
+    double mean, sd;                                          /* of the simulated values */
     size_t some_count; /* the first of them: rocks are alike, so that they stand for all */
     double some[CEDUO_SOME_VALUES];
     double seen_mean;

@@ -15,7 +15,7 @@
  *     ceduo_answer_release(&answer); */
 struct ceduo_question {
     struct ceduo_run_def run;   /* the scene, and how its rocks are simulated; its option is not looked at */
-    uint64_t rocks;             /* in each run, at most CEDUO_ROCKS_MOST; 0: none, for what stands and index say without */
+    uint64_t rocks;             /* in each run, at most CEDUO_ROCKS_MAX; 0: none, for what stands and index say without */
     double tolerance;           /* > 0: fewer, as soon as ceduo_pool_until() knows the mean energies to this */
     size_t only;                /* the run of this option alone: through its forest, by the index without forest. Of what
                                * was not simulated nothing is known. CEDUO_ALL_OPTIONS: without forest and through each */

@@ -2,14 +2,14 @@
 #ifndef CEDUO_READ_H
 #define CEDUO_READ_H
 
-#include "doubt.h"
 #include "observe.h"
+#include "uncertainty.h"
 
 /* A scene as its files have it. What it points to belongs to the reading: numbers may be changed in place, and pointers may be
  * set to memory of the caller, which is not freed. */
 struct ceduo_reading {
     struct ceduo_scene scene;
-    size_t inputs_count; /* what is not known of it, as of --sensitivity: for ceduo_doubt_ask() */
+    size_t inputs_count; /* what is not known of it, as of --sensitivity: for ceduo_uncertainty_ask() */
     const struct ceduo_input *inputs;
     size_t observations_count; /* what was observed there: for ceduo_calibrate() */
     const struct ceduo_observation *observations;

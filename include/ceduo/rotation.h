@@ -34,7 +34,7 @@
  * as many stand as there are shoots, with one shoot each. As every year is computed by itself, a cut finds all stools of the
  * inventory again. */
 
-#define CEDUO_YEAR_MOST 100000 /* the last year of a window */
+#define CEDUO_YEAR_MAX 100000 /* the last year of a window */
 
 /* Year of a cut that never comes. */
 #define CEDUO_NEVER UINT_MAX

@@ -14,8 +14,8 @@
  * and read at any time between. */
 struct ceduo_run;
 
-#define CEDUO_BLOCK_ROCKS  1024 /* rocks summed as one */
-#define CEDUO_THREADS_MOST 1024
+#define CEDUO_BLOCK_ROCKS 1024 /* rocks summed as one */
+#define CEDUO_THREADS_MAX 1024
 
 /* How rocks are simulated: one by one, or 32 at once in the lanes of wide registers. All give the same bits.
  * Where the machine lacks such registers, rocks are simulated one by one. */
@@ -24,9 +24,9 @@ enum ceduo_kernel { CEDUO_KERNEL_BEST, CEDUO_KERNEL_SCALAR, CEDUO_KERNEL_AVX2, C
 struct ceduo_run_def {
     const struct ceduo_scene *scene;   /* checked; what it points to must outlive the run */
     const struct ceduo_option *option; /* whose forest the rocks go through; NULL: none. It must outlive the run */
-    unsigned threads;                  /* at most CEDUO_THREADS_MOST; 0: one; the results do not depend on it */
+    unsigned threads;                  /* at most CEDUO_THREADS_MAX; 0: one; the results do not depend on it */
     enum ceduo_kernel kernel;          /* nor on this */
-    uint64_t rocks_most;               /* no longer than this will it be made; at most CEDUO_ROCKS_MOST */
+    uint64_t rocks_most;               /* no longer than this will it be made; at most CEDUO_ROCKS_MAX */
     bool arrivals_only;                /* trajectories stop behind the last control: their ends are not known */
     bool other_energy;                 /* of a pool: each forest under the other energy law as well, see other.h */
     const ceduo_flag *cancel;          /* may be NULL; raised by another thread: the call returns soon */
@@ -76,9 +76,9 @@ struct ceduo_arrivals {
     struct ceduo_topography topography; /* of the control */
 };
 
-/* Return the share of the released rocks that may arrive with more than the accepted energy: CEDUO_EXCEED_MOST. With blocks it is
+/* Return the share of the released rocks that may arrive with more than the accepted energy: CEDUO_EXCEED_MAX. With blocks it is
  * the share that makes one such rock in the accepted return period; above 1 if fewer blocks come down. */
-#define CEDUO_EXCEED_MOST 0.05
+#define CEDUO_EXCEED_MAX 0.05
 double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_control *control);
 
 /* Return the share by which a control is judged: exceed, or reach without an accepted energy. */

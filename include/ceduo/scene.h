@@ -11,7 +11,7 @@
 
 #define CEDUO_GRAVITY     9.81
 #define CEDUO_THRESHOLD_M 30      /* Bozzolo 1987 as cited by Ciabocco et al. 2009 */
-#define CEDUO_ROCKS_MOST  1048576 /* in a run, which keeps each: the standard error of a share is at most .0005 */
+#define CEDUO_ROCKS_MAX   1048576 /* in a run, which keeps each: the standard error of a share is at most .0005 */
 
 /* The laws of an impact on the ground. A new law is a file like src/core/walk/law_crsp.h, named in strike.h, and a line here. */
 #define CEDUO_LAWS(X)                                                                                                          \

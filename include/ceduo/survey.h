@@ -91,7 +91,7 @@ struct ceduo_survey_heights {
 };
 
 /* Heights are not known better than that where none was measured: so much less or more, assumed. */
-#define CEDUO_SURVEY_HEIGHT_DOUBT 0.3
+#define CEDUO_SURVEY_HEIGHT_UNCERTAINTY 0.3
 
 struct ceduo_survey_answer {
     struct ceduo_estimate per_ha[CEDUO_SURVEY_KINDS_COUNT], stools;

@@ -10,8 +10,8 @@
 enum ceduo_end { CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED, CEDUO_STOPPED_BY_STEMS, CEDUO_ENDS };
 
 /* More contacts than this, or more stems drawn along its trajectory, and a rock counts as unfinished. */
-#define CEDUO_CONTACTS_MOST 1000000
-#define CEDUO_STEMS_MOST    1000000
+#define CEDUO_CONTACTS_MAX 1000000
+#define CEDUO_STEMS_MAX    1000000
 
 /* A piece of a trajectory, from (x, z) to (x1, z1): in flight the parabola that starts with (vx, vz), in a roll the
  * straight line along the ground, speeds (vx, vz) at its start and (vx1, vz1) at its end. */

@@ -4,7 +4,7 @@
 
 #include "pool.h"
 
-/* The one engine for scenes that are variants of another: years, other sizes of the rock, what doubt says they may be. Each is
+/* The one engine for scenes that are variants of another: years, other sizes of the rock, what uncertainty says they may be. Each is
  * made, simulated and read, one after the other. A caller that has many variants of few rocks runs several lists at once. */
 struct ceduo_variant {
     struct ceduo_run_def run; /* its scene and option, and how its rocks are simulated; of a pool: the option alone */

@@ -32,10 +32,10 @@ struct ceduo_window {
     unsigned first, last, step;
 };
 
-#define CEDUO_YEARS_MOST  1000 /* computed at a time */
+#define CEDUO_YEARS_MAX   1000 /* computed at a time */
 #define CEDUO_YEARS_AHEAD 20   /* of a window of CEDUO_WINDOW_AHEAD, at least, */
-#define CEDUO_AHEAD_MOST  60   /* and at most */
-#define CEDUO_PERIOD_MOST 120  /* years: beyond it belts of several rotations count as repeating with the longest */
+#define CEDUO_AHEAD_MAX   60   /* and at most */
+#define CEDUO_PERIOD_MAX  120  /* years: beyond it belts of several rotations count as repeating with the longest */
 
 /* One whole rotation of an option: after its first cut a forest repeats itself, so a rotation has each of its states once. If its
  * belts have several rotations, all of them must have ended together. Without a cut the next CEDUO_YEARS_AHEAD years
@@ -46,8 +46,8 @@ struct ceduo_window ceduo_window_of(const struct ceduo_option *option);
 struct ceduo_window ceduo_window_of_most(struct ceduo_window window, unsigned max);
 
 /* The years by which all options of a scene are judged and compared: from year 1 to the longest rotation of any belt, at least
- * CEDUO_YEARS_AHEAD and at most CEDUO_AHEAD_MOST years. The scene may name the first year, the last, or both: CEDUO_WINDOW_GIVEN, at
- * most CEDUO_YEARS_MOST years. CEDUO_WINDOW_ALIKE if no option has a stand that grows or is cut. */
+ * CEDUO_YEARS_AHEAD and at most CEDUO_AHEAD_MAX years. The scene may name the first year, the last, or both: CEDUO_WINDOW_GIVEN, at
+ * most CEDUO_YEARS_MAX years. CEDUO_WINDOW_ALIKE if no option has a stand that grows or is cut. */
 struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene);
 
 struct ceduo_years {
@@ -65,7 +65,7 @@ struct ceduo_years {
 
 /* Grows the stands of an option to the years of a window; nothing is simulated and nothing assessed yet. What the
  * option points to must outlive it. CEDUO_NO_MEMORY, CEDUO_BAD_STAND, CEDUO_BAD_ARGUMENT (a window without a year, of more than
- * CEDUO_YEARS_MOST, or beyond CEDUO_YEAR_MOST) or CEDUO_OK. */
+ * CEDUO_YEARS_MAX, or beyond CEDUO_YEAR_MAX) or CEDUO_OK. */
 enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option,
                                      struct ceduo_window window, struct ceduo_years **years);
 void ceduo_years_free(struct ceduo_years *years);

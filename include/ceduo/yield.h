@@ -30,7 +30,7 @@ struct ceduo_yield {
     struct ceduo_felling *fellings; /* by year, then by belt */
 };
 
-/* The yield of an option. Fellings are those from year 0 to `last`, at most CEDUO_YEAR_MOST. CEDUO_NO_MEMORY,
+/* The yield of an option. Fellings are those from year 0 to `last`, at most CEDUO_YEAR_MAX. CEDUO_NO_MEMORY,
  * CEDUO_BAD_STAND or CEDUO_BAD_ARGUMENT, with nothing to free, or CEDUO_OK. */
 enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield);
 void ceduo_yield_release(struct ceduo_yield *yield);

@@ -338,7 +338,7 @@ const char *ceduo_text_nearest(const char *word, const char *const *words, size_
     return best;
 }
 
-#define LETTERS_MOST 64
+#define LETTERS_MAX 64
 
 enum { ANY = 1, TOGETHER = 9, WORD = 8, START = 4 };
 
@@ -346,9 +346,9 @@ enum { ANY = 1, TOGETHER = 9, WORD = 8, START = 4 };
  * them at the byte before the one looked at (`ending`), or anywhere before it (`best`). */
 int ceduo_fuzzy_match(const char *typed, const char *text)
 {
-    int best[LETTERS_MOST + 1], ending[LETTERS_MOST + 1];
+    int best[LETTERS_MAX + 1], ending[LETTERS_MAX + 1];
     size_t n = strlen(typed);
-    n = n < LETTERS_MOST ? n : LETTERS_MOST;
+    n = n < LETTERS_MAX ? n : LETTERS_MAX;
     for (size_t k = 0; k <= n; k++)
         best[k] = ending[k] = k == 0 ? 0 : -1;
     for (size_t i = 0; text[i]; i++) {

@@ -7,7 +7,7 @@
 #include <unistr.h>
 #include <uniwidth.h>
 
-#define WORD_MOST 4096 /* bytes of a word in which a place to break it is looked for: more than any terminal is wide */
+#define WORD_MAX 4096 /* bytes of a word in which a place to break it is looked for: more than any terminal is wide */
 
 static const uint8_t *bytes_of(const char *string)
 {
@@ -135,10 +135,10 @@ size_t ceduo_utf8_wrap(const char *text, size_t columns, const char **next)
         while (n > 0 && text[n] != ' ')
             n--;
         if (n == 0) { /* after the last byte where a word may be broken; where it is full if it may not */
-            char breaks[WORD_MOST];
+            char breaks[WORD_MAX];
             size_t length = strcspn(text, " \n");
             n = fits > 0 ? fits : ceduo_utf8_step(text);
-            length = length < WORD_MOST ? length : WORD_MOST;
+            length = length < WORD_MAX ? length : WORD_MAX;
             u8_possible_linebreaks(bytes_of(text), length, "UTF-8", breaks);
             size_t at = n < length ? n : length > 0 ? length - 1 : 0;
             while (at > 0 && breaks[at] != UC_BREAK_POSSIBLE)

@@ -62,7 +62,7 @@ struct arguments {
     size_t cells;          /* number of sets from a row of --each: the last ones */
     struct word_list options;
     size_t calibrates_count;
-    struct path_range calibrates[CEDUO_CALIBRATION_MOST];
+    struct path_range calibrates[CEDUO_CALIBRATION_MAX];
     char **scenes;
     size_t scenes_count;
     const char *called; /* name of the present scene in messages; NULL: there is one scene */

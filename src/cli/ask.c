@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One scene is read, and asked for runs, pictures, doubt; and how far that is. */
+/* One scene is read, and asked for runs, pictures, uncertainty; and how far that is. */
 #include <string.h>
 #include <unistd.h>
 
@@ -189,7 +189,7 @@ void ceduo_ask_begin(struct asked *asked, const struct arguments *a, const struc
 {
     *asked = (struct asked){.progress = ceduo_progress_begin(a), .question = ceduo_question_default(&file->scene)};
     struct ceduo_question *q = &asked->question;
-    q->rocks = a->rocks > 0 ? a->rocks : a->tolerance > 0 ? CEDUO_ROCKS_MOST : file->scene.simulation.rocks;
+    q->rocks = a->rocks > 0 ? a->rocks : a->tolerance > 0 ? CEDUO_ROCKS_MAX : file->scene.simulation.rocks;
     q->run.rocks_most = q->rocks;
     q->tolerance = a->tolerance;
     q->run.threads = (unsigned)a->threads;
@@ -202,13 +202,13 @@ void ceduo_ask_begin(struct asked *asked, const struct arguments *a, const struc
 }
 
 #define YEAR_ROCKS 1000 /* of each year: they give a share near the limit to 14 of 1000 */
-#define YEARS_MOST 60   /* of a longer window some are simulated */
+#define YEARS_MAX  60   /* of a longer window some are simulated */
 
 void ceduo_ask_years(struct ceduo_question *q)
 {
     q->years = q->years_apart = true;
     q->year_rocks = YEAR_ROCKS;
-    q->years_most = YEARS_MOST;
+    q->years_most = YEARS_MAX;
 }
 
 enum ceduo_status ceduo_ask_runs(struct asked *c)
@@ -232,72 +232,72 @@ enum exit_status ceduo_ask_end(struct asked *c, const struct scene_file *file, e
 {
     const struct ceduo_result *r = c->answer.result;
     bool finished = !r || ceduo_result_unfinished(r) * 1000 <= ceduo_result_rocks(r);
-    if (c->doubt.answer)
-        ceduo_doubt_free(&c->doubt_answer);
+    if (c->uncertainty.answer)
+        ceduo_uncertainty_free(&c->uncertainty_answer);
     ceduo_verdict_release(&c->verdict);
     ceduo_snapshot_free(c->snapshot);
     ceduo_answer_release(&c->answer);
     return status != CEDUO_OK ? ceduo_batch_failed(file, status) : finished ? EXIT_DONE : EXIT_RUN;
 }
 
-/* ---- doubt ---- */
+/* ---- uncertainty ---- */
 
 /* Asks with the points and rocks of `def`. `finer`: figures of the scene as it is from more rocks; may be NULL. */
-static enum ceduo_status ask_doubt(struct asked *c, struct scene_file *file, const struct ceduo_doubt_def *def,
-                                   const struct ceduo_result *finer)
+static enum ceduo_status ask_uncertainty(struct asked *c, struct scene_file *file, const struct ceduo_uncertainty_def *def,
+                                         const struct ceduo_result *finer)
 {
-    c->doubt = (struct ceduo_doubt_report){
+    c->uncertainty = (struct ceduo_uncertainty_report){
         .file = file, .inputs = &c->inputs, .points = def->points, .rocks = def->rocks, .finer = finer};
     if (def->inputs_count == 0 || def->points == 0)
         return CEDUO_OK;
-    enum ceduo_status status = ceduo_doubt_ask(def, &c->doubt_answer);
-    c->doubt.answer = status == CEDUO_OK ? &c->doubt_answer : NULL;
-    c->doubt.too_much = status == CEDUO_CANCELLED && !atomic_load(ceduo_interrupt_flag());
-    return c->doubt.too_much ? CEDUO_OK : status;
+    enum ceduo_status status = ceduo_uncertainty_ask(def, &c->uncertainty_answer);
+    c->uncertainty.answer = status == CEDUO_OK ? &c->uncertainty_answer : NULL;
+    c->uncertainty.too_much = status == CEDUO_CANCELLED && !atomic_load(ceduo_interrupt_flag());
+    return c->uncertainty.too_much ? CEDUO_OK : status;
 }
 
 /* Sets what the command line says. `years`: the years of the window are asked for as well. False without memory. */
-static bool begin_doubt(struct asked *c, const struct arguments *a, struct scene_file *file, bool years,
-                        struct ceduo_doubt_def *def)
+static bool begin_uncertainty(struct asked *c, const struct arguments *a, struct scene_file *file, bool years,
+                              struct ceduo_uncertainty_def *def)
 {
     bool good = ceduo_inputs_of(file, &c->inputs);
     if (!years)
         ceduo_inputs_keep_today(&c->inputs);
-    *def = (struct ceduo_doubt_def){.scene = &file->scene,
-                                    .inputs_count = c->inputs.n,
-                                    .inputs = c->inputs.items,
-                                    .points = (size_t)a->points,
-                                    .rocks = a->rocks > 0 ? a->rocks : CEDUO_DOUBT_ROCKS,
-                                    .rotation = years,
-                                    .window = a->window,
-                                    .threads = (unsigned)a->threads,
-                                    .cancel = ceduo_interrupt_flag(),
-                                    .progress = show_steps,
-                                    .context = &c->progress};
+    *def = (struct ceduo_uncertainty_def){.scene = &file->scene,
+                                          .inputs_count = c->inputs.n,
+                                          .inputs = c->inputs.items,
+                                          .points = (size_t)a->points,
+                                          .rocks = a->rocks > 0 ? a->rocks : CEDUO_UNCERTAINTY_ROCKS,
+                                          .rotation = years,
+                                          .window = a->window,
+                                          .threads = (unsigned)a->threads,
+                                          .cancel = ceduo_interrupt_flag(),
+                                          .progress = show_steps,
+                                          .context = &c->progress};
     return good;
 }
 
-enum ceduo_status ceduo_ask_doubt(struct asked *c, const struct arguments *a, struct scene_file *file)
+enum ceduo_status ceduo_ask_uncertainty(struct asked *c, const struct arguments *a, struct scene_file *file)
 {
-    struct ceduo_doubt_def def;
-    if (!begin_doubt(c, a, file, a->years, &def))
+    struct ceduo_uncertainty_def def;
+    if (!begin_uncertainty(c, a, file, a->years, &def))
         return CEDUO_NO_MEMORY;
     def.own_rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks;
-    return ask_doubt(c, file, &def, NULL);
+    return ask_uncertainty(c, file, &def, NULL);
 }
 
-enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments *a, struct scene_file *file)
+enum ceduo_status ceduo_ask_uncertainty_beside(struct asked *c, const struct arguments *a, struct scene_file *file)
 {
     const struct ceduo_result *result = c->answer.result;
     uint64_t rocks = ceduo_result_rocks(result);
-    struct ceduo_doubt_def def;
+    struct ceduo_uncertainty_def def;
     enum ceduo_status status = CEDUO_OK;
     bool rotation = c->answer.years && !ceduo_uncertainty_no_rotation(&file->scene);
-    if (!begin_doubt(c, a, file, rotation, &def))
+    if (!begin_uncertainty(c, a, file, rotation, &def))
         return CEDUO_NO_MEMORY;
     def.brief = true;
     def.own = &c->answer;
-    def.rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS;
+    def.rocks = rocks < CEDUO_UNCERTAINTY_ROCKS ? rocks : CEDUO_UNCERTAINTY_ROCKS;
     def.points_max = def.points;
     if (rocks < 2 || !result->wooded || ceduo_page_says_nothing(result))
         def.points = 0;
@@ -305,7 +305,7 @@ enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments
         status = ceduo_effort_bound(&def, &c->answer.work);
     bool too_much = def.points == 0 && def.effort_max > 0;
     if (status == CEDUO_OK)
-        status = ask_doubt(c, file, &def, result);
-    c->doubt.too_much |= too_much;
+        status = ask_uncertainty(c, file, &def, result);
+    c->uncertainty.too_much |= too_much;
     return status;
 }

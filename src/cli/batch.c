@@ -107,7 +107,7 @@ static enum exit_status check(const struct arguments *a, struct scene_file *file
 static const struct ceduo_csv *choose_csv(const struct arguments *a)
 {
     return a->mode == MODE_FIND          ? &ceduo_find_csv
-           : a->mode == MODE_SENSITIVITY ? &ceduo_doubt_csv
+           : a->mode == MODE_SENSITIVITY ? &ceduo_uncertainty_csv
                                          : ceduo_result_csv(a->stands, a->years);
 }
 
@@ -190,7 +190,7 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
 {
     static ceduo_batch_answer *const answers[] = {[MODE_BATCH] = ceduo_print_report,
                                                   [MODE_FIND] = ceduo_print_find,
-                                                  [MODE_SENSITIVITY] = ceduo_print_doubt,
+                                                  [MODE_SENSITIVITY] = ceduo_print_uncertainty,
                                                   [MODE_REPORT] = ceduo_print_chapter,
                                                   [MODE_CHECK] = check};
     LOCAL_TEXT(title);

@@ -19,7 +19,7 @@ enum exit_status ceduo_batch_survey(const struct arguments *arguments);
 /* ---- modes of ceduo_batch_run(): append the answer of one scene ---- */
 
 typedef enum exit_status ceduo_batch_answer(const struct arguments *arguments, struct scene_file *file, struct text *out);
-ceduo_batch_answer ceduo_print_report, ceduo_print_plots, ceduo_print_find, ceduo_print_doubt, ceduo_print_chapter;
+ceduo_batch_answer ceduo_print_report, ceduo_print_plots, ceduo_print_find, ceduo_print_uncertainty, ceduo_print_chapter;
 
 /* ---- reading ---- */
 
@@ -62,8 +62,8 @@ struct asked {
     struct ceduo_snapshot *snapshot;
     struct ceduo_verdict verdict;
     struct scene_inputs inputs; /* that are uncertain */
-    struct ceduo_doubt_answer doubt_answer;
-    struct ceduo_doubt_report doubt; /* answer NULL: nothing is uncertain; file NULL: not asked */
+    struct ceduo_uncertainty_answer uncertainty_answer;
+    struct ceduo_uncertainty_report uncertainty; /* answer NULL: nothing is uncertain; file NULL: not asked */
 };
 
 /* Set the question of the command line: rocks by -n, -e or the scene; threads, years. */
@@ -76,11 +76,11 @@ void ceduo_ask_years(struct ceduo_question *question);
 enum ceduo_status ceduo_ask_runs(struct asked *asked);
 
 /* Compute the uncertainty of the scene, with the points and rocks of the command line. */
-enum ceduo_status ceduo_ask_doubt(struct asked *asked, const struct arguments *arguments, struct scene_file *file);
+enum ceduo_status ceduo_ask_uncertainty(struct asked *asked, const struct arguments *arguments, struct scene_file *file);
 
 /* The same in addition to the answer, with at most its rocks, and over the rotation of each option if there is one. Nothing is
  * computed if rocks among stems are not simulated, if there is no answer, or if it would take far longer than for most scenes. */
-enum ceduo_status ceduo_ask_doubt_beside(struct asked *asked, const struct arguments *arguments, struct scene_file *file);
+enum ceduo_status ceduo_ask_uncertainty_beside(struct asked *asked, const struct arguments *arguments, struct scene_file *file);
 
 /* Release all, and report a failure. Otherwise EXIT_DONE, or EXIT_RUN if more than one rock of 1000 is unfinished. */
 enum exit_status ceduo_ask_end(struct asked *asked, const struct scene_file *file, enum ceduo_status status);

@@ -25,8 +25,8 @@ struct meants {
 /* Parts of a scene whose keys are everyday words, such as year, count or mean, unless they have a unit: share_seen, least_y. */
 static bool is_everyday(const char *pattern, const char *key, enum path_value kind)
 {
-    static const char *const parts[] = {"page", "rules", "years", "doubt", "observed", "design"};
-    bool part = strstr(pattern, ".doubt[]") != NULL;
+    static const char *const parts[] = {"page", "rules", "years", "uncertainty", "observed", "design"};
+    bool part = strstr(pattern, ".uncertainty[]") != NULL;
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
         part |= strncmp(pattern, parts[i], strlen(parts[i])) == 0 && strchr(".[", pattern[strlen(parts[i])]);
     return kind == PATH_TEXT || kind == PATH_FILE || (part && !strchr(key, '_'));
@@ -182,7 +182,7 @@ static bool check_twice(const struct csv *table, struct arena *arena, const stru
             sorted[named++] = (struct printed_head){ceduo_arena_string(arena, ceduo_text_string(&text)), i};
     }
     qsort(sorted, named, sizeof *sorted, compare_printed);
-    for (size_t i = 1; i < named && twice < CEDUO_PROBLEMS_MOST; i++)
+    for (size_t i = 1; i < named && twice < CEDUO_PROBLEMS_MAX; i++)
         if (strcmp(sorted[i - 1].text, sorted[i].text) == 0) {
             twice++;
             ceduo_csv_complain(table, table->heads[sorted[i].column], _("'%s' is given twice"), heads[sorted[i].column].name);
@@ -200,7 +200,7 @@ bool ceduo_each_heads(const struct csv *table, struct arena *arena, struct each_
         const char *name = ceduo_arena_copy(arena, table->heads[i].p, table->heads[i].n);
         enum path_value sets = name[0] ? ceduo_schema_value(name) : PATH_UNKNOWN;
         heads[i] = (struct each_head){name, name, sets};
-        if (ceduo_each_is_copied(&heads[i]) && bad < CEDUO_PROBLEMS_MOST)
+        if (ceduo_each_is_copied(&heads[i]) && bad < CEDUO_PROBLEMS_MAX)
             bad += !check_copied(table, i, &m, &scratch, name);
     }
     ceduo_arena_free(&m.arena);

@@ -14,7 +14,7 @@
 
 /* ---- tables ---- */
 
-#define WIDTH_MOST 44 /* of a column; what is wider sticks out */
+#define WIDTH_MAX 44 /* of a column; what is wider sticks out */
 
 /* Columns of a tab-separated table set below one another; the last is left as it is. */
 static void align(struct text *to, const char *rows)
@@ -26,7 +26,7 @@ static void align(struct text *to, const char *rows)
             size_t width = ceduo_utf8_width_of(p, n);
             bool last = p[n] == '\n';
             if (!puts && !last && width > widths[column])
-                widths[column] = width > WIDTH_MOST ? WIDTH_MOST : width;
+                widths[column] = width > WIDTH_MAX ? WIDTH_MAX : width;
             if (puts) {
                 ceduo_text_add(to, p, n);
                 ceduo_text_format(to, "%*s", last ? 0 : width > widths[column] ? 1 : (int)(widths[column] + 2 - width), "");
@@ -97,7 +97,7 @@ enum exit_status ceduo_batch_schema(const struct arguments *a)
         bool row;
     } outputs[] = {{"ceduo-result-1", ceduo_result_figures, true}, /* as the words of the option's row */
                    {"ceduo-find-1", ceduo_find_figures, true},
-                   {"ceduo-sensitivity-1", ceduo_doubt_figures, true},
+                   {"ceduo-sensitivity-1", ceduo_uncertainty_figures, true},
                    {"ceduo-calibration-1", ceduo_calibration_figures, false}};
     LOCAL_TEXT(schema);
     ceduo_figures_schema(&schema, outputs[a->schema].format, outputs[a->schema].figures, outputs[a->schema].row);
@@ -109,7 +109,7 @@ enum exit_status ceduo_batch_schema(const struct arguments *a)
 static const char *title_of(struct arena *arena, const char *path)
 {
     LOCAL_PROBLEMS(problems);
-    const struct source *source = ceduo_file_read(arena, path, YAML_BYTES_MOST, &problems);
+    const struct source *source = ceduo_file_read(arena, path, YAML_BYTES_MAX, &problems);
     const struct node *root = source ? ceduo_yaml_read(arena, source, &problems) : NULL;
     const char *title = ceduo_in_language(ceduo_node_text(root, "title"), ceduo_node_text(root, "title_it"));
     if (!title)

@@ -15,14 +15,14 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "base/utf8.h"
-#include "ceduo/doubt.h"
+#include "ceduo/uncertainty.h"
 #include "ceduo/years.h"
 #include "say.h"
 #include "scene/choices.h"
 
-#define WIDTH_LEAST  20
-#define HEIGHT_LEAST 6
-#define THREADS_MOST 1024
+#define WIDTH_MIN   20
+#define HEIGHT_MIN  6
+#define THREADS_MAX 1024
 
 /* ---- setters that several options share ---- */
 
@@ -164,9 +164,9 @@ static enum exit_status set_size(struct arguments *a, const struct option_row *r
     double n[2];
     if (!read_numbers(value, "x", 2, 2, n) || !is_whole(n[0]) || !is_whole(n[1]))
         return no_form(row, value, "COLUMNSxLINES", "80x24");
-    if (n[0] < WIDTH_LEAST || n[0] > CEDUO_CANVAS_MAX_WIDTH || n[1] < HEIGHT_LEAST || n[1] > CEDUO_CANVAS_MAX_HEIGHT) {
+    if (n[0] < WIDTH_MIN || n[0] > CEDUO_CANVAS_MAX_WIDTH || n[1] < HEIGHT_MIN || n[1] > CEDUO_CANVAS_MAX_HEIGHT) {
         char least[16], most[16];
-        snprintf(least, sizeof least, "%dx%d", WIDTH_LEAST, HEIGHT_LEAST);
+        snprintf(least, sizeof least, "%dx%d", WIDTH_MIN, HEIGHT_MIN);
         snprintf(most, sizeof most, "%dx%d", CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
         return ceduo_usage(row->name, _("%s is outside %s to %s"), value, least, most);
     }
@@ -186,9 +186,9 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
     if (!good)
         return no_form(row, value, "A:B[:STEP]", "0:25");
     if (parts[0] < 0 || parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1 ||
-        (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
+        (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MAX)
         return ceduo_usage(row->name, _("%s: expected at most %d years of 0 (the stand as filed) to 100000"), value,
-                           CEDUO_YEARS_MOST);
+                           CEDUO_YEARS_MAX);
     a->window = (struct ceduo_window){
         .first = (unsigned)parts[0], .last = (unsigned)parts[1], .step = parts[2] > 100000 ? 100000 : (unsigned)parts[2]};
     return EXIT_DONE;
@@ -216,8 +216,8 @@ static enum exit_status set_find(struct arguments *a, const struct option_row *r
 
 static enum exit_status add_calibrate(struct arguments *a, const struct option_row *row, char *value)
 {
-    if (a->calibrates_count == CEDUO_CALIBRATION_MOST)
-        return ceduo_usage(row->name, _("at most %d values can be fitted at once"), CEDUO_CALIBRATION_MOST);
+    if (a->calibrates_count == CEDUO_CALIBRATION_MAX)
+        return ceduo_usage(row->name, _("at most %d values can be fitted at once"), CEDUO_CALIBRATION_MAX);
     return read_range(row, value, "slope.materials[talus].rn=0.2:0.5", false, &a->calibrates[a->calibrates_count++]);
 }
 
@@ -272,7 +272,7 @@ static enum exit_status set_output(struct arguments *a, const struct option_row 
 enum {
     CHECK = 1u << MODE_CHECK,
     FIND = 1u << MODE_FIND,
-    DOUBT = 1u << MODE_SENSITIVITY,
+    UNCERTAINTY = 1u << MODE_SENSITIVITY,
     FIT = 1u << MODE_CALIBRATE,
     PAGE = 1u << MODE_REPORT,
     SURVEY = 1u << MODE_SURVEY,
@@ -285,18 +285,19 @@ static const struct option_row rows[] = {
      .help = N_("compute the scenes and print the result, without a terminal")},
     {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, CHECK | PAGE | SURVEY | LISTS | SCREEN,
      .help = N_("format of the output (table)")},
-    {"details", 0, NULL, set_flag, AT(details), MODE_BATCH, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY,
+    {"details", 0, NULL, set_flag, AT(details), MODE_BATCH, CHECK | FIND | UNCERTAINTY | FIT | PAGE | SURVEY,
      .help = N_("print the whole page, with every figure, not the answer alone")},
     {"output", 'o', "FILE", set_output, 0, MODE_TERMINAL, CHECK | PAGE | SCREEN,
      .help = N_("write to FILE, - for standard output; a regular file is written completely or not at all")},
     {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, SURVEY | SCREEN,
      .help = N_("change a parameter of the scene; may be repeated")},
     {"rocks", 'n', "N", set_count, AT(rocks), MODE_TERMINAL, CHECK | SURVEY | SCREEN,
-     .help = N_("number of rocks; with --tolerance the maximum"), .lo = 1, .hi = CEDUO_ROCKS_MOST},
-    {"tolerance", 'e', "REL", set_share, AT(tolerance), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
+     .help = N_("number of rocks; with --tolerance the maximum"), .lo = 1, .hi = CEDUO_ROCKS_MAX},
+    {"tolerance", 'e', "REL", set_share, AT(tolerance), MODE_TERMINAL, CHECK | FIND | UNCERTAINTY | FIT | SURVEY | SCREEN,
      .help = N_("simulate until the 95 % error of each mean energy is below REL of it"), .hi = 1 - 0x1p-53},
-    {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY | SCREEN,
-     NEEDS_CSV, .help = N_("what each row of CSV describes (controls)")},
+    {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL,
+     CHECK | FIND | UNCERTAINTY | FIT | PAGE | SURVEY | SCREEN, NEEDS_CSV,
+     .help = N_("what each row of CSV describes (controls)")},
     {"each", 0, "ROWS.csv", set_text, AT(each), MODE_TERMINAL, FIT | PAGE | SURVEY | SCREEN,
      .help = N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "
                 "copied")},
@@ -308,7 +309,7 @@ static const struct option_row rows[] = {
     {"seed", 0, "N", set_seed, AT(seed), MODE_TERMINAL, SURVEY | SCREEN, .help = N_("seed of the random numbers, 0 to 2^53"),
      .lo = 0, .hi = 0x1p53},
     {"threads", 'j', "N", set_count, AT(threads), MODE_TERMINAL, SURVEY,
-     .help = N_("number of threads; it does not change the result (all cores)"), .lo = 1, .hi = THREADS_MOST},
+     .help = N_("number of threads; it does not change the result (all cores)"), .lo = 1, .hi = THREADS_MAX},
     {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, FIT | SURVEY | SCREEN,
      .help = N_("compute only this option of the scene; may be repeated")},
     {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, CHECK | FIT | SURVEY,
@@ -323,7 +324,7 @@ static const struct option_row rows[] = {
      .help = N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9"), .hi = 1},
     {"sensitivity", 0, "[N]", set_count, AT(points), MODE_SENSITIVITY, CHECK | SURVEY,
      .help = N_("show how sure the result is, and what that depends on; N points (256)"), .lo = 2,
-     .hi = CEDUO_DOUBT_POINTS_MAX},
+     .hi = CEDUO_UNCERTAINTY_POINTS_MAX},
     {"report", 0, "FILE", set_report, 0, MODE_REPORT, CHECK | SURVEY,
      .help = N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
     {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, CHECK | PAGE | SURVEY,
@@ -332,7 +333,7 @@ static const struct option_row rows[] = {
             "what was found")},
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, CHECK | FIND | FIT | PAGE | SURVEY,
      .help =
-         N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare, tradeoff, doubt or hazard")},
+         N_("print a picture: profile, energy, height, histogram, rotation, stand, compare, tradeoff, uncertainty or hazard")},
     {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, CHECK | SURVEY, NEEDS_PLOT,
      .help = N_("size of a picture in columns and lines (80x24)")},
     {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, CHECK | SURVEY, NEEDS_PICTURE,
@@ -435,7 +436,7 @@ static enum exit_status check_rows(const struct arguments *a, const char *mode)
     for (size_t i = 0; i < ROWS; i++) {
         const struct option_row *row = &rows[i];
         bool table = strcmp(row->name, "format") == 0 && a->format == CEDUO_TABLE;
-        bool other_plot = a->mode == MODE_SENSITIVITY && strcmp(row->name, "plot") == 0 && a->plot != CEDUO_PLOT_DOUBT;
+        bool other_plot = a->mode == MODE_SENSITIVITY && strcmp(row->name, "plot") == 0 && a->plot != CEDUO_PLOT_UNCERTAINTY;
         bool without = other_plot || (row->without >> a->mode & 1);
         if (!(a->given >> i & 1) || (table && (a->mode == MODE_REPORT || a->mode >= MODE_PARAMETERS)))
             continue;
@@ -512,11 +513,11 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
     cpu_set_t given; /* the processors that a job of Slurm or taskset leaves to it */
     long cores = sched_getaffinity(0, sizeof given, &given) == 0 ? CPU_COUNT(&given) : sysconf(_SC_NPROCESSORS_ONLN);
     size_t most = (size_t)argc + 1;
-    *a = (struct arguments){.threads = cores > 0 && cores <= THREADS_MOST ? (uint64_t)cores : 1,
+    *a = (struct arguments){.threads = cores > 0 && cores <= THREADS_MAX ? (uint64_t)cores : 1,
                             .charset = ceduo_say_utf8() ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII,
                             .plot_width = 80,
                             .plot_height = 24,
-                            .points = CEDUO_DOUBT_POINTS,
+                            .points = CEDUO_UNCERTAINTY_POINTS,
                             .goal_value = NAN,
                             .sets.items = ceduo_must(calloc(most, sizeof *a->sets.items)),
                             .options.items = ceduo_must(calloc(most, sizeof *a->options.items))};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is printed of one scene: its page, JSON or CSV; what doubt does to it; what a search finds; its pictures; its chapter of
+/* What is printed of one scene: its page, JSON or CSV; what uncertainty does to it; what a search finds; its pictures; its chapter of
  * --report. */
 #include <stdlib.h>
 #include <string.h>
@@ -52,13 +52,13 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
     c.question.run.other_energy = !page || a->details;
     enum ceduo_status status = ceduo_ask_runs(&c);
     if (status == CEDUO_OK && page)
-        status = ceduo_ask_doubt_beside(&c, a, file);
+        status = ceduo_ask_uncertainty_beside(&c, a, file);
     if (status == CEDUO_OK) {
         const struct ceduo_report report = {.file = file,
                                             .result = c.answer.result,
                                             .years = a->years ? c.answer.years : NULL,
                                             .verdict = &c.verdict,
-                                            .doubt = c.doubt.file ? &c.doubt : NULL,
+                                            .uncertainty = c.uncertainty.file ? &c.uncertainty : NULL,
                                             .blocks = c.answer.blocks,
                                             .work = c.answer.work,
                                             .seconds = c.seconds,
@@ -75,15 +75,15 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
     return ceduo_ask_end(&c, file, status);
 }
 
-enum exit_status ceduo_print_doubt(const struct arguments *a, struct scene_file *file, struct text *out)
+enum exit_status ceduo_print_uncertainty(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct asked c;
     ceduo_batch_warn(a, file, false);
     ceduo_ask_begin(&c, a, file);
-    enum ceduo_status status = ceduo_ask_doubt(&c, a, file);
-    const struct ceduo_place place = {.doubt = &c.doubt};
-    if (status == CEDUO_OK && !print_figures(a, ceduo_doubt_figures, &ceduo_doubt_csv, &place, out)) {
-        ceduo_doubt_page(out, &c.doubt, !ceduo_say_utf8());
+    enum ceduo_status status = ceduo_ask_uncertainty(&c, a, file);
+    const struct ceduo_place place = {.uncertainty = &c.uncertainty};
+    if (status == CEDUO_OK && !print_figures(a, ceduo_uncertainty_figures, &ceduo_uncertainty_csv, &place, out)) {
+        ceduo_uncertainty_page(out, &c.uncertainty, !ceduo_say_utf8());
         ceduo_say_plainly(out);
     }
     return ceduo_ask_end(&c, file, status);
@@ -164,7 +164,7 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
     struct ceduo_picture picture = {.scene = scene,
                                     .snapshot = c->snapshot,
                                     .verdict = c->snapshot ? &c->verdict : NULL,
-                                    .doubt = c->doubt.file ? &c->doubt : NULL,
+                                    .uncertainty = c->uncertainty.file ? &c->uncertainty : NULL,
                                     .control = ceduo_scene_last_control(scene)};
     size_t start = out->length;
     size_t options = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_WHOLE ? 1 : scene->options_count;
@@ -187,8 +187,8 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
     struct asked c;
     enum ceduo_status status = CEDUO_OK;
     ceduo_ask_begin(&c, a, file);
-    if (a->plot == CEDUO_PLOT_DOUBT) {
-        status = ceduo_ask_doubt(&c, a, file);
+    if (a->plot == CEDUO_PLOT_UNCERTAINTY) {
+        status = ceduo_ask_uncertainty(&c, a, file);
     } else if (ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_RUN) {
         ceduo_batch_warn(a, file, false);
         c.pictures = true;
@@ -254,7 +254,7 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
     c.question.block_rocks = file->scene.options_count == 1 ? BLOCK_ROCKS : 0;
     enum ceduo_status status = ceduo_ask_runs(&c);
     if (status == CEDUO_OK)
-        status = ceduo_ask_doubt_beside(&c, a, file);
+        status = ceduo_ask_uncertainty_beside(&c, a, file);
     if (status == CEDUO_OK) {
         LOCAL_TEXT(command);
         LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
@@ -264,12 +264,12 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
                                       .verdict = &c.verdict,
                                       .blocks = c.answer.blocks,
                                       .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed},
-                                      .doubt = &c.doubt,
+                                      .uncertainty = &c.uncertainty,
                                       .ahead = c.answer.years,
                                       .snapshot = c.snapshot,
                                       .command = ceduo_text_string(&command),
                                       .same = true};
-        c.doubt.years = &c.verdict;
+        c.uncertainty.years = &c.verdict;
         ceduo_page_chapter(&page, &report);
         ceduo_page_html(&(struct ceduo_html){.text = out}, &page, a->profiles->count + 1);
         if (a->profiles->count == 0)

@@ -14,8 +14,8 @@
 #include "ceduo/rock.h"
 #include "scene/fields.h"
 
-#define KEYS_SHOWN_MOST 32
-#define KEYS_ALL_TOLD   4 /* so few are told, unless what is meant begins alike */
+#define KEYS_SHOWN_MAX 32
+#define KEYS_ALL_TOLD  4 /* so few are told, unless what is meant begins alike */
 
 struct binder {
     const struct binding *to;
@@ -37,7 +37,7 @@ static const char *path_here(const struct binder *b)
 static void note_bad(struct binder *b)
 {
     struct bad_values *bad = b->to->bad;
-    bool room = bad->n < CEDUO_BAD_MOST;
+    bool room = bad->n < CEDUO_BAD_MAX;
     const char *path = room ? ceduo_arena_string(b->to->arena, ceduo_text_string(&b->path)) : NULL;
     if (path)
         bad->paths[bad->n] = path;
@@ -82,9 +82,9 @@ static const struct object source_object;
 
 const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *said)
 {
-    const char *words[KEYS_SHOWN_MOST + 1]; /* and the source */
+    const char *words[KEYS_SHOWN_MAX + 1]; /* and the source */
     size_t n = 0;
-    for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++) /* untaken: large */
+    for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MAX; i++) /* untaken: large */
         words[n++] = object->fields[i].key;
     if (object != &source_object) /* any value has one */
         words[n++] = "source";
@@ -400,7 +400,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
 static void add_note(struct binder *b, const char *kind, const char *text, const char *text_it)
 {
     const char *path = ceduo_text_string(&b->path);
-    bool of_range = ceduo_path_leads_to("doubt", path) || strstr(path, ".stand.doubt[");
+    bool of_range = ceduo_path_leads_to("uncertainty", path) || strstr(path, ".stand.uncertainty[");
     if (of_range || ceduo_path_leads_to("observed", path)) /* not of a value that is computed with */
         return;
     struct source_note *note = ceduo_arena_take(b->to->arena, sizeof *note);
@@ -473,7 +473,7 @@ static void report_missing(struct binder *b, const struct object *object, const 
             continue;
         size_t before = enter(b, f->key);
         bool told = false;
-        for (size_t k = 0; k < b->to->bad->n && k < CEDUO_BAD_MOST; k++)
+        for (size_t k = 0; k < b->to->bad->n && k < CEDUO_BAD_MAX; k++)
             told |= strcmp(b->to->bad->paths[k], ceduo_text_string(&b->path)) == 0;
         note_bad(b);
         leave(b, before);

@@ -38,11 +38,11 @@ const struct source_note *ceduo_notes_find(const struct source_note *notes, cons
 
 /* Reads the values of a document into the structures that the table of the scene names. */
 
-#define CEDUO_BAD_MOST 100 /* with more, nobody asks what else does not fit */
+#define CEDUO_BAD_MAX 100 /* with more, nobody asks what else does not fit */
 
 /* Paths of values that could not be read, are missing or do not exist. */
 struct bad_values {
-    const char *paths[CEDUO_BAD_MOST];
+    const char *paths[CEDUO_BAD_MAX];
     size_t n; /* more than there is room for: too many */
 };
 

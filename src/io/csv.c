@@ -379,7 +379,7 @@ void ceduo_csv_names(const struct csv *csv, struct text *names)
     }
     if (!csv->source->foreign)
         return;
-    size_t shown = begin + ceduo_utf8_cut(ceduo_text_string(names) + begin, CEDUO_FOREIGN_MOST);
+    size_t shown = begin + ceduo_utf8_cut(ceduo_text_string(names) + begin, CEDUO_FOREIGN_MAX);
     if (shown < names->length) {
         ceduo_text_cut(names, shown);
         ceduo_text_put(names, "\xe2\x80\xa6");
@@ -448,20 +448,20 @@ void ceduo_csv_scan(struct csv *csv)
 
 /* True if an empty cell beyond the head may be due to a cell that was doubled, or to a head that was removed: a single record is
  * one cell longer, or all are. */
-static bool is_doubtful(const struct csv *csv)
+static bool is_uncertain(const struct csv *csv)
 {
     bool one = csv->cells_count == csv->width + 1 && csv->longer_by_one == csv->longer;
     return one && (csv->longer == 1 || csv->longer == csv->rows);
 }
 
-/* Mark a record bad if its number of cells is wrong. Empty cells beyond the head are ignored unless they are doubtful. */
+/* Mark a record bad if its number of cells is wrong. Empty cells beyond the head are ignored unless they are uncertain. */
 static void check_width(struct csv *csv)
 {
     const size_t n = csv->cells_count, width = csv->width;
     size_t filled = n;
     while (filled > 0 && csv->cells[filled - 1].n == 0)
         filled--;
-    bool ignored = n > width && filled <= width && csv->separator != ' ' && !is_doubtful(csv);
+    bool ignored = n > width && filled <= width && csv->separator != ' ' && !is_uncertain(csv);
     if (csv->bad || n == width || ignored)
         return;
     csv->bad = true;

@@ -9,7 +9,7 @@
 
 #include "base/utf8.h"
 
-#define FLOW_MOST 100 /* columns of a mapping or list on one line */
+#define FLOW_MAX 100 /* columns of a mapping or list on one line */
 
 /* ---- scalars ---- */
 
@@ -94,7 +94,7 @@ static void print_block(struct text *text, const struct node *node, size_t inden
         LOCAL_TEXT(line);
         if (!flow) { /* on one line if it fits there */
             ceduo_emit_flow(&line, item);
-            flow = line.length + indent + (map ? 20 : 2) <= FLOW_MOST;
+            flow = line.length + indent + (map ? 20 : 2) <= FLOW_MAX;
         }
         if (map)
             ceduo_text_format(text, "%*s%s:%c", (int)indent, "", item->key, flow ? ' ' : '\n');

@@ -8,10 +8,10 @@
 #include "base/must.h"
 #include "base/utf8.h"
 
-#define LINE_MOST    100  /* columns of the source line that are shown */
-#define MESSAGE_MOST 1000 /* bytes: known keys take some hundred */
-#define TAIL         200
-#define COUNTED      1000
+#define LINE_MAX    100  /* columns of the source line that are shown */
+#define MESSAGE_MAX 1000 /* bytes: known keys take some hundred */
+#define TAIL        200
+#define COUNTED     1000
 
 bool ceduo_source_next(const struct source *s, size_t *at, size_t *from, size_t *to)
 {
@@ -51,7 +51,7 @@ size_t ceduo_source_byte(const struct source *s, size_t line, size_t column)
 /* A part of the line, and a caret below the column where that is in it; of a foreign source only what begins it. */
 static void print_line(struct text *out, const struct source *s, size_t line, size_t column)
 {
-    size_t from, to, max = s->foreign ? CEDUO_FOREIGN_MOST : LINE_MOST;
+    size_t from, to, max = s->foreign ? CEDUO_FOREIGN_MAX : LINE_MAX;
     if (!find_line(s, line, &from, &to) || to == from)
         return;
     size_t first = column > max && !s->foreign ? column - max / 2 : 1;
@@ -94,8 +94,8 @@ static void print_words(struct text *out, const char *format)
 /* A message may quote a word of a megabyte: its middle is left out, so that the mend at its end stays. */
 static void print_message(struct text *out, const char *message)
 {
-    size_t n = strlen(message), head = MESSAGE_MOST - TAIL, tail = n - TAIL;
-    if (n <= MESSAGE_MOST) {
+    size_t n = strlen(message), head = MESSAGE_MAX - TAIL, tail = n - TAIL;
+    if (n <= MESSAGE_MAX) {
         ceduo_text_safe_n(out, message, n);
         return;
     }
@@ -169,7 +169,7 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
         if (kind->more < CEDUO_PROBLEMS_LINES)
             kind->lines[kind->more] = place.line;
         kind->more++;
-    } else if (!known && k < CEDUO_PROBLEMS_MOST) { /* of a million only these look for their line */
+    } else if (!known && k < CEDUO_PROBLEMS_MAX) { /* of a million only these look for their line */
         if (source && place.line > 0)
             print_line(&one, source, place.line, place.column);
         ceduo_text_put(&problems->text, ceduo_text_string(&one));

@@ -19,7 +19,7 @@ struct source {
     bool foreign;       /* a file that does not say that it is one of ours: it may be anything, and nobody's business */
 };
 
-#define CEDUO_FOREIGN_MOST 20 /* columns of such a file that are shown */
+#define CEDUO_FOREIGN_MAX 20 /* columns of such a file that are shown */
 
 /* Bytes of the byte order mark that it begins with; the mark takes no column. */
 static inline size_t ceduo_source_mark(const struct source *source)
@@ -33,7 +33,7 @@ bool ceduo_source_next(const struct source *source, size_t *at, size_t *from, si
 /* The byte at a line and column, both from 1, columns in characters; its length where the source has no such line. */
 size_t ceduo_source_byte(const struct source *source, size_t line, size_t column);
 
-#define CEDUO_PROBLEMS_MOST  20 /* printed in full */
+#define CEDUO_PROBLEMS_MAX   20 /* printed in full */
 #define CEDUO_PROBLEMS_LINES 5  /* of others of a kind */
 
 /* Problems of one kind: the same words but for their numbers, about one key of whatever item, in one source. The first is
@@ -50,7 +50,7 @@ struct problems {
     size_t count;
     size_t met; /* with those that were known already: whether a step went well */
     size_t kinds_count;
-    struct problem_kind kinds[CEDUO_PROBLEMS_MOST];
+    struct problem_kind kinds[CEDUO_PROBLEMS_MAX];
     struct text known;    /* hashes of those reported */
     struct text warnings; /* about values that are good; follow the text if nothing is wrong */
     bool usage;           /* at least one is about the command line */

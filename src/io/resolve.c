@@ -15,9 +15,9 @@
 #include "scene/choices.h"
 #include "scene/schema.h"
 
-#define FIRST      "-1e9" /* m: before any profile begins */
-#define BASES_MOST 8
-#define FILES_MOST 1000
+#define FIRST     "-1e9" /* m: before any profile begins */
+#define BASES_MAX 8
+#define FILES_MAX 1000
 
 /* A file that was read before. A stand that a thousand belts name is read once. */
 struct known_file {
@@ -136,14 +136,14 @@ static const struct node *read_file(struct resolver *r, const struct node *node,
             r->problems->met += !f->root;
             return f->root;
         }
-    if (r->files_count == FILES_MOST) {
-        ceduo_problem_at(r->problems, ceduo_node_place(node, node->key), _("more than %d files in one scene"), FILES_MOST);
+    if (r->files_count == FILES_MAX) {
+        ceduo_problem_at(r->problems, ceduo_node_place(node, node->key), _("more than %d files in one scene"), FILES_MAX);
         return NULL;
     }
     struct known_file *file = ceduo_arena_take(r->arena, sizeof *file);
     if (!file)
         return NULL;
-    const struct source *source = ceduo_file_read(r->arena, path, YAML_BYTES_MOST, r->problems);
+    const struct source *source = ceduo_file_read(r->arena, path, YAML_BYTES_MAX, r->problems);
     *file = (struct known_file){
         .path = path, .root = source ? ceduo_yaml_read(r->arena, source, r->problems) : NULL, .before = r->files};
     r->files = file;
@@ -154,9 +154,9 @@ static const struct node *read_file(struct resolver *r, const struct node *node,
 static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth)
 {
     static const char *const tables[] = {".csv", ".gpx", ".kml", ".xml"}; /* what is no CSV is told what to do */
-    if (depth > BASES_MOST) {
+    if (depth > BASES_MAX) {
         ceduo_problem_at(r->problems, ceduo_node_place(node, node->key),
-                         _("more than %d files in a chain of 'base'; do they form a loop?"), BASES_MOST);
+                         _("more than %d files in a chain of 'base'; do they form a loop?"), BASES_MAX);
         return NULL;
     }
     if (node->kind != NODE_SCALAR)
@@ -208,10 +208,10 @@ static const struct node *resolve_map(struct resolver *r, const struct object *o
             found = found ? found : broken(r, entry);
         } else if (f && f->type == FIELD_LIST && entry->kind == NODE_LIST) {
             bool long_one =
-                strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST; /* before so many files are looked for */
+                strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MAX; /* before so many files are looked for */
             if (long_one)
                 ceduo_problem_at(r->problems, ceduo_node_place(entry, f->key), _("%zu items; at most %d can be computed"),
-                                 entry->n, CEDUO_ITEMS_MOST);
+                                 entry->n, CEDUO_ITEMS_MAX);
             found = long_one ? broken(r, entry) : resolve_items(r, f->object, entry);
         }
         if (found == entry)

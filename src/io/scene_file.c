@@ -208,7 +208,7 @@ bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struc
         complain_no_scene(file, path, plain, problems);
         return false;
     }
-    const struct source *source = ceduo_file_read(&file->arena, found ? found : path, YAML_BYTES_MOST, problems);
+    const struct source *source = ceduo_file_read(&file->arena, found ? found : path, YAML_BYTES_MAX, problems);
     if (found && strcmp(found, path) != 0)
         file->name = plain;
     return source && read_source(file, source, sets, problems);

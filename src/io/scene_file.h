@@ -3,8 +3,8 @@
 #define CEDUO_SCENE_FILE_H
 
 #include "bind.h"
-#include "ceduo/doubt.h"
 #include "ceduo/scene.h"
+#include "ceduo/uncertainty.h"
 
 /* A scene as read from its files. Everything that it points to lives in its arena. */
 struct scene_file {
@@ -49,9 +49,9 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
 /* True where the note of a value (ceduo_notes_find()) calls it an assumption. */
 bool ceduo_scene_assumes_value(const struct scene_file *file, const char *path);
 
-/* ---- inputs (doubt_inputs.c) ---- */
+/* ---- inputs (uncertainty_inputs.c) ---- */
 
-/* The inputs of a scene: what its `doubt` names, and every value that is marked as assumed and has a range (ranges.h).
+/* The inputs of a scene: what its `uncertainty` names, and every value that is marked as assumed and has a range (ranges.h).
  * Values that come from one line of one file are one input, as are all energy laws, and for each species the strength of its wood and its growth, as all stands grow on one slope. Inputs that
  * change today's figures come first. */
 struct scene_inputs {
@@ -59,7 +59,7 @@ struct scene_inputs {
     struct ceduo_input *items; /* in the arena of the scene's file */
 };
 
-/* False without memory. `doubt: none`: there are none. */
+/* False without memory. `uncertainty: none`: there are none. */
 bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs);
 
 /* Removes the inputs that change years to come alone. */

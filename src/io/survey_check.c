@@ -9,7 +9,7 @@
 
 /* Limits beyond which a column needs a unit (assumed). */
 #define BASAL_BARE      80   /* m2/ha */
-#define BASAL_MOST      300  /* m2/ha: more is refused whatever the heads say */
+#define BASAL_MAX       300  /* m2/ha: more is refused whatever the heads say */
 #define DBH_BARE        0.40 /* m, mean diameter, */
 #define SLENDERNESS_MIN 25   /* if the mean height is less than 25 diameters */
 #define HEIGHT_BARE     45   /* m, mean height */
@@ -101,7 +101,7 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
                             "'circumference_mm' if it is in millimetres, 'circumference_cm' if it is in centimetres"),
             s.dbh * 100, s.height);
     }
-    if (basal > BASAL_MOST)
+    if (basal > BASAL_MAX)
         return ceduo_csv_complain(
             &r->csv, head_of(r, area),
             _("a basal area of %.0f m2/ha is more than any forest has; are the areas in m2 and the diameters in cm?"), basal);

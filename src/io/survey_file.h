@@ -35,7 +35,7 @@ struct survey_answers {
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct survey_answers *answers,
                        struct problems *problems);
 
-/* Adds the stand as a YAML file: what the survey says, with its standard errors as `doubt`, and what had to be assumed. False
+/* Adds the stand as a YAML file: what the survey says, with its standard errors as `uncertainty`, and what had to be assumed. False
  * where there is none: densities that no forest has, which is reported, or no memory. */
 bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struct problems *problems);
 

@@ -12,14 +12,14 @@
 #include "file.h"
 #include "survey_reader.h"
 
-#define PLOTS_MOST      1000
-#define SLOPE_MOST      85   /* degrees */
-#define SLOPE_BARE_MOST 1e4  /* more is no slope in any unit */
-#define SLOPE_BARE      45   /* degrees or percent: a steeper slope needs a unit (assumed) */
-#define AREA_BARE       10   /* m2: a smaller plot needs a unit (assumed) */
-#define STUMP_MOST      20   /* m of height, as in a stand */
-#define DBH_MOST        300  /* cm: a larger diameter is in mm (assumed) */
-#define SAME_DBH        1.05 /* ratio of a diameter to that of the circumference that still is the same (assumed) */
+#define PLOTS_MAX      1000
+#define SLOPE_MAX      85   /* degrees */
+#define SLOPE_BARE_MAX 1e4  /* more is no slope in any unit */
+#define SLOPE_BARE     45   /* degrees or percent: a steeper slope needs a unit (assumed) */
+#define AREA_BARE      10   /* m2: a smaller plot needs a unit (assumed) */
+#define STUMP_MAX      20   /* m of height, as in a stand */
+#define DBH_MAX        300  /* cm: a larger diameter is in mm (assumed) */
+#define SAME_DBH       1.05 /* ratio of a diameter to that of the circumference that still is the same (assumed) */
 
 /* Words for species without a name, and labels of a row of totals or means. */
 #define OTHER_SPECIES "other|others|altro|altra|altri|altre|altre latifoglie|altra specie|altre specie|sonstige"
@@ -35,8 +35,8 @@ static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum csv_u
 {
     const enum csv_unit unit = own ? own : r->units[SLOPE];
     bool percent = unit == CSV_UNIT_OTHER;
-    double hi = percent ? 100 * tan(SLOPE_MOST * M_PI / 180) : SLOPE_MOST;
-    if (!ceduo_csv_number(&r->csv, cell, 0, unit ? hi : SLOPE_BARE_MOST, percent ? "%" : _("degrees"), value))
+    double hi = percent ? 100 * tan(SLOPE_MAX * M_PI / 180) : SLOPE_MAX;
+    if (!ceduo_csv_number(&r->csv, cell, 0, unit ? hi : SLOPE_BARE_MAX, percent ? "%" : _("degrees"), value))
         return false;
     if (!unit && *value > SLOPE_BARE) {
         r->answers->asked[SURVEY_SLOPES] = true;
@@ -134,8 +134,8 @@ static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
     size_t i = r->plots_count;
     while (i > 0 && !(ceduo_csv_compare(r->plots[i - 1].name, *name) == 0 && are_same_sites(r->plots[i - 1].sites, sites)))
         i--; /* mostly the last */
-    if (i == 0 && r->plots_count == PLOTS_MOST)
-        return ceduo_csv_complain(&r->csv, *name, _("more than %d plots"), PLOTS_MOST);
+    if (i == 0 && r->plots_count == PLOTS_MAX)
+        return ceduo_csv_complain(&r->csv, *name, _("more than %d plots"), PLOTS_MAX);
     if (i == 0) {
         r->plots[r->plots_count] = (struct survey_plot){
             .name = *name, .line = r->csv.place.line, .values = {[AREA] = NAN, [RADIUS] = NAN, [SLOPE] = NAN, [STOOLS] = NAN}};
@@ -285,15 +285,15 @@ static bool read_dbh(struct survey_reader *r, double *dbh)
     const enum column missing = r->columns[DBH] == CEDUO_CSV_NONE ? CIRCUMFERENCE : DBH;
     if (isnan(*dbh))
         return ceduo_csv_complain(csv, fields[missing], _("'%s' is missing: give it in each row"), HEAD(missing));
-    if (*dbh > DBH_MOST && r->units[c] == CSV_UNIT_OTHER)
-        return ceduo_csv_complain(csv, fields[c], _("%g cm: more than %d cm; correct it"), *dbh, DBH_MOST);
-    if (*dbh > DBH_MOST)
+    if (*dbh > DBH_MAX && r->units[c] == CSV_UNIT_OTHER)
+        return ceduo_csv_complain(csv, fields[c], _("%g cm: more than %d cm; correct it"), *dbh, DBH_MAX);
+    if (*dbh > DBH_MAX)
         return ceduo_csv_complain(csv, fields[c],
                                   c == DBH
                                       ? _("%g cm: more than %d cm; is it in mm? Then name the column 'dbh_mm'")
                                       : _("a diameter of %g cm: more than %d cm; is the circumference in mm? Then name the "
                                           "column 'circumference_mm'"),
-                                  *dbh, DBH_MOST);
+                                  *dbh, DBH_MAX);
     *dbh /= 100;
     return true;
 }
@@ -309,7 +309,7 @@ static bool read_sizes(struct survey_reader *r, struct ceduo_survey_stem *stem)
     good = read_number(r, ENERGY, &stem->energy) && good;
     if (!good)
         return false;
-    double lo = stump ? 0 : CEDUO_BREAST_HEIGHT, hi = stump ? STUMP_MOST : ceduo_survey_heads[HEIGHT].hi;
+    double lo = stump ? 0 : CEDUO_BREAST_HEIGHT, hi = stump ? STUMP_MAX : ceduo_survey_heads[HEIGHT].hi;
     if (stem->height <= lo || stem->height > hi)
         return ceduo_csv_complain(
             csv, fields[HEIGHT],
@@ -637,8 +637,8 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
     *r = (struct survey_reader){.arena = arena, .problems = problems, .answers = answers ? answers : &none};
     if (!ceduo_csv_open(&r->csv, arena, path, problems))
         return false;
-    r->plots = ceduo_arena_take(arena, PLOTS_MOST * sizeof *r->plots);
-    double *areas = ceduo_arena_take(arena, PLOTS_MOST * sizeof *areas);
+    r->plots = ceduo_arena_take(arena, PLOTS_MAX * sizeof *r->plots);
+    double *areas = ceduo_arena_take(arena, PLOTS_MAX * sizeof *areas);
     if (!r->plots || !areas || !ceduo_survey_find_columns(&r->csv, r->columns, r->units))
         return false;
     take_answers(r);

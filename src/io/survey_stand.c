@@ -184,8 +184,8 @@ static double stools_of(const struct writer *w)
 /* From these on the standards of a hectare make a coppice with standards, or large reserves if they have this basal area, which is
  * between those of the shipped stands; fewer are the reserves of a simple coppice (assumed). A selection coppice is not recognized:
  * diameters do not tell the ages of shoots. */
-#define STANDARDS_LEAST 90  /* 1/ha */
-#define RESERVES_AREA   9.3 /* m2/ha */
+#define STANDARDS_MIN 90  /* 1/ha */
+#define RESERVES_AREA 9.3 /* m2/ha */
 
 /* Species of the shipped stands, and how the names of their files begin. */
 static const struct {
@@ -212,9 +212,9 @@ static struct standards count_standards(const struct ceduo_survey_answer *a)
 
 static const char *system_of(struct standards standards)
 {
-    return standards.per_ha < STANDARDS_LEAST ? "simple-coppice"
-           : standards.area < RESERVES_AREA   ? "coppice-with-standards"
-                                              : "large-reserves";
+    return standards.per_ha < STANDARDS_MIN ? "simple-coppice"
+           : standards.area < RESERVES_AREA ? "coppice-with-standards"
+                                            : "large-reserves";
 }
 
 /* The stand that comes with the program for this species and system, resolved in the arena; NULL if there is none. Its name goes to
@@ -291,31 +291,31 @@ static void print_future(const struct writer *w)
     print_assumed(w, "cutting", cutting, ceduo_text_string(&what));
 }
 
-/* ---- doubt ---- */
+/* ---- uncertainty ---- */
 
 /* Two numbers of what may be true. */
 static void print_row(const struct writer *w, size_t *n, const char *path, const char *keys[2], double a, double b)
 {
-    ceduo_text_put(w->out, (*n)++ == 0 ? "doubt:\n  - {path: " : "  - {path: ");
+    ceduo_text_put(w->out, (*n)++ == 0 ? "uncertainty:\n  - {path: " : "  - {path: ");
     ceduo_emit_scalar(w->out, path, true);
     ceduo_text_format(w->out, ", %s: %s, %s: %s}\n", keys[0], ROUNDED(a), keys[1], ROUNDED(b));
 }
 
 /* A mean and its standard error. */
-static void print_doubt(const struct writer *w, size_t *n, const char *path, const struct ceduo_estimate *e, double mean)
+static void print_uncertainty(const struct writer *w, size_t *n, const char *path, const struct ceduo_estimate *e, double mean)
 {
     if (e->se > 0)
         print_row(w, n, path, (const char *[]){"mean", "sd"}, mean, e->se);
 }
 
-static void print_doubts(const struct writer *w)
+static void print_uncertainties(const struct writer *w)
 {
     const struct ceduo_survey_answer *a = w->answer;
     size_t n = 0, at[2] = {0};
-    print_doubt(w, &n, "stools.per_ha", &a->stools, stools_of(w));
-    print_doubt(w, &n, "stools.spacing_m", &a->spacing, a->spacing.mean);
+    print_uncertainty(w, &n, "stools.per_ha", &a->stools, stools_of(w));
+    print_uncertainty(w, &n, "stools.spacing_m", &a->spacing, a->spacing.mean);
     if (w->stumps)
-        print_doubt(w, &n, "stumps.per_ha", &a->per_ha[CEDUO_SURVEY_STUMP], a->per_ha[CEDUO_SURVEY_STUMP].mean);
+        print_uncertainty(w, &n, "stumps.per_ha", &a->per_ha[CEDUO_SURVEY_STUMP], a->per_ha[CEDUO_SURVEY_STUMP].mean);
     for (size_t i = 0; i < a->classes_count; i++) {
         char path[64];
         const struct ceduo_survey_class *c = &a->classes[i];
@@ -324,11 +324,11 @@ static void print_doubts(const struct writer *w)
         bool tree = is_tree(c->kind);
         const char *list = tree ? "trees" : "shoots";
         snprintf(path, sizeof path, "%s[%zu].per_ha", list, at[tree]++);
-        print_doubt(w, &n, path, &c->per_ha, c->per_ha.mean);
+        print_uncertainty(w, &n, path, &c->per_ha, c->per_ha.mean);
         if ((tree ? a->trees : a->shoots).from < CEDUO_HEIGHTS_SHOOTS)
             continue;
         bool given = is_given_volume(w, c); /* otherwise the volume follows from the height */
-        double size = given ? c->volume : c->height, range = CEDUO_SURVEY_HEIGHT_DOUBT * size;
+        double size = given ? c->volume : c->height, range = CEDUO_SURVEY_HEIGHT_UNCERTAINTY * size;
         snprintf(path, sizeof path, "%s[%zu].%s", list, at[tree] - 1, given ? "volume_m3" : "height_m");
         print_row(w, &n, path, (const char *[]){"lo", "hi"}, size - range, size + range);
     }
@@ -373,7 +373,7 @@ static void print_stand(const struct writer *w)
         print_future(w);
     ceduo_text_format(&what, _("survey of %zu plots, %.0f m2 of the map"), w->file->survey.plots_count, w->area);
     print_source(w->out, false, ceduo_text_string(&what), "\n");
-    print_doubts(w);
+    print_uncertainties(w);
 }
 
 /* A density that no stand may have comes of a wrong area. A curve that still rises steeply where the measured heights end goes to

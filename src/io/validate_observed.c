@@ -90,15 +90,16 @@ static const struct node *list_kinds(struct arena *arena, const struct node *kin
 
 void ceduo_arrange_observed(struct validator *v)
 {
-    const struct node *doubt = ceduo_node_get(v->root, "doubt"), *rows = ceduo_node_get(doubt, "rows"), *root = v->root;
-    v->draws = ceduo_node_get(doubt, "draws");
-    if (v->draws) { /* doubt: {draws: FILE, rows: […]}: the rows are the list that may stand there alone */
-        for (size_t i = 0; i < doubt->n; i++)
-            if (strcmp(doubt->items[i]->key, "draws") != 0 && strcmp(doubt->items[i]->key, "rows") != 0)
-                ceduo_problem_at(v->problems, ceduo_node_place(doubt->items[i], "doubt"),
+    const struct node *uncertainty = ceduo_node_get(v->root, "uncertainty"), *rows = ceduo_node_get(uncertainty, "rows"),
+                      *root = v->root;
+    v->draws = ceduo_node_get(uncertainty, "draws");
+    if (v->draws) { /* uncertainty: {draws: FILE, rows: […]}: the rows are the list that may stand there alone */
+        for (size_t i = 0; i < uncertainty->n; i++)
+            if (strcmp(uncertainty->items[i]->key, "draws") != 0 && strcmp(uncertainty->items[i]->key, "rows") != 0)
+                ceduo_problem_at(v->problems, ceduo_node_place(uncertainty->items[i], "uncertainty"),
                                  _("unknown key; known here: draws, rows"));
-        root = ceduo_node_without(v->arena, root, "doubt");
-        root = rows ? ceduo_node_with(v->arena, root, "doubt", rows) : root;
+        root = ceduo_node_without(v->arena, root, "uncertainty");
+        root = rows ? ceduo_node_with(v->arena, root, "uncertainty", rows) : root;
     }
     const struct node *all = ceduo_node_get(root, "observed");
     const struct node *list = all && all->kind == NODE_MAP ? list_kinds(v->arena, all) : all;

@@ -95,9 +95,9 @@ void ceduo_understand(struct validator *v, const char *path, const char *line)
 
 bool ceduo_is_too_long(struct validator *v, const char *path, size_t n)
 {
-    if (n > CEDUO_ITEMS_MOST)
-        ceduo_complain(v, path, "", _("%zu items; at most %d can be computed"), n, CEDUO_ITEMS_MOST);
-    return n > CEDUO_ITEMS_MOST;
+    if (n > CEDUO_ITEMS_MAX)
+        ceduo_complain(v, path, "", _("%zu items; at most %d can be computed"), n, CEDUO_ITEMS_MAX);
+    return n > CEDUO_ITEMS_MAX;
 }
 
 void ceduo_check_name(struct validator *v, const char *list, size_t i, const char *name, const char *other)
@@ -155,7 +155,7 @@ bool ceduo_validate(struct validator *v)
     ceduo_arrange_observed(v);
     const struct binding to = {v->arena, v->problems, v->unusual, v->notes, &v->bad, ceduo_validate_end, v};
     ceduo_bind(&to, ceduo_schema_scene(), v->root, &v->draft);
-    if (v->bad.n > CEDUO_BAD_MOST || v->arena->failed)
+    if (v->bad.n > CEDUO_BAD_MAX || v->arena->failed)
         return false;
     ceduo_validate_rock(v, "rock", &scene->rock);
     ceduo_validate_blocks(v);
@@ -173,7 +173,7 @@ bool ceduo_validate(struct validator *v)
                                   scene->simulation.contact_dbh * 100));
     check_rules(v, "standards", scene->rules.standards, scene->rules.standards_count);
     check_rules(v, "turns", scene->rules.turns, scene->rules.turns_count);
-    ceduo_validate_doubt(v);
+    ceduo_validate_uncertainty(v);
     if (v->problems->met == before && v->bad.n == 0)
         ceduo_validate_ends(v);
     ceduo_validate_observed(v);

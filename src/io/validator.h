@@ -3,9 +3,9 @@
 #define CEDUO_VALIDATOR_H
 
 #include "bind.h"
-#include "ceduo/doubt.h"
 #include "ceduo/observe.h"
 #include "ceduo/slope.h"
+#include "ceduo/uncertainty.h"
 
 /* A scene that is being checked, and what every check needs: each subject has a file of its own, validate_*.c. */
 
@@ -24,7 +24,7 @@ struct validator {
     double origin;        /* the slope's first x, which is taken off every x */
     size_t inputs_room, rows_room;
     const char **rows;        /* of each input where it is written; NULL: in a table of draws */
-    const struct node *draws; /* of doubt: a table of values that a calibration left open; NULL: none */
+    const struct node *draws; /* of uncertainty: a table of values that a calibration left open; NULL: none */
 };
 
 /* Makes a scene of the values in its files, and checks it: places become relative to the slope's first vertex, materials
@@ -42,8 +42,8 @@ double ceduo_validate_end(void *validator);     /* the last x of the profile, be
 void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_release *release);
 void ceduo_validate_controls(struct validator *v);
 void ceduo_validate_options(struct validator *v);
-void ceduo_validate_doubt(struct validator *v);
-void ceduo_validate_ends(struct validator *v); /* requires a scene and rows of doubt that are good */
+void ceduo_validate_uncertainty(struct validator *v);
+void ceduo_validate_ends(struct validator *v); /* requires a scene and rows of uncertainty that are good */
 void ceduo_validate_observed(struct validator *v);
 
 /* What was observed may be written in several forms: brings them into the one that the table of keys has. */

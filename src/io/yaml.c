@@ -11,10 +11,10 @@
 #include "base/utf8.h"
 #include "node.h"
 
-#define DEPTH_MOST  16
-#define KEYS_MOST   64     /* of one mapping: several times what any has */
-#define VALUES_MOST 250000 /* of one file: 80000 vertices. Each takes some 160 bytes, whatever it says. */
-#define TEXT_MOST   65536  /* bytes of one value */
+#define DEPTH_MAX  16
+#define KEYS_MAX   64     /* of one mapping: several times what any has */
+#define VALUES_MAX 250000 /* of one file: 80000 vertices. Each takes some 160 bytes, whatever it says. */
+#define TEXT_MAX   65536  /* bytes of one value */
 
 /* An escape of two halves that became one of fewer characters: from this column of its line on, as libyaml counts, all stands
  * JOINED_SHORTER columns further in the file. */
@@ -148,8 +148,8 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
     size_t length = event->data.scalar.length;
     if (memchr(value, '\0', length))
         return STOP(r, event->start_mark, _("a control character (\\x%02x); remove it"), 0u);
-    if (length > TEXT_MOST)
-        return STOP(r, event->start_mark, _("a value of more than %d bytes; look for a missing quote"), TEXT_MOST);
+    if (length > TEXT_MAX)
+        return STOP(r, event->start_mark, _("a value of more than %d bytes; look for a missing quote"), TEXT_MAX);
     note_end(r, node, event);
     node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
     node->text = ceduo_arena_copy(r->arena, value, length);
@@ -165,8 +165,8 @@ static struct node *read_entry(struct reader *r, const yaml_event_t *event, cons
     yaml_event_t value;
     if (event->type != YAML_SCALAR_EVENT || strlen(key) != event->data.scalar.length)
         return STOP(r, event->start_mark, _("a key must be a plain word"));
-    if (map->n >= KEYS_MOST)
-        return STOP(r, event->start_mark, _("more than %d keys in one mapping"), KEYS_MOST);
+    if (map->n >= KEYS_MAX)
+        return STOP(r, event->start_mark, _("more than %d keys in one mapping"), KEYS_MAX);
     for (size_t i = 0; i < map->n; i++)
         if (strcmp(map->items[i]->key, key) == 0) {
             ceduo_problem(r->problems, r->source, line_of(event->start_mark), column_of(r, event->start_mark),
@@ -218,10 +218,10 @@ static struct node *read_entries(struct reader *r, const yaml_event_t *start, in
 
 static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth)
 {
-    if (depth >= DEPTH_MOST)
-        return STOP(r, event->start_mark, _("more than %d levels deep"), DEPTH_MOST);
-    if (++r->values > VALUES_MOST)
-        return STOP(r, event->start_mark, _("more than %d values in one file; write a long profile as CSV"), VALUES_MOST);
+    if (depth >= DEPTH_MAX)
+        return STOP(r, event->start_mark, _("more than %d levels deep"), DEPTH_MAX);
+    if (++r->values > VALUES_MAX)
+        return STOP(r, event->start_mark, _("more than %d values in one file; write a long profile as CSV"), VALUES_MAX);
     if (event->type == YAML_ALIAS_EVENT || event->data.scalar.anchor || event->data.scalar.tag) /* as all values begin */
         return STOP(r, event->start_mark, _("an alias, an anchor or a tag; write the value out without it"));
     return event->type == YAML_SCALAR_EVENT ? read_scalar(r, event) : read_entries(r, event, depth + 1);

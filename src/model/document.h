@@ -87,7 +87,7 @@ bool ceduo_document_duplicate(struct document *document, const char *list, size_
 bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const struct changes *changes,
                                 struct problems *problems);
 
-/* Another name for an option; what was seen through its forest and the doubts about it go along. */
+/* Another name for an option; what was seen through its forest and the uncertainties about it go along. */
 bool ceduo_document_rename_option(struct document *document, size_t index, const char *name, struct problems *problems);
 
 /* As ceduo_document_set(), but removes what would then be given twice: a size or the mass of the rock, a roughness, a number of

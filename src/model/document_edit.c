@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Edits. Each makes a changed tree, which shares all nodes but those on the path to the change, and commits it as a new state.
- * Rows of `doubt` name values by their paths: they follow a value that moves. */
+ * Rows of `uncertainty` name values by their paths: they follow a value that moves. */
 #include "document.h"
 
 #include <math.h>
@@ -52,14 +52,14 @@ static void put(struct edit *e, const char *path, const struct node *value)
     e->root = good ? ceduo_resolve_set(e->arena, e->root, source, source->length, value, e->problems) : NULL;
 }
 
-/* ---- rows of doubt ---- */
+/* ---- rows of uncertainty ---- */
 
 /* What becomes of the path of a row: itself, another in its place, or NULL: the row goes. */
 typedef const char *path_change(struct arena *arena, const char *path, const void *context);
 
 static const struct node *with_paths(struct arena *arena, const struct node *root, path_change *change, const void *context)
 {
-    const struct node *rows = ceduo_node_get(root, "doubt"), *now = rows;
+    const struct node *rows = ceduo_node_get(root, "uncertainty"), *now = rows;
     if (!rows || rows->kind != NODE_LIST)
         return root;
     for (size_t i = rows->n; i-- > 0;) {
@@ -73,7 +73,7 @@ static const struct node *with_paths(struct arena *arena, const struct node *roo
     }
     if (now == rows)
         return root;
-    return now->n == 0 ? ceduo_node_without(arena, root, "doubt") : ceduo_node_with(arena, root, "doubt", now);
+    return now->n == 0 ? ceduo_node_without(arena, root, "uncertainty") : ceduo_node_with(arena, root, "uncertainty", now);
 }
 
 /* What became of an item of a list: inserted before `from` (by 1), removed (by -1), or moved to `to` (by 0). */
@@ -104,7 +104,7 @@ static const char *shift_path(struct arena *arena, const char *path, const void 
 
 /* Rows about the items of a list follow them: rows of the scene, and of the stand that the list is in. A stand without rows
  * says so, because the file that it starts from may have some. */
-static void shift_doubts(struct edit *e, const char *list, size_t from, size_t to, int by)
+static void shift_uncertainties(struct edit *e, const char *list, size_t from, size_t to, int by)
 {
     const char *within = strstr(list, ".stand.");
     if (!e->root)
@@ -117,8 +117,8 @@ static void shift_doubts(struct edit *e, const char *list, size_t from, size_t t
     const struct node *now = with_paths(e->arena, stand, shift_path, &(struct shift){within + strlen(".stand."), from, to, by});
     if (now == stand)
         return;
-    if (!ceduo_node_get(now, "doubt"))
-        now = ceduo_node_with(e->arena, now, "doubt", ceduo_node_scalar(e->arena, stand->source, "none", false));
+    if (!ceduo_node_get(now, "uncertainty"))
+        now = ceduo_node_with(e->arena, now, "uncertainty", ceduo_node_scalar(e->arena, stand->source, "none", false));
     ceduo_node_keep_written(now, stand);
     put(e, path, now);
 }
@@ -153,7 +153,7 @@ static void take_out(struct edit *e, const char **path)
         less = ceduo_node_without(e->arena, holder, ceduo_arena_copy(e->arena, last, strcspn(last, "]")));
     if (list && less && less->n == 0 && strcmp(parent, "options") != 0) {
         *path = parent;
-        shift_doubts(e, parent, index, 0, -1);
+        shift_uncertainties(e, parent, index, 0, -1);
         take_out(e, path);
         return;
     }
@@ -164,7 +164,7 @@ static void take_out(struct edit *e, const char **path)
     else
         e->root = less;
     if (list)
-        shift_doubts(e, parent, index, 0, -1);
+        shift_uncertainties(e, parent, index, 0, -1);
 }
 
 /* Puts an item into a list, which is made where there is none. */
@@ -178,7 +178,7 @@ static void put_item(struct edit *e, const char *list, size_t index, const struc
     }
     index = index > holder->n ? holder->n : index;
     put(e, list, ceduo_node_inserted(e->arena, holder, index, ceduo_node_renamed(e->arena, item, NULL)));
-    shift_doubts(e, list, index, 0, 1);
+    shift_uncertainties(e, list, index, 0, 1);
 }
 
 /* Makes changes whose paths begin with `prefix`. */
@@ -277,7 +277,7 @@ bool ceduo_document_move(struct document *d, const char *list, size_t from, size
         return true;
     const struct node *less = ceduo_node_removed(e.arena, holder, from);
     put(&e, list, ceduo_node_inserted(e.arena, less, to, holder->items[from]));
-    shift_doubts(&e, list, from, to, 0);
+    shift_uncertainties(&e, list, from, to, 0);
     return commit(&e, list);
 }
 

@@ -25,7 +25,7 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
         strcmp(field->key, "mu") == 0) /* it acts through the shape of the rock: only rocks of two shapes determine it */
         there = ceduo_calibration_tells_mu(&scene, 1);
     ceduo_arena_free(&own.arena);
-    if (!there || to->n == CEDUO_CALIBRATION_MOST || strlen(path) >= FIT_PATH_ROOM || !(lo < hi))
+    if (!there || to->n == CEDUO_CALIBRATION_MAX || strlen(path) >= FIT_PATH_ROOM || !(lo < hi))
         return;
     struct fit_value *value = &to->values[to->n++];
     *value = (struct fit_value){.lo = lo, .hi = hi};
@@ -165,27 +165,27 @@ static void put_number(struct text *t, const char *before, double value)
     ceduo_text_format(t, "%s%s", before, NUMERAL(value));
 }
 
-/* True for a row of doubt about ground or points that the written scene no longer has. */
+/* True for a row of uncertainty about ground or points that the written scene no longer has. */
 static bool is_of_library(const struct node *row)
 {
     const char *path = ceduo_node_text(row, "path");
     return path && (strcmp(path, "slope.tolerance_m") == 0 || strncmp(path, "slope.materials[", 16) == 0);
 }
 
-/* Rows of doubt, NULL if there is no list; `list`: its path. */
-static const struct node *doubt_rows(const struct document *d, const char **list)
+/* Rows of uncertainty, NULL if there is no list; `list`: its path. */
+static const struct node *uncertainty_rows(const struct document *d, const char **list)
 {
-    const struct node *doubt = ceduo_node_get(d->file.root, "doubt");
-    bool map = doubt && doubt->kind == NODE_MAP;
-    const struct node *rows = map ? ceduo_node_get(doubt, "rows") : doubt;
-    *list = map ? "doubt.rows" : "doubt";
+    const struct node *uncertainty = ceduo_node_get(d->file.root, "uncertainty");
+    bool map = uncertainty && uncertainty->kind == NODE_MAP;
+    const struct node *rows = map ? ceduo_node_get(uncertainty, "rows") : uncertainty;
+    *list = map ? "uncertainty.rows" : "uncertainty";
     return rows && rows->kind == NODE_LIST ? rows : NULL;
 }
 
 static void add_ground(struct changes *c, const struct document *d)
 {
     const char *list;
-    const struct node *rows = doubt_rows(d, &list);
+    const struct node *rows = uncertainty_rows(d, &list);
     for (size_t i = rows ? rows->n : 0; i-- > 0;)
         if (is_of_library(rows->items[i]))
             ceduo_changes_add(c, CHANGE_DELETE, ceduo_arena_format(&c->document->file.arena, "%s[%zu]", list, i), NULL);
@@ -235,7 +235,7 @@ static void add_source(struct changes *c, const char *place, const char *source)
     ceduo_changes_add(c, CHANGE_SET, path, t.bytes);
 }
 
-/* Whether a row of doubt is about a fitted value. */
+/* Whether a row of uncertainty is about a fitted value. */
 static bool is_fitted(const struct document *d, const struct fit_values *fit, const struct node *row)
 {
     const char *path = ceduo_node_text(row, "path");
@@ -246,11 +246,11 @@ static bool is_fitted(const struct document *d, const struct fit_values *fit, co
     return false;
 }
 
-/* The table of draws beside the rows of doubt that there are; what they say of fitted values no longer holds. */
+/* The table of draws beside the rows of uncertainty that there are; what they say of fitted values no longer holds. */
 static void add_draws(struct changes *c, const struct document *d, const struct fit_values *fit, bool of_library)
 {
     const char *list;
-    const struct node *rows = doubt_rows(d, &list);
+    const struct node *rows = uncertainty_rows(d, &list);
     LOCAL_TEXT(t);
     bool some = false;
     ceduo_text_put(&t, "{draws: ");
@@ -263,7 +263,7 @@ static void add_draws(struct changes *c, const struct document *d, const struct 
         some = true;
     }
     ceduo_text_put(&t, some ? "]}" : "}");
-    ceduo_changes_add(c, CHANGE_SET, "doubt", t.bytes);
+    ceduo_changes_add(c, CHANGE_SET, "uncertainty", t.bytes);
 }
 
 bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct problems *problems)

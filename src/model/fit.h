@@ -15,14 +15,14 @@ struct fit_request {
     struct fit_value {
         char path[FIT_PATH_ROOM];
         double lo, hi; /* in the unit of the file */
-    } values[CEDUO_CALIBRATION_MOST];
+    } values[CEDUO_CALIBRATION_MAX];
     uint64_t rocks; /* of each evaluation */
 };
 
 /* Values that the observations do not hold, by a short first fit: a fit without them is quicker and as informative. */
 struct fit_loose {
     size_t n;
-    bool loose[CEDUO_CALIBRATION_MOST]; /* of the request */
+    bool loose[CEDUO_CALIBRATION_MAX]; /* of the request */
 };
 
 struct fit {
@@ -31,7 +31,7 @@ struct fit {
     bool done;                            /* false: under way, and has come so far: */
     struct ceduo_calibration_state state; /* nothing below is known yet */
     struct scene_file file;               /* as it was; its nodes are the document's */
-    struct ceduo_input inputs[CEDUO_CALIBRATION_MOST];
+    struct ceduo_input inputs[CEDUO_CALIBRATION_MAX];
     struct ceduo_calibration answer;
 };
 
@@ -47,7 +47,7 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
                                  const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *fit);
 void ceduo_fit_free(void *fit);
 
-/* What was fitted goes into a document: the best values, where they come from, and the draws as its doubt. */
+/* What was fitted goes into a document: the best values, where they come from, and the draws as its uncertainty. */
 struct fit_values {
     const struct ceduo_calibration *answer;
     const struct ceduo_input *inputs; /* places in the document's scene; those without are left out */

@@ -87,7 +87,7 @@ static void free_uncertainty(void *result)
 {
     struct uncertainty *u = result;
     if (u->answer.figures)
-        ceduo_doubt_free(&u->answer);
+        ceduo_uncertainty_free(&u->answer);
     ceduo_arena_free(&u->file.arena);
     free(u);
 }
@@ -235,7 +235,7 @@ static enum ceduo_status step_years(struct jobs *q, struct job *job, void **resu
 const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
 {
     if (scene->simulation.contact_model == CEDUO_INDEX)
-        return N_("not computed: by the index years have no doubt");
+        return N_("not computed: years by the index have no uncertainty");
     return ceduo_window_in(scene).kind == CEDUO_WINDOW_ALIKE ? N_("not computed: all years are alike") : NULL;
 }
 
@@ -269,28 +269,28 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
         u->level = UNCERTAINTY_LEVELS - 1;
     u->last = u->inputs.n == 0 || u->level + 1 == UNCERTAINTY_LEVELS;
     job->level = u->last ? LEVELS_MAX : u->level;
-    struct ceduo_doubt_def def = {.scene = scene,
-                                  .inputs_count = u->inputs.n,
-                                  .inputs = u->inputs.items,
-                                  .points = CEDUO_DOUBT_POINTS,
-                                  .rocks = CEDUO_DOUBT_ROCKS,
-                                  .brief = true,
-                                  .rotation = !ceduo_uncertainty_no_rotation(scene),
-                                  .option = job->option,
-                                  .threads = q->threads,
-                                  .cancel = &q->cancel,
-                                  .progress = note_progress,
-                                  .context = q};
+    struct ceduo_uncertainty_def def = {.scene = scene,
+                                        .inputs_count = u->inputs.n,
+                                        .inputs = u->inputs.items,
+                                        .points = CEDUO_UNCERTAINTY_POINTS,
+                                        .rocks = CEDUO_UNCERTAINTY_ROCKS,
+                                        .brief = true,
+                                        .rotation = !ceduo_uncertainty_no_rotation(scene),
+                                        .option = job->option,
+                                        .threads = q->threads,
+                                        .cancel = &q->cancel,
+                                        .progress = note_progress,
+                                        .context = q};
     if (u->inputs.n == 0)
         return CEDUO_OK;
     enum ceduo_status status = ceduo_effort_bound(&def, NULL); /* of all levels the same, so that nothing moves */
     if (status != CEDUO_OK)
         return status;
     if (def.points == 0) /* a screen waits for nobody */
-        def.points = def.points_max = CEDUO_DOUBT_LEAST;
+        def.points = def.points_max = CEDUO_UNCERTAINTY_MIN;
     def.effort_max = 0;
     def.alone = u->level == 0;
-    return ceduo_doubt_ask(&def, &u->answer);
+    return ceduo_uncertainty_ask(&def, &u->answer);
 }
 
 static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void **result)
@@ -433,7 +433,7 @@ struct jobs *ceduo_jobs_create(unsigned threads)
     q->threads = threads;
     q->working = JOB_KINDS;
     const char *rocks = getenv("CEDUO_ROCKS");
-    if (!rocks || ceduo_count_read(rocks, 1, CEDUO_ROCKS_MOST, &q->rocks_max) != CEDUO_NUMBER_GOOD)
+    if (!rocks || ceduo_count_read(rocks, 1, CEDUO_ROCKS_MAX, &q->rocks_max) != CEDUO_NUMBER_GOOD)
         q->rocks_max = 0;
     q->runs = ceduo_runs_create(threads, &q->cancel);
     q->pipe[0] = -1;

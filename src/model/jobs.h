@@ -3,7 +3,7 @@
 #define CEDUO_JOBS_H
 
 #include "ceduo/calibrate.h"
-#include "ceduo/doubt.h"
+#include "ceduo/uncertainty.h"
 #include "fit.h"
 #include "runs.h"
 #include "search.h"
@@ -77,10 +77,10 @@ struct comparison {
 struct uncertainty {
     struct scene_file file; /* as it was; its nodes are the document's */
     struct scene_inputs inputs;
-    struct ceduo_doubt_answer answer; /* without inputs: empty */
-    size_t level;                     /* that it has come to: of one option alone the first is the second */
-    size_t option;                    /* that level 0 is of */
-    bool last;                        /* there is nothing more */
+    struct ceduo_uncertainty_answer answer; /* without inputs: empty */
+    size_t level;                           /* that it has come to: of one option alone the first is the second */
+    size_t option;                          /* that level 0 is of */
+    bool last;                              /* there is nothing more */
 };
 
 /* Why there is nothing over a rotation, marked for translation; NULL: there is. */

@@ -42,8 +42,8 @@ const struct uncertainty *ceduo_live_uncertainty(const struct live *l, const str
 double ceduo_live_awaits_uncertainty(const struct live *l, const struct scene_file *file, size_t option)
 {
     const struct uncertainty *u = ceduo_live_uncertainty(l, file);
-    if (ceduo_node_text(file->root, "doubt") || (u && (u->inputs.n == 0 || u->level > 0 || u->option == option)))
-        return NAN; /* doubt: none */
+    if (ceduo_node_text(file->root, "uncertainty") || (u && (u->inputs.n == 0 || u->level > 0 || u->option == option)))
+        return NAN; /* uncertainty: none */
     return l->uncertainty;
 }
 

@@ -138,7 +138,7 @@ char *ceduo_recovery_text(const char *path)
 {
     LOCAL_ARENA(arena);
     LOCAL_PROBLEMS(problems);
-    const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MOST, &problems);
+    const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MAX, &problems);
     return source ? ceduo_must(strdup(source->bytes)) : NULL;
 }
 

@@ -114,7 +114,7 @@ enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
     bool precise = is_precise(r->last->bare);
     for (size_t i = 0; i < r->last->options; i++)
         precise = precise && is_precise(r->last->wooded[i]);
-    step->enough = step->rocks * 10 > RUNS_MAX || (step->rocks >= RUNS_LEAST && precise);
+    step->enough = step->rocks * 10 > RUNS_MAX || (step->rocks >= RUNS_MIN && precise);
     return CEDUO_OK;
 }
 

@@ -12,7 +12,7 @@ struct runs;
 #define RUNS_SKETCH    500    /* rocks of the envelopes of the first level */
 #define RUNS_LEVELS    3      /* of each forest; of each year and of the other energy law one less */
 #define RUNS_MAX       102400 /* of each forest */
-#define RUNS_LEAST     10240  /* enough once mean energies are known to RUNS_TOLERANCE (95 %) */
+#define RUNS_MIN       10240  /* enough once mean energies are known to RUNS_TOLERANCE (95 %) */
 #define RUNS_TOLERANCE 0.004
 
 struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel);

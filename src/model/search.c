@@ -12,7 +12,7 @@
 #include "study/inputs.h"
 #include "study/sure.h"
 
-#define SURE_MAX       128  /* values looked at under doubt */
+#define SURE_MAX       128  /* values looked at under uncertainty */
 #define ERROR_STEP     0.05 /* of the range: the first distance over which the slope at the value found is taken */
 #define ERROR_STEPS    3
 #define SURE_TOLERANCE 1e-3 /* of the range: what so few points tell is no finer */
@@ -29,7 +29,7 @@ struct search {
     const struct node *root;   /* of the scene as it was read */
     struct ceduo_pool *pool;   /* runs kept from value to value */
     bool whole;                /* values are whole numbers */
-    size_t known_count;        /* what was asked under doubt */
+    size_t known_count;        /* what was asked under uncertainty */
     struct known_sure {
         double value;
         struct sure_answer answer;
@@ -85,7 +85,7 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     return status;
 }
 
-/* ---- one value, under doubt ---- */
+/* ---- one value, under uncertainty ---- */
 
 /* An input of the option without the places where the searched value stands; false where nothing is left. */
 static bool leave_input(struct search *s, const struct value *searched, struct ceduo_input *input)
@@ -108,7 +108,7 @@ static bool leave_input(struct search *s, const struct value *searched, struct c
     return n > 0 && asked && ceduo_input_is_of(input, s->def.option);
 }
 
-/* What is known under doubt of the scene at a value; it is asked once. */
+/* What is known under uncertainty of the scene at a value; it is asked once. */
 static enum ceduo_status ask_once(struct search *s, double value, struct sure_answer *answer)
 {
     struct scene_inputs inputs;
@@ -193,8 +193,8 @@ static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_d
     struct sure_answer answer;
     struct ceduo_found *to = &s->answer->sure.found;
     s->answer->sure = (struct ceduo_sure){.sure = s->def.sure,
-                                          .points = CEDUO_DOUBT_POINTS,
-                                          .rocks = s->def.sure_rocks > 0 ? s->def.sure_rocks : CEDUO_DOUBT_ROCKS,
+                                          .points = CEDUO_UNCERTAINTY_POINTS,
+                                          .rocks = s->def.sure_rocks > 0 ? s->def.sure_rocks : CEDUO_UNCERTAINTY_ROCKS,
                                           .lo = NAN,
                                           .hi = NAN};
     double value = found->found ? found->value : isnan(found->nearest) ? plain->hi : found->nearest;

@@ -7,7 +7,7 @@
 #include "base/utf8.h"
 #include "ceduo/scene.h"
 
-#define FOLDED_MOST 64 /* bytes of a word that are compared */
+#define FOLDED_MAX 64 /* bytes of a word that are compared */
 
 /* One list of words for each X-macro; those of species and materials stand beside their rows. */
 #define WORDS(name, LIST, also)                                                                                                \
@@ -47,7 +47,7 @@ int ceduo_choice_find(const struct choices *choices, const char *word)
     for (size_t i = 0; i < choices->n; i++)
         if (strcmp(choices->names[i], word) == 0)
             return (int)i;
-    char wanted[FOLDED_MOST], other[FOLDED_MOST];
+    char wanted[FOLDED_MAX], other[FOLDED_MAX];
     ceduo_utf8_fold(word, strlen(word), wanted, sizeof wanted);
     for (size_t i = 0; choices->also && i < choices->n; i++)
         for (const char *one = choices->also[i]; *one; one += *one == '|') {
@@ -67,6 +67,7 @@ const char *ceduo_gone(const char *name)
         {"--plain", N_("shares and means are always as counted; leave it out")},
         {"--shard", N_("a scene is computed at once; give each machine scenes of its own, see man ceduo-workflows")},
         {"--merge", N_("results of several scenes are printed together; see man ceduo-workflows")},
+        {"doubt", N_("it is called uncertainty now")},
         {"adc", N_("the page of --details has the ADC of each belt")},
         {"glancing", N_("this key is gone: a hit takes what its law says, however slightly it touches; leave it out")},
         {"green_density_kg_m3", N_("this key is gone with the energy law inertia that it belonged to; leave it out")},

@@ -159,21 +159,22 @@ static const struct field rules_fields[] = {
 };
 static const struct object rules_object = OBJECT(ceduo_regulation, rules_fields, "rules");
 
-/* ---- doubt ---- */
+/* ---- uncertainty ---- */
 
-#define ANY(key, name, member, meaning) NUMBER(key, NAMED(name), AT(doubt, member), "", -1e12, 1e12, NO_RUN, NULL, meaning)
+#define ANY(key, name, member, meaning)                                                                                        \
+    NUMBER(key, NAMED(name), AT(uncertainty_row, member), "", -1e12, 1e12, NO_RUN, NULL, meaning)
 
-static const struct field doubt_fields[] = {
-    TEXT("path", NAMED(N_("value")), AT(doubt, path), REQUIRED | NO_RUN,
+static const struct field uncertainty_fields[] = {
+    TEXT("path", NAMED(N_("value")), AT(uncertainty_row, path), REQUIRED | NO_RUN,
          N_("the value that is not known, as for --set; [*] stands for all items; slope.materials[NAME].KEY for a ground")),
     ANY("lo", N_("lower end"), lo, N_("the least that it may be, in its unit; with hi")),
     ANY("hi", N_("upper end"), hi, N_("the most that it may be; every value between is as likely")),
     ANY("mean", N_("mean"), mean, N_("instead: the mean of a normal distribution; with sd")),
     ANY("sd", N_("standard deviation"), sd, N_("its standard deviation; it is cut at three of them")),
-    OTHER(FIELD_WORDS, "one_of", NAMED(N_("one of")), LIST(doubt, one_of, one_of_count), NO_RUN, NULL,
+    OTHER(FIELD_WORDS, "one_of", NAMED(N_("one of")), LIST(uncertainty_row, one_of, one_of_count), NO_RUN, NULL,
           N_("instead, for a word: those that it may be, each as likely"), NULL, NULL),
 };
-static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
+static const struct object uncertainty_object = OBJECT(uncertainty_row, uncertainty_fields, NULL);
 
 /* ---- stand ---- */
 
@@ -343,7 +344,7 @@ static const struct field stand_fields[] = {
     GROUP("energy", N_("energy"), SAME, 0, &energy_object),
     GROUP("growth", N_("growth"), AT(ceduo_stand, growth), 0, &growth_object),
     GROUP("cutting", N_("cutting"), SAME, 0, &cutting_object),
-    ITEMS("doubt", N_("doubt"), NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED, &doubt_object),
+    ITEMS("uncertainty", N_("uncertainty"), NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED, &uncertainty_object),
 };
 static const struct object stand_object = OBJECT(ceduo_stand, stand_fields, "stands");
 
@@ -387,7 +388,7 @@ static const struct object control_object = OBJECT(ceduo_control, control_fields
 
 static const struct field simulation_fields[] = {
     WORD("law", NAMED(N_("law of impact")), AT(ceduo_simulation, law), 0, "crsp", N_("law of impact"), &ceduo_law_words),
-    NUM(FIELD_COUNT, "rocks", NAMED(N_("rocks (batch)")), AT(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MOST,
+    NUM(FIELD_COUNT, "rocks", NAMED(N_("rocks (batch)")), AT(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MAX,
         NO_RUN | FIELD_SETTLED, "1000", N_("rocks simulated")),
     NUM(FIELD_COUNT, "seed", NAMED(N_("seed")), AT(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, FIELD_SETTLED, "1",
         N_("seed of the random numbers, 0 to 2^53")),
@@ -474,8 +475,8 @@ static const struct field scene_fields[] = {
     GROUP("simulation", N_("simulation"), AT(scene_draft, scene.simulation), 0, &simulation_object),
     NUMBER("rocks_per_year", NAMED(N_("rocks per year")), AT(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, NO_RUN, NULL,
            N_("rocks that come down in a year, to print how many to expect")),
-    ITEMS("doubt", N_("doubt"), LIST(scene_draft, doubts, doubts_count), FIELD_DRAFT | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED,
-          &doubt_object),
+    ITEMS("uncertainty", N_("uncertainty"), LIST(scene_draft, uncertainties, uncertainties_count),
+          FIELD_DRAFT | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED, &uncertainty_object),
     ITEMS("observed", N_("seen"), LIST(scene_draft, observed, observed_count), FIELD_DRAFT | NO_RUN | FIELD_SETTLED,
           &ceduo_observed_object),
     GROUP("design", N_("design values"), AT(scene_draft, scene.design), 0, &design_object),

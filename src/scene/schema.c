@@ -298,13 +298,13 @@ bool ceduo_schema_spread_fits(const struct field *f, struct ceduo_number n)
     return cut || isnan(n.mean) || !(below || highest > f->hi);
 }
 
-#define OTHER_MOST 1e4 /* times the largest number of a file */
+#define OTHER_MAX 1e4 /* times the largest number of a file */
 
 static bool holds_number(const struct field *f, double si)
 {
     bool zero = f->flags & FIELD_ZERO, optional = f->flags & FIELD_ONE_OF || (!zero && !f->value);
     /* made of another key: 10^4 shoots on each of 10^6 stools */
-    bool other = f->flags & FIELD_ONE_OF && si >= f->lo * f->scale && si <= OTHER_MOST * f->hi * f->scale;
+    bool other = f->flags & FIELD_ONE_OF && si >= f->lo * f->scale && si <= OTHER_MAX * f->hi * f->scale;
     return other || (optional && isnan(si)) || ((optional || zero) && si == 0) || ceduo_schema_in_range(f, si / f->scale);
 }
 

@@ -30,7 +30,7 @@ bool ceduo_path_index(const struct path_step *step, size_t *index);
 #define CEDUO_ASKED_FIELDS_MAX 16
 #define CEDUO_ASKED_KINDS_MAX  9
 
-#define CEDUO_ITEMS_MOST 1000 /* controls; options; belts: each is computed and printed by itself */
+#define CEDUO_ITEMS_MAX 1000 /* controls; options; belts: each is computed and printed by itself */
 
 enum field_type {
     FIELD_TAG,     /* the file's kind, such as stand/1 */
@@ -108,7 +108,7 @@ struct material_belt {
 };
 
 /* Uncertainty of a value in a scene: lo and hi, mean and sd, or one_of. */
-struct doubt {
+struct uncertainty_row {
     char *path;
     double lo, hi, mean, sd; /* NaN: not given */
     size_t one_of_count;
@@ -139,11 +139,11 @@ struct observed {
 /* A scene as in its files: struct ceduo_scene, and the values that files may give in another form. */
 struct scene_draft {
     struct ceduo_scene scene;
-    size_t materials_count, controls_m_count, belts_count, doubts_count, observed_count;
+    size_t materials_count, controls_m_count, belts_count, uncertainties_count, observed_count;
     struct material_belt *materials; /* instead of segments */
     double *controls_m;              /* instead of controls */
     struct ceduo_belt *belts;        /* instead of options */
-    struct doubt *doubts;
+    struct uncertainty_row *uncertainties;
     struct observed *observed;
 };
 

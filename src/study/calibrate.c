@@ -28,13 +28,13 @@
 #define SMALL      0.02 /* of the last */
 #define FIRST_STEP 0.3  /* of a chain */
 /* times the guess: its tails are to reach farther than those of the density, or chains get stuck there */
-#define FLATTER     0.7
-#define STEPS_LEAST 250
-#define STEPS_MOST  8000
-#define NEAR_BOUND  0.02 /* of the bounds: a best value there lies at a bound, */
-#define HALF_THERE  0.05 /* or where half of the draws do */
+#define FLATTER    0.7
+#define STEPS_MIN  250
+#define STEPS_MAX  8000
+#define NEAR_BOUND 0.02 /* of the bounds: a best value there lies at a bound, */
+#define HALF_THERE 0.05 /* or where half of the draws do */
 
-#define PARAMETERS CEDUO_CALIBRATION_MOST
+#define PARAMETERS CEDUO_CALIBRATION_MAX
 #define CHAINS     CEDUO_CALIBRATION_CHAINS
 
 /* ---- places ---- */
@@ -251,10 +251,10 @@ static enum ceduo_status run_chains(struct fitting *f, struct chains *chains)
                              .first_step = FIRST_STEP,
                              .seed = f->def->seed,
                              .threads = f->def->threads,
-                             .steps_least = STEPS_LEAST,
-                             .steps_most = f->def->steps_most > 0 ? f->def->steps_most : STEPS_MOST,
-                             .rhat_most = CEDUO_RHAT_MOST,
-                             .effective_least = CEDUO_EFFECTIVE_LEAST,
+                             .steps_least = STEPS_MIN,
+                             .steps_most = f->def->steps_most > 0 ? f->def->steps_most : STEPS_MAX,
+                             .rhat_most = CEDUO_RHAT_MAX,
+                             .effective_least = CEDUO_EFFECTIVE_MIN,
                              .hopeless = f->def->steps_most == 0,
                              .density = density,
                              .guess = guess_at,
@@ -327,7 +327,7 @@ static size_t worse_of_a_pair(const struct ceduo_calibration *a, const bool *loo
     return worse;
 }
 
-size_t ceduo_calibration_loose(const struct ceduo_calibration *a, bool loose[CEDUO_CALIBRATION_MOST])
+size_t ceduo_calibration_loose(const struct ceduo_calibration *a, bool loose[CEDUO_CALIBRATION_MAX])
 {
     size_t most = a->parameters_count - 1, n = 0;
     for (size_t i = 0; i <= most; i++) {

@@ -28,7 +28,7 @@ struct walk {
 struct work {
     const struct chains_def *def;
     struct chains *chains;
-    struct walk walks[CEDUO_CHAINS_MOST];
+    struct walk walks[CEDUO_CHAINS_MAX];
     gsl_matrix *root;               /* lower triangle: of the covariance of steps */
     gsl_matrix *proposals, *trials; /* a row for each chain */
     double factor;                  /* in the root */
@@ -275,7 +275,7 @@ static double variogram(const struct chains *c, size_t i, size_t n, size_t lag)
 void ceduo_chains_diagnose(const struct chains *c, size_t i, double *rhat, double *effective_size)
 {
     size_t n = (c->steps - c->steps / 2) / 2, pieces = 2 * c->chains, stride = c->chains * c->dimensions;
-    double means[2 * CEDUO_CHAINS_MOST], variances[2 * CEDUO_CHAINS_MOST], sum = 0, total = (double)(pieces * n);
+    double means[2 * CEDUO_CHAINS_MAX], variances[2 * CEDUO_CHAINS_MAX], sum = 0, total = (double)(pieces * n);
     for (size_t p = 0; p < pieces; p++) { /* each chain cut in two */
         const double *x = draw_at(c, p / 2, c->steps - (p % 2 + 1) * n) + i;
         means[p] = gsl_stats_mean(x, stride, n);

@@ -15,7 +15,7 @@
  * the density decides where the guess was wrong (delayed acceptance: Liu 2001, 9.4.3; Christen and Fox 2005). The draws of the
  * first half are not read. Bits do not depend on the number of threads. */
 
-#define CEDUO_CHAINS_MOST  8
+#define CEDUO_CHAINS_MAX   8
 #define CEDUO_CHAINS_ROUND 50 /* steps between two looks at all chains */
 
 struct chains_def {

@@ -22,7 +22,7 @@ static bool is_law_good(const struct ceduo_input *in, bool placed)
     case CEDUO_INPUT_NORMAL:
         return finite;
     case CEDUO_INPUT_GAMMA:
-        return finite && in->mean > 0 && in->sd <= CEDUO_GAMMA_MOST * in->mean;
+        return finite && in->mean > 0 && in->sd <= CEDUO_GAMMA_MAX * in->mean;
     case CEDUO_INPUT_WORDS:
         return in->words_count > 0 && (in->words || !placed);
     case CEDUO_INPUT_DRAWS:
@@ -47,7 +47,7 @@ enum ceduo_status ceduo_check_inputs(const struct ceduo_input *inputs, size_t n,
 /* ---- uncertainty ---- */
 
 /* True if an answer computed before is of the same scene, with the years that are asked for. */
-static bool is_own_good(const struct ceduo_doubt_def *def)
+static bool is_own_good(const struct ceduo_uncertainty_def *def)
 {
     const struct ceduo_answer *own = def->own;
     size_t options = def->scene->options_count;
@@ -60,16 +60,16 @@ static bool is_own_good(const struct ceduo_doubt_def *def)
     return good;
 }
 
-enum ceduo_status ceduo_check_doubt_def(const struct ceduo_doubt_def *def)
+enum ceduo_status ceduo_check_uncertainty_def(const struct ceduo_uncertainty_def *def)
 {
     enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
     if (status != CEDUO_OK)
         return status;
     size_t options = def->scene->options_count;
     bool counts = options > 0 && def->scene->controls_count > 0 && def->inputs_count > 0 && def->points >= 2 &&
-                  def->points <= CEDUO_DOUBT_POINTS_MAX && def->points_max <= CEDUO_DOUBT_POINTS_MAX &&
-                  def->years_max <= CEDUO_DOUBT_YEARS_MAX && def->rocks <= CEDUO_ROCKS_MOST &&
-                  def->own_rocks <= CEDUO_ROCKS_MOST && def->threads <= CEDUO_THREADS_MOST;
+                  def->points <= CEDUO_UNCERTAINTY_POINTS_MAX && def->points_max <= CEDUO_UNCERTAINTY_POINTS_MAX &&
+                  def->years_max <= CEDUO_UNCERTAINTY_YEARS_MAX && def->rocks <= CEDUO_ROCKS_MAX &&
+                  def->own_rocks <= CEDUO_ROCKS_MAX && def->threads <= CEDUO_THREADS_MAX;
     bool good = counts && (!def->alone || def->option < options) && is_own_good(def) &&
                 (def->window.step == 0 || ceduo_check_window(def->window) == CEDUO_OK);
     return good ? ceduo_check_inputs(def->inputs, def->inputs_count, true) : CEDUO_BAD_ARGUMENT;
@@ -107,8 +107,8 @@ enum ceduo_status ceduo_check_calibration_def(const struct ceduo_calibration_def
 {
     enum ceduo_status status =
         good_or_not(def->scenes && def->scenes_count > 0 && def->parameters_count > 0 &&
-                    def->parameters_count <= CEDUO_CALIBRATION_MOST && def->rocks > 0 && def->rocks <= CEDUO_ROCKS_MOST &&
-                    def->threads <= CEDUO_THREADS_MOST && def->steps_most <= CEDUO_CALIBRATION_STEPS);
+                    def->parameters_count <= CEDUO_CALIBRATION_MAX && def->rocks > 0 && def->rocks <= CEDUO_ROCKS_MAX &&
+                    def->threads <= CEDUO_THREADS_MAX && def->steps_most <= CEDUO_CALIBRATION_STEPS);
     for (size_t i = 0; status == CEDUO_OK && i < def->scenes_count; i++)
         status = check_fitted_scene(&def->scenes[i], def->parameters_count);
     return status;

@@ -14,14 +14,14 @@
 #define PER_VERTEX  15.      /* of the simplified profile, prepared for a run */
 #define PER_POINT   .7       /* of the profile as filed, simplified for a run */
 #define PER_PASS    .17      /* a rock that rolls past a vertex */
-#define PER_FIT     6e5      /* a figure at CEDUO_DOUBT_POINTS points */
+#define PER_FIT     6e5      /* a figure at CEDUO_UNCERTAINTY_POINTS points */
 #define FITS        3        /* figures of an option today */
 #define FITS_YEARS  2        /* of its rotation, and half of one for each year */
 #define PLANNED     (2. / 3) /* of the bound: later points may meet more than the pilot */
 #define PILOT       8        /* points */
 #define PILOT_YEARS 4        /* a forest just cut has many times the stems */
-#define ROCKS_LEAST 100      /* of a point, if there are more at first */
-#define YEARS_LEAST 8
+#define ROCKS_MIN   100      /* of a point, if there are more at first */
+#define YEARS_MIN   8
 
 double ceduo_effort_of(const struct ceduo_scene *scene, const struct ceduo_work *work)
 {
@@ -32,24 +32,24 @@ double ceduo_effort_of(const struct ceduo_scene *scene, const struct ceduo_work 
 
 /* Runs of a point, and what one rock of each option meets in all of them. */
 struct plan {
-    const struct ceduo_doubt_def *def;
+    const struct ceduo_uncertainty_def *def;
     double met, most;
 };
 
 static double effort_of(const struct plan *plan, double met)
 {
-    const struct ceduo_doubt_def *def = plan->def;
+    const struct ceduo_uncertainty_def *def = plan->def;
     double options = (double)def->scene->options_count, years = def->rotation ? options * (double)ceduo_points_years(def) : 0;
-    double rocks = options * (double)def->rocks + years * CEDUO_DOUBT_YEAR_ROCKS, points = (double)def->points;
+    double rocks = options * (double)def->rocks + years * CEDUO_UNCERTAINTY_YEAR_ROCKS, points = (double)def->points;
     struct ceduo_work work = {.rocks = (uint64_t)(points * rocks), .runs = (uint64_t)(points * (options + years))};
     double fits =
         options * FITS + (def->rotation ? options * FITS_YEARS + years / 2 : 0) + (def->rotation ? 2 : 1) * (options - 1);
     return points * rocks * met / options + ceduo_effort_of(def->scene, &work) +
-           fits * PER_FIT * pow(points / CEDUO_DOUBT_POINTS, 2);
+           fits * PER_FIT * pow(points / CEDUO_UNCERTAINTY_POINTS, 2);
 }
 
 /* Sets the points to as many as can be afforded, at most `points`. */
-static size_t afford(const struct plan *plan, struct ceduo_doubt_def *def, size_t points)
+static size_t afford(const struct plan *plan, struct ceduo_uncertainty_def *def, size_t points)
 {
     def->points = points;
     while (def->points > 0 && effort_of(plan, plan->met) > PLANNED * plan->most)
@@ -59,18 +59,18 @@ static size_t afford(const struct plan *plan, struct ceduo_doubt_def *def, size_
 
 /* Reduces points to a quarter of `points`, then rocks and points alike, then years, then points alone. The error of a range by the
  * rocks, which all points have in common, is the larger one from some 64 points on. False if too few points are left. */
-static bool reduce(const struct plan *plan, struct ceduo_doubt_def *def, size_t points, uint64_t rocks)
+static bool reduce(const struct plan *plan, struct ceduo_uncertainty_def *def, size_t points, uint64_t rocks)
 {
-    uint64_t least = rocks < ROCKS_LEAST ? rocks : ROCKS_LEAST;
+    uint64_t least = rocks < ROCKS_MIN ? rocks : ROCKS_MIN;
     size_t enough = points / 4;
     def->years_max = 0;
     for (def->rocks = rocks; afford(plan, def, points) < enough && def->rocks > least; enough /= 2)
         def->rocks = def->rocks / 2 > least ? def->rocks / 2 : least;
     if (def->points < points / 4 && def->rotation) {
-        def->years_max = YEARS_LEAST;
+        def->years_max = YEARS_MIN;
         afford(plan, def, points);
     }
-    return def->points >= CEDUO_DOUBT_LEAST;
+    return def->points >= CEDUO_UNCERTAINTY_MIN;
 }
 
 static void read_nothing(void *context, const struct point *point, const struct brought *at)
@@ -81,15 +81,16 @@ static void read_nothing(void *context, const struct point *point, const struct 
 }
 
 /* Sets what a rock of each option meets at the points, in the mean. */
-static enum ceduo_status run_pilot(const struct ceduo_doubt_def *def, struct plan *plan)
+static enum ceduo_status run_pilot(const struct ceduo_uncertainty_def *def, struct plan *plan)
 {
-    struct ceduo_doubt_def pilot = *def;
+    struct ceduo_uncertainty_def pilot = *def;
     uint64_t effort = 0;
     double *u = malloc(PILOT * def->inputs_count * sizeof *u + 1);
     pilot.rocks = CEDUO_SURFACE_GROUPS;
     pilot.years_max = PILOT_YEARS;
     pilot.alone = false;
-    double rocks = (double)pilot.rocks + (pilot.rotation ? (double)(ceduo_points_years(&pilot) * CEDUO_DOUBT_YEAR_ROCKS) : 0);
+    double rocks =
+        (double)pilot.rocks + (pilot.rotation ? (double)(ceduo_points_years(&pilot) * CEDUO_UNCERTAINTY_YEAR_ROCKS) : 0);
     pilot.effort_max = (uint64_t)((1 - PLANNED) * plan->most);
     enum ceduo_status status =
         u ? ceduo_surface_points(def->scene->simulation.seed, PILOT, def->inputs_count, u) : CEDUO_NO_MEMORY;
@@ -101,12 +102,12 @@ static enum ceduo_status run_pilot(const struct ceduo_doubt_def *def, struct pla
     return status;
 }
 
-enum ceduo_status ceduo_effort_bound(struct ceduo_doubt_def *def, const struct ceduo_work *own)
+enum ceduo_status ceduo_effort_bound(struct ceduo_uncertainty_def *def, const struct ceduo_work *own)
 {
     size_t points = def->points;
     uint64_t rocks = def->rocks > CEDUO_SURFACE_GROUPS ? def->rocks : CEDUO_SURFACE_GROUPS;
     double own_effort = own ? ceduo_effort_of(def->scene, own) : INFINITY;
-    struct plan plan = {.def = def, .most = fmin(CEDUO_EFFORT_MAX, fmax(CEDUO_EFFORT_LEAST, CEDUO_EFFORT_TIMES * own_effort))};
+    struct plan plan = {.def = def, .most = fmin(CEDUO_EFFORT_MAX, fmax(CEDUO_EFFORT_MIN, CEDUO_EFFORT_TIMES * own_effort))};
     enum ceduo_status status = run_pilot(def, &plan);
     bool too_much = status == CEDUO_CANCELLED && !ceduo_cancelled(def->cancel);
     if (status != CEDUO_OK && !too_much)

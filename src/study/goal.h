@@ -69,13 +69,13 @@ struct ceduo_search {
     bool rotation; /* over one whole rotation, not today: set where the parameter decides about the years alone, or the goal
                           * is of the worst year */
     double sure;   /* in how much of what may be true the goal is to be reached as well, up to 1; 0: it is not asked */
-    uint64_t sure_rocks; /* of each point of that; 0: CEDUO_DOUBT_ROCKS */
+    uint64_t sure_rocks; /* of each point of that; 0: CEDUO_UNCERTAINTY_ROCKS */
 };
 
-/* What a search under doubt came to. */
+/* What a search under uncertainty came to. */
 struct ceduo_sure {
-    double sure;              /* what was asked for; 0: nothing */
-    size_t inputs;            /* what is in doubt of the option, but for the value itself; 0: nothing, nothing was computed */
+    double sure;   /* what was asked for; 0: nothing */
+    size_t inputs; /* what is in uncertainty of the option, but for the value itself; 0: nothing, nothing was computed */
     struct ceduo_found found; /* its goals are those of no one */
     double lo, hi;            /* 95 % interval of the value found, by the points and by the rocks; NaN: not known */
     struct ceduo_share share; /* the share in which it is, at the value found or else comes nearest */

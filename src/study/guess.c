@@ -17,7 +17,7 @@
 #define BLOCK     256  /* places that are reduced at once */
 #define RIDGE     1e-9 /* where the places do not tell all terms, what they do not tell stays 0 */
 #define TERMS(d)  (1 + (d) + (d) * ((d) + 1) / 2)
-#define TERMS_MAX TERMS(CEDUO_CALIBRATION_MOST)
+#define TERMS_MAX TERMS(CEDUO_CALIBRATION_MAX)
 
 struct guess ceduo_guess_begin(size_t d)
 {

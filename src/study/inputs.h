@@ -3,7 +3,7 @@
 #define CEDUO_INPUTS_H
 
 #include "base/arena.h"
-#include "ceduo/doubt.h"
+#include "ceduo/uncertainty.h"
 
 /* A copy of a scene whose inputs can be set again and again. It uses no more memory for that. */
 struct input_place;

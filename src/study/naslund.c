@@ -11,8 +11,8 @@
 
 #include "base/gsl_errors.h"
 
-#define STEPS_MOST 200
-#define EXACT      1e-12
+#define STEPS_MAX 200
+#define EXACT     1e-12
 
 struct pairs {
     size_t n;
@@ -54,7 +54,7 @@ enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *h
     GSL_RETURNS_ERRORS;
     struct pairs pairs = {n, dbh, height};
     double x[2];
-    if (n < CEDUO_NASLUND_LEAST || !(gsl_stats_max(dbh, 1, n) > gsl_stats_min(dbh, 1, n)))
+    if (n < CEDUO_NASLUND_MIN || !(gsl_stats_max(dbh, 1, n) > gsl_stats_min(dbh, 1, n)))
         return CEDUO_NO_FIT;
     if (!begin(&pairs, x))
         return CEDUO_NO_MEMORY;
@@ -66,7 +66,7 @@ enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *h
     gsl_vector_view start = gsl_vector_view_array(x, 2);
     int why;
     gsl_multifit_nlinear_init(&start.vector, &fdf, w);
-    gsl_multifit_nlinear_driver(STEPS_MOST, EXACT, EXACT, 0, NULL, NULL, &why, w);
+    gsl_multifit_nlinear_driver(STEPS_MAX, EXACT, EXACT, 0, NULL, NULL, &why, w);
     curve->a = gsl_vector_get(gsl_multifit_nlinear_position(w), 0);
     curve->b = gsl_vector_get(gsl_multifit_nlinear_position(w), 1);
     double sum = 0;

@@ -35,9 +35,9 @@ struct plan {
     const struct ceduo_observed_row *row;
     size_t setting, control, stretch;
     size_t bounds_count;
-    double bounds[CEDUO_CLASSES_MOST]; /* between classes: a value on a bound is below it */
+    double bounds[CEDUO_CLASSES_MAX]; /* between classes: a value on a bound is below it */
     size_t classes;
-    double counts[CEDUO_CLASSES_MOST];
+    double counts[CEDUO_CLASSES_MAX];
 };
 
 struct ceduo_observer {
@@ -107,7 +107,7 @@ static size_t class_of(const struct plan *p, double value)
 static void make_classes(struct plan *p)
 {
     const struct ceduo_observation *seen = p->seen;
-    size_t n = seen->n, k = n / 5 < CEDUO_CLASSES_MOST - 1 ? n / 5 : CEDUO_CLASSES_MOST - 1;
+    size_t n = seen->n, k = n / 5 < CEDUO_CLASSES_MAX - 1 ? n / 5 : CEDUO_CLASSES_MAX - 1;
     k = k < 2 ? 2 : k;
     for (size_t c = 1; c < k; c++) {
         size_t rank = (c * n + k / 2) / k;
@@ -203,7 +203,7 @@ static enum ceduo_status fly(const struct setting *s, const struct ceduo_scene *
     f->scene.release = s->release ? *s->release : scene->release;
     f->scene.controls_count = s->controls_count;
     f->scene.controls = s->controls;
-    if (s->option >= scene->options_count || rocks == 0 || rocks > CEDUO_ROCKS_MOST)
+    if (s->option >= scene->options_count || rocks == 0 || rocks > CEDUO_ROCKS_MAX)
         return CEDUO_BAD_ARGUMENT;
     const struct ceduo_option *option = &f->scene.options[s->option];
     bool bare = scene->simulation.contact_model == CEDUO_INDEX;

@@ -31,7 +31,7 @@ struct item {
     struct ceduo_years *years; /* of the option at hand */
 };
 
-static struct ceduo_window window_of(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene)
+static struct ceduo_window window_of(const struct ceduo_uncertainty_def *def, const struct ceduo_scene *scene)
 {
     return def->window.step > 0 ? def->window : ceduo_window_in(scene);
 }
@@ -39,7 +39,7 @@ static struct ceduo_window window_of(const struct ceduo_doubt_def *def, const st
 /* The forest of an option in a year. */
 static enum ceduo_status grow(struct item *item, struct point *point)
 {
-    const struct ceduo_doubt_def *def = item->work->points->def;
+    const struct ceduo_uncertainty_def *def = item->work->points->def;
     const struct ceduo_scene *scene = &item->copy->scene;
     size_t years = ceduo_points_years(def), year = point->slot - 1;
     if (year == 0) {
@@ -87,7 +87,7 @@ static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_vari
     variant->run = ceduo_run_def_default(point->scene);
     variant->run.option = point->forest;
     variant->skip = p->def->rocks == 0;
-    variant->rocks = variant->run.rocks_most = point->slot > 0 ? CEDUO_DOUBT_YEAR_ROCKS : p->def->rocks;
+    variant->rocks = variant->run.rocks_most = point->slot > 0 ? CEDUO_UNCERTAINTY_YEAR_ROCKS : p->def->rocks;
     variant->run.arrivals_only = true;
     variant->run.cancel = p->def->cancel;
     if (status == CEDUO_OK && variant->skip)
@@ -138,8 +138,8 @@ static int run_item(void *context, size_t i, size_t thread)
 /* What each row has: of each option today, then their years. False without memory. */
 static bool list_variants(struct work *w)
 {
-    const struct ceduo_doubt_def *def = w->points->def;
-    w->variants = calloc(def->scene->options_count * (1 + CEDUO_DOUBT_YEARS_MAX), sizeof *w->variants);
+    const struct ceduo_uncertainty_def *def = w->points->def;
+    w->variants = calloc(def->scene->options_count * (1 + CEDUO_UNCERTAINTY_YEARS_MAX), sizeof *w->variants);
     for (int later = !w->points->today; w->variants && later < (def->rotation ? 2 : 1); later++) {
         for (size_t i = 0; i < def->scene->options_count; i++) {
             size_t slots = later ? ceduo_points_years(def) : 1;
@@ -171,15 +171,15 @@ enum ceduo_status ceduo_points_run(const struct points *p, size_t from, size_t t
     return status;
 }
 
-size_t ceduo_points_window(const struct ceduo_doubt_def *def)
+size_t ceduo_points_window(const struct ceduo_uncertainty_def *def)
 {
     struct ceduo_window w = window_of(def, def->scene);
     return (w.last - w.first) / w.step + 1;
 }
 
-size_t ceduo_points_years(const struct ceduo_doubt_def *def)
+size_t ceduo_points_years(const struct ceduo_uncertainty_def *def)
 {
-    size_t count = ceduo_points_window(def), max = def->years_max > 0 ? def->years_max : CEDUO_DOUBT_YEARS_MAX;
+    size_t count = ceduo_points_window(def), max = def->years_max > 0 ? def->years_max : CEDUO_UNCERTAINTY_YEARS_MAX;
     return count < max ? count : max;
 }
 

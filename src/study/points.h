@@ -4,8 +4,8 @@
 
 #include <stdatomic.h>
 
-#include "ceduo/doubt.h"
 #include "ceduo/run.h"
+#include "ceduo/uncertainty.h"
 #include "ceduo/years.h"
 
 /* A scene at many points of what may be true: each row of inputs is a scene; of each its options are simulated, today and year
@@ -26,7 +26,7 @@ struct brought {
 struct points {
     /* The scene, its inputs, which options and years are asked for, and how many rocks; 0: none is simulated, and nothing is
      * brought. Slots 1… are there where a rotation is asked for, at most ceduo_points_years() of each option. */
-    const struct ceduo_doubt_def *def;
+    const struct ceduo_uncertainty_def *def;
     const double *u; /* rows of inputs */
     bool today;      /* slot 0 is asked for */
     /* Called by several threads at once, each with points of its own rows: at each control, NULL where no rocks are
@@ -50,8 +50,8 @@ static inline uint64_t ceduo_points_met(uint64_t contacts, struct ceduo_stem_cou
 }
 
 /* Number of years that are simulated at each point, at most def->years_max; and of the whole window. */
-size_t ceduo_points_years(const struct ceduo_doubt_def *def);
-size_t ceduo_points_window(const struct ceduo_doubt_def *def);
+size_t ceduo_points_years(const struct ceduo_uncertainty_def *def);
+size_t ceduo_points_window(const struct ceduo_uncertainty_def *def);
 
 /* Of groups that may differ by a rock. */
 double ceduo_groups_mean(const struct ceduo_groups *groups, uint64_t rocks);

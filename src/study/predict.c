@@ -15,9 +15,9 @@
 #include "fitting.h"
 #include "sequence.h"
 
-#define SAMPLES      20   /* for each draw; not more than CEDUO_SOME_VALUES */
-#define SINGLE_LEAST 400  /* values that tell 95 % of them */
-#define SAMPLES_ONE  2000 /* of a scene as it is */
+#define SAMPLES     20   /* for each draw; not more than CEDUO_SOME_VALUES */
+#define SINGLE_MIN  400  /* values that tell 95 % of them */
+#define SAMPLES_ONE 2000 /* of a scene as it is */
 
 static int look_at_draw(void *context, size_t i, size_t worker)
 {
@@ -61,8 +61,8 @@ static void share_by_gaps(const double *n, size_t classes, gsl_rng *random, doub
 static double sample_list(const struct ceduo_counterpart *c, bool rest, gsl_rng *random)
 {
     size_t lists = c->classes - rest;
-    double seen[CEDUO_CLASSES_MOST], share[CEDUO_CLASSES_MOST], simulated[CEDUO_CLASSES_MOST], rocks = 0, n = 0, have = 1;
-    unsigned count[CEDUO_CLASSES_MOST];
+    double seen[CEDUO_CLASSES_MAX], share[CEDUO_CLASSES_MAX], simulated[CEDUO_CLASSES_MAX], rocks = 0, n = 0, have = 1;
+    unsigned count[CEDUO_CLASSES_MAX];
     for (size_t i = 0; i < c->classes; i++) {
         rocks += c->count[i];
         n += c->seen[i];
@@ -158,7 +158,7 @@ static void read_single(const struct drawn *d, const struct ceduo_observation *o
         for (size_t k = 0; k < c->some_count; k++)
             values[n++] = c->some[k];
     }
-    if (n < SINGLE_LEAST)
+    if (n < SINGLE_MIN)
         return;
     gsl_sort(values, 1, n);
     to->one_lo = ceduo_quantile(values, n, 0.025);
@@ -230,7 +230,7 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
     enum ceduo_status status = ceduo_scene_check(scene->scene, NULL);
     if (status == CEDUO_OK)
         status = ceduo_check_observations(scene->observations, n, scene->scene->options_count);
-    if (status == CEDUO_OK && (rocks == 0 || rocks > CEDUO_ROCKS_MOST || scene->scene->options_count == 0))
+    if (status == CEDUO_OK && (rocks == 0 || rocks > CEDUO_ROCKS_MAX || scene->scene->options_count == 0))
         status = CEDUO_BAD_ARGUMENT;
     if (status != CEDUO_OK)
         return status;

@@ -13,16 +13,16 @@
 
 /* ---- trajectories ---- */
 
-#define LINE_POINTS_MOST   20000 /* of a rock that hops on and on: what comes later is left out */
-#define FLIGHT_POINTS_MOST 64
-#define RESOLUTION         2000 /* parts of the slope's length that a picture may show */
+#define LINE_POINTS_MAX   20000 /* of a rock that hops on and on: what comes later is left out */
+#define FLIGHT_POINTS_MAX 64
+#define RESOLUTION        2000 /* parts of the slope's length that a picture may show */
 
 /* The line that is followed. */
 struct tracer {
     const atomic_bool *cancel;
     double gravity, step;
     size_t n;
-    double x[LINE_POINTS_MOST + 1], z[LINE_POINTS_MOST + 1]; /* the last is always there */
+    double x[LINE_POINTS_MAX + 1], z[LINE_POINTS_MAX + 1]; /* the last is always there */
 };
 
 static bool is_cancelled(void *context)
@@ -35,7 +35,7 @@ static bool is_cancelled(void *context)
 static void add_point(struct tracer *t, double x, double z, bool always)
 {
     bool near = t->n > 0 && fabs(x - t->x[t->n - 1]) < t->step && fabs(z - t->z[t->n - 1]) < t->step;
-    if ((near || t->n >= LINE_POINTS_MOST) && !always)
+    if ((near || t->n >= LINE_POINTS_MAX) && !always)
         return;
     t->x[t->n] = x;
     t->z[t->n++] = z;
@@ -48,7 +48,7 @@ static void trace_piece(void *context, const struct ceduo_piece *p)
     if (t->n == 0)
         add_point(t, p->x, p->z, true);
     double sag = t->gravity * p->seconds * p->seconds / 8;
-    int n = p->rolls ? 1 : (int)fmin(ceil(sqrt(sag / t->step)), FLIGHT_POINTS_MOST);
+    int n = p->rolls ? 1 : (int)fmin(ceil(sqrt(sag / t->step)), FLIGHT_POINTS_MAX);
     for (int i = 1; i < n; i++) {
         double s = p->seconds * i / n;
         add_point(t, p->x + p->vx * s, p->z + (p->vz - 0.5 * t->gravity * s) * s, false);

@@ -174,7 +174,7 @@ static enum ceduo_status read_surface(const struct sure_def *def, struct ceduo_s
 enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer *answer)
 {
     GSL_RETURNS_ERRORS;
-    struct ceduo_doubt_def of = def->of;
+    struct ceduo_uncertainty_def of = def->of;
     const struct ceduo_scene *scene = of.scene;
     size_t points = of.inputs_count > 0 ? of.points : 1, n = of.inputs_count;
     struct sure s = {.def = def, .slots = 1};

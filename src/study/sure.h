@@ -2,14 +2,14 @@
 #ifndef CEDUO_SURE_H
 #define CEDUO_SURE_H
 
-#include "ceduo/doubt.h"
+#include "ceduo/uncertainty.h"
 #include "goal.h"
 
 /* In how much of what may be true of a scene an option reaches a goal. */
 struct sure_def {
     /* the scene, one option alone, the inputs that it has (ceduo_input_is_of()), points and rocks; over a rotation: not of
      * CEDUO_GOAL_ENERGY. More points are never taken, and progress is not told */
-    struct ceduo_doubt_def of;
+    struct ceduo_uncertainty_def of;
     enum ceduo_goal goal;
     double target; /* a goal up to it is reached; */
     double sure;   /* in so much of what may be true */

@@ -25,8 +25,8 @@
 #include "base/arena.h"
 #include "base/gsl_errors.h"
 #include "base/random.h"
-#include "ceduo/doubt.h"
 #include "ceduo/statistics.h"
+#include "ceduo/uncertainty.h"
 #include "check_study.h"
 
 #define GROUPS      CEDUO_SURFACE_GROUPS
@@ -38,7 +38,7 @@
 #define RIDGES      56  /* that are tried */
 #define SAME        1e-8
 #define SHIFT       UINT64_MAX /* the row of the shifts of Sobol' points */
-#define ENOUGH      CEDUO_DOUBT_EXPLAINED
+#define ENOUGH      CEDUO_UNCERTAINTY_EXPLAINED
 
 /* ---- points ---- */
 

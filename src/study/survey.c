@@ -12,8 +12,8 @@
 #include "base/gsl_errors.h"
 #include "check_study.h"
 
-#define HECTARE      10000
-#define CLASSES_MOST 1000 /* of dbh; thicker stems share the last */
+#define HECTARE     10000
+#define CLASSES_MAX 1000 /* of dbh; thicker stems share the last */
 
 struct surveyor {
     const struct ceduo_survey *survey;
@@ -187,7 +187,7 @@ static double of_stumps(const struct ceduo_survey *survey, size_t offset)
 static size_t class_of(const struct ceduo_survey_stem *stem)
 {
     double k = floor(stem->dbh / CEDUO_SURVEY_CLASS + 1e-9); /* 0.15 m is in the class that begins there */
-    return k < CLASSES_MOST ? (size_t)k : CLASSES_MOST - 1;
+    return k < CLASSES_MAX ? (size_t)k : CLASSES_MAX - 1;
 }
 
 static void add_volume(struct ceduo_survey_class *c, const struct ceduo_survey_stem *stem, double height, int main_one)
@@ -228,18 +228,18 @@ static void fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ce
 static bool make_classes(struct surveyor *s)
 {
     const struct ceduo_survey *survey = s->survey;
-    bool *present = ceduo_arena_take(&s->memory, CEDUO_SURVEY_KINDS_COUNT * CLASSES_MOST * sizeof *present);
+    bool *present = ceduo_arena_take(&s->memory, CEDUO_SURVEY_KINDS_COUNT * CLASSES_MAX * sizeof *present);
     size_t n = 0;
     for (size_t i = 0; present && i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
-        bool *here = &present[(size_t)stem->kind * CLASSES_MOST + class_of(stem)];
+        bool *here = &present[(size_t)stem->kind * CLASSES_MAX + class_of(stem)];
         n += !*here;
         *here = true;
     }
     struct ceduo_survey_class *classes = s->answer->classes = present ? calloc(n + 1, sizeof *classes) : NULL;
-    for (size_t k = 0; classes && k < CEDUO_SURVEY_KINDS_COUNT * CLASSES_MOST; k++)
+    for (size_t k = 0; classes && k < CEDUO_SURVEY_KINDS_COUNT * CLASSES_MAX; k++)
         if (present[k])
-            fill_class(s, &classes[s->answer->classes_count++], (enum ceduo_survey_kind)(k / CLASSES_MOST), k % CLASSES_MOST);
+            fill_class(s, &classes[s->answer->classes_count++], (enum ceduo_survey_kind)(k / CLASSES_MAX), k % CLASSES_MAX);
     return classes;
 }
 

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "base/must.h"
-#include "ceduo/doubt.h"
 #include "ceduo/key.h"
+#include "ceduo/uncertainty.h"
 
 /* Half the interval if rocks have weights, otherwise by the number of rocks. */
 static struct ceduo_portion portion_of(const struct ceduo_arrivals *a, struct ceduo_estimate share)
@@ -154,7 +154,7 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
             c->rotation = ceduo_share_over_years(whole, &s);
         }
     }
-    unsigned end = rotation.last + 1, most = end + CEDUO_PERIOD_MOST;
+    unsigned end = rotation.last + 1, most = end + CEDUO_PERIOD_MAX;
     unsigned last = c->window.last < end ? end : c->window.last < most ? c->window.last : most;
     return ceduo_yield_of(o, last, &c->yield);
 }
@@ -232,14 +232,15 @@ static void find_leader(const struct ceduo_result *r, struct ceduo_years *const 
 /* ---- one option at one control ---- */
 
 /* Today, by the sampling error and the 90 % range of uncertain inputs. */
-static enum ceduo_judgement judge_today(const struct ceduo_result *r, const struct ceduo_doubt_answer *doubt, size_t option,
-                                        size_t control)
+static enum ceduo_judgement judge_today(const struct ceduo_result *r, const struct ceduo_uncertainty_answer *uncertainty,
+                                        size_t option, size_t control)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
     enum ceduo_judgement judgement = ceduo_judge(bare, wooded);
-    if (judgement == CEDUO_NOTHING || judgement == CEDUO_UNANSWERED || !wooded || !doubt || control != r->last_control)
+    if (judgement == CEDUO_NOTHING || judgement == CEDUO_UNANSWERED || !wooded || !uncertainty || control != r->last_control)
         return judgement;
-    const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(doubt, option, CEDUO_DOUBT_EXCEED, false)->fit;
+    const struct ceduo_surface_fit *fit =
+        &ceduo_uncertainty_figure_of(uncertainty, option, CEDUO_UNCERTAINTY_EXCEED, false)->fit;
     double share = wooded->exceed.mean; /* the range holds it */
     return fmin(fit->p5, share) <= wooded->limit && fmax(fit->p95, share) > wooded->limit ? CEDUO_DEPENDS : judgement;
 }
@@ -247,7 +248,7 @@ static enum ceduo_judgement judge_today(const struct ceduo_result *r, const stru
 /* Over the years, by how many are above the limit. */
 static enum ceduo_judgement judge_years(const struct ceduo_years_summary *s, const struct ceduo_outcome *o)
 {
-    if (o->doubted && o->failing_lo < 1 && o->failing_hi >= 1)
+    if (o->uncertain && o->failing_lo < 1 && o->failing_hi >= 1)
         return CEDUO_DEPENDS;
     bool never = s->failing_hi == 0 && o->failing_hi < 1;
     bool some = s->failing_lo > 0 && o->failing_lo >= 1;
@@ -261,7 +262,7 @@ static enum ceduo_judgement judge_rate(const struct ceduo_result *r, const struc
     double limit = 1 / ceduo_accepted_return(&r->scene->controls[control]);
     double per_year = limit / ceduo_exceed_limit(r->scene, &r->scene->controls[control]);
     if (fit && !isnan(fit->p5)) {
-        o->doubted = true;
+        o->uncertain = true;
         o->rate.lo = fmin(o->rate.lo, per_year * fit->p5);
         o->rate.hi = fmax(o->rate.hi, per_year * fit->p95);
         if (per_year * fit->p5 <= limit && per_year * fit->p95 > limit)
@@ -280,36 +281,38 @@ static bool is_impossible(const struct ceduo_result *r, size_t option, size_t co
 }
 
 struct ceduo_outcome ceduo_outcome_of(const struct ceduo_result *r, const struct ceduo_verdict *v,
-                                      const struct ceduo_doubt_answer *doubt, size_t option, size_t control)
+                                      const struct ceduo_uncertainty_answer *uncertainty, size_t option, size_t control)
 {
     const struct ceduo_choice *c = v && option < v->n && v->choices[option].ahead ? &v->choices[option] : NULL;
     const struct ceduo_years_summary *s = c ? &c->ahead[control] : NULL;
     const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control);
     bool blocks = r->scene->blocks_count > 0, last = control == r->last_control;
-    enum ceduo_judgement today = judge_today(r, doubt, option, control);
+    enum ceduo_judgement today = judge_today(r, uncertainty, option, control);
     struct ceduo_outcome o = {.answer = today,
                               .today = today,
                               .ahead = s && s->simulated > 0 && c->window.kind != CEDUO_WINDOW_ALIKE,
                               .also_bare = ceduo_judge(&r->bare.arrivals[control], NULL) == CEDUO_YES,
                               .rate = CEDUO_NO_ESTIMATE};
-    bool years = last && doubt && doubt->rotation;
+    bool years = last && uncertainty && uncertainty->rotation;
     if (today == CEDUO_UNANSWERED || today == CEDUO_NOTHING)
         return o;
     if (o.ahead) {
         const struct ceduo_surface_fit *fit =
-            years ? &ceduo_doubt_figure_of(doubt, option, CEDUO_DOUBT_FAILING, false)->fit : NULL;
-        o.doubted = fit && !isnan(fit->p5);
+            years ? &ceduo_uncertainty_figure_of(uncertainty, option, CEDUO_UNCERTAINTY_FAILING, false)->fit : NULL;
+        o.uncertain = fit && !isnan(fit->p5);
         o.failing = (double)s->unprotected_energy;
-        o.failing_lo = fmin(o.failing, o.doubted ? round(fit->p5) : (double)s->failing_lo);
-        o.failing_hi = fmax(o.failing, o.doubted ? round(fit->p95) : (double)s->failing_hi);
+        o.failing_lo = fmin(o.failing, o.uncertain ? round(fit->p5) : (double)s->failing_lo);
+        o.failing_hi = fmax(o.failing, o.uncertain ? round(fit->p95) : (double)s->failing_hi);
         o.answer = judge_years(s, &o);
     }
     if (blocks && wooded) {
-        enum ceduo_doubt_kind kind = o.ahead ? CEDUO_DOUBT_MEAN : CEDUO_DOUBT_EXCEED;
+        enum ceduo_uncertainty_kind kind = o.ahead ? CEDUO_UNCERTAINTY_MEAN : CEDUO_UNCERTAINTY_EXCEED;
         o.rate = o.ahead ? s->rate : ceduo_hazard_feared(&wooded->hazard);
-        o.answer =
-            judge_rate(r, last && doubt && (years || !o.ahead) ? &ceduo_doubt_figure_of(doubt, option, kind, false)->fit : NULL,
-                       control, &o);
+        o.answer = judge_rate(r,
+                              last && uncertainty && (years || !o.ahead)
+                                  ? &ceduo_uncertainty_figure_of(uncertainty, option, kind, false)->fit
+                                  : NULL,
+                              control, &o);
     }
     o.impossible = o.answer == CEDUO_YES && is_impossible(r, option, control);
     o.answer = o.impossible ? CEDUO_NOTHING : o.answer;

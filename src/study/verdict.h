@@ -84,18 +84,18 @@ struct ceduo_outcome {
     bool impossible; /* a stand has more stems than a forest can hold: it supports no yes */
     double failing, failing_lo,
         failing_hi;             /* years above the limit: 90 % range over uncertain inputs, otherwise of the rocks */
-    bool doubted;               /* the range is of uncertain inputs */
+    bool uncertain;             /* the range is of uncertain inputs */
     struct ceduo_estimate rate; /* with blocks: a year, with both errors; otherwise NaN */
 };
 
-/* Judge an option at a control. `verdict` may be NULL (today alone), and `doubt` NULL (sampling error alone).
+/* Judge an option at a control. `verdict` may be NULL (today alone), and `uncertainty` NULL (sampling error alone).
  *
  * Over the window: yes if no year is above the limit and the upper end of the range is 0, no if the lower end is at least 1,
  * CEDUO_DEPENDS if uncertain inputs leave it open, CEDUO_NOT_DECIDED if only the number of rocks does. With blocks by the mean rate
  * over the window against the accepted return period: yes if its upper end is within it, no if its lower end is above. */
-struct ceduo_doubt_answer;
+struct ceduo_uncertainty_answer;
 struct ceduo_outcome ceduo_outcome_of(const struct ceduo_result *result, const struct ceduo_verdict *verdict,
-                                      const struct ceduo_doubt_answer *doubt, size_t option, size_t control);
+                                      const struct ceduo_uncertainty_answer *uncertainty, size_t option, size_t control);
 
 /* What a result says, and the years of each option as far as they are there: `years`, and each of them, may be NULL; `rotations`
  * likewise. CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */

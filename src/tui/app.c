@@ -104,20 +104,20 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .year = app->year};
 }
 
-bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
+bool ceduo_app_uncertainty(const struct app *app, struct ceduo_uncertainty_report *report)
 {
     const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
     struct uncertainty *own = (struct uncertainty *)(uintptr_t)d; /* its scene is only read */
     if (!d)
         return false;
-    *report = (struct ceduo_doubt_report){.file = &own->file,
-                                          .inputs = &own->inputs,
-                                          .answer = own->inputs.n > 0 ? &own->answer : NULL,
-                                          .points = own->answer.points,
-                                          .rocks = own->answer.rocks,
-                                          .finer = app->live.result,
-                                          .years = &app->live.verdict,
-                                          .over = app->over && app->view == VIEW_DOUBT && own->answer.rotation};
+    *report = (struct ceduo_uncertainty_report){.file = &own->file,
+                                                .inputs = &own->inputs,
+                                                .answer = own->inputs.n > 0 ? &own->answer : NULL,
+                                                .points = own->answer.points,
+                                                .rocks = own->answer.rocks,
+                                                .finer = app->live.result,
+                                                .years = &app->live.verdict,
+                                                .over = app->over && app->view == VIEW_UNCERTAINTY && own->answer.rotation};
     return true;
 }
 
@@ -125,14 +125,14 @@ struct ceduo_report *ceduo_app_report(const struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     struct ceduo_report *report = ceduo_must(ceduo_arena_take(app->scratch, sizeof *report));
-    struct ceduo_doubt_report *doubt = ceduo_must(ceduo_arena_take(app->scratch, sizeof *doubt));
+    struct ceduo_uncertainty_report *uncertainty = ceduo_must(ceduo_arena_take(app->scratch, sizeof *uncertainty));
     struct ceduo_years **years = ceduo_must(ceduo_arena_take(app->scratch, scene->options_count * sizeof *years));
     for (size_t i = 0; i < scene->options_count; i++)
         years[i] = ceduo_live_years(&app->live, scene, i);
     *report = (struct ceduo_report){.file = &app->document.file,
                                     .result = app->live.result,
                                     .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
-                                    .doubt = ceduo_app_doubt(app, doubt) ? doubt : NULL,
+                                    .uncertainty = ceduo_app_uncertainty(app, uncertainty) ? uncertainty : NULL,
                                     .ahead = years,
                                     .snapshot = ceduo_live_snapshot(&app->live, scene),
                                     .remarks = {.ground_assumed = app->document.file.ground_assumed},
@@ -161,8 +161,8 @@ void ceduo_app_refresh(struct app *app)
     if (app->belt >= belts)
         app->belt = belts > 0 ? belts - 1 : 0;
     ceduo_live_follow(&app->live, &app->document.file, app->option);
-    app->doubts |= view->uncertainty;
-    ceduo_live_ask_uncertainty(&app->live, &app->document.file, app->option, app->doubts ? UNCERTAINTY_LEVELS : 0);
+    app->uncertainties |= view->uncertainty;
+    ceduo_live_ask_uncertainty(&app->live, &app->document.file, app->option, app->uncertainties ? UNCERTAINTY_LEVELS : 0);
     ceduo_live_compare(&app->live, &app->document.file,
                        view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
@@ -269,7 +269,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
                       struct problems *problems)
 {
     struct document document;
-    *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
+    *app = (struct app){.charset = charset, .no_recovery = no_recovery, .uncertainties = !no_recovery};
     if (!ceduo_document_open(&document, path ? path : "paper-site", NULL, 0, problems))
         return false;
     app->scratch = ceduo_must(calloc(1, sizeof *app->scratch));

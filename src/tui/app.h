@@ -129,7 +129,7 @@ struct app {
     struct popup *popup;
     bool opened;                         /* a document was just opened: offer unsaved work that was left behind */
     bool no_recovery;                    /* for a script: offer no unsaved work and keep no copy */
-    bool doubts;                         /* compute the uncertainty behind the figures; a script does so once it was shown */
+    bool uncertainties;                  /* compute the uncertainty behind the figures; a script does so once it was shown */
     void (*once_saved)(struct app *app); /* what goes on once the scene is saved; NULL: nothing */
     bool quit, redraw;                   /* redraw: paint the whole terminal again */
     bool (*copy)(const char *text);      /* to the terminal's clipboard; false: it is too long. NULL: there is none */
@@ -181,7 +181,7 @@ struct ceduo_picture ceduo_app_picture(const struct app *app);
 struct ceduo_report *ceduo_app_report(const struct app *app);
 
 /* How sure the figures of the scene are; false where that is not known yet. Without inputs it has no answer. */
-bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report);
+bool ceduo_app_uncertainty(const struct app *app, struct ceduo_uncertainty_report *report);
 
 /* What a pane of so many lines shows, until the next key. */
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height);

@@ -296,7 +296,7 @@ static void cell_place(const struct form_row *row, int width, int label, size_t 
     *span = each - 1;
 }
 
-#define DIGITS_MOST 5 /* more come from a computer: they are seen as the field is opened */
+#define DIGITS_MAX 5 /* more come from a computer: they are seen as the field is opened */
 
 static size_t digits_of(const char *shown)
 {
@@ -318,7 +318,7 @@ static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, i
         ceduo_text_put(&words, cell->text[0] ? cell->text : "-");
     snprintf(shown, sizeof shown, "%s%s", ceduo_text_string(&words), cell->assumed ? "*" : "");
     double number;
-    bool fine = digits_of(shown) > DIGITS_MOST || (int)ceduo_utf8_width(shown) > span;
+    bool fine = digits_of(shown) > DIGITS_MAX || (int)ceduo_utf8_width(shown) > span;
     if (fine && strpbrk(shown, ".,") && ceduo_typed_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
         snprintf(shown, sizeof shown, fabs(number) < 1e4 || fabs(number) >= 1e9 ? "%.4g%s" : "%.0f%s", number,
                  cell->assumed ? "*" : "");

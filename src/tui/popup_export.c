@@ -40,26 +40,26 @@ static void show_command(struct app *app, struct popup *p)
         ceduo_text_put(&p->text, _("\nThere is unsaved work: s saves it first.\n"));
 }
 
-/* Whether all that will be known of doubt is. */
+/* Whether all that will be known of uncertainty is. */
 static bool is_sure(const struct app *app)
 {
     const struct uncertainty *known = ceduo_live_uncertainty(&app->live, &app->document.file);
     return known && known->last;
 }
 
-/* Of the figures as they are, and without doubt where that is not known yet: nobody waits while a screen is to be used. */
+/* Of the figures as they are, and without uncertainty where that is not known yet: nobody waits while a screen is to be used. */
 static void put_html(struct app *app, struct ceduo_report *report, struct text *text)
 {
-    struct ceduo_doubt_report doubt;
-    bool sure =
-        is_sure(app) && report->result->wooded && !ceduo_page_says_nothing(report->result) && ceduo_app_doubt(app, &doubt);
+    struct ceduo_uncertainty_report uncertainty;
+    bool sure = is_sure(app) && report->result->wooded && !ceduo_page_says_nothing(report->result) &&
+                ceduo_app_uncertainty(app, &uncertainty);
     const struct ceduo_scene *scene = &app->document.file.scene;
     struct ceduo_html html = {.text = text};
     LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
     LOCAL_TEXT(command);
     append_command(app, &command, "--report report.html");
-    doubt.over = false;
-    report->doubt = sure ? &doubt : NULL;
+    uncertainty.over = false;
+    report->uncertainty = sure ? &uncertainty : NULL;
     report->command = command.bytes;
     ceduo_page_chapter(&page, report);
     ceduo_page_html_begin(&html, ceduo_in_language(scene->title, scene->title_it));
@@ -84,7 +84,7 @@ static void append_export(struct app *app, enum export export, struct text *text
     struct ceduo_report *report = ceduo_app_report(app);
     bool ascii = app->charset == CEDUO_CHARSET_ASCII;
     if (export != EXPORT_PAGE) /* how sure it is, if that is known already, is part of the page alone */
-        report->doubt = NULL;
+        report->uncertainty = NULL;
     if (export == EXPORT_SCREEN) {
         ceduo_screen_draw(app); /* without the popup, which is off already */
         char *screen = ceduo_cells_dump(app->cells);

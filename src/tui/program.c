@@ -116,7 +116,7 @@ static const struct {
     {N_("two signs"), N_("of a test: today, and in the worst of the years ahead")},
     {N_("index"), N_("the paper's way: so many contacts, each takes one mean stem's energy")},
     {N_("p95"), N_("of 100 rocks 95 stay below it")},
-    {N_("doubt"), N_("what is not known, such as the ground; more rocks do not cure it")},
+    {N_("uncertainty"), N_("what is not known of the inputs, such as the ground; more rocks do not reduce it")},
 };
 
 static void show_help(struct app *app)

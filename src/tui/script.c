@@ -63,7 +63,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
         for (char *name = strtok_r(rest, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
             int key = ceduo_key_of(name);
             if (key == K_NONE)
-                return fail(path, line, _("no such key"), name, CEDUO_FOREIGN_MOST);
+                return fail(path, line, _("no such key"), name, CEDUO_FOREIGN_MAX);
             press_key(app, key);
         }
     } else if (strcmp(command, "type") == 0) {
@@ -79,13 +79,13 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
         int width, height, used = 0;
         if (sscanf(rest, "%d %d%n", &width, &height, &used) != 2 || rest[used] || width < 1 || height < 1 ||
             width > CEDUO_CANVAS_MAX_WIDTH || height > CEDUO_CANVAS_MAX_HEIGHT)
-            return fail(path, line, _("a width and a height are wanted"), rest, CEDUO_FOREIGN_MOST);
+            return fail(path, line, _("a width and a height are wanted"), rest, CEDUO_FOREIGN_MAX);
         ceduo_app_resize(app, width, height);
     } else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0) {
         ceduo_jobs_wait(app->live.jobs);
         ceduo_program_news(app);
     } else {
-        return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command, CEDUO_FOREIGN_MOST);
+        return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command, CEDUO_FOREIGN_MAX);
     }
     return SCRIPT_DONE;
 }
@@ -94,7 +94,7 @@ enum script_end ceduo_script_run(struct app *app, const char *path)
 {
     LOCAL_ARENA(arena);
     LOCAL_PROBLEMS(problems);
-    const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MOST, &problems);
+    const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MAX, &problems);
     if (problems.text.bytes)
         fputs(problems.text.bytes, stderr);
     char *text = source ? ceduo_arena_copy(&arena, source->bytes, source->length) : NULL;

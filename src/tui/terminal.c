@@ -69,7 +69,7 @@ static void ask_for_pastes(bool on)
 
 /* ---- the clipboard ---- */
 
-#define COPY_MOST 56000 /* bytes: what xterm takes is 75 000 characters of base64 */
+#define COPY_MAX 56000 /* bytes: what xterm takes is 75 000 characters of base64 */
 
 static void append_base64(struct text *to, const char *bytes, size_t n)
 {
@@ -90,7 +90,7 @@ static bool copy(const char *string)
     const char *tmux = getenv("TMUX");
     LOCAL_TEXT(copied);
     LOCAL_TEXT(all);
-    if (n > COPY_MOST)
+    if (n > COPY_MAX)
         return false;
     ceduo_text_put(&copied, "\033]52;c;");
     append_base64(&copied, string, n);

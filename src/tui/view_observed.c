@@ -345,7 +345,7 @@ static bool is_held(const struct fit *now, struct fit_value *value)
     return false;
 }
 
-_Static_assert(CEDUO_CALIBRATION_MOST <= POPUP_FIELDS_MAX, "one popup asks for the bounds of all values that can be fitted");
+_Static_assert(CEDUO_CALIBRATION_MAX <= POPUP_FIELDS_MAX, "one popup asks for the bounds of all values that can be fitted");
 
 static void ask_for_fit(struct app *app)
 {

@@ -30,7 +30,7 @@ struct ceduo_value {
  * those of a figure, an input or a pair of options; of a calibration those of a value or an observation. */
 struct ceduo_place {
     const struct ceduo_report *report;
-    const struct ceduo_doubt_report *doubt;
+    const struct ceduo_uncertainty_report *uncertainty;
     const struct ceduo_calibration_report *calibration;
     size_t option, belt, control, felling;
     size_t item, column, figure, input; /* item, column: in a list of the last two reports */
@@ -94,12 +94,12 @@ void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns
 /* The whole of a result, a sensitivity and a calibration, read from a struct ceduo_place; and of a search, read from a struct
  * ceduo_find_report. */
 extern const struct ceduo_figure ceduo_result_figures[], ceduo_find_figures[];
-extern const struct ceduo_figure ceduo_doubt_figures[], ceduo_calibration_figures[];
+extern const struct ceduo_figure ceduo_uncertainty_figures[], ceduo_calibration_figures[];
 
 /* Of a result a row for each option and control, its years or its stands; of a sensitivity for each figure and input; of a
  * calibration for each value; of a search one. They are read from the same objects. */
 extern const struct ceduo_csv ceduo_control_csv, ceduo_year_csv, ceduo_stand_csv;
-extern const struct ceduo_csv ceduo_doubt_csv, ceduo_calibration_csv, ceduo_find_csv;
+extern const struct ceduo_csv ceduo_uncertainty_csv, ceduo_calibration_csv, ceduo_find_csv;
 static inline const struct ceduo_csv *ceduo_result_csv(bool stands, bool years)
 {
     return stands ? &ceduo_stand_csv : years ? &ceduo_year_csv : &ceduo_control_csv;

@@ -98,7 +98,7 @@ OBJECT(standards_of, compliance, o->standards_item)
 OBJECT(turn_of, compliance, o->turn_item)
 OBJECT(search_of, find_report, o->search)
 OBJECT(found_of, find_report, o->found)
-OBJECT(sure_of, find_report, o->sure && o->sure->inputs > 0 ? o->sure : NULL) /* nothing in doubt: nothing was computed */
+OBJECT(sure_of, find_report, o->sure && o->sure->inputs > 0 ? o->sure : NULL) /* nothing in uncertainty: nothing was computed */
 OBJECT(nearest_of, find_report, o->found->found ? NULL : o->found)
 OBJECT(sure_found_of, sure, o->found.found ? o : NULL)
 OBJECT(sure_nearest_of, sure, o->found.found ? NULL : o)
@@ -724,7 +724,7 @@ static const struct ceduo_figure goal_rows[] = {
     {"nearest", "", "value that comes nearest", .from = nearest_of, AT(found, nearest), .null = ONE},
     {"goal_at_nearest", "", "goal at that value", .from = nearest_of, AT(found, goal_at_nearest), .null = ONE},
     END};
-#define NOT_SURE "--sure is not given, or nothing is in doubt"
+#define NOT_SURE "--sure is not given, or nothing is uncertain"
 #define NO_ERROR NONE ", every value does, or the points do not tell it"
 static const struct ceduo_figure sure_rows[] = {
     {"wanted", "", "share of what may be true in which the goal is to be reached", AT(sure, sure)},
@@ -756,7 +756,7 @@ static const struct ceduo_figure search_rows[] = {
     {"over", "", "today, or rotation: over one whole rotation, where the parameter is one of growth or cutting",
      .from = search_of, .value = over_of},
     {"yield", "", "stem wood that the option yields at this value", .from = yields_of, .of = found_yield, .null = NO_GROWTH},
-    {"sure", "", "the same search under doubt", .from = sure_of, .of = sure_rows, .null = NOT_SURE},
+    {"sure", "", "the same search with uncertain inputs", .from = sure_of, .of = sure_rows, .null = NOT_SURE},
     END};
 
 const struct ceduo_figure ceduo_find_figures[] = {{"format", "", "always ceduo-find-1", .value = find_format},

@@ -49,23 +49,24 @@ void ceduo_measure_range(struct ceduo_measure *m, const struct ceduo_surface_fit
     m->may_hi = known ? fmax(whole ? round(fit->p95 * scale) : fit->p95 * scale, m->value) : NAN;
 }
 
-static void set_doubt(struct ceduo_measure *m, const struct ceduo_doubt_report *doubt, size_t option,
-                      enum ceduo_doubt_kind kind)
+static void set_uncertainty(struct ceduo_measure *m, const struct ceduo_uncertainty_report *uncertainty, size_t option,
+                            enum ceduo_uncertainty_kind kind)
 {
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(doubt->answer, option, kind, false);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(uncertainty->answer, option, kind, false);
     ceduo_measure_range(m, &f->fit, 1000);
 }
 
-void ceduo_measure_doubt(struct ceduo_measure *m, const struct ceduo_doubt_report *doubt, size_t option, size_t control)
+void ceduo_measure_uncertainty(struct ceduo_measure *m, const struct ceduo_uncertainty_report *uncertainty, size_t option,
+                               size_t control)
 {
-    if (doubt && doubt->answer && control == ceduo_scene_last_control(&doubt->file->scene))
-        set_doubt(m, doubt, option, m->limit > 0 ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_REACH);
+    if (uncertainty && uncertainty->answer && control == ceduo_scene_last_control(&uncertainty->file->scene))
+        set_uncertainty(m, uncertainty, option, m->limit > 0 ? CEDUO_UNCERTAINTY_EXCEED : CEDUO_UNCERTAINTY_REACH);
 }
 
-void ceduo_measure_doubt_over(struct ceduo_measure *m, const struct ceduo_doubt_report *doubt, size_t option)
+void ceduo_measure_uncertainty_over(struct ceduo_measure *m, const struct ceduo_uncertainty_report *uncertainty, size_t option)
 {
-    if (doubt && doubt->answer && doubt->answer->rotation)
-        set_doubt(m, doubt, option, CEDUO_DOUBT_MEAN);
+    if (uncertainty && uncertainty->answer && uncertainty->answer->rotation)
+        set_uncertainty(m, uncertainty, option, CEDUO_UNCERTAINTY_MEAN);
 }
 
 static struct ceduo_measure energy(double mean, double half, int digits, const char *head, const char *phrase)

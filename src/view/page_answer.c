@@ -185,19 +185,20 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
         ceduo_text_format(text, _("%s by the number of rocks (%llu)"), error.bytes, rocks);
 }
 
-/* Of the best option; over the rotation where its doubt is known. */
-static void say_doubt(struct text *text, const struct ceduo_report *report)
+/* Of the best option; over the rotation where its uncertainty is known. */
+static void say_uncertainty(struct text *text, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
-    const struct ceduo_doubt_report *doubt = report->doubt;
+    const struct ceduo_uncertainty_report *uncertainty = report->uncertainty;
     const struct ceduo_verdict *v = report->verdict && report->verdict->n > 1 ? report->verdict : NULL;
-    bool over = v && v->rotation.known && doubt && doubt->answer && doubt->answer->rotation;
+    bool over = v && v->rotation.known && uncertainty && uncertainty->answer && uncertainty->answer->rotation;
     size_t option = over ? v->rotation.best : v ? v->today.best : 0;
     const struct ceduo_measure m = ceduo_subject_of(report, option, r->last_control).today;
-    if (!doubt || !doubt->answer) {
+    if (!uncertainty || !uncertainty->answer) {
         ceduo_text_then(text, "; ", "%s.",
-                        doubt && (ceduo_doubt_is_off(doubt) || doubt->inputs->n == 0) ? ceduo_doubt_none(doubt)
-                        : doubt && doubt->too_much
+                        uncertainty && (ceduo_uncertainty_is_off(uncertainty) || uncertainty->inputs->n == 0)
+                            ? ceduo_uncertainty_none(uncertainty)
+                        : uncertainty && uncertainty->too_much
                             ? _("what is not known was not computed, as it takes long: --sensitivity does")
                             : _("what is not known was not computed"));
         return;
@@ -206,14 +207,15 @@ static void say_doubt(struct text *text, const struct ceduo_report *report)
         ceduo_text_then(text, "; ", "%s%s", SPAN(m, m.may_lo, m.may_hi), _(" by what is not known"));
     }
     ceduo_text_char(text, '.');
-    if (ceduo_doubt_verdict(doubt->answer)->count > 0) {
+    if (ceduo_uncertainty_verdict(uncertainty->answer)->count > 0) {
         ceduo_text_char(text, ' ');
-        ceduo_doubt_order_words(text, doubt, 0); /* how sure the best option is */
+        ceduo_uncertainty_order_words(text, uncertainty, 0); /* how sure the best option is */
     }
-    const struct ceduo_doubt_answer *a = doubt->answer;
-    ceduo_doubt_advice(text, doubt, ceduo_doubt_figure_of(a, ceduo_doubt_chosen(doubt), a->main, false), 1);
+    const struct ceduo_uncertainty_answer *a = uncertainty->answer;
+    ceduo_uncertainty_advice(text, uncertainty,
+                             ceduo_uncertainty_figure_of(a, ceduo_uncertainty_chosen(uncertainty), a->main, false), 1);
     LOCAL_TEXT(points);
-    ceduo_doubt_points(&points, doubt);
+    ceduo_uncertainty_points(&points, uncertainty);
     ceduo_text_then(text, points.length > 0 ? " " : "", "%s", ceduo_text_string(&points));
 }
 
@@ -223,7 +225,7 @@ void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)
         return;
     struct text *text = ceduo_page_label(page, CEDUO_PAGE_POINT, _("HOW SURE"));
     say_sampling(text, report);
-    say_doubt(text, report);
+    say_uncertainty(text, report);
 }
 
 /* ---- over the years ---- */
@@ -271,7 +273,7 @@ void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, en
 
 void ceduo_page_free_run(struct ceduo_page *page, double share)
 {
-    ceduo_page_write(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MOST));
+    ceduo_page_write(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MAX));
 }
 
 void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light)

@@ -172,7 +172,7 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
 static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
-    bool loose[CEDUO_CALIBRATION_MOST];
+    bool loose[CEDUO_CALIBRATION_MAX];
     size_t widest = 0;
     double most = -1;
     LOCAL_TEXT(all);

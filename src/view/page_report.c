@@ -55,14 +55,14 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     const struct ceduo_result *r = report->result;
     if (r->scene->controls_count == 0 || !r->wooded || ceduo_page_says_nothing(r))
         return;
-    const struct ceduo_doubt_report *doubt = report->doubt;
+    const struct ceduo_uncertainty_report *uncertainty = report->uncertainty;
     const struct ceduo_control *place = &r->scene->controls[r->last_control];
     size_t option = ceduo_result_best(r, report->verdict);
     const struct ceduo_outcome o = ceduo_report_outcome(report, option, r->last_control);
     struct ceduo_measure m = ceduo_judged(place, NULL); /* without its value the range stays as it is */
-    ceduo_measure_doubt(&m, doubt, option, r->last_control);
+    ceduo_measure_uncertainty(&m, uncertainty, option, r->last_control);
     if (isnan(m.may_lo)) {
-        if (!doubt || ceduo_doubt_is_off(doubt) || !doubt->inputs || doubt->inputs->n > 0)
+        if (!uncertainty || ceduo_uncertainty_is_off(uncertainty) || !uncertainty->inputs || uncertainty->inputs->n > 0)
             ceduo_page_say(
                 page, CEDUO_PAGE_ANSWER, "%s",
                 _("Not everything here is known for certain, and what that changes was not computed: the answer holds "
@@ -78,7 +78,7 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     else
         ceduo_text_then(text, " ", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.may_lo,
                         m.may_hi, phrase);
-    if (o.ahead && o.doubted && r->scene->blocks_count == 0)
+    if (o.ahead && o.uncertain && r->scene->blocks_count == 0)
         ceduo_text_then(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
                         o.failing_hi, report->verdict->choices[option].over.years);
     if (o.answer == CEDUO_DEPENDS)
@@ -100,9 +100,9 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
             ceduo_text_put(ceduo_page_label(page, CEDUO_PAGE_HEAD, lines[i][0]), lines[i][1] ? lines[i][1] : "");
 }
 
-#define SLOPE_ROWS  19
-#define SLOPE_LEAST 12 /* where tables of several options follow */
-#define STRIP_ROWS  10
+#define SLOPE_ROWS 19
+#define SLOPE_MIN  12 /* where tables of several options follow */
+#define STRIP_ROWS 10
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
 {
@@ -110,7 +110,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
     size_t options = report->result->scene->options_count;
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
     ceduo_page_facts(page, report);
-    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, options > 1 ? SLOPE_LEAST : SLOPE_ROWS, &picture,
+    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, options > 1 ? SLOPE_MIN : SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
     picture.ways = true;
@@ -277,8 +277,8 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     if (controls && !is_crowded(report))
         ceduo_page_laws(page, report->result);
     if (controls) {
-        if (report->doubt && report->doubt->answer)
-            ceduo_doubt_blocks(page, report->doubt, scene->options_count <= CROWD);
+        if (report->uncertainty && report->uncertainty->answer)
+            ceduo_uncertainty_blocks(page, report->uncertainty, scene->options_count <= CROWD);
         add_years(page, report);
         add_hazard(page, report);
     }

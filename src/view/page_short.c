@@ -89,8 +89,8 @@ static void add_wood(struct ceduo_page *page, const struct ceduo_result *r)
     ceduo_page_yes(page, s->worst_adc < r->scene->simulation.threshold);
     ceduo_page_write(page, _("chance of %s m without a contact"), threshold);
     ceduo_page_free_run(page, s->worst_free_run);
-    ceduo_page_write(page, _("at most %.0f %%"), 100 * CEDUO_FREE_RUN_MOST);
-    ceduo_page_yes(page, s->worst_free_run <= CEDUO_FREE_RUN_MOST);
+    ceduo_page_write(page, _("at most %.0f %%"), 100 * CEDUO_FREE_RUN_MAX);
+    ceduo_page_yes(page, s->worst_free_run <= CEDUO_FREE_RUN_MAX);
     ceduo_page_write(page, "%s", _("energy taken by stems, left (index), kJ"));
     ceduo_page_write(page, "%s, %s", WRITTEN(s->dissipated * J_TO_KJ, 3), WRITTEN(s->residual * J_TO_KJ, 3));
     ceduo_page_write(page, "%s", "");
@@ -188,8 +188,8 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
 {
     const struct ceduo_result *r = report->result;
     size_t n = r->scene->options_count;
-    if (report->doubt && report->doubt->answer)
-        ceduo_doubt_outside(report->doubt, ceduo_page_warn_once, notes);
+    if (report->uncertainty && report->uncertainty->answer)
+        ceduo_uncertainty_outside(report->uncertainty, ceduo_page_warn_once, notes);
     if (r->scene->controls_count > 0 && !isnan(ceduo_result_last_index(r, 0)->measured))
         ceduo_page_say(notes, CEDUO_PAGE_WARNING, _("One rock that was measured here had %s kJ."),
                        WRITTEN(ceduo_result_last_index(r, 0)->measured * J_TO_KJ, 3));

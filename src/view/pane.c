@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The column of figures that stands still beside every view, in the words of the paper; the energy that is left, in which the
- * paper's method ends; and what an option and its doubt mean in words. */
+ * paper's method ends; and what an option and its uncertainty mean in words. */
 #include <math.h>
 
 #include "base/language.h"
@@ -76,7 +76,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
         add_row(page, ceduo_judged(c, wood), ceduo_judged(c, bare));
     struct ceduo_measure judged = ceduo_judged(c, wood);
     if (wood && !pane->year && !nothing) /* by the index it would be of the rocks without forest */
-        ceduo_measure_doubt(&judged, pane->report->doubt, pane->option, pane->report->result->last_control);
+        ceduo_measure_uncertainty(&judged, pane->report->uncertainty, pane->option, pane->report->result->last_control);
     if (!isnan(judged.may_lo)) {
         ceduo_page_write(page, "  %s", _("may be"));
         ceduo_page_write(page, "%s", MAY_BE(judged));
@@ -146,8 +146,8 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
         ceduo_page_write(page, _("ADC %s m %s %g"), BESIDE(index->worst_adc, 3, threshold),
                          than(index->contact, "<", "\xe2\x89\xa5"), threshold);
     add_light(page, pane, index->contact, c->over.unprotected_contact, true);
-    ceduo_page_write(page, _("%g m free %s %% %s %g"), threshold, PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MOST),
-                     index->worst_free_run <= CEDUO_FREE_RUN_MOST ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MOST * 100);
+    ceduo_page_write(page, _("%g m free %s %% %s %g"), threshold, PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MAX),
+                     index->worst_free_run <= CEDUO_FREE_RUN_MAX ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MAX * 100);
     add_light(page, pane, index->free_run, c->over.unprotected_free_run, true);
     if (index->energy != CEDUO_UNKNOWN && wood)
         ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed.mean, wood->limit),
@@ -202,10 +202,11 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     const struct ceduo_arrivals *wood = wood_of(pane);
     ceduo_page_line(page, CEDUO_ROLE_DIM, pane->report->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
                     (unsigned long long)(wood ? wood : &r->bare.arrivals[r->last_control])->released);
-    bool doubt = pane->height >= HEIGHT_ALL && !nothing && pane->report->doubt && pane->report->doubt->answer && !pane->year;
-    for (size_t i = 0; i < 3 && doubt; i++) { /* what turns a test within what may be true */
+    bool uncertainty =
+        pane->height >= HEIGHT_ALL && !nothing && pane->report->uncertainty && pane->report->uncertainty->answer && !pane->year;
+    for (size_t i = 0; i < 3 && uncertainty; i++) { /* what turns a test within what may be true */
         LOCAL_TEXT(causes);
-        if (ceduo_doubt_causes(&causes, pane->report->doubt, pane->option, ceduo_doubt_lights[i]))
+        if (ceduo_uncertainty_causes(&causes, pane->report->uncertainty, pane->option, ceduo_uncertainty_lights[i]))
             ceduo_page_line(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]), ceduo_text_string(&causes));
     }
     const struct ceduo_page_block *last = page->last;
@@ -296,21 +297,22 @@ void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane)
     ceduo_words_run_warnings(report->result, &report->remarks, ceduo_page_warn, page);
 }
 
-void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
+void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
-    const struct ceduo_doubt_report *r = pane->report->doubt;
-    if (!r || !r->answer || isnan(ceduo_doubt_main(r, pane->option)->fit.p5))
+    const struct ceduo_uncertainty_report *r = pane->report->uncertainty;
+    if (!r || !r->answer || isnan(ceduo_uncertainty_main(r, pane->option)->fit.p5))
         return;
-    ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
-    ceduo_doubt_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, ceduo_doubt_main(r, pane->option), 1);
-    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
+    ceduo_uncertainty_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
+    ceduo_uncertainty_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, ceduo_uncertainty_main(r, pane->option), 1);
+    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_verdict(r->answer);
     for (size_t i = 0; i < ranking->count; i++)
         if (ranking->orders[i].better == pane->option || ranking->orders[i].than == pane->option)
-            ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
-    const struct ceduo_doubt_figure *failing = ceduo_doubt_figure_of(r->answer, pane->option, CEDUO_DOUBT_FAILING, false);
+            ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
+    const struct ceduo_uncertainty_figure *failing =
+        ceduo_uncertainty_figure_of(r->answer, pane->option, CEDUO_UNCERTAINTY_FAILING, false);
     if (r->over && !isnan(failing->fit.p5))
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Years that fail: %.0f, may be %.0f\xe2\x80\x93%.0f."), failing->value,
                        floor(failing->fit.p5), ceil(failing->fit.p95)); /* outwards */
     for (size_t i = 0; i < 3 && !r->over; i++)
-        ceduo_doubt_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
+        ceduo_uncertainty_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
 }

@@ -26,7 +26,7 @@ static const struct ceduo_page_column columns[COLUMNS] = {
     [ENERGY] = {"E", 1, 0, CEDUO_DROPPED(7)},
     [YEARS] = {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(9)}};
 
-#define YEARS_MOST 26 /* columns of the years at a glance */
+#define YEARS_MAX 26 /* columns of the years at a glance */
 
 #define PENDING "\xe2\x80\xa6"
 
@@ -40,7 +40,7 @@ static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
 {
     struct ceduo_page_cell *cell = ceduo_page_cell(page);
     cell->role = CEDUO_ROLE_MEAN;
-    int n = years ? (int)years->count : 0, shown = n < YEARS_MOST ? n : YEARS_MOST;
+    int n = years ? (int)years->count : 0, shown = n < YEARS_MAX ? n : YEARS_MAX;
     for (int x = 0; x < shown; x++) {
         double max = 0;
         for (int k = x * n / shown; k < (x + 1) * n / shown; k++)
@@ -55,7 +55,7 @@ static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
 /* True if the uncertainty of the mean over the years is known. Then it stands beside that, otherwise today's beside today. */
 static bool knows_rotation(const struct ceduo_pane *pane)
 {
-    return pane->report->doubt && pane->report->doubt->answer && pane->report->doubt->answer->rotation &&
+    return pane->report->uncertainty && pane->report->uncertainty->answer && pane->report->uncertainty->answer->rotation &&
            pane->report->verdict->wooded;
 }
 
@@ -125,7 +125,7 @@ static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
         return;
     if (knows_rotation(pane))
         ceduo_text_format(&heads[MEAN].text, ", %s", _("may be"));
-    else if (pane->report->doubt && pane->report->doubt->answer)
+    else if (pane->report->uncertainty && pane->report->uncertainty->answer)
         ceduo_text_put(&heads[MAY_BE].text, _("may be"));
 }
 
@@ -160,8 +160,8 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);
-        for (size_t i = 0; knows_rotation(pane) && i < ceduo_doubt_verdict(pane->report->doubt->answer)->count; i++)
-            ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->doubt, i);
+        for (size_t i = 0; knows_rotation(pane) && i < ceduo_uncertainty_verdict(pane->report->uncertainty->answer)->count; i++)
+            ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->uncertainty, i);
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);
         if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
@@ -179,7 +179,7 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_note(page, _("Computing: the figures become finer."));
     if (v->n > 1 && r->wooded && v->accepted && !has_rates(pane))
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 bring too much."),
-                       CEDUO_EXCEED_MOST * 1000);
+                       CEDUO_EXCEED_MAX * 1000);
     if (v->rotation.known && !v->rotation.uneven)
         ceduo_words_counted(ceduo_page_add(page, CEDUO_PAGE_NOTE), v->choices[0].rocks);
 }

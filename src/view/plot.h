@@ -19,7 +19,7 @@ struct ceduo_span {
 };
 
 /* What a picture shows. */
-struct ceduo_doubt_report;
+struct ceduo_uncertainty_report;
 struct ceduo_picture {
     const struct ceduo_scene *scene;       /* checked */
     const struct ceduo_snapshot *snapshot; /* NULL: nothing is computed yet */
@@ -33,9 +33,9 @@ struct ceduo_picture {
     size_t year;                         /* index of the one under the cursor; beyond them all: none */
     const struct ceduo_verdict *verdict; /* of all options; NULL: not computed */
     struct ceduo_span *span; /* where the slope stands: a profile writes it, strips stand in it; NULL: the area's own */
-    const struct ceduo_doubt_report *doubt; /* NULL: not computed */
-    bool no_x_axis;                         /* of a strip that another one stands below */
-    bool ways;                              /* in the strip of heights each trajectory, too */
+    const struct ceduo_uncertainty_report *uncertainty; /* NULL: not computed */
+    bool no_x_axis;                                     /* of a strip that another one stands below */
+    bool ways;                                          /* in the strip of heights each trajectory, too */
 };
 
 /* The pictures: name, word, CEDUO_PICTURE_… of it, title (%s: where, or which belt).
@@ -59,7 +59,7 @@ struct ceduo_picture {
     X(STAND, stand, 0, N_("%s, from above"))                                                                                   \
     X(COMPARE, compare, CEDUO_PICTURE_OF_ALL | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))                       \
     X(TRADEOFF, tradeoff, CEDUO_PICTURE_OF_ALL, N_("Protection and yield of the options, up to %s"))                           \
-    X(DOUBT, doubt, CEDUO_PICTURE_PAGE, N_("how sure it is at %s"))                                                            \
+    X(UNCERTAINTY, uncertainty, CEDUO_PICTURE_PAGE, N_("how sure it is at %s"))                                                \
     X(HAZARD, hazard, CEDUO_PICTURE_OF_ALL, N_("How often, and with how much, at %s"))
 
 enum ceduo_picture_flag {

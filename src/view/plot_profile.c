@@ -164,8 +164,8 @@ static void draw_forest(const struct ceduo_drawing *d)
 
 /* ---- names ---- */
 
-#define NAME_ROWS    4
-#define FOREST_LEAST 12 /* columns that make the name of a forest worth while */
+#define NAME_ROWS  4
+#define FOREST_MIN 12 /* columns that make the name of a forest worth while */
 
 /* Whether a text has room in an area, and a blank on either side, so that it is no part of a curve. */
 static bool is_free(const struct ceduo_canvas *canvas, const struct ceduo_area *area, int column, int row, int width)
@@ -214,7 +214,7 @@ static void name_forest(const struct ceduo_drawing *d)
         row = room > most ? i : row;
         most = room > most ? room : most;
     }
-    if (most == width || most >= FOREST_LEAST)
+    if (most == width || most >= FOREST_MIN)
         ceduo_plot_say(d->canvas, end - 1, d->area.top + row, -most, CEDUO_ROLE_CLOUD, "%s", name.bytes);
 }
 

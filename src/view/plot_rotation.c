@@ -10,9 +10,9 @@
 /* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on one
  * axis. */
 
-#define LIGHTS      3
-#define ADC_TOP     2.0 /* of the scale, in limits: how far beyond the limit a bad year lies says nothing more */
-#define STRIP_LEAST 3
+#define LIGHTS    3
+#define ADC_TOP   2.0 /* of the scale, in limits: how far beyond the limit a bad year lies says nothing more */
+#define STRIP_MIN 3
 
 /* Stairs of a value of each year, under a caption. */
 static void draw_strip(struct ceduo_drawing *d, int top, int height, double most, double limit, const char *caption,
@@ -35,7 +35,7 @@ static void draw_strip(struct ceduo_drawing *d, int top, int height, double most
 static void draw_strips(struct ceduo_drawing *d, int height, const double *x, double *y)
 {
     const struct ceduo_years *years = d->picture->years;
-    int top = d->area.top + 1, first = height < 2 * STRIP_LEAST ? 0 : height / 2;
+    int top = d->area.top + 1, first = height < 2 * STRIP_MIN ? 0 : height / 2;
     double threshold = d->scene->simulation.threshold, accepted = d->control->accepted * J_TO_KJ, most = 0;
     double limit = 1000 * ceduo_exceed_limit(d->scene, d->control);
     LOCAL_TEXT(adc);
@@ -75,10 +75,10 @@ const char *ceduo_plot_rotation(struct ceduo_drawing *d)
     static const char *const names[LIGHTS] = {NP_("light", "C"), NP_("light", "F"), NP_("light", "E")};
     const struct ceduo_years *years = d->picture->years;
     const struct ceduo_area *a = &d->area;
-    int lights = a->height >= 1 + STRIP_LEAST + 2 + LIGHTS ? LIGHTS : 0; /* no room: the curve alone */
+    int lights = a->height >= 1 + STRIP_MIN + 2 + LIGHTS ? LIGHTS : 0; /* no room: the curve alone */
     if (!years || !d->control)
         return !d->control ? _("no control") : _("not computed yet");
-    if (a->height < 1 + STRIP_LEAST + 2 || a->width < 24)
+    if (a->height < 1 + STRIP_MIN + 2 || a->width < 24)
         return _("too narrow");
     double *x = ceduo_must(malloc((years->count + 1) * sizeof *x)), *y = ceduo_must(malloc((years->count + 1) * sizeof *y));
     for (size_t i = 0; i < years->count; i++)

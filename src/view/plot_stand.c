@@ -8,8 +8,8 @@
  * for itself: when a number changes, the stems that stay do not move. */
 
 #define PATCH_M     20.0 /* along the fall */
-#define STEMS_MOST  8000 /* of one kind in a patch */
-#define SHOOTS_MOST 200  /* of a stool */
+#define STEMS_MAX   8000 /* of one kind in a patch */
+#define SHOOTS_MAX  200  /* of a stool */
 #define JOINED_DOTS 6    /* shoots closer than this are joined */
 
 #define GOLDEN  0.61803398874989485 /* its multiples fill a circle evenly */
@@ -33,7 +33,7 @@ struct plan {
 static size_t count_in(const struct plan *p, double per_ha)
 {
     double n = per_ha * p->width * p->height / 1e4;
-    return n < STEMS_MOST ? (size_t)lround(n) : STEMS_MOST;
+    return n < STEMS_MAX ? (size_t)lround(n) : STEMS_MAX;
 }
 
 /* The place of the i-th of a kind. */
@@ -62,7 +62,7 @@ static void draw_stool(struct plan *p, size_t i)
     const struct spot at = spot_of(p, STOOLS, i);
     double all = ceduo_stand_shoots(s), mean = all / s->stools_per_ha, thickest = 0;
     double first = floor(mean * (double)i);
-    int n = (int)fmin(floor(mean * ((double)i + 1)) - first, SHOOTS_MOST);
+    int n = (int)fmin(floor(mean * ((double)i + 1)) - first, SHOOTS_MAX);
     double ring = n > 1 ? ceduo_stool_radius((unsigned)n, s->spacing) : 0;
     for (size_t k = 0; k < s->shoots_count; k++)
         thickest = fmax(thickest, s->shoots[k].dbh);

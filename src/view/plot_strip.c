@@ -10,7 +10,7 @@
 
 /* Strips along the slope: curves of what the rocks that pass each place have in height or energy. */
 
-#define CURVES_MOST 4
+#define CURVES_MAX 4
 
 /* Each pair is of heights and of energies. */
 struct curve {
@@ -23,7 +23,7 @@ struct curve {
 
 struct content {
     const char *captions[2];
-    struct curve curves[CURVES_MOST];
+    struct curve curves[CURVES_MAX];
 };
 
 struct strip {
@@ -33,10 +33,10 @@ struct strip {
     size_t n;        /* cells along the slope, … */
     const double *x; /* … and where they are, m */
     int count;
-    const struct curve *curves[CURVES_MOST];
-    double *y[CURVES_MOST]; /* of each curve, m or kJ; NaN where no rock passes */
-    double peak, peak_x;    /* the largest value, where it is, … */
-    const char *peak_name;  /* … and of which curve */
+    const struct curve *curves[CURVES_MAX];
+    double *y[CURVES_MAX]; /* of each curve, m or kJ; NaN where no rock passes */
+    double peak, peak_x;   /* the largest value, where it is, … */
+    const char *peak_name; /* … and of which curve */
 };
 
 #define OF(heights, energies) offsetof(struct ceduo_envelope, heights), offsetof(struct ceduo_envelope, energies)
@@ -62,7 +62,7 @@ static const struct content contents[3] = {
 static int name_columns(const struct ceduo_canvas *canvas, const struct content *content, bool energy)
 {
     int widest = 4;
-    for (int i = 0; i < CURVES_MOST; i++) {
+    for (int i = 0; i < CURVES_MAX; i++) {
         const char *name = content->curves[i].names[energy];
         int width = name ? ceduo_canvas_label_width(canvas, _(name)) : 0;
         widest = width > widest ? width : widest;
@@ -108,7 +108,7 @@ static double read_curve(struct strip *s, const struct curve *curve)
 static bool read_curves(struct strip *s, const struct content *content)
 {
     double usual = NAN;
-    for (int i = 0; i < CURVES_MOST; i++)
+    for (int i = 0; i < CURVES_MAX; i++)
         if (content->curves[i].names[s->energy])
             usual = fmax(usual, read_curve(s, &content->curves[i]));
     bool cut = s->peak > 1.5 * 1.15 * usual && usual > 0;
@@ -152,7 +152,7 @@ static double end_of(const struct strip *s, int curve)
 static void name_curves(const struct strip *s)
 {
     const struct ceduo_frame *f = &s->d->frame;
-    double ends[CURVES_MOST];
+    double ends[CURVES_MAX];
     int left = f->left + f->width + 1, room = s->d->area.left + s->d->area.width - left, n = 0;
     if (room < 4 || f->height < s->count)
         return;

@@ -5,9 +5,9 @@
 #include "base/arena.h"
 #include "ceduo/blocks.h"
 #include "ceduo/calibrate.h"
-#include "ceduo/doubt.h"
 #include "ceduo/find.h"
 #include "ceduo/surface.h"
+#include "ceduo/uncertainty.h"
 #include "io/scene_file.h"
 #include "study/goal.h"
 #include "study/snapshot.h"
@@ -19,11 +19,11 @@ struct ceduo_page;
 
 /* ---- how sure a scene is ---- */
 
-/* What doubt does to a scene. */
-struct ceduo_doubt_report {
+/* What uncertainty does to a scene. */
+struct ceduo_uncertainty_report {
     struct scene_file *file; /* its scene is only read, but by paths */
     const struct scene_inputs *inputs;
-    const struct ceduo_doubt_answer *answer; /* NULL: nothing is in doubt, nothing was computed */
+    const struct ceduo_uncertainty_answer *answer; /* NULL: nothing is in uncertainty, nothing was computed */
     size_t points;
     uint64_t rocks;
     const struct ceduo_result *finer;  /* figures of the scene as it is from more rocks; NULL: those of the answer */
@@ -33,61 +33,65 @@ struct ceduo_doubt_report {
 };
 
 /* The figure that all is about: too much energy where that is known, otherwise energy; or its mean over the rotation. */
-const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_report *report, size_t option);
+const struct ceduo_uncertainty_figure *ceduo_uncertainty_main(const struct ceduo_uncertainty_report *report, size_t option);
 
-/* Whether the scene asks for no answer; why there is none: that, or nothing is in doubt. */
-bool ceduo_doubt_is_off(const struct ceduo_doubt_report *report);
-const char *ceduo_doubt_none(const struct ceduo_doubt_report *report);
+/* Whether the scene asks for no answer; why there is none: that, or nothing is in uncertainty. */
+bool ceduo_uncertainty_is_off(const struct ceduo_uncertainty_report *report);
+const char *ceduo_uncertainty_none(const struct ceduo_uncertainty_report *report);
 
-void ceduo_doubt_value(struct text *text, enum ceduo_doubt_kind kind, double value); /* shares of 1000, energies in kJ */
+void ceduo_uncertainty_value(struct text *text, enum ceduo_uncertainty_kind kind,
+                             double value); /* shares of 1000, energies in kJ */
 
 /* The share of an input in a figure as it is shown, from 0 to 1: an estimate may lie outside. */
-double ceduo_doubt_share(const struct ceduo_doubt_figure *figure, size_t group);
+double ceduo_uncertainty_share(const struct ceduo_uncertainty_figure *figure, size_t group);
 
 /* What people call an input: "diameter, ADS 1"; "energy law". */
-void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *report, size_t group);
+void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertainty_report *report, size_t group);
 
 /* An end of an input's range, 0 or 1, as files have it; of words `*word` is the first or the last, and the value NaN. */
-double ceduo_doubt_input_value(const struct ceduo_doubt_report *report, size_t group, int end, const char **word);
-void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *report, size_t group, int end);
+double ceduo_uncertainty_input_value(const struct ceduo_uncertainty_report *report, size_t group, int end, const char **word);
+void ceduo_uncertainty_input_end(struct text *text, const struct ceduo_uncertainty_report *report, size_t group, int end);
 
 /* A warning for each input whose value in the scene is not among those that it may have. */
-void ceduo_doubt_outside(const struct ceduo_doubt_report *report, ceduo_words_say *say, void *context);
+void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *report, ceduo_words_say *say, void *context);
 
 /* What would measure an input, marked for translation; NULL: nothing that is known. */
-const char *ceduo_doubt_measured(const struct ceduo_doubt_report *report, size_t group);
+const char *ceduo_uncertainty_measured(const struct ceduo_uncertainty_report *report, size_t group);
 
 /* Adds what was found as blocks: a section with tables and what to measure first; of `all` also the mean over a rotation, and how
  * sure the order of the options is. */
-void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *report, bool all);
-/* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
-void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
+void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncertainty_report *report, bool all);
+/* "469 of 1000 (rocks 438–501; uncertainty 92–740)": the main figure of an option with both errors. */
+void ceduo_uncertainty_both(struct text *text, const struct ceduo_uncertainty_report *report, size_t option);
 
 /* The option that advice is about: the one that lets least pass today in the mean of plausible cases. */
-size_t ceduo_doubt_chosen(const struct ceduo_doubt_report *report);
+size_t ceduo_uncertainty_chosen(const struct ceduo_uncertainty_report *report);
 
 /* Input n of those to be measured first for a figure, in the order of what is left if they are known. Only inputs that a reader can
  * measure, each name once. SIZE_MAX: there are fewer. */
-size_t ceduo_doubt_advised(const struct ceduo_doubt_report *report, const struct ceduo_doubt_figure *figure, size_t n);
+size_t ceduo_uncertainty_advised(const struct ceduo_uncertainty_report *report, const struct ceduo_uncertainty_figure *figure,
+                                 size_t n);
 
 /* Adds at most `most` of these inputs, each with what would measure it. */
-void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, const struct ceduo_doubt_figure *figure,
-                        size_t most);
+void ceduo_uncertainty_advice(struct text *text, const struct ceduo_uncertainty_report *report,
+                              const struct ceduo_uncertainty_figure *figure, size_t most);
 
 /* Adds the number of points, if it is smaller than usual. */
-void ceduo_doubt_points(struct text *text, const struct ceduo_doubt_report *report);
+void ceduo_uncertainty_points(struct text *text, const struct ceduo_uncertainty_report *report);
 
 /* In how much of what may be true one of two options is better, equal or worse, and how sure that makes the order. */
-void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *report, size_t order);
+void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncertainty_report *report, size_t order);
 
 /* "energy law and friction": what a light depends on above all; false where it does not change within what may be true. */
-bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *report, size_t option, enum ceduo_doubt_kind light);
+bool ceduo_uncertainty_causes(struct text *text, const struct ceduo_uncertainty_report *report, size_t option,
+                              enum ceduo_uncertainty_kind light);
 
 /* "Whether the test of energy passes depends on …"; nothing where the light does not change within what may be true. */
-void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *report, size_t option, size_t light);
-extern const enum ceduo_doubt_kind ceduo_doubt_lights[3]; /* contact, free run, energy */
+void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncertainty_report *report, size_t option,
+                                   size_t light);
+extern const enum ceduo_uncertainty_kind ceduo_uncertainty_lights[3]; /* contact, free run, energy */
 
-void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *report, bool plain);
+void ceduo_uncertainty_page(struct text *text, const struct ceduo_uncertainty_report *report, bool plain);
 
 /* ---- measures ---- */
 
@@ -104,7 +108,7 @@ enum ceduo_measure_name {
 struct ceduo_measure {
     double value, lo, hi;                   /* in the unit shown; NaN: not known, or no interval */
     double half;                            /* of a share: half the width of its interval, not rounded */
-    double may_lo, may_hi;                  /* 90 % of what may be true; NaN: not known, see ceduo_measure_doubt() */
+    double may_lo, may_hi;                  /* 90 % of what may be true; NaN: not known, see ceduo_measure_uncertainty() */
     int digits;                             /* significant; 0: a whole number */
     const char *names[CEDUO_MEASURE_NAMES]; /* marked for translation; %s in a name is the limit */
     double limit;
@@ -121,11 +125,13 @@ struct ceduo_measure ceduo_share(struct ceduo_portion share);
 /* Sets the 90 % range of a fit, `scale` being units shown; it holds the measure's value. */
 void ceduo_measure_range(struct ceduo_measure *measure, const struct ceduo_surface_fit *fit, double scale);
 
-/* Sets what doubt makes of such a share of an option at a control; of any but the last it is not known. `doubt` may be NULL. */
-void ceduo_measure_doubt(struct ceduo_measure *measure, const struct ceduo_doubt_report *doubt, size_t option, size_t control);
+/* Sets what uncertainty makes of such a share of an option at a control; of any but the last it is not known. `uncertainty` may be NULL. */
+void ceduo_measure_uncertainty(struct ceduo_measure *measure, const struct ceduo_uncertainty_report *uncertainty, size_t option,
+                               size_t control);
 
 /* The same of its mean over the years, which is known where that was asked for. */
-void ceduo_measure_doubt_over(struct ceduo_measure *measure, const struct ceduo_doubt_report *doubt, size_t option);
+void ceduo_measure_uncertainty_over(struct ceduo_measure *measure, const struct ceduo_uncertainty_report *uncertainty,
+                                    size_t option);
 
 /* The mean energy of the rocks that arrive, that below which 95 % of them stay, and that of all released, in kJ. */
 struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *arrivals);
@@ -157,13 +163,14 @@ const char *ceduo_measure_may_be(struct ceduo_measure m, char room[CEDUO_WORDS_R
 /* The answer for one scene: all that pages, panes and figures are made from. */
 struct ceduo_report {
     const struct scene_file *file;
-    const struct ceduo_result *result;      /* NULL: nothing is computed yet */
-    const struct ceduo_verdict *verdict;    /* of all options; NULL: not known */
-    const struct ceduo_doubt_report *doubt; /* NULL: not computed; in the terminal program perhaps of one option alone */
-    struct ceduo_years *const *years;       /* one for each option; NULL: not asked for */
-    struct ceduo_years *const *ahead;       /* likewise, for pictures; NULL, or NULL of an option: not known */
-    const struct ceduo_snapshot *snapshot;  /* for pictures; NULL: there are none */
-    const struct ceduo_block *blocks;       /* CEDUO_BLOCKS for each option; NULL: none to show */
+    const struct ceduo_result *result;   /* NULL: nothing is computed yet */
+    const struct ceduo_verdict *verdict; /* of all options; NULL: not known */
+    const struct ceduo_uncertainty_report
+        *uncertainty;                      /* NULL: not computed; in the terminal program perhaps of one option alone */
+    struct ceduo_years *const *years;      /* one for each option; NULL: not asked for */
+    struct ceduo_years *const *ahead;      /* likewise, for pictures; NULL, or NULL of an option: not known */
+    const struct ceduo_snapshot *snapshot; /* for pictures; NULL: there are none */
+    const struct ceduo_block *blocks;      /* CEDUO_BLOCKS for each option; NULL: none to show */
     struct ceduo_run_remarks remarks;
     struct ceduo_work work;
     double seconds;       /* that the runs took */
@@ -269,7 +276,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
 /* What the page says in words: misfit, what is not determined, what is known only together. */
 void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *report);
 
-/* The draws as a table for `doubt: {draws: …}`: a column for each fitted value, whose head is its places in the first scene. */
+/* The draws as a table for `uncertainty: {draws: …}`: a column for each fitted value, whose head is its places in the first scene. */
 void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration_report *report);
 
 /* "48 stops; 95 % .44–.51": where the fitted values come from. */

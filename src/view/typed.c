@@ -7,7 +7,7 @@
 #include "base/language.h"
 #include "words.h"
 
-#define TYPED_MOST 1024 /* bytes of what is typed in a line */
+#define TYPED_MAX  1024 /* bytes of what is typed in a line */
 #define EVERYWHERE 2e9  /* a range so wide tells a person nothing */
 
 static bool is_number(const struct field *f)
@@ -19,7 +19,7 @@ static bool is_number(const struct field *f)
 
 enum ceduo_number_reading ceduo_typed_number(const char *typed, double *value)
 {
-    char room[TYPED_MOST];
+    char room[TYPED_MAX];
     typed += strspn(typed, " ");
     size_t n = strlen(typed);
     while (n > 0 && typed[n - 1] == ' ')
@@ -64,14 +64,14 @@ static size_t read_numbers(const char *typed, bool commas_part, double *values, 
 
 bool ceduo_typed_points(const char *typed, struct text *vertices, double *first, double *last)
 {
-    double values[TYPED_MOST / 2];
+    double values[TYPED_MAX / 2];
     char x[CEDUO_NUMBER_ROOM], z[CEDUO_NUMBER_ROOM];
-    size_t n = strchr(typed, ';') ? 0 : read_numbers(typed, true, values, TYPED_MOST / 2);
+    size_t n = strchr(typed, ';') ? 0 : read_numbers(typed, true, values, TYPED_MAX / 2);
     bool rises = true;
     for (size_t i = 2; i < n; i += 2)
         rises &= values[i] > values[i - 2];
     if (!rises || n < 4 || n % 2 != 0)
-        n = read_numbers(typed, false, values, TYPED_MOST / 2);
+        n = read_numbers(typed, false, values, TYPED_MAX / 2);
     if (n < 4 || n % 2 != 0)
         return false;
     ceduo_text_put(vertices, "[");
@@ -89,7 +89,7 @@ static bool put_spread(const struct field *f, const char *typed, struct text *va
 {
     const char *sign = strstr(typed, "\xc2\xb1"), *plain = sign ? sign : strstr(typed, "+-");
     double mean, spread;
-    char room[TYPED_MOST], a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+    char room[TYPED_MAX], a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     if (!plain || strlen(typed) >= sizeof room)
         return false;
     snprintf(room, sizeof room, "%.*s", (int)(plain - typed), typed);
@@ -142,13 +142,13 @@ static bool put_places(const struct field *f, const char *typed, struct text *va
 /* Numbers with blanks between as a list; what is in brackets already is YAML. */
 static bool put_numbers(const struct field *f, const char *typed, struct text *value)
 {
-    double values[TYPED_MOST / 2];
+    double values[TYPED_MAX / 2];
     char room[CEDUO_NUMBER_ROOM];
     if (typed[0] == '[')
         return false;
-    size_t n = read_numbers(typed, false, values, TYPED_MOST / 2);
+    size_t n = read_numbers(typed, false, values, TYPED_MAX / 2);
     if (n == 0) /* no decimal commas: they part */
-        n = read_numbers(typed, true, values, TYPED_MOST / 2);
+        n = read_numbers(typed, true, values, TYPED_MAX / 2);
     if (n == 0 && ceduo_schema_is_place(f))
         return put_places(f, typed, value);
     for (size_t i = 0; i < n; i++)

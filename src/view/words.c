@@ -137,15 +137,15 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
     if (r->warnings & CEDUO_WARN_BASAL_AREA)
         say_format(say, context,
                    _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."),
-                   NAME_OF(belt), r->basal_area, CEDUO_BASAL_AREA_MOST);
+                   NAME_OF(belt), r->basal_area, CEDUO_BASAL_AREA_MAX);
     if (r->warnings & CEDUO_WARN_MANY_SHOOTS)
         say_format(say, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."), NAME_OF(belt),
-                   ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MOST);
+                   ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MAX);
     for (size_t i = 0; i < 2; i++)
         if (odd[i])
             say_format(say, context,
                        _("%s: stems of %.3g cm are %.3g m high, usual are %d to %d times their diameter: check both."),
-                       NAME_OF(belt), odd[i]->dbh * 100, odd[i]->height, CEDUO_SLENDERNESS_LEAST, CEDUO_SLENDERNESS_MOST);
+                       NAME_OF(belt), odd[i]->dbh * 100, odd[i]->height, CEDUO_SLENDERNESS_MIN, CEDUO_SLENDERNESS_MAX);
     for (size_t i = 0; stems_at(s, i); i++) {
         const struct ceduo_beside_curve at = ceduo_stems_beside_curve(s, belt->cut_year, i);
         if (fabs(at.basal_area - at.by_curve) > CEDUO_OFF_CURVE * at.by_curve)
@@ -323,7 +323,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
                             "%llu rocks had more than %d contacts or stems on their way through the wood and count as "
                             "unfinished: are the rock's size and the stems per hectare as they should be?",
                             (unsigned long)unfinished),
-                   (unsigned long long)unfinished, CEDUO_STEMS_MOST);
+                   (unsigned long long)unfinished, CEDUO_STEMS_MAX);
     else if (unfinished > 0)
         say_format(say, context,
                    ngettext("%llu rock was still moving after %d contacts and counts as unfinished: does the ground "
@@ -331,7 +331,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
                             "%llu rocks were still moving after %d contacts and count as unfinished: does the ground "
                             "take energy?",
                             (unsigned long)unfinished),
-                   (unsigned long long)unfinished, CEDUO_CONTACTS_MOST);
+                   (unsigned long long)unfinished, CEDUO_CONTACTS_MAX);
     for (size_t i = 0; i < result->options_count; i++)
         for (size_t c = 0; c < result->scene->controls_count; c++) {
             const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
@@ -375,7 +375,7 @@ static void say_reason(struct text *text, const struct ceduo_index *s, double li
                           ROUNDED(s->longest_gap, 6), limit);
     else if (!contact)
         ceduo_text_format(text, _("Chance of %g m without a contact at worst %s %% (10 %% is allowed)."), limit,
-                          PERCENT(s->worst_free_run, CEDUO_FREE_RUN_MOST));
+                          PERCENT(s->worst_free_run, CEDUO_FREE_RUN_MAX));
     else if (isinf(s->worst_adc))
         ceduo_text_format(text, _("In a belt no stem counts; a rock reaches full speed in %g m."), limit);
     else
@@ -403,7 +403,7 @@ void ceduo_words_test(struct text *text, const struct ceduo_result *result, size
     ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s%s."), fmax(counted, CEDUO_THICK_DBH) * 100,
                     !stems      ? _("no stems")
                     : test == 0 ? BESIDE(s->thick.worst_adc, 3, limit)
-                                : PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MOST),
+                                : PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MAX),
                     !stems      ? ""
                     : test == 0 ? " m"
                                 : " %");

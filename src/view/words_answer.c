@@ -120,7 +120,7 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
     else
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
                           WRITTEN_OF_1000(shown->exceed.mean, shown->exceed.lo, shown->exceed.hi), ceduo_words_accepted(c),
-                          CEDUO_EXCEED_MOST * 1000);
+                          CEDUO_EXCEED_MAX * 1000);
     if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
         ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."),
                         (unsigned long long)shown->unfinished);
@@ -134,7 +134,8 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
 
 struct ceduo_outcome ceduo_report_outcome(const struct ceduo_report *report, size_t option, size_t control)
 {
-    return ceduo_outcome_of(report->result, report->verdict, report->doubt ? report->doubt->answer : NULL, option, control);
+    return ceduo_outcome_of(report->result, report->verdict, report->uncertainty ? report->uncertainty->answer : NULL, option,
+                            control);
 }
 
 struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t option, size_t control)
@@ -152,8 +153,8 @@ struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t 
                               .outcome = ceduo_report_outcome(report, option, control)};
     s.today = ceduo_judged(s.place, s.wooded);
     s.mean = ceduo_share(s.choice ? s.choice->mean : (struct ceduo_portion){NAN, NAN});
-    ceduo_measure_doubt(&s.today, report->doubt, option, control);
-    ceduo_measure_doubt_over(&s.mean, report->doubt, option);
+    ceduo_measure_uncertainty(&s.today, report->uncertainty, option, control);
+    ceduo_measure_uncertainty_over(&s.mean, report->uncertainty, option);
     return s;
 }
 
@@ -203,7 +204,7 @@ static void say_years(struct text *text, const struct ceduo_subject *s, enum len
     const struct ceduo_outcome *o = &s->outcome;
     const struct ceduo_years_summary *over = &s->choice->ahead[s->control];
     const char *limit = SHORTEST(s->today.limit);
-    double accepted = 1000 * CEDUO_EXCEED_MOST, worst = 1000 * over->worst;
+    double accepted = 1000 * CEDUO_EXCEED_MAX, worst = 1000 * over->worst;
     LOCAL_TEXT(count);
     say_count(&count, o);
     if (is_due(s)) {
@@ -259,13 +260,14 @@ static void say_shares(struct text *text, const struct ceduo_measure *m, const s
     }
     ceduo_text_format(text, _("%s of 1000 %s"), VALUE_OF(*m), NAMED(*m, length <= LONG ? CEDUO_PHRASE : CEDUO_SHORT_HEAD));
     if (length == FULL && m->limit > 0)
-        ceduo_text_format(text, _(" (at most %.0f rocks accepted)"), 1000 * CEDUO_EXCEED_MOST);
+        ceduo_text_format(text, _(" (at most %.0f rocks accepted)"), 1000 * CEDUO_EXCEED_MAX);
     else if (length == FULL && bare)
         ceduo_text_format(text, _(" (%.0f without forest)"), bare->value);
-    bool doubted = !isnan(m->may_lo);
+    bool uncertain = !isnan(m->may_lo);
     if (length > MIDDLE)
         return;
-    ceduo_text_format(text, doubted ? _("; may be %s") : _("; %s by the rocks"), doubted ? MAY_BE(*m) : SPAN(*m, m->lo, m->hi));
+    ceduo_text_format(text, uncertain ? _("; may be %s") : _("; %s by the rocks"),
+                      uncertain ? MAY_BE(*m) : SPAN(*m, m->lo, m->hi));
 }
 
 /* What follows the verdict, in so many columns; nothing where it has no room. */

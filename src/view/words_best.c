@@ -165,7 +165,7 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 
 /* ---- by the other energy law of stems ---- */
 
-#define TURNED_MOST 3 /* pairs of options that are named */
+#define TURNED_MAX 3 /* pairs of options that are named */
 
 void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
@@ -208,7 +208,7 @@ void ceduo_words_turned(const struct ceduo_result *r, const struct ceduo_verdict
         LOCAL_TEXT(sentence);
         if (isnan(of_1000(r, a, true) + of_1000(r, b, true))) /* the rocks of that law still fall */
             continue;
-        if (i >= TURNED_MOST) {
+        if (i >= TURNED_MAX) {
             ceduo_text_format(&sentence,
                               ngettext("The order of %zu other pair of options depends on the energy law, too.",
                                        "The order of %zu other pairs of options depends on the energy law, too.", left),

@@ -18,7 +18,7 @@
 static void try_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint64_t rocks)
 {
     struct ceduo_calibration a;
-    double truth[QUARRY_VALUES_MOST], start = processor_s();
+    double truth[QUARRY_VALUES_MAX], start = processor_s();
     struct quarry_trial trial = {.number = number,
                                  .values = VALUES,
                                  .kinds = QUARRY_KINDS,

@@ -24,7 +24,7 @@ static const char *const quantity_names[QUANTITIES] = {"mean_energy_kJ", "p95_en
 #define TRUE_ROCKS       8000000
 #define TRUE_ROCKS_STEMS 1000000
 #define PLAIN_TRUE_ROCKS 4000000
-#define SOBOL_MOST       40
+#define SOBOL_MAX        40
 #define STARTS           4 /* numbers of a start */
 
 /* Sums over the repeats of one row. */
@@ -119,7 +119,7 @@ struct stream {
     struct line_random random;
     bool mirrored; /* the second rock of a pair */
     gsl_qrng *sobol;
-    double point[SOBOL_MOST], shift[SOBOL_MOST];
+    double point[SOBOL_MAX], shift[SOBOL_MAX];
     double *energies;
     size_t n;
 };
@@ -127,7 +127,7 @@ struct stream {
 static double number(struct stream *s, unsigned dimension, bool start)
 {
     double u = line_uniform(&s->random, 0, 1);
-    if (s->kind == SOBOL && dimension < SOBOL_MOST)
+    if (s->kind == SOBOL && dimension < SOBOL_MAX)
         return fmod(s->point[dimension] + s->shift[dimension], 1);
     return s->mirrored && (s->kind == ANTITHETIC || start) ? 1 - u : u;
 }
@@ -151,7 +151,7 @@ static void begin(struct stream *s, uint64_t rock, struct slow_def *start)
 
 static double draw(void *context, uint64_t contact)
 {
-    return number(context, STARTS + (unsigned)(contact < SOBOL_MOST ? contact : SOBOL_MOST), false);
+    return number(context, STARTS + (unsigned)(contact < SOBOL_MAX ? contact : SOBOL_MAX), false);
 }
 
 static double run_plain(const struct paper_site *site, struct slow_def def, struct stream *s, uint64_t rocks, uint64_t seed,
@@ -167,7 +167,7 @@ static double run_plain(const struct paper_site *site, struct slow_def def, stru
     if (!s->energies)
         fail("no memory");
     struct line_random random = {.state = s->seed};
-    for (int i = 0; i < SOBOL_MOST; i++)
+    for (int i = 0; i < SOBOL_MAX; i++)
         s->shift[i] = line_uniform(&random, 0, 1);
     if (s->kind == SOBOL)
         gsl_qrng_init(s->sobol);
@@ -197,7 +197,7 @@ static void measure_numbers(const char *what, bool spread, size_t asked)
     struct slow_segment segments[PAPER_SEGMENTS];
     paper_site_init(&site);
     const struct slow_def def = plain_site(&site, segments);
-    struct stream source = {.spread = spread, .sobol = gsl_qrng_alloc(gsl_qrng_sobol, SOBOL_MOST)};
+    struct stream source = {.spread = spread, .sobol = gsl_qrng_alloc(gsl_qrng_sobol, SOBOL_MAX)};
     if (!source.sobol)
         fail("no memory");
     double truth[QUANTITIES], true_se[QUANTITIES];

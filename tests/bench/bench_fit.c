@@ -17,7 +17,7 @@ int main(int argc, char **argv)
     printf("site,values,stops,rocks,evaluations,settled,effective_size,processor_s,seconds\n");
     for (size_t i = first; i < first + sites; i++) {
         struct ceduo_calibration a;
-        double truth[QUARRY_VALUES_MOST], start = ceduo_clock(), processor = processor_s();
+        double truth[QUARRY_VALUES_MAX], start = ceduo_clock(), processor = processor_s();
         struct quarry_trial trial = {
             .number = i, .values = 4, .kinds = 1, .seen = 48, .rocks = CEDUO_CALIBRATION_ROCKS, .threads = 2};
         if (!quarry_try(&trial, truth, &a))

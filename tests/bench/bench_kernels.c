@@ -39,7 +39,7 @@ static const struct place places[] = {
 /* The default kernel, and the plain walk. */
 struct measure {
     enum ceduo_kernel kernel;
-    double seconds[REPEATS_MOST];
+    double seconds[REPEATS_MAX];
     uint64_t contacts;
     struct ceduo_stem_counts stems;
     double energy; /* J, at the last control */
@@ -113,8 +113,8 @@ static bool measure_place(const struct place *place, size_t repeats, uint64_t ro
 int main(int argc, char **argv)
 {
     (void)argc;
-    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MOST);
-    uint64_t rocks = argument(argv, 2, 5000, 1, CEDUO_ROCKS_MOST);
+    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MAX);
+    uint64_t rocks = argument(argv, 2, 5000, 1, CEDUO_ROCKS_MAX);
     bool good = true;
     puts("scene,rocks,contacts,stems_hit,default_seconds,plain_seconds,ratio");
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)

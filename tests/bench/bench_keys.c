@@ -7,11 +7,11 @@
 #include "frame.h"
 #include "tui/program.h"
 
-#define KEYS_MOST 4096
+#define KEYS_MAX 4096
 
 struct hand {
     struct app app;
-    double ms[KEYS_MOST];
+    double ms[KEYS_MAX];
     size_t n;
 };
 
@@ -21,7 +21,7 @@ static void press(struct hand *h, int key, bool counts)
     ceduo_program_key(&h->app, key);
     ceduo_program_news(&h->app);
     ceduo_screen_draw(&h->app);
-    if (counts && h->n < KEYS_MOST)
+    if (counts && h->n < KEYS_MAX)
         h->ms[h->n++] = 1e3 * (ceduo_clock() - start);
 }
 

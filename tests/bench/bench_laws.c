@@ -12,7 +12,7 @@
 #include "physics/line_scene.h"
 
 struct turn {
-    double seconds[REPEATS_MOST];
+    double seconds[REPEATS_MAX];
     uint64_t contacts;
 };
 
@@ -57,8 +57,8 @@ static void measure(const char *place, struct ceduo_scene *scene, enum ceduo_ker
 int main(int argc, char **argv)
 {
     (void)argc;
-    size_t repeats = argument(argv, 1, 9, 1, REPEATS_MOST);
-    uint64_t rocks = argument(argv, 2, 20000, 1, CEDUO_ROCKS_MOST);
+    size_t repeats = argument(argv, 1, 9, 1, REPEATS_MAX);
+    uint64_t rocks = argument(argv, 2, 20000, 1, CEDUO_ROCKS_MAX);
     static struct paper_site site;
     static struct line_scene meadow;
     const double x[] = {0, 60, 400}, z[] = {0, -40, -50};

@@ -12,7 +12,7 @@
 #include "frame.h"
 #include "tui/program.h"
 
-#define EDITS_MOST 10000
+#define EDITS_MAX 10000
 
 static void report(const char *what, double *ms, size_t n, double goal_median, double goal_p99)
 {
@@ -55,11 +55,11 @@ int main(int argc, char **argv)
     if (!mkdtemp(state) || setenv("XDG_STATE_HOME", state, 1) != 0)
         return 1;
     (void)argc;
-    size_t repeats = argument(argv, 1, 100, 1, EDITS_MOST);
+    size_t repeats = argument(argv, 1, 100, 1, EDITS_MAX);
     struct app app;
     struct problems problems = {0};
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    static double first[EDITS_MOST], all[EDITS_MOST], stand[EDITS_MOST], wooded[EDITS_MOST];
+    static double first[EDITS_MAX], all[EDITS_MAX], stand[EDITS_MAX], wooded[EDITS_MAX];
     if (!ceduo_program_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false,
                               &problems))
         return 1;

@@ -15,10 +15,10 @@
 
 #include "frame.h"
 
-#define VERTICES_MOST 4000000
-#define KINDS         6
-#define MOVED         1e-3 /* m */
-#define STEEPNESS     0.15 /* of each wave of the rough profile */
+#define VERTICES_MAX 4000000
+#define KINDS        6
+#define MOVED        1e-3 /* m */
+#define STEEPNESS    0.15 /* of each wave of the rough profile */
 
 struct profile {
     const char *name;
@@ -26,7 +26,7 @@ struct profile {
 };
 
 struct measure {
-    double make[REPEATS_MOST], fly[REPEATS_MOST];
+    double make[REPEATS_MAX], fly[REPEATS_MAX];
     uint64_t contacts;
 };
 
@@ -110,9 +110,9 @@ static void measure_law(enum ceduo_law law, size_t repeats, uint64_t rocks, size
 int main(int argc, char **argv)
 {
     (void)argc;
-    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MOST);
-    uint64_t rocks = argument(argv, 2, 20000, 1, CEDUO_ROCKS_MOST);
-    size_t vertices = argument(argv, 3, 100000, 10000, VERTICES_MOST);
+    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MAX);
+    uint64_t rocks = argument(argv, 2, 20000, 1, CEDUO_ROCKS_MAX);
+    size_t vertices = argument(argv, 3, 100000, 10000, VERTICES_MAX);
     puts("profile,law,vertices,rocks,make_seconds,fly_seconds,contacts_per_rock,ns_per_contact,ratio_to_13_segments,"
          "ratio_of_contacts");
     measure_law(CEDUO_LAW_LUMPED, repeats, rocks, vertices);

@@ -56,7 +56,7 @@ static void measure(const char *path, size_t repeats, uint64_t rocks, unsigned t
 int main(int argc, char **argv)
 {
     (void)argc;
-    size_t repeats = argument(argv, 1, 3, 1, REPEATS_MOST);
+    size_t repeats = argument(argv, 1, 3, 1, REPEATS_MAX);
     uint64_t rocks = argument(argv, 2, 10000, 1, UINT64_MAX);
     unsigned threads = (unsigned)argument(argv, 3, 2, 1, 1024);
     puts("scene,options,years,rocks,threads,runs,rocks_flown,stems_drawn,seconds_median,cpu_seconds_median,goal_seconds");

@@ -19,8 +19,8 @@
 
 #include "frame.h"
 
-#define ROCKS_MOST 1000000
-#define CONTACTS   40
+#define ROCKS_MAX 1000000
+#define CONTACTS  40
 
 static const uint64_t marks[] = {1, 5, 10, 20, 40};
 #define MARKS (sizeof marks / sizeof *marks)
@@ -118,7 +118,7 @@ static void compare(const char *name, const struct paper_site *site, const char 
 int main(int argc, char **argv)
 {
     (void)argc;
-    uint64_t rocks = argument(argv, 1, 20000, 100, ROCKS_MOST);
+    uint64_t rocks = argument(argv, 1, 20000, 100, ROCKS_MAX);
     static const struct {
         const char *name;
         int mode;

@@ -12,7 +12,7 @@ struct kind {
     enum ceduo_contact_model model;
     uint64_t contacts;
     struct ceduo_stem_counts stems;
-    double seconds[REPEATS_MOST];
+    double seconds[REPEATS_MAX];
 };
 
 static void fly(struct ceduo_scene scene, struct kind *k, uint64_t rocks, size_t repeat)
@@ -52,7 +52,7 @@ static void measure(const char *path, size_t repeats, uint64_t rocks)
 int main(int argc, char **argv)
 {
     (void)argc;
-    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MOST);
+    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MAX);
     uint64_t rocks = argument(argv, 2, 50000, 1, UINT64_MAX);
     puts("scene,what,rocks,seconds_median,contacts,met,hit,drawn,contacts_and_met_per_s,ratio_to_bare");
     measure("profiles/scenes/paper-site.yaml", repeats, rocks);

@@ -19,8 +19,8 @@
 #include "core/walk/landing.h"
 #include "frame.h"
 
-#define STEPS_MOST 100000000
-#define MISSED     1.0 /* m */
+#define STEPS_MAX 100000000
+#define MISSED    1.0 /* m */
 
 struct launch {
     struct flight from;
@@ -56,7 +56,7 @@ static double by_parabola_steps(const struct ground *g, const struct launch *l, 
     const struct flight *f = &l->from;
     size_t segment = f->segment;
     double x0 = f->x, h0 = 0;
-    for (long i = 1; i < STEPS_MOST; i++) {
+    for (long i = 1; i < STEPS_MAX; i++) {
         double t = (double)i * step, x = f->x + f->vx * t, z = f->z + (f->vz - g->half_g * t) * t;
         double h = height(g, x, z, &segment);
         if (h < 0)
@@ -71,7 +71,7 @@ static double by_euler(const struct ground *g, const struct launch *l, double st
 {
     double x = l->from.x, z = l->from.z, vz = l->from.vz, h0 = 0;
     size_t segment = l->from.segment;
-    for (long i = 1; i < STEPS_MOST; i++) {
+    for (long i = 1; i < STEPS_MAX; i++) {
         double x0 = x;
         vz -= g->gravity * step;
         x += l->from.vx * step;
@@ -103,7 +103,7 @@ static double by_gsl(const struct ground *g, const struct launch *l, double tole
     double y[4] = {l->from.x, l->from.z, l->from.vx, l->from.vz}, step = 0.1;
     size_t segment = l->from.segment;
     double h0 = 0;
-    for (long i = 0; d && i < STEPS_MOST; i++) {
+    for (long i = 0; d && i < STEPS_MAX; i++) {
         double before[4] = {y[0], y[1], y[2], y[3]}, t0 = t;
         if (gsl_odeiv2_driver_apply(d, &t, t0 + step, y) != GSL_SUCCESS)
             break;

@@ -19,11 +19,11 @@
 #include "frame.h"
 #include "physics/stops.h"
 
-#define BLOCKS      3
-#define VALUES      4
-#define POINTS_MOST 4096
-#define STARTS      3
-#define STEPS       60
+#define BLOCKS     3
+#define VALUES     4
+#define POINTS_MAX 4096
+#define STARTS     3
+#define STEPS      60
 
 static const double lowest[VALUES] = {0.02, 0, 0.1, 0}, highest[VALUES] = {0.95, 0.8, 1.2, 0};
 
@@ -167,7 +167,7 @@ static void print_shares(const struct site *site, const char *law, const struct 
 
 static void measure_law(struct site *site, enum ceduo_law law, const char *name, size_t n)
 {
-    static struct fit points[POINTS_MOST];
+    static struct fit points[POINTS_MAX];
     gsl_qrng *sobol = gsl_qrng_alloc(gsl_qrng_sobol, VALUES);
     bool arm = law == CEDUO_LAW_ARM;
     site->file.scene.simulation.law = law;
@@ -229,7 +229,7 @@ int main(int argc, char **argv)
 {
     static struct site site;
     (void)argc;
-    size_t points = argument(argv, 1, 4096, STARTS, POINTS_MOST);
+    size_t points = argument(argv, 1, 4096, STARTS, POINTS_MAX);
     site.rocks = argument(argv, 2, 500, 1, UINT64_MAX);
     read_site(&site);
     puts("what,law,rn,roughness_rad,friction,rt_or_mu,ks_block1,ks_block2,ks_plate,mean_block1_m,mean_block2_m,mean_plate_m,"

@@ -14,9 +14,9 @@
 
 #include "frame.h"
 
-#define MANY_ROCKS  1000000
-#define ROCKS_LEAST 1000 /* fewer say nothing about agreement */
-#define AGREE       4.0  /* combined standard errors */
+#define MANY_ROCKS 1000000
+#define ROCKS_MIN  1000 /* fewer say nothing about agreement */
+#define AGREE      4.0  /* combined standard errors */
 
 /* Over the rocks of the plain loop; speed and energy of those that passed. */
 struct plain_sums {
@@ -39,7 +39,7 @@ struct measure {
     unsigned threads;
     enum ceduo_kernel kernel;
     uint64_t rocks;
-    double seconds[REPEATS_MOST];
+    double seconds[REPEATS_MAX];
     uint64_t contacts;
     struct ceduo_arrivals arrivals;
 };
@@ -150,7 +150,7 @@ static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
         {.what = "ceduo-2-threads", .threads = 2, .rocks = rocks},
     };
     size_t n = sizeof core / sizeof core[0];
-    double plain[REPEATS_MOST];
+    double plain[REPEATS_MAX];
     for (size_t i = 0; i < repeats; i++) {
         plain[i] = time_plain(site, rocks, i);
         for (size_t c = 0; c < n; c++)
@@ -186,8 +186,8 @@ static void measure_many(const struct site *site, size_t repeats)
 int main(int argc, char **argv)
 {
     (void)argc;
-    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MOST);
-    uint64_t rocks = argument(argv, 2, 100000, ROCKS_LEAST, MANY_ROCKS);
+    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MAX);
+    uint64_t rocks = argument(argv, 2, 100000, ROCKS_MIN, MANY_ROCKS);
     static struct site lumped, crsp;
     init_site(&lumped, CEDUO_LAW_LUMPED, false);
     init_site(&crsp, CEDUO_LAW_CRSP, true);

@@ -129,7 +129,7 @@ struct slow_def plain_site(const struct paper_site *site, struct slow_segment se
                              .vx0 = site->scene.release.vx.mean,
                              .vz0 = site->scene.release.vz.mean,
                              .uniform = draw,
-                             .max_contacts = CEDUO_CONTACTS_MOST,
+                             .max_contacts = CEDUO_CONTACTS_MAX,
                              .control = site->control.x};
 }
 

@@ -10,7 +10,7 @@
 #include "physics/paper_site.h"
 #include "plain_walk.h"
 
-#define REPEATS_MOST 101
+#define REPEATS_MAX 101
 
 _Noreturn void fail(const char *why);
 
@@ -21,7 +21,7 @@ uint64_t argument(char **argv, int i, uint64_t usual, uint64_t least, uint64_t m
 double processor_s(void);
 
 struct timing {
-    double seconds[REPEATS_MOST], busy[REPEATS_MOST]; /* by the clock on the wall, of the processor */
+    double seconds[REPEATS_MAX], busy[REPEATS_MAX]; /* by the clock on the wall, of the processor */
     double start, start_busy;
 };
 void timing_begin(struct timing *t);

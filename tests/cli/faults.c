@@ -70,10 +70,10 @@ static bool happens(void)
 
 /* ---- which functions an allocation came from ---- */
 
-#define WAYS_MOST  (1 << 20)
+#define WAYS_MAX   (1 << 20)
 #define WAY_FRAMES 16
 
-static unsigned long ways[WAYS_MOST];
+static unsigned long ways[WAYS_MAX];
 
 struct way {
     unsigned long hash;
@@ -97,7 +97,7 @@ static void note_way(void)
     unsigned long n = atomic_load(&count);
     struct way way = {0xcbf29ce484222325u, 0};
     _Unwind_Backtrace(add_frame, &way);
-    if (!atomic_load(&waits) && n < WAYS_MOST)
+    if (!atomic_load(&waits) && n < WAYS_MAX)
         ways[n] = way.hash;
     busy = false;
 }
@@ -107,7 +107,7 @@ static void print_ways(void)
     FILE *file = fault == WAYS ? fopen(getenv("FAULT_WAYS"), "w") : NULL;
     unsigned long n = atomic_load(&count);
     fault = NOTHING;
-    for (unsigned long i = 1; file && i <= n && i < WAYS_MOST; i++)
+    for (unsigned long i = 1; file && i <= n && i < WAYS_MAX; i++)
         fprintf(file, "%lx\n", ways[i]);
     if (file)
         fclose(file);

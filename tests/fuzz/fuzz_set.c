@@ -6,7 +6,7 @@
 #include "fuzz.h"
 #include "io/scene_file.h"
 
-#define SETS_MOST 8
+#define SETS_MAX 8
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -17,9 +17,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     memcpy(text, data, size);
     text[size] = '\0';
-    const char *sets[SETS_MOST];
+    const char *sets[SETS_MAX];
     size_t n = 0;
-    for (char *save, *line = strtok_r(text, "\n", &save); line && n < SETS_MOST; line = strtok_r(NULL, "\n", &save))
+    for (char *save, *line = strtok_r(text, "\n", &save); line && n < SETS_MAX; line = strtok_r(NULL, "\n", &save))
         sets[n++] = line;
     struct scene_file file;
     struct problems problems = {0};

@@ -13,11 +13,11 @@
 
 /* ---- ways of calls ---- */
 
-#define WAYS_MOST  ((unsigned long)1 << 20) /* of calls, noted in a task */
+#define WAYS_MAX   ((unsigned long)1 << 20) /* of calls, noted in a task */
 #define WAY_FRAMES 16
 
 static bool noting;
-static uint64_t ways[WAYS_MOST];
+static uint64_t ways[WAYS_MAX];
 
 /* By which functions a call came here. */
 static uint64_t way_of_calls(void)
@@ -50,7 +50,7 @@ atomic_long grow_at;
 bool fails(void)
 {
     unsigned long n = atomic_fetch_add(&calls, 1) + 1;
-    if (noting && n < WAYS_MOST)
+    if (noting && n < WAYS_MAX)
         ways[n] = way_of_calls();
     if (fail_at == 0 || !(fail_on ? n >= fail_at : n == fail_at))
         return false;
@@ -217,7 +217,7 @@ void without_memory(task *todo)
 {
     assert_true(begin(todo, 0, false));
     const uint64_t wanted = found, all = calls;
-    assert_true(all < WAYS_MOST);
+    assert_true(all < WAYS_MAX);
     way_of_calls(); /* the first time it takes memory itself */
     noting = true;
     assert_true(begin(todo, 0, false));

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-#include "ceduo/doubt.h"
 #include "ceduo/record.h"
+#include "ceduo/uncertainty.h"
 #include "physics/paper_site.h"
 #include "study/inputs.h"
 #include "study/snapshot.h"
@@ -101,11 +101,11 @@ static bool fly_scalar_wood(void)
 }
 
 /* A profile of so many vertices that its segments are put into blocks. */
-enum { VERTICES_MOST = 2600 };
+enum { VERTICES_MAX = 2600 };
 static bool fly_profile(size_t vertices)
 {
-    static double x[VERTICES_MOST], z[VERTICES_MOST];
-    static struct ceduo_segment segments[VERTICES_MOST - 1];
+    static double x[VERTICES_MAX], z[VERTICES_MAX];
+    static struct ceduo_segment segments[VERTICES_MAX - 1];
     double metres = 156 / (double)(vertices - 1);
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     for (size_t i = 0; i < vertices; i++) {
@@ -138,7 +138,7 @@ static bool fly_long(void)
 /* Its vertices are less than a rock's radius apart, so that blocks of them are rolled over. */
 static bool fly_fine(void)
 {
-    return fly_profile(VERTICES_MOST);
+    return fly_profile(VERTICES_MAX);
 }
 
 /* ---- what stands on runs ---- */
@@ -271,47 +271,47 @@ static const struct ceduo_input inputs[2] = {
     {"release.vx_m_s", CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed}};
 
 /* What is not known of the site, asked of so many points and rocks. */
-static struct ceduo_doubt_def doubt_def(size_t points, uint64_t rocks)
+static struct ceduo_uncertainty_def uncertainty_def(size_t points, uint64_t rocks)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    return (struct ceduo_doubt_def){
+    return (struct ceduo_uncertainty_def){
         .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = points, .rocks = rocks, .threads = 2};
 }
 
-static enum ceduo_status ask_doubt(struct ceduo_doubt_def def)
+static enum ceduo_status ask_uncertainty(struct ceduo_uncertainty_def def)
 {
-    struct ceduo_doubt_answer answer;
-    enum ceduo_status status = ceduo_doubt_ask(&def, &answer);
+    struct ceduo_uncertainty_answer answer;
+    enum ceduo_status status = ceduo_uncertainty_ask(&def, &answer);
     if (status == CEDUO_OK) {
-        add(&answer.figures[CEDUO_DOUBT_ENERGY].fit.p50, sizeof answer.figures[CEDUO_DOUBT_ENERGY].fit.p50);
+        add(&answer.figures[CEDUO_UNCERTAINTY_ENERGY].fit.p50, sizeof answer.figures[CEDUO_UNCERTAINTY_ENERGY].fit.p50);
         add(answer.today.orders, answer.today.count * sizeof answer.today.orders[0]);
-        ceduo_doubt_free(&answer);
+        ceduo_uncertainty_free(&answer);
     }
     return status;
 }
 
 /* With a second option, without trees. */
-static bool doubt(void)
+static bool uncertainty(void)
 {
-    struct ceduo_doubt_def def = doubt_def(16, 16);
+    struct ceduo_uncertainty_def def = uncertainty_def(16, 16);
     struct ceduo_option options[2] = {site.option, {.name = NULL}};
     site.scene.options = options;
     site.scene.options_count = 2;
-    return is_done(ask_doubt(def));
+    return is_done(ask_uncertainty(def));
 }
 
-static bool doubt_over_years(void)
+static bool uncertainty_over_years(void)
 {
-    struct ceduo_doubt_def def = doubt_def(8, 16);
+    struct ceduo_uncertainty_def def = uncertainty_def(8, 16);
     def.rotation = true;
     def.window = (struct ceduo_window){.first = 1, .last = 2, .step = 1};
-    return is_done(ask_doubt(def));
+    return is_done(ask_uncertainty(def));
 }
 
 static bool sure(void)
 {
     struct sure_answer answer = {.above = 0};
-    const struct sure_def def = {.of = doubt_def(8, 16), .goal = CEDUO_GOAL_ARRIVE, .target = .5, .sure = .9};
+    const struct sure_def def = {.of = uncertainty_def(8, 16), .goal = CEDUO_GOAL_ARRIVE, .target = .5, .sure = .9};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     enum ceduo_status status = ceduo_sure_ask(&def, &answer);
     if (status == CEDUO_OK)
@@ -325,19 +325,19 @@ static void tell(void *context, uint64_t done, uint64_t all)
     note_told(true);
 }
 
-static enum ceduo_status doubt_on_two_threads(uint64_t rocks, void (*meanwhile)(void))
+static enum ceduo_status uncertainty_on_two_threads(uint64_t rocks, void (*meanwhile)(void))
 {
-    struct ceduo_doubt_def def = doubt_def(100, rocks);
+    struct ceduo_uncertainty_def def = uncertainty_def(100, rocks);
     def.progress = tell;
     begin_to_tell(meanwhile, 1);
-    return ask_doubt(def);
+    return ask_uncertainty(def);
 }
 
 /* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end
  * before it looks up again. */
 TEST(one_is_told_at_a_time)
 {
-    assert_int_equal(doubt_on_two_threads(1000, others_go_on), CEDUO_OK);
+    assert_int_equal(uncertainty_on_two_threads(1000, others_go_on), CEDUO_OK);
     assert_int_equal(told.most_inside, 1);
     assert_true(told.times > 1);
 }
@@ -345,19 +345,19 @@ TEST(one_is_told_at_a_time)
 /* Where one thread has no memory the other ends, too: of 404 evaluations few are made then. */
 TEST(one_thread_ends_all)
 {
-    assert_int_equal(doubt_on_two_threads(8, fail_others), CEDUO_NO_MEMORY);
+    assert_int_equal(uncertainty_on_two_threads(8, fail_others), CEDUO_NO_MEMORY);
     assert_true(told.times < 100);
 }
 
-/* What is in doubt has to be in the scene. */
+/* What is in uncertainty has to be in the scene. */
 TEST(a_place_that_is_not_there)
 {
     static const char *const colour = "rock.colour";
     const struct ceduo_input input = {"rock.colour", CEDUO_INPUT_RANGE, 0, 1, .places_count = 1, .places = &colour};
-    struct ceduo_doubt_def def = doubt_def(2, 8);
+    struct ceduo_uncertainty_def def = uncertainty_def(2, 8);
     def.inputs = &input;
     def.inputs_count = 1;
-    assert_int_equal(ask_doubt(def), CEDUO_BAD_PLACE);
+    assert_int_equal(ask_uncertainty(def), CEDUO_BAD_PLACE);
 }
 
 /* Points enough for all terms, but not for all products, so that inputs are ranked; and what the terms tell little of, so that
@@ -393,7 +393,7 @@ static bool fit_surface(void)
     return is_done(status);
 }
 
-/* A copy of a scene with more belts than the arena gives room for at once, whose shoots are in doubt. */
+/* A copy of a scene with more belts than the arena gives room for at once, whose shoots are in uncertainty. */
 static bool copy_belts(void)
 {
     enum { MANY = 300 };
@@ -596,9 +596,9 @@ TEST(runs_go_on)
 
 TEST(what_stands_on_runs)
 {
-    task *const tasks[] = {question, years_of_blocks, ask_by_index,      ask_both_laws,   doubt,  doubt_over_years,
-                           sure,     copy_belts,      ask_of_one_option, ask_years_apart, assess, assess_index,
-                           follow,   follow_one,      follow_roll,       record_roll,     find,   fit_surface};
+    task *const tasks[] = {question, years_of_blocks, ask_by_index,      ask_both_laws,   uncertainty, uncertainty_over_years,
+                           sure,     copy_belts,      ask_of_one_option, ask_years_apart, assess,      assess_index,
+                           follow,   follow_one,      follow_roll,       record_roll,     find,        fit_surface};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }

@@ -57,16 +57,16 @@ static const char kinds[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: pro
                             "observed: {speed: [{x_m: 30, values: [4, 5]}, {x_m: 40, mean: 3, sd: 1, n: 4}], scars: {from_m: "
                             "2, to_m: 9, height_m: [1]}}\n";
 
-static const char doubted[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
-                              "blocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}\n"
-                              "rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: [acer]}]}\n"
-                              "options:\n  - name: wood\n    forest: [{from_m: 10, to_m: 30, stand: doubtful.yaml}, "
-                              "{from_m: 30, to_m: 50, stand: doubtful.yaml}]\n  - {name: bare}\n"
-                              "doubt: [{path: 'options[*].forest[0].stand.energy.model', one_of: [brauner, dorren]}, "
-                              "{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.3}]\n";
+static const char uncertain[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
+                                "blocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}\n"
+                                "rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: [acer]}]}\n"
+                                "options:\n  - name: wood\n    forest: [{from_m: 10, to_m: 30, stand: doubtful.yaml}, "
+                                "{from_m: 30, to_m: 50, stand: doubtful.yaml}]\n  - {name: bare}\n"
+                                "doubt: [{path: 'options[*].forest[0].stand.energy.model', one_of: [brauner, dorren]}, "
+                                "{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.3}]\n";
 
-static const char doubtful[] = "ceduo: stand/1\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n"
-                               "doubt: [{path: 'trees[*].per_ha', lo: 50, hi: 70}]\n";
+static const char uncertain[] = "ceduo: stand/1\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n"
+                                "doubt: [{path: 'trees[*].per_ha', lo: 50, hi: 70}]\n";
 
 static const char survey[] =
     "plot,area_m2,kind,stool,species,dbh_cm,height_m,note\n1,100,shoot,1,beech,6,7,x\n1,100,shoot,1,,5,,\n"
@@ -98,8 +98,8 @@ static int set_up(void **state)
     put("seen.yaml", seen);
     put("upward.yaml", upward);
     put("kinds.yaml", kinds);
-    put("doubted.yaml", doubted);
-    put("doubtful.yaml", doubtful);
+    put("doubted.yaml", uncertain);
+    put("doubtful.yaml", uncertain);
     put("survey.csv", survey);
     put("stops.csv", "block,x_m\n1,40\n2,50\n1,60\n");
     put("draws.csv", "rock.density_kg_m3\n2600\n2550\n");

@@ -203,7 +203,7 @@ static bool fit_on_many_threads(void)
     static const char *const place = "release.x_m";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
     return is_done(
-        fit_of(&input, 20, (struct ceduo_calibration_def){.scenes_count = 1, .rocks = 1, .threads = CEDUO_THREADS_MOST}));
+        fit_of(&input, 20, (struct ceduo_calibration_def){.scenes_count = 1, .rocks = 1, .threads = CEDUO_THREADS_MAX}));
 }
 
 /* What so many workers need takes room of its own. */

@@ -250,7 +250,7 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     double end = s->x[s->scene.slope.vertices - 1];
     if (way.end == CEDUO_LEFT_SLOPE && way.x != 0 && way.x != end)
         fail_msg("scene %ju: left the slope at %g", (uintmax_t)number, way.x);
-    bool crack = way.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MOST / 2;
+    bool crack = way.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MAX / 2;
     if (way.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack && !creeps(&w))
         fail_msg("scene %ju: unfinished", (uintmax_t)number);
     tally->last = way;

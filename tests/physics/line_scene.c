@@ -124,7 +124,7 @@ double line_normal(struct line_random *r)
 
 static size_t random_profile(struct line_scene *s, struct line_random *r)
 {
-    size_t n = (size_t)line_log_uniform(r, 1, LINE_SEGMENTS_MOST + 0.999);
+    size_t n = (size_t)line_log_uniform(r, 1, LINE_SEGMENTS_MAX + 0.999);
     int style = (int)line_uniform(r, 0, 4);
     double spacing = line_log_uniform(r, 0.05, 5), fall = line_uniform(r, -0.3, 1.5);
     double noise = spacing * line_log_uniform(r, 0.01, 1);
@@ -268,7 +268,7 @@ bool line_scene_lasts(const struct line_scene *s)
 void line_keep_piece(void *context, const struct ceduo_piece *piece)
 {
     struct line_way *to = context;
-    if (to->count < LINE_PIECES_MOST)
+    if (to->count < LINE_PIECES_MAX)
         to->pieces[to->count++] = *piece;
 }
 

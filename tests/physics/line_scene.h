@@ -5,13 +5,13 @@
 #include "ceduo/ceduo.h"
 
 /* A small scene in one piece of memory: a sphere on a polyline, one control. It points into itself: never copy it. */
-#define LINE_SEGMENTS_MOST 200
-#define LINE_PIECES_MOST   20000
+#define LINE_SEGMENTS_MAX 200
+#define LINE_PIECES_MAX   20000
 
 struct line_scene {
     struct ceduo_scene scene;
-    double x[LINE_SEGMENTS_MOST + 1], z[LINE_SEGMENTS_MOST + 1];
-    struct ceduo_segment segments[LINE_SEGMENTS_MOST];
+    double x[LINE_SEGMENTS_MAX + 1], z[LINE_SEGMENTS_MAX + 1];
+    struct ceduo_segment segments[LINE_SEGMENTS_MAX];
     struct ceduo_control control;
     struct ceduo_option option;
 };
@@ -61,12 +61,12 @@ void line_scene_arm(struct line_scene *s, uint64_t number);
 /* Whether nothing need take energy from a rock somewhere: it may bounce or roll for ever. */
 bool line_scene_lasts(const struct line_scene *s);
 
-/* The pieces of rock 0's way, at most LINE_PIECES_MOST kept. */
+/* The pieces of rock 0's way, at most LINE_PIECES_MAX kept. */
 struct line_way {
     struct ceduo_trajectory way;
     struct ceduo_crossing crossing;
     size_t count;
-    struct ceduo_piece pieces[LINE_PIECES_MOST];
+    struct ceduo_piece pieces[LINE_PIECES_MAX];
 };
 void line_keep_piece(void *way, const struct ceduo_piece *piece);
 enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to);

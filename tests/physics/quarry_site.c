@@ -12,12 +12,12 @@
 #define PLACE  60 /* m, where rocks were seen to pass */
 #define FEWEST 5  /* values of a kind */
 
-static const double bounds[QUARRY_VALUES_MOST][2] = {{0.25, 0.5}, {0.75, 0.95}, {0.05, 0.4}, {0.3, 0.7}};
-const char *const quarry_names[QUARRY_VALUES_MOST] = {"rn", "rt", "roughness_rad", "friction"};
+static const double bounds[QUARRY_VALUES_MAX][2] = {{0.25, 0.5}, {0.75, 0.95}, {0.05, 0.4}, {0.3, 0.7}};
+const char *const quarry_names[QUARRY_VALUES_MAX] = {"rn", "rt", "roughness_rad", "friction"};
 
 static void make_inputs(struct quarry_site *s)
 {
-    for (size_t i = 0; i < QUARRY_VALUES_MOST; i++) {
+    for (size_t i = 0; i < QUARRY_VALUES_MAX; i++) {
         for (size_t j = 0; j + 1 < QUARRY_VERTICES; j++) {
             snprintf(s->paths[i][j], sizeof s->paths[i][j], "slope.segments[%zu].%s", j, quarry_names[i]);
             s->places[i][j] = s->paths[i][j];
@@ -99,12 +99,12 @@ static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, con
 }
 
 /* Draws the truth; what is seen on it is in `values` and `seen`. */
-static bool make(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MOST], struct quarry_site *fitted,
-                 double **values, struct ceduo_observation *seen)
+static bool make(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct quarry_site *fitted, double **values,
+                 struct ceduo_observation *seen)
 {
     struct quarry_site made;
     struct line_random random = {1000 * trial->number + 77 * trial->made_by};
-    for (size_t i = 0; i < QUARRY_VALUES_MOST; i++)
+    for (size_t i = 0; i < QUARRY_VALUES_MAX; i++)
         truth[i] = i < trial->values || i < 3 ? line_uniform(&random, bounds[i][0], bounds[i][1]) : 0.5;
     make_site(&made, trial->made_by, truth, 100000 + trial->number);
     make_site(fitted, CEDUO_LAW_LUMPED, truth, 1 + trial->number);
@@ -117,7 +117,7 @@ static void forget(double **values)
         free(values[k]);
 }
 
-bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MOST], struct ceduo_calibration *answer)
+bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct ceduo_calibration *answer)
 {
     struct quarry_site site;
     struct ceduo_observation seen[QUARRY_KINDS];
@@ -132,7 +132,7 @@ bool quarry_look(const struct quarry_trial *trial, double p[QUARRY_KINDS])
     struct quarry_site site;
     struct ceduo_observation seen[QUARRY_KINDS];
     struct ceduo_predicted found[QUARRY_KINDS];
-    double *values[QUARRY_KINDS] = {0}, truth[QUARRY_VALUES_MOST];
+    double *values[QUARRY_KINDS] = {0}, truth[QUARRY_VALUES_MAX];
     bool good = make(trial, truth, &site, values, seen);
     struct ceduo_calibration_scene scene = {&site.scene, site.inputs, trial->kinds, seen};
     good = good && ceduo_calibration_as_it_is(&scene, trial->rocks, NULL, found) == CEDUO_OK;

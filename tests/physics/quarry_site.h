@@ -7,11 +7,11 @@
 /* A site whose ground is known, because ceduo made what was seen on it: a quarry face, its scree and the level ground below. Its
  * values are drawn in their bounds, some rocks are released and seen to stop and to pass a place, and the values are to be found
  * again. */
-#define QUARRY_VALUES_MOST 4
-#define QUARRY_KINDS       3 /* stops, speeds and heights at a place */
-#define QUARRY_VERTICES    6
+#define QUARRY_VALUES_MAX 4
+#define QUARRY_KINDS      3 /* stops, speeds and heights at a place */
+#define QUARRY_VERTICES   6
 
-extern const char *const quarry_names[QUARRY_VALUES_MOST];
+extern const char *const quarry_names[QUARRY_VALUES_MAX];
 
 /* It points into itself: never copy it. */
 struct quarry_site {
@@ -19,9 +19,9 @@ struct quarry_site {
     double x[QUARRY_VERTICES], z[QUARRY_VERTICES];
     struct ceduo_segment segments[QUARRY_VERTICES - 1];
     struct ceduo_option option;
-    char paths[QUARRY_VALUES_MOST][QUARRY_VERTICES - 1][40];
-    const char *places[QUARRY_VALUES_MOST][QUARRY_VERTICES - 1];
-    struct ceduo_input inputs[QUARRY_VALUES_MOST];
+    char paths[QUARRY_VALUES_MAX][QUARRY_VERTICES - 1][40];
+    const char *places[QUARRY_VALUES_MAX][QUARRY_VERTICES - 1];
+    struct ceduo_input inputs[QUARRY_VALUES_MAX];
 };
 
 /* How a site is tried. */
@@ -36,7 +36,7 @@ struct quarry_trial {
 
 /* False where too few rocks pass or stop; then nothing is to be freed. `truth`: the values drawn, of which those that are not
  * fitted are known. */
-bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MOST], struct ceduo_calibration *answer);
+bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct ceduo_calibration *answer);
 
 /* p of each kind seen, on the true ground without a fit. False as above. */
 bool quarry_look(const struct quarry_trial *trial, double p[QUARRY_KINDS]);

@@ -153,20 +153,20 @@ void expect_same_law(const char *what, struct sample *a, struct sample *b)
     expect_ks(what, d, p * q / (p + q));
 }
 
-void expect_poisson(const char *what, const uint64_t count[COUNTS_MOST], double mean)
+void expect_poisson(const char *what, const uint64_t count[COUNTS_MAX], double mean)
 {
     double n = 0, chi2 = 0, seen = 0, expected = 0, left = 1;
     int cells = 0;
-    for (int k = 0; k < COUNTS_MOST; k++)
+    for (int k = 0; k < COUNTS_MAX; k++)
         n += (double)count[k];
-    for (unsigned k = 0; k < COUNTS_MOST; k++) {
+    for (unsigned k = 0; k < COUNTS_MAX; k++) {
         double p = gsl_ran_poisson_pdf(k, mean);
         seen += (double)count[k];
         expected += n * p;
         left -= p;
         bool last = n * left < 10; /* the tail joins the last cell */
         if (last)
-            for (expected += n * left; ++k < COUNTS_MOST;)
+            for (expected += n * left; ++k < COUNTS_MAX;)
                 seen += (double)count[k];
         if (expected < 10)
             continue;

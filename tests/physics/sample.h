@@ -46,8 +46,8 @@ void sample_clear(struct sample *s);
 /* Two samples, which are sorted, of one law? */
 void expect_same_law(const char *what, struct sample *a, struct sample *b);
 
-#define COUNTS_MOST 256
+#define COUNTS_MAX 256
 /* Counts against the Poisson law of a mean; rare ones are taken together. */
-void expect_poisson(const char *what, const uint64_t count[COUNTS_MOST], double mean);
+void expect_poisson(const char *what, const uint64_t count[COUNTS_MAX], double mean);
 
 #endif

@@ -75,8 +75,8 @@ double per_metre(double per_ha, double width)
 void note_stem(void *context, const struct ceduo_stem_passed *stem)
 {
     struct sweep *s = context;
-    if (s->count == STEMS_MOST)
-        fail_msg("more than %d stems", STEMS_MOST);
+    if (s->count == STEMS_MAX)
+        fail_msg("more than %d stems", STEMS_MAX);
     s->stems[s->count++] = *stem;
 }
 
@@ -128,7 +128,7 @@ static int by_number(const void *a, const void *b)
 
 size_t different(bool shoots_only)
 {
-    static uint64_t numbers[STEMS_MOST];
+    static uint64_t numbers[STEMS_MAX];
     size_t n = 0, found = 0;
     for (size_t i = 0; i < sweep.count; i++)
         if (sweep.stems[i].hit && (sweep.stems[i].shoot || !shoots_only))

@@ -16,11 +16,11 @@
 
 /* Level ground over which a rock flies so fast and low, among stems so tall and light, that its way is a straight line.
  * It points into itself. */
-#define KINDS_MOST 3
+#define KINDS_MAX 3
 struct plane {
     struct line_scene line;
     struct ceduo_belt belts[2];
-    struct ceduo_stems shoots[2][KINDS_MOST], trees[2][KINDS_MOST];
+    struct ceduo_stems shoots[2][KINDS_MAX], trees[2][KINDS_MAX];
 };
 
 extern struct plane plane;
@@ -39,12 +39,12 @@ double per_metre(double per_ha, double width);
 
 /* ---- sweeping it ---- */
 
-#define STEMS_MOST 4096
+#define STEMS_MAX 4096
 struct sweep {
     struct ceduo_follower *follower;
     struct ceduo_trajectory way;
     size_t count;
-    struct ceduo_stem_passed stems[STEMS_MOST];
+    struct ceduo_stem_passed stems[STEMS_MAX];
 };
 
 extern struct sweep sweep;

@@ -7,8 +7,8 @@
 
 #include "line_scene.h"
 
-#define STEMS_MOST 8192
-#define WORK       1e5 /* J/m3 */
+#define STEMS_MAX 8192
+#define WORK      1e5 /* J/m3 */
 
 /* Level ground, one belt of one kind of stem. */
 static struct line_scene scene;
@@ -35,14 +35,14 @@ static void plant(double metres, double radius, bool shoots)
 
 static struct passed {
     size_t count;
-    struct ceduo_stem_passed stems[STEMS_MOST];
+    struct ceduo_stem_passed stems[STEMS_MAX];
     struct ceduo_trajectory way;
 } passed;
 
 static void note_stem(void *context, const struct ceduo_stem_passed *stem)
 {
     struct passed *to = context;
-    EXPECT(to->count, <, STEMS_MOST);
+    EXPECT(to->count, <, STEMS_MAX);
     to->stems[to->count++] = *stem;
 }
 

@@ -105,11 +105,11 @@ static void walk_spread(enum about about, struct ceduo_number *n, const char *na
     expect_decides(about, before, name, ", kind", true);
 }
 
-#define SIZE_MOST 1024
+#define KEY_SIZE_MAX 1024
 
 static void walk(enum about about, void *structure, size_t size, const struct field *fields, size_t n)
 {
-    unsigned char was[SIZE_MOST];
+    unsigned char was[KEY_SIZE_MAX];
     memcpy(was, structure, size);
     const uint64_t before = key_of(about);
     for (size_t i = 0; i < n; i++) {

@@ -19,9 +19,9 @@
 
 #define SCENES        FULL_OR(1200u, 700u) /* in 689 a rock flies back to a stem before the low end, where it would leave */
 #define LASTING_EVERY 600                  /* scenes of which one may go on for ever */
-#define CONTROLS_MOST 4
+#define CONTROLS_MAX  4
 #define LONG_VERTICES 4097
-#define KINDS_MOST    3 /* cohorts, classes of trees */
+#define KINDS_MAX     3 /* cohorts, classes of trees */
 
 static const enum ceduo_kernel lanes[] = {CEDUO_KERNEL_BEST, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512};
 #define LANES (sizeof lanes / sizeof lanes[0])
@@ -120,9 +120,9 @@ static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, 
 
 struct wild {
     struct line_scene line;
-    struct ceduo_control controls[CONTROLS_MOST];
+    struct ceduo_control controls[CONTROLS_MAX];
     struct paper_plot plots[2];
-    struct ceduo_stems shoots[2][KINDS_MOST], trees[2][KINDS_MOST];
+    struct ceduo_stems shoots[2][KINDS_MAX], trees[2][KINDS_MAX];
     struct ceduo_belt belts[2];
     struct ceduo_run_def def;
     uint64_t first, rocks;
@@ -158,7 +158,7 @@ static void add_places(struct wild *w, struct line_random *r)
 {
     struct ceduo_scene *scene = &w->line.scene;
     double end = w->line.x[scene->slope.vertices - 1], at = scene->release.x.mean;
-    scene->controls_count = (size_t)line_uniform(r, 0, CONTROLS_MOST + 0.999);
+    scene->controls_count = (size_t)line_uniform(r, 0, CONTROLS_MAX + 0.999);
     scene->controls = w->controls;
     for (size_t i = 0; i < scene->controls_count; i++) {
         w->controls[i] = w->line.control;
@@ -168,9 +168,9 @@ static void add_places(struct wild *w, struct line_random *r)
 }
 
 /* Up to three kinds of stems after a pattern. */
-static size_t add_kinds(struct line_random *r, const struct ceduo_stems *pattern, struct ceduo_stems kinds[KINDS_MOST])
+static size_t add_kinds(struct line_random *r, const struct ceduo_stems *pattern, struct ceduo_stems kinds[KINDS_MAX])
 {
-    size_t n = (size_t)line_uniform(r, 0, KINDS_MOST + 0.999);
+    size_t n = (size_t)line_uniform(r, 0, KINDS_MAX + 0.999);
     for (size_t i = 0; i < n; i++) {
         kinds[i] = *pattern;
         kinds[i].per_ha = pattern->per_ha * line_log_uniform(r, 0.1, 2);
@@ -454,7 +454,7 @@ static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
                                  .spin0 = r->spin.mean,
                                  .uniform = slow_draw,
                                  .context = &facets,
-                                 .max_contacts = CEDUO_CONTACTS_MOST,
+                                 .max_contacts = CEDUO_CONTACTS_MAX,
                                  .control = scene->controls[0].x};
     const struct slow_way way = slow_walk(&def);
     return way.crossing.reached ? hypot(way.crossing.vx, way.crossing.vz) : NAN;
@@ -518,6 +518,6 @@ TEST(a_raised_flag_is_seen_by_rocks_under_way)
         assert_int_equal(ceduo_run_extend(run, 3), CEDUO_OK);
         LOCAL(ceduo_run, scalar) = run_with(def, CEDUO_KERNEL_SCALAR, 3, 3);
         compare("after a flag", scalar, run, &def);
-        assert_int_equal(ceduo_run_contacts(run), 3 * CEDUO_CONTACTS_MOST);
+        assert_int_equal(ceduo_run_contacts(run), 3 * CEDUO_CONTACTS_MAX);
     }
 }

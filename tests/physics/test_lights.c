@@ -143,7 +143,7 @@ TEST(energy_that_is_just_used_up_is_not_exhausted)
 static enum ceduo_light light_of(double exceed, uint64_t unfinished)
 {
     const struct ceduo_arrivals a = {
-        .released = 20, .exceed.mean = exceed, .limit = CEDUO_EXCEED_MOST, .unfinished = unfinished};
+        .released = 20, .exceed.mean = exceed, .limit = CEDUO_EXCEED_MAX, .unfinished = unfinished};
     return ceduo_energy_light(&a);
 }
 

@@ -31,7 +31,7 @@ TEST(ranges_hold_the_truth)
     unsigned held = 0, narrow = 0, likely = 0, fits = 0;
     for (size_t i = 0; i < SITES; i++) {
         struct ceduo_calibration a;
-        double truth[QUARRY_VALUES_MOST];
+        double truth[QUARRY_VALUES_MAX];
         struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = 2, .seen = 30, .rocks = 200, .steps_most = 300};
         if (!quarry_try(&trial, truth, &a))
             continue;
@@ -54,7 +54,7 @@ TEST(what_another_law_made_is_found_out)
     unsigned flagged = 0, fits = 0;
     for (size_t i = 0; i < SITES / 2; i++) {
         struct ceduo_calibration a;
-        double truth[QUARRY_VALUES_MOST];
+        double truth[QUARRY_VALUES_MAX];
         struct quarry_trial trial = {.number = i,
                                      .values = VALUES,
                                      .kinds = QUARRY_KINDS,

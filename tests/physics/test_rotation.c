@@ -10,17 +10,17 @@
 #include "line_scene.h"
 #include "paper_site.h"
 
-#define STANDS       3000
-#define YEARS        90
-#define COHORTS_MOST 4
-#define B            0.68 /* m: the paper's rock */
+#define STANDS      3000
+#define YEARS       90
+#define COHORTS_MAX 4
+#define B           0.68 /* m: the paper's rock */
 
 /* ---- a stand to grow ---- */
 
 struct sample {
     struct ceduo_stand stand;
-    struct ceduo_stems shoots[COHORTS_MOST], trees[COHORTS_MOST];
-    double stay[COHORTS_MOST];
+    struct ceduo_stems shoots[COHORTS_MAX], trees[COHORTS_MAX];
+    double stay[COHORTS_MAX];
 };
 
 static struct sample s; /* anew before each test that is to begin with it; points into itself */

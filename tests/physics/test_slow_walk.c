@@ -104,7 +104,7 @@ static double on_ground(const struct ceduo_slope *s, double x)
 
 static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct line_random *change, struct trace *t)
 {
-    static struct slow_segment segments[LINE_SEGMENTS_MOST];
+    static struct slow_segment segments[LINE_SEGMENTS_MAX];
     const struct ceduo_slope *slope = &scene->slope;
     const struct ceduo_release *r = &scene->release;
     struct ceduo_rock body;

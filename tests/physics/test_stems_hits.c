@@ -205,16 +205,16 @@ TEST(rocks_fly_over_stems_that_are_lower)
 }
 
 /* Clearance over a broken slope, from the pieces of the way themselves. */
-#define PIECES_MOST 4096
+#define PIECES_MAX 4096
 struct pieces {
     size_t count;
-    struct ceduo_piece piece[PIECES_MOST];
+    struct ceduo_piece piece[PIECES_MAX];
 };
 
 static void note_piece(void *context, const struct ceduo_piece *piece)
 {
     struct pieces *p = context;
-    EXPECT(p->count, <, PIECES_MOST);
+    EXPECT(p->count, <, PIECES_MAX);
     p->piece[p->count++] = *piece;
 }
 

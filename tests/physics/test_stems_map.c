@@ -55,7 +55,7 @@ static void swept_clear(struct swept *s)
 
 static void sweep_ways(struct swept *to, uint64_t rocks)
 {
-    static struct map_stem stems[STEMS_MOST];
+    static struct map_stem stems[STEMS_MAX];
     for (SWEEP(rock, rocks)) {
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_passed *p = &sweep.stems[i];
@@ -69,12 +69,12 @@ static void sweep_ways(struct swept *to, uint64_t rocks)
 
 static void sweep_maps(struct swept *to, uint64_t maps, unsigned long seed)
 {
-    static struct map_stem stems[STEMS_MOST];
+    static struct map_stem stems[STEMS_MAX];
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(rng, seed);
     for (uint64_t map = 0; map < maps; map++) {
-        size_t n = plane_map_sweep(&plane.line.option, B, plane.line.scene.release.x.mean, rng, stems, STEMS_MOST);
-        EXPECT(n, <=, STEMS_MOST);
+        size_t n = plane_map_sweep(&plane.line.option, B, plane.line.scene.release.x.mean, rng, stems, STEMS_MAX);
+        EXPECT(n, <=, STEMS_MAX);
         swept_add(to, stems, n);
     }
     gsl_rng_free(rng);

@@ -69,7 +69,7 @@ TEST(rocks_of_many_sizes_meet_as_many_as_their_mean)
 
 TEST(counts_of_trees_in_a_stretch_are_poisson)
 {
-    static uint64_t count[COUNTS_MOST];
+    static uint64_t count[COUNTS_MAX];
     struct spread s = {0};
     clear_plane(40);
     struct ceduo_belt *belt = plant_belt(10, 30, 0, 0);
@@ -291,7 +291,7 @@ static void expect_same_stems(const struct ceduo_stem_passed *a, size_t n)
 /* A spread of 0 is none, and one of nearly nothing moves diameters and offsets by as little. */
 TEST(diameters_without_spread_change_nothing)
 {
-    static struct ceduo_stem_passed plain[STEMS_MOST];
+    static struct ceduo_stem_passed plain[STEMS_MAX];
     for (uint64_t rock = 0; rock < 200; rock++) {
         clear_plane(520);
         plant_plot(1, 10, 510);
@@ -336,7 +336,7 @@ TEST(shoots_keep_their_diameters_beside_others)
  * do where each is put among the others by itself. */
 TEST(shoots_at_one_place_are_met_in_their_order)
 {
-    static struct ceduo_stem_passed plain[STEMS_MOST];
+    static struct ceduo_stem_passed plain[STEMS_MAX];
     for (uint64_t rock = 0; rock < 200; rock++) {
         clear_plane(520);
         struct ceduo_belt *few = plant_belt(10, 260, 800, 0), *many = plant_belt(260, 510, 800, 0);
@@ -364,7 +364,7 @@ static struct planted {
     const struct ceduo_belt *belt;
     const struct ceduo_stems *stems;
     bool shoots;
-} planted[4 * KINDS_MOST];
+} planted[4 * KINDS_MAX];
 static size_t planted_count;
 
 static void plant_random(struct line_random *r, struct ceduo_belt *belt, bool shoots)

@@ -13,11 +13,11 @@
 
 /* Stems in bins along x, rock by rock. Those of one stool are no independent events, so the bins' covariance over the
  * rocks is kept as well. */
-#define BINS_MOST 64
+#define BINS_MAX 64
 struct bins {
     size_t k;
     double from, width, n;
-    double now[BINS_MOST], sum[BINS_MOST], cross[BINS_MOST][BINS_MOST];
+    double now[BINS_MAX], sum[BINS_MAX], cross[BINS_MAX][BINS_MAX];
 };
 
 static void bins_note(struct bins *b, double x)
@@ -191,7 +191,7 @@ TEST(stems_stand_as_dense_about_a_release_in_the_forest)
 /* A stool astride of the release is one stool, whichever way the rock goes first. */
 TEST(the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first)
 {
-    static struct ceduo_stem_passed ahead[STEMS_MOST];
+    static struct ceduo_stem_passed ahead[STEMS_MAX];
     uint64_t astride = 0;
     for (uint64_t rock = 0; rock < 2000; rock++) {
         court_of_the_paper(AHEAD_AND_BACK);

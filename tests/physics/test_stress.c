@@ -373,7 +373,7 @@ TEST(rebounds_without_end)
     release(5, 2, 0, 0);
     struct result r;
     follow(&s, 0, &r);
-    EXPECT_IS(r.way, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MOST), (x, 5));
+    EXPECT_IS(r.way, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 5));
 }
 
 /* Random scenes in which a rock goes to and fro in a crack of 12 or 42 micrometres, or of 8 nanometres where it hops along one
@@ -420,12 +420,12 @@ TEST(noise_of_every_size)
     for (double scale = radius / 100; scale <= 101 * radius; scale *= 10)
         for (double height = scale / 100; height <= 1.1 * scale; height *= 10)
             for (int style = 0; style < 2; style++) {
-                double x[LINE_SEGMENTS_MOST + 1], z[LINE_SEGMENTS_MOST + 1];
-                for (size_t i = 0; i <= LINE_SEGMENTS_MOST; i++) {
+                double x[LINE_SEGMENTS_MAX + 1], z[LINE_SEGMENTS_MAX + 1];
+                for (size_t i = 0; i <= LINE_SEGMENTS_MAX; i++) {
                     x[i] = scale * (double)i;
                     z[i] = -.7 * x[i] + height * (style ? (double)(i % 2) : line_uniform(&random, -1, 1));
                 }
-                profile(LINE_SEGMENTS_MOST + 1, x, z, earth, radius);
+                profile(LINE_SEGMENTS_MAX + 1, x, z, earth, radius);
                 look(scale * 3.3, .1, 2, 0);
             }
 }

@@ -79,7 +79,7 @@ static struct ceduo_pool *pool_of(unsigned threads, const atomic_bool *cancel)
     struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
     def.threads = threads;
     def.cancel = cancel;
-    def.rocks_most = CEDUO_ROCKS_MOST;
+    def.rocks_most = CEDUO_ROCKS_MAX;
     struct ceduo_pool *pool;
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     return pool;
@@ -557,7 +557,7 @@ TEST_WITH(whole_rotations, fresh, NULL)
     wood.site.scene.year_last = 2; /* before the first: that year alone */
     w = ceduo_window_in(&wood.site.scene);
     EXPECT_IS(w, (first, 3), (last, 3));
-    wood.site.scene.year_last = 3 + CEDUO_YEARS_MOST - 1;
+    wood.site.scene.year_last = 3 + CEDUO_YEARS_MAX - 1;
     EXPECT(ceduo_window_in(&wood.site.scene).step, ==, 1);
     wood.site.scene.year_last = 48700;
     w = ceduo_window_in(&wood.site.scene);

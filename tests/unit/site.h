@@ -95,7 +95,7 @@ static void set_bare(struct site *s)
     s->line = (struct ceduo_polyline){5, s->trail_x, s->trail_z};
     s->arrivals[0] =
         (struct ceduo_arrivals){.released = 10, .reached = 8, .exceeded = 2, .reach.mean = 0.8, .exceed.mean = 0.2};
-    s->arrivals[0].limit = CEDUO_EXCEED_MOST;
+    s->arrivals[0].limit = CEDUO_EXCEED_MAX;
     s->arrivals[0].energy = (struct ceduo_distribution){.mean = 33125, .p50 = 33e3, .p95 = 55e3, .max = 55e3};
     s->arrivals[1] = (struct ceduo_arrivals){.released = 10, .exceed.mean = NAN};
     s->arrivals[1].energy = ceduo_distribution_none();
@@ -129,7 +129,7 @@ static void set_wood(struct site *s)
     s->wood_trail = (struct ceduo_polyline){3, s->wood_trail_x, s->wood_trail_z};
     s->wood_arrivals[0] =
         (struct ceduo_arrivals){.released = 10, .reached = 5, .exceeded = 1, .reach.mean = 0.5, .exceed.mean = 0.1};
-    s->wood_arrivals[0].limit = CEDUO_EXCEED_MOST;
+    s->wood_arrivals[0].limit = CEDUO_EXCEED_MAX;
     s->wood_arrivals[0].energy = (struct ceduo_distribution){.mean = 22e3, .p50 = 21e3, .p95 = 41e3, .max = 41e3};
     s->wood_arrivals[1] = s->arrivals[1];
     s->wood_energies[0] = (struct ceduo_energies){WOOD_ENERGIES, s->wood_values};

@@ -207,7 +207,7 @@ TEST(what_is_to_be_left_as_it_is)
                  {{false, false, false}, {NAN, NAN, NAN}, {NAN, NAN, NAN}, 0, {false, false, false}}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct ceduo_calibration a = {.parameters_count = 3, .draws_count = cases[i].draws};
-        bool loose[CEDUO_CALIBRATION_MOST];
+        bool loose[CEDUO_CALIBRATION_MAX];
         size_t n = 0;
         for (size_t k = 0; k < 3; k++) {
             double hi = pow(10, -(double)k); /* the width is a share of it */

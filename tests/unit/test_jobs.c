@@ -181,13 +181,13 @@ TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
     assert_int_equal(u->level, UNCERTAINTY_LEVELS - 1);
     assert_int_equal(u->inputs.n,
                      12 + 12); /* of today, and of growth: two curves of four constants, two numbers of shoots, two densities */
-    assert_int_equal(u->answer.points, CEDUO_DOUBT_POINTS);
-    EXPECT(u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p5, <, u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p95);
+    assert_int_equal(u->answer.points, CEDUO_UNCERTAINTY_POINTS);
+    EXPECT(u->answer.figures[CEDUO_UNCERTAINTY_EXCEED].fit.p5, <, u->answer.figures[CEDUO_UNCERTAINTY_EXCEED].fit.p95);
     assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, 0, UNCERTAINTY_LEVELS));
     assert_true(u->answer.rotation);
     ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
     file.scene.controls_count = 0;
-    u = uncertainty(0, UNCERTAINTY_LEVELS); /* without a control there is nothing to be in doubt of */
+    u = uncertainty(0, UNCERTAINTY_LEVELS); /* without a control there is nothing to be in uncertainty of */
     assert_int_equal(u->inputs.n, 0);
     file.scene.controls_count = 1;
 }
@@ -208,30 +208,30 @@ static int set_up_options(void **state)
 TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_down)
 {
     const size_t shown = 1, n = 3;
-    const struct ceduo_doubt_answer *a = &uncertainty(shown, 1)->answer;
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, shown, CEDUO_DOUBT_EXCEED, false);
+    const struct ceduo_uncertainty_answer *a = &uncertainty(shown, 1)->answer;
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
     double p5 = f->fit.p5, p95 = f->fit.p95, leaves = f->fit.left[f->order[0]];
     EXPECT(p5, <, p95);
     for (size_t i = 0; i < n; i++)
         if (i != shown)
-            EXPECT_NAN(ceduo_doubt_figure_of(a, i, CEDUO_DOUBT_EXCEED, false)->fit.p5);
-    EXPECT_NAN(ceduo_doubt_figure_of(a, shown, CEDUO_DOUBT_EXCEED, true)->fit.p95);
-    assert_int_equal(ceduo_doubt_verdict(a)->count, 0);
+            EXPECT_NAN(ceduo_uncertainty_figure_of(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5);
+    EXPECT_NAN(ceduo_uncertainty_figure_of(a, shown, CEDUO_UNCERTAINTY_EXCEED, true)->fit.p95);
+    assert_int_equal(ceduo_uncertainty_verdict(a)->count, 0);
     a = &uncertainty(shown, UNCERTAINTY_LEVELS)->answer;
-    f = ceduo_doubt_figure_of(a, shown, CEDUO_DOUBT_EXCEED, false);
+    f = ceduo_uncertainty_figure_of(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
     EXPECT(f->fit.p5, ==, p5);
     EXPECT(f->fit.p95, ==, p95);
     EXPECT(f->fit.left[f->order[0]], ==, leaves);
     for (size_t i = 0; i < n; i++)
-        EXPECT(ceduo_doubt_figure_of(a, i, CEDUO_DOUBT_EXCEED, false)->fit.p5, >, 0);
-    assert_int_equal(ceduo_doubt_verdict(a)->count, n - 1);
-    assert_true(ceduo_doubt_verdict(a)->rotation);
+        EXPECT(ceduo_uncertainty_figure_of(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5, >, 0);
+    assert_int_equal(ceduo_uncertainty_verdict(a)->count, n - 1);
+    assert_true(ceduo_uncertainty_verdict(a)->rotation);
 }
 
 /* What is stopped ends soon, and nothing comes of it. */
 TEST_WITH(a_search_is_stopped, set_up, tear_down)
 {
-    struct ceduo_search search = search_of(CEDUO_ROCKS_MOST);
+    struct ceduo_search search = search_of(CEDUO_ROCKS_MAX);
     ceduo_jobs_search(jobs, &file, &search);
     struct timespec moment = {.tv_nsec = 200000000};
     nanosleep(&moment, NULL);

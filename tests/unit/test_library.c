@@ -446,7 +446,7 @@ TEST(one_thread_at_a_time_calls_the_caller)
 {
     struct ceduo_reading r;
     struct ceduo_answer a;
-    struct ceduo_doubt_answer doubt;
+    struct ceduo_uncertainty_answer uncertainty;
     struct ceduo_calibration fit;
     EXPECT(ceduo_scene_read("profiles/scenes/rotation.yaml", NULL, &r), ==, CEDUO_OK);
     struct ceduo_question q = ceduo_question_default(&r.scene);
@@ -457,18 +457,18 @@ TEST(one_thread_at_a_time_calls_the_caller)
     EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
     ceduo_answer_release(&a);
     expect_alone();
-    struct ceduo_doubt_def def = {.scene = &r.scene,
-                                  .inputs_count = r.inputs_count,
-                                  .inputs = r.inputs,
-                                  .points = 30,
-                                  .points_max = 30,
-                                  .rocks = 20,
-                                  .rotation = true,
-                                  .years_max = 3,
-                                  .threads = 4,
-                                  .progress = on_points};
-    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_OK);
-    ceduo_doubt_free(&doubt);
+    struct ceduo_uncertainty_def def = {.scene = &r.scene,
+                                        .inputs_count = r.inputs_count,
+                                        .inputs = r.inputs,
+                                        .points = 30,
+                                        .points_max = 30,
+                                        .rocks = 20,
+                                        .rotation = true,
+                                        .years_max = 3,
+                                        .threads = 4,
+                                        .progress = on_points};
+    EXPECT(ceduo_uncertainty_ask(&def, &uncertainty), ==, CEDUO_OK);
+    ceduo_uncertainty_free(&uncertainty);
     expect_alone();
     ceduo_reading_release(&r);
     EXPECT(ceduo_scene_read("profiles/scenes/vaujany.yaml", NULL, &r), ==, CEDUO_OK);

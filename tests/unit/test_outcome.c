@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "ceduo/doubt.h"
+#include "ceduo/uncertainty.h"
 #include "expect.h"
 #include "study/verdict.h"
 #include "test.h"
@@ -25,8 +25,8 @@ static struct ceduo_result result;
 static struct ceduo_years_summary years;
 static struct ceduo_choice choice;
 static struct ceduo_verdict verdict;
-static struct ceduo_doubt_figure figures[CEDUO_DOUBT_KINDS];
-static struct ceduo_doubt_answer answer;
+static struct ceduo_uncertainty_figure figures[CEDUO_UNCERTAINTY_KINDS];
+static struct ceduo_uncertainty_answer answer;
 
 static void set_share(struct ceduo_arrivals *a, double share, double lo, double hi)
 {
@@ -66,7 +66,7 @@ static int open_site(void **state)
     choice = (struct ceduo_choice){.ahead = &years, .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}, .energy_known = true};
     verdict = (struct ceduo_verdict){.wooded = true, .accepted = true, .n = 1, .choices = &choice};
     memset(figures, 0, sizeof figures);
-    answer = (struct ceduo_doubt_answer){.figures = figures, .figures_count = CEDUO_DOUBT_KINDS, .rotation = true};
+    answer = (struct ceduo_uncertainty_answer){.figures = figures, .figures_count = CEDUO_UNCERTAINTY_KINDS, .rotation = true};
     return 0;
 }
 
@@ -79,14 +79,14 @@ static void set_failing(size_t failing, size_t lo, size_t hi)
     choice.over = years;
 }
 
-static void set_range(enum ceduo_doubt_kind kind, double p5, double p95)
+static void set_range(enum ceduo_uncertainty_kind kind, double p5, double p95)
 {
     figures[kind].fit = (struct ceduo_surface_fit){.p5 = p5, .p95 = p95};
 }
 
-static struct ceduo_outcome judge(bool doubt)
+static struct ceduo_outcome judge(bool uncertainty)
 {
-    return ceduo_outcome_of(&result, &verdict, doubt ? &answer : NULL, 0, 0);
+    return ceduo_outcome_of(&result, &verdict, uncertainty ? &answer : NULL, 0, 0);
 }
 
 TEST_WITH(the_years_decide_not_today, open_site, NULL)
@@ -119,7 +119,7 @@ TEST_WITH(uncertain_inputs_leave_it_open, open_site, NULL)
                 {1, 0, 2, 1, 12, CEDUO_NOT_DECIDED}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         set_failing(rows[i].failing, rows[i].lo, rows[i].hi);
-        set_range(CEDUO_DOUBT_FAILING, rows[i].p5, rows[i].p95);
+        set_range(CEDUO_UNCERTAINTY_FAILING, rows[i].p5, rows[i].p95);
         struct ceduo_outcome o = judge(true);
         assert_int_equal(o.answer, rows[i].answer);
         EXPECT(o.failing_lo, <=, o.failing);
@@ -131,11 +131,11 @@ TEST_WITH(uncertain_inputs_leave_it_open, open_site, NULL)
 TEST_WITH(today_may_depend, open_site, NULL)
 {
     set_failing(17, 15, 19);
-    set_range(CEDUO_DOUBT_FAILING, 12, 25);
-    set_range(CEDUO_DOUBT_EXCEED, .004, .126);
+    set_range(CEDUO_UNCERTAINTY_FAILING, 12, 25);
+    set_range(CEDUO_UNCERTAINTY_EXCEED, .004, .126);
     struct ceduo_outcome o = judge(true);
     EXPECT_IS(o, (answer, CEDUO_NO), (today, CEDUO_DEPENDS));
-    set_range(CEDUO_DOUBT_EXCEED, .004, .05);
+    set_range(CEDUO_UNCERTAINTY_EXCEED, .004, .05);
     assert_int_equal(judge(true).today, CEDUO_YES);
 }
 
@@ -159,7 +159,7 @@ TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
                 {.0101, .02, .0049, .01, CEDUO_DEPENDS}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         years.rate = (struct ceduo_estimate){(rows[i].lo + rows[i].hi) / 2, NAN, rows[i].lo, rows[i].hi};
-        set_range(CEDUO_DOUBT_MEAN, rows[i].p5, rows[i].p95);
+        set_range(CEDUO_UNCERTAINTY_MEAN, rows[i].p5, rows[i].p95);
         assert_int_equal(judge(true).answer, rows[i].answer);
     }
 }

@@ -229,7 +229,7 @@ TEST(every_figure_says_what_it_is)
 {
     expect_rows(ceduo_result_figures, ceduo_result_figures);
     expect_rows(ceduo_find_figures, ceduo_find_figures);
-    expect_rows(ceduo_doubt_figures, ceduo_doubt_figures);
+    expect_rows(ceduo_uncertainty_figures, ceduo_uncertainty_figures);
     expect_rows(ceduo_calibration_figures, ceduo_calibration_figures);
 }
 

@@ -495,8 +495,8 @@ TEST_WOODED(pictures_draw_on_another_surface)
             fail_msg("%s: strayed: %d, words:\n%s", ceduo_plot_kinds[plot].name, page.strayed, words);
         free(words);
         ceduo_cells_free(cells);
-        bool computed =
-            plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && plot != CEDUO_PLOT_DOUBT && plot != CEDUO_PLOT_HAZARD;
+        bool computed = plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && plot != CEDUO_PLOT_UNCERTAINTY &&
+                        plot != CEDUO_PLOT_HAZARD;
         if (computed && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
             fail_msg("%s: %d lines, %d bars, %d axes", ceduo_plot_kinds[plot].name, page.lines, page.bars, page.axes);
         if (plot == CEDUO_PLOT_PROFILE && page.ways == 0)

@@ -105,7 +105,7 @@ TEST(a_rock_without_end)
     EXPECT(a.unfinished, ==, 1);
     EXPECT(a.reached, ==, 0);
     EXPECT(e.passed, ==, 0);
-    assert_int_equal(ceduo_run_contacts(run), CEDUO_CONTACTS_MOST);
+    assert_int_equal(ceduo_run_contacts(run), CEDUO_CONTACTS_MAX);
 }
 
 struct alike {

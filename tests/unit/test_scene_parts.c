@@ -53,18 +53,18 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
 #define GROUPS "groups: {stems: 5, radius_m: 2}"
 
 /* More rows than anybody reads. */
-TEST_WITH(rows_of_doubt_are_told, folder_set_up, folder_tear_down)
+TEST_WITH(rows_of_uncertainty_are_told, folder_set_up, folder_tear_down)
 {
     LOCAL_TEXT(many);
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     ceduo_text_put(&many, "doubt: [");
-    for (int i = 0; i <= CEDUO_ITEMS_MOST; i++)
+    for (int i = 0; i <= CEDUO_ITEMS_MAX; i++)
         ceduo_text_put(&many, "{path: rock.density_kg_m3, lo: 1, hi: 2},");
     ceduo_text_put(&many, "]");
     read_scene(&file, many.bytes, NULL, 0, "doubt: 1001 items; at most 1000 can be computed");
 }
 
-/* The input of one row of doubt has these places, with a comma between them. */
+/* The input of one row of uncertainty has these places, with a comma between them. */
 static void expect_places(const char *lines, const char *places)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -76,7 +76,7 @@ static void expect_places(const char *lines, const char *places)
     assert_string_equal(ceduo_text_string(&found), places);
 }
 
-TEST_WITH(rows_of_doubt_mean_places, folder_set_up, folder_tear_down)
+TEST_WITH(rows_of_uncertainty_mean_places, folder_set_up, folder_tear_down)
 {
     expect_places("doubt: [{path: 'forest[0].stand.cutting.rotation_years', lo: 10, hi: 20}]\n"
                   "forest: [{" BELT ", cutting: {rotation_years: 15}}}]",
@@ -88,7 +88,7 @@ TEST_WITH(rows_of_doubt_mean_places, folder_set_up, folder_tear_down)
     expect_places("doubt: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]\n"
                   "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}, {name: cut}]",
                   "options[1].forest[0].to_m");
-    /* one stand says it, the other that nothing is in doubt */
+    /* one stand says it, the other that nothing is in uncertainty */
     expect_places("forest: [{" BELT ", doubt: none}}, {from_m: 80, to_m: 90, stand: {trees: [{per_ha: 10, " TREE "}], "
                   "doubt: [{path: 'trees[0].per_ha', lo: 1, hi: 90}]}}]",
                   "forest[1].stand.trees[0].per_ha");

@@ -299,7 +299,7 @@ TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
     const struct ceduo_polyline t = o->bare->trajectories[0];
     struct ceduo_trajectory way;
     assert_int_equal(ceduo_trajectory_follow(&s.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
-    assert_int_equal(way.contacts, CEDUO_CONTACTS_MOST);
+    assert_int_equal(way.contacts, CEDUO_CONTACTS_MAX);
     EXPECT(t.n, >, 10000);
     EXPECT(t.n, <=, 20001);
     EXPECT(t.x[t.n - 1], ==, way.x);

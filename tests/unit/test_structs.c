@@ -133,7 +133,7 @@ TEST(any_struct_is_refused_or_computed)
 
 #define PICK(...) ((const uint64_t[]){__VA_ARGS__})[draw(sizeof((const uint64_t[]){__VA_ARGS__}) / sizeof(uint64_t))]
 
-static const uint64_t beyond[] = {0, 1, 2, 3, 7, 1025, CEDUO_ROCKS_MOST + 1, 2000000000, UINT32_MAX, SIZE_MAX - 1, UINT64_MAX};
+static const uint64_t beyond[] = {0, 1, 2, 3, 7, 1025, CEDUO_ROCKS_MAX + 1, 2000000000, UINT32_MAX, SIZE_MAX - 1, UINT64_MAX};
 
 /* A small number, in one of eight calls any of those beyond. */
 static uint64_t any_count(uint64_t small)
@@ -143,7 +143,7 @@ static uint64_t any_count(uint64_t small)
 
 static unsigned any_threads(void)
 {
-    return draw(8) ? (unsigned)draw(4) : (unsigned)PICK(CEDUO_THREADS_MOST + 1, UINT32_MAX);
+    return draw(8) ? (unsigned)draw(4) : (unsigned)PICK(CEDUO_THREADS_MAX + 1, UINT32_MAX);
 }
 
 static struct ceduo_window any_window(void)
@@ -222,12 +222,12 @@ static enum ceduo_status ask_any(void)
     return status;
 }
 
-static enum ceduo_status ask_any_doubt(void)
+static enum ceduo_status ask_any_uncertainty(void)
 {
     struct ceduo_input inputs[2] = {any_input(), any_input()};
-    struct ceduo_doubt_def def =
-        draw(8) ? ceduo_doubt_def_default(&site.scene) : (struct ceduo_doubt_def){.scene = &site.scene};
-    struct ceduo_doubt_answer a;
+    struct ceduo_uncertainty_def def =
+        draw(8) ? ceduo_uncertainty_def_default(&site.scene) : (struct ceduo_uncertainty_def){.scene = &site.scene};
+    struct ceduo_uncertainty_answer a;
     def.inputs = draw(32) ? inputs : NULL;
     def.inputs_count = draw(16) ? 1 + draw(2) : 0;
     def.points = draw(8) ? 2 + draw(4) : any_count(4);
@@ -241,9 +241,9 @@ static enum ceduo_status ask_any_doubt(void)
     def.brief = draw(2);
     def.alone = draw(3) == 0;
     def.option = any_count(1);
-    enum ceduo_status status = ceduo_doubt_ask(&def, &a);
+    enum ceduo_status status = ceduo_uncertainty_ask(&def, &a);
     if (status == CEDUO_OK)
-        ceduo_doubt_free(&a);
+        ceduo_uncertainty_free(&a);
     return status;
 }
 
@@ -310,7 +310,7 @@ TEST(any_question_is_refused_or_computed)
         if (draw(2))
             change_counts();
         alarm(SECONDS);
-        enum ceduo_status status = draw(8) == 0 ? ask_any_doubt() : draw(3) == 0 ? ask_any_other() : ask_any();
+        enum ceduo_status status = draw(8) == 0 ? ask_any_uncertainty() : draw(3) == 0 ? ask_any_other() : ask_any();
         alarm(0);
         EXPECT(status, !=, CEDUO_NO_MEMORY);
         EXPECT(status, !=, CEDUO_CANCELLED);
@@ -337,7 +337,7 @@ TEST(each_bad_argument_is_refused)
     EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
     ceduo_answer_release(&a);
     REFUSED(only, site.scene.options_count);
-    REFUSED(rocks, CEDUO_ROCKS_MOST + 1);
+    REFUSED(rocks, CEDUO_ROCKS_MAX + 1);
     REFUSED(run.rocks_most, UINT64_MAX);
     REFUSED(run.scene, NULL);
     REFUSED(run.threads, UINT32_MAX);
@@ -359,33 +359,33 @@ TEST(each_bad_argument_is_refused)
     input.lo = .5;
     input.places = &place;
     input.places_count = 1;
-    struct ceduo_doubt_def def = ceduo_doubt_def_default(&site.scene), bad;
-    struct ceduo_doubt_answer doubt;
+    struct ceduo_uncertainty_def def = ceduo_uncertainty_def_default(&site.scene), bad;
+    struct ceduo_uncertainty_answer uncertainty;
     def.inputs = &input;
     def.inputs_count = 1;
     def.points = def.points_max = 4;
     def.rocks = 20;
     def.threads = 0; /* one */
-    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_OK);
-    EXPECT(doubt.points, ==, 4);
-    ceduo_doubt_free(&doubt);
+    EXPECT(ceduo_uncertainty_ask(&def, &uncertainty), ==, CEDUO_OK);
+    EXPECT(uncertainty.points, ==, 4);
+    ceduo_uncertainty_free(&uncertainty);
     bad = def, bad.alone = true, bad.option = 9;
-    EXPECT(ceduo_doubt_ask(&bad, &doubt), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_uncertainty_ask(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     bad = def, bad.years_max = 1000;
-    EXPECT(ceduo_doubt_ask(&bad, &doubt), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_uncertainty_ask(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     place = "controls[3].accepted_kJ";
-    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_BAD_PLACE);
+    EXPECT(ceduo_uncertainty_ask(&def, &uncertainty), ==, CEDUO_BAD_PLACE);
     input.kind = CEDUO_INPUT_WORDS;
-    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_uncertainty_ask(&def, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     input.kind = CEDUO_INPUT_DRAWS;
-    EXPECT(ceduo_doubt_ask(&def, &doubt), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_uncertainty_ask(&def, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     struct ceduo_calibration fit;
     struct ceduo_calibration_def how = ceduo_calibration_def_default();
     struct ceduo_calibration_scene fitted = {.scene = &site.scene, .inputs = &input};
     EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_BAD_ARGUMENT);
     how.scenes = &fitted;
     how.scenes_count = 1;
-    how.parameters_count = CEDUO_CALIBRATION_MOST + 1;
+    how.parameters_count = CEDUO_CALIBRATION_MAX + 1;
     EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_BAD_ARGUMENT);
     struct ceduo_blocks_def sizes = ceduo_blocks_def_default(&site.scene);
     struct ceduo_block blocks[CEDUO_BLOCKS];

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Shares of doubt by a surface, for functions whose shares are known in closed form. */
+/* Shares of uncertainty by a surface, for functions whose shares are known in closed form. */
 #include "expect.h"
 #include "full.h"
 
 #include <stdlib.h>
 
-#include "ceduo/doubt.h"
 #include "ceduo/surface.h"
+#include "ceduo/uncertainty.h"
 #include "physics/line_scene.h"
 
 #define SEEDS      FULL_OR(200u, 100u)

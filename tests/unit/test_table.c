@@ -283,7 +283,7 @@ static void check_row(void *context, const char *path, const struct field *f)
         strcmp(f->key, "base") == 0 || strcmp(path, "slope.reversed") == 0 || strstr(path, "doubt[]") ||
         strncmp(path, "observed[]", 10) == 0 || strncmp(path, "options[].forest[].", 19) == 0)
         return; /* grounds must meet, so that no end of one can be changed alone; a base is followed before it is set;
-                 * options hold what the forest does; a profile says itself whether it is reversed; of a doubt nothing can be changed alone; what was seen has test_observed.py */
+                 * options hold what the forest does; a profile says itself whether it is reversed; of a uncertainty nothing can be changed alone; what was seen has test_observed.py */
     first_place(path, f, "[1][1]", &place);
     for (size_t i = 0; i < LENGTH(scenes); i++) {
         const char *values[64];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: brief */
-/* What a person types and sees, against what stands in files: centimetres, decimal commas, pairs, ranges, doubts. */
+/* What a person types and sees, against what stands in files: centimetres, decimal commas, pairs, ranges, uncertainties. */
 #include "local.h"
 #include "table.h"
 
@@ -54,7 +54,7 @@ TEST(every_diameter_reads_back)
     }
 }
 
-TEST(ranges_and_doubts)
+TEST(ranges_and_uncertainties)
 {
     for (TABLE(row, "unit/typed.txt", "ranges")) {
         LOCAL_TEXT(why);

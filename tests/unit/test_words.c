@@ -36,22 +36,24 @@ TEST(shares_are_shown_between_0_and_1)
 {
     struct ceduo_share totals[] = {{.value = -.02}, {.value = .37}, {.value = 1.04}};
     const double shown[] = {0, .37, 1};
-    const struct ceduo_doubt_figure figure = {.fit = {.total = totals}};
+    const struct ceduo_uncertainty_figure figure = {.fit = {.total = totals}};
     for (size_t g = 0; g < LENGTH(shown); g++)
-        EXPECT(ceduo_doubt_share(&figure, g), ==, shown[g]);
+        EXPECT(ceduo_uncertainty_share(&figure, g), ==, shown[g]);
 }
 
 /* Of what is judged: kJ with three digits, of 1000 released whole ones. */
-TEST(values_in_doubt_have_their_digits)
+TEST(values_in_uncertainty_have_their_digits)
 {
     static const struct {
-        enum ceduo_doubt_kind kind;
+        enum ceduo_uncertainty_kind kind;
         double value;
         const char *shown;
-    } rows[] = {{CEDUO_DOUBT_ENERGY, 12345, "12.3"}, {CEDUO_DOUBT_EXCEED, .4567, "457"}, {CEDUO_DOUBT_REACH, .1234, "123"}};
+    } rows[] = {{CEDUO_UNCERTAINTY_ENERGY, 12345, "12.3"},
+                {CEDUO_UNCERTAINTY_EXCEED, .4567, "457"},
+                {CEDUO_UNCERTAINTY_REACH, .1234, "123"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         LOCAL_TEXT(text);
-        ceduo_doubt_value(&text, rows[i].kind, rows[i].value);
+        ceduo_uncertainty_value(&text, rows[i].kind, rows[i].value);
         assert_string_equal(ceduo_text_string(&text), rows[i].shown);
     }
 }
@@ -79,7 +81,7 @@ static void open_scene(double accepted)
         arrivals[i].released = arrivals[i].reached = 1000;
         arrivals[i].reach.mean = 1;
         arrivals[i].exceed.mean = isnan(accepted) ? NAN : .5;
-        arrivals[i].limit = CEDUO_EXCEED_MOST;
+        arrivals[i].limit = CEDUO_EXCEED_MAX;
     }
 }
 
@@ -185,27 +187,27 @@ TEST(an_interval_is_rounded_outward)
 
 /* ---- the answer in one line ---- */
 
-/* Of 1000 through the wood of 'a' so many with too much energy, and what may be true of that; of doubt NAN: not computed. */
+/* Of 1000 through the wood of 'a' so many with too much energy, and what may be true of that; of uncertainty NAN: not computed. */
 static void expect_answer(double share, double may_lo, double may_hi, size_t width, const char *wanted)
 {
     LOCAL_TEXT(text);
-    struct ceduo_doubt_figure figures[(2 * OPTIONS - 1) * CEDUO_DOUBT_KINDS] = {0};
-    struct ceduo_doubt_answer answer = {.figures = figures, .figures_count = sizeof figures / sizeof figures[0]};
+    struct ceduo_uncertainty_figure figures[(2 * OPTIONS - 1) * CEDUO_UNCERTAINTY_KINDS] = {0};
+    struct ceduo_uncertainty_answer answer = {.figures = figures, .figures_count = sizeof figures / sizeof figures[0]};
     struct scene_file file = {.scene = scene.scene};
-    const struct ceduo_doubt_report doubt = {.file = &file, .answer = isnan(may_lo) ? NULL : &answer};
+    const struct ceduo_uncertainty_report uncertainty = {.file = &file, .answer = isnan(may_lo) ? NULL : &answer};
     for (size_t i = 0; i < answer.figures_count; i++)
         figures[i].fit = (struct ceduo_surface_fit){.p5 = may_lo, .p95 = may_hi};
     *(isnan(scene.control.accepted) ? &arrivals[0].reach.mean : &arrivals[0].exceed.mean) = share;
     arrivals[0].reach.lo = arrivals[0].exceed.lo = fmax(0, share - .01);
     arrivals[0].reach.hi = arrivals[0].exceed.hi = share + .01;
     LOCAL(ceduo_result, result) = assess();
-    const struct ceduo_report report = {.result = result, .doubt = &doubt};
+    const struct ceduo_report report = {.result = result, .uncertainty = &uncertainty};
     const struct ceduo_subject subject = ceduo_subject_of(&report, 0, 0);
     ceduo_words_answer(&text, &subject, width);
     assert_string_equal(ceduo_text_string(&text), wanted);
 }
 
-/* Where there is less room whole clauses go: what is accepted, then the doubt, at last all but the verdict. */
+/* Where there is less room whole clauses go: what is accepted, then the uncertainty, at last all but the verdict. */
 TEST(an_answer_is_shortened_by_whole_clauses)
 {
     static const char *const shorter[] = {
@@ -225,7 +227,7 @@ TEST(an_answer_is_shortened_by_whole_clauses)
 }
 
 /* 50 of 1000 are accepted: the error of the rocks or what is not known may hold that limit. */
-TEST(an_answer_depends_where_doubt_holds_the_limit)
+TEST(an_answer_depends_where_uncertainty_holds_the_limit)
 {
     for (TABLE(row, "unit/words.txt", "answers")) {
         open_scene(strtod(row.at[0], NULL));

@@ -83,7 +83,7 @@ static void judge_meeting(const struct ceduo_scene *scene, bool forest, double l
     double threshold = scene->simulation.threshold;
     if (!forest || longest_gap > threshold)
         meeting->contact = CEDUO_FAIL;
-    bool rare = meeting->worst_free_run <= CEDUO_FREE_RUN_MOST && !(longest_gap > threshold);
+    bool rare = meeting->worst_free_run <= CEDUO_FREE_RUN_MAX && !(longest_gap > threshold);
     meeting->free_run = rare ? CEDUO_PASS : CEDUO_FAIL;
 }
 
@@ -159,7 +159,7 @@ enum ceduo_terrain ceduo_terrain(const struct ceduo_arrivals *bare)
 bool ceduo_says_nothing(const struct ceduo_arrivals *bare)
 {
     uint64_t may_arrive = bare->reached + bare->unfinished;
-    bool few = bare->released >= CEDUO_ARRIVE_LEAST && may_arrive * CEDUO_ARRIVE_LEAST < bare->released;
+    bool few = bare->released >= CEDUO_ARRIVE_MIN && may_arrive * CEDUO_ARRIVE_MIN < bare->released;
     return bare->released > 0 && (may_arrive == 0 || few || ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS);
 }
 

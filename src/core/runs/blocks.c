@@ -28,13 +28,13 @@ struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double
     return to;
 }
 
-#define EFFORT_MOST 5e6 /* of any size: a page is not waited for */
+#define EFFORT_MAX 5e6 /* of any size: a page is not waited for */
 
 /* Below so many rocks a size is left out: their share would say nothing. */
 #define FEWEST 10
 
 /* Of a size whose rocks meet so many times the stems of the scene's own not even the first is simulated. */
-#define TIMES_MOST 100
+#define TIMES_MAX 100
 
 /* Sizes as variants of a scene. */
 struct sizes_run {
@@ -66,7 +66,7 @@ static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant
     bool known = b->own && def->own && def->own->released >= def->rocks && def->scene->blocks_count == 0;
     if (simulates && known)
         b->arrivals = *def->own;
-    variant->skip = !simulates || known || index.contacts > TIMES_MOST * r->contacts;
+    variant->skip = !simulates || known || index.contacts > TIMES_MAX * r->contacts;
     variant->rocks = 1;
     variant->run = ceduo_run_def_default(&r->scene);
     variant->run.option = def->option;
@@ -82,7 +82,7 @@ static enum ceduo_status read_size(void *context, size_t i, struct ceduo_run *ru
 {
     struct sizes_run *r = context;
     const struct ceduo_blocks_def *def = r->def;
-    double effort = (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn, max = fmin(def->effort, EFFORT_MOST);
+    double effort = (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn, max = fmin(def->effort, EFFORT_MAX);
     double n = effort > 0 ? max / effort * (double)ceduo_run_rocks(run) : INFINITY; /* by what those so far cost */
     uint64_t affordable = (double)def->rocks < n ? def->rocks : (uint64_t)n;
     *rocks = 4 * *rocks < affordable ? 4 * *rocks : affordable;

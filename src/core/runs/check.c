@@ -7,14 +7,14 @@
 
 enum ceduo_status ceduo_check_window(struct ceduo_window w)
 {
-    bool good = w.step > 0 && w.first <= w.last && w.last <= CEDUO_YEAR_MOST;
-    return good && (w.last - w.first) / w.step < CEDUO_YEARS_MOST ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
+    bool good = w.step > 0 && w.first <= w.last && w.last <= CEDUO_YEAR_MAX;
+    return good && (w.last - w.first) / w.step < CEDUO_YEARS_MAX ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
 }
 
 /* True if a run of the scene may be made so. */
 static bool is_run_good(const struct ceduo_run_def *def)
 {
-    return def->rocks_most <= CEDUO_ROCKS_MOST && def->threads <= CEDUO_THREADS_MOST && def->kernel <= CEDUO_KERNEL_AVX512 &&
+    return def->rocks_most <= CEDUO_ROCKS_MAX && def->threads <= CEDUO_THREADS_MAX && def->kernel <= CEDUO_KERNEL_AVX512 &&
            ceduo_option_has_lists(def->option);
 }
 
@@ -30,7 +30,7 @@ enum ceduo_status ceduo_check_question(const struct ceduo_question *q)
     if (status != CEDUO_OK)
         return status;
     size_t options = q->run.scene->options_count;
-    bool good = options > 0 && q->rocks <= CEDUO_ROCKS_MOST && (q->only == CEDUO_ALL_OPTIONS || q->only < options);
+    bool good = options > 0 && q->rocks <= CEDUO_ROCKS_MAX && (q->only == CEDUO_ALL_OPTIONS || q->only < options);
     return good && (q->window.step == 0 || ceduo_check_window(q->window) == CEDUO_OK) ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
 }
 
@@ -38,6 +38,6 @@ enum ceduo_status ceduo_check_blocks_def(const struct ceduo_blocks_def *def)
 {
     enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
     bool good = def->option && status == CEDUO_OK && def->control < def->scene->controls_count &&
-                def->rocks <= CEDUO_ROCKS_MOST && def->threads <= CEDUO_THREADS_MOST;
+                def->rocks <= CEDUO_ROCKS_MAX && def->threads <= CEDUO_THREADS_MAX;
     return status == CEDUO_OK ? good ? ceduo_check_stands(def->option) : CEDUO_BAD_ARGUMENT : status;
 }

@@ -157,7 +157,7 @@ double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_co
     double per_year = 0;
     for (size_t i = 0; i < scene->blocks_count; i++)
         per_year += scene->blocks[i].per_year;
-    return scene->blocks_count > 0 ? 1 / (ceduo_accepted_return(control) * per_year) : CEDUO_EXCEED_MOST;
+    return scene->blocks_count > 0 ? 1 / (ceduo_accepted_return(control) * per_year) : CEDUO_EXCEED_MAX;
 }
 
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)

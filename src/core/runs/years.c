@@ -29,9 +29,9 @@ struct ceduo_window ceduo_window_of(const struct ceduo_option *option)
         w.kind = CEDUO_WINDOW_ROTATION;
         w.first = first > w.first ? first : w.first;
         unsigned rotation = belt->stand.cutting.rotation, together = period; /* until both begin together again */
-        while (together <= CEDUO_PERIOD_MOST && together % rotation > 0)
+        while (together <= CEDUO_PERIOD_MAX && together % rotation > 0)
             together += period;
-        period = together <= CEDUO_PERIOD_MOST ? together : period > rotation ? period : rotation;
+        period = together <= CEDUO_PERIOD_MAX ? together : period > rotation ? period : rotation;
     }
     if (w.kind == CEDUO_WINDOW_AHEAD)
         return (struct ceduo_window){w.kind, 1, CEDUO_YEARS_AHEAD, 1};
@@ -60,7 +60,7 @@ static struct ceduo_window window_ahead(const struct ceduo_scene *scene)
                 continue;
             alike = false;
         }
-    w.last = w.last < CEDUO_AHEAD_MOST ? w.last : CEDUO_AHEAD_MOST;
+    w.last = w.last < CEDUO_AHEAD_MAX ? w.last : CEDUO_AHEAD_MAX;
     return alike ? (struct ceduo_window){CEDUO_WINDOW_ALIKE, 0, 0, 1} : w;
 }
 
@@ -75,7 +75,7 @@ struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene)
     w.first = isnan(first) ? w.first : (unsigned)first;
     w.last = isnan(last) ? w.first + period : (unsigned)last;
     w.last = w.last < w.first ? w.first : w.last;
-    return ceduo_window_of_most(w, CEDUO_YEARS_MOST);
+    return ceduo_window_of_most(w, CEDUO_YEARS_MAX);
 }
 
 /* ---- growing ---- */

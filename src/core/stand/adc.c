@@ -174,8 +174,8 @@ unsigned ceduo_stem_unlikely(const struct ceduo_stand *stand, const struct ceduo
     double thickest = stand->species >= 0 ? ceduo_species_list(&n)[stand->species].d_hi / 100 : INFINITY;
     if (!(stems->per_ha > 0))
         return 0;
-    return (ABOVE(slender, CEDUO_SLENDERNESS_MOST) ? CEDUO_WARN_SLENDER : 0u) |
-           (ABOVE(CEDUO_SLENDERNESS_LEAST, slender) ? CEDUO_WARN_STOUT : 0u) |
+    return (ABOVE(slender, CEDUO_SLENDERNESS_MAX) ? CEDUO_WARN_SLENDER : 0u) |
+           (ABOVE(CEDUO_SLENDERNESS_MIN, slender) ? CEDUO_WARN_STOUT : 0u) |
            (ABOVE(stems->dbh, thickest) ? CEDUO_WARN_THICK : 0u);
 }
 
@@ -185,8 +185,8 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
         return 0;
     unsigned warnings =
         (stand->stumps.per_ha > 0 || stand->logs.per_ha > 0 ? CEDUO_WARN_LOW : 0u) |
-        (ABOVE(ceduo_stand_basal_area(stand), CEDUO_BASAL_AREA_MOST) ? CEDUO_WARN_BASAL_AREA : 0u) |
-        (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MOST * stand->stools_per_ha) ? CEDUO_WARN_MANY_SHOOTS : 0u);
+        (ABOVE(ceduo_stand_basal_area(stand), CEDUO_BASAL_AREA_MAX) ? CEDUO_WARN_BASAL_AREA : 0u) |
+        (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MAX * stand->stools_per_ha) ? CEDUO_WARN_MANY_SHOOTS : 0u);
     for (size_t i = 0; i < stand->shoots_count + stand->trees_count; i++) {
         const struct ceduo_stems *s = i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
         warnings |= ceduo_stem_unlikely(stand, s) | (s->per_ha > 0 ? ceduo_stem_energy_warnings(stand, s) : 0);

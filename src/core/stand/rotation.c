@@ -11,7 +11,7 @@
 #include "base/elementary.h"
 
 #define SHOOTS_FALL 5.0  /* years in which the surplus of shoots falls to 1/e; assumed */
-#define GROWS_MOST  1e9  /* times as wide or as high: beyond that an age is as good as 0 */
+#define GROWS_MAX   1e9  /* times as wide or as high: beyond that an age is as good as 0 */
 #define AGE_GRAIN   1e-6 /* years: an age that comes from a curve is no better known */
 
 /* ---- curves ---- */
@@ -225,7 +225,7 @@ static void grow_stems(struct ceduo_stems *stems, const struct ceduo_curve *curv
         return;
     double wider = reached(curve->dbh_rate, age + years) / reached(curve->dbh_rate, age);
     double taller = reached(curve->height_rate, age + years) / reached(curve->height_rate, age);
-    if (!(fmax(wider, taller) <= GROWS_MOST)) { /* so young that its sizes tell nothing: as a new one */
+    if (!(fmax(wider, taller) <= GROWS_MAX)) { /* so young that its sizes tell nothing: as a new one */
         *stems = stems_of_age(curve, stems->per_ha, age + years);
         return;
     }

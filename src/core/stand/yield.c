@@ -108,7 +108,7 @@ static enum ceduo_status list_fellings(const struct ceduo_option *option, unsign
 enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield)
 {
     double length = 0, felled = 0, died = 0, standing = 0, today = 0;
-    enum ceduo_status status = last <= CEDUO_YEAR_MOST ? ceduo_check_stands(option) : CEDUO_BAD_ARGUMENT;
+    enum ceduo_status status = last <= CEDUO_YEAR_MAX ? ceduo_check_stands(option) : CEDUO_BAD_ARGUMENT;
     *yield = (struct ceduo_yield){0};
     if (status != CEDUO_OK)
         return status;

@@ -33,7 +33,7 @@ static bool is_cancelled(const struct walker *w)
 static uint64_t next_pause(const struct walker *w)
 {
     uint64_t pieces = w->g->n / PAUSE_SEGMENTS + 1, step = PAUSE / pieces + 1, next = w->contacts + step;
-    return next < CEDUO_CONTACTS_MOST ? next : CEDUO_CONTACTS_MOST;
+    return next < CEDUO_CONTACTS_MAX ? next : CEDUO_CONTACTS_MAX;
 }
 
 /* ---- flight ---- */

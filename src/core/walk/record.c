@@ -189,7 +189,7 @@ enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_
     struct recorder r = {.def = def, .record = record};
     *record = (struct ceduo_record){0};
     enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
-    bool good = def->rocks <= CEDUO_ROCKS_MOST && (def->stretches || def->stretches_count == 0);
+    bool good = def->rocks <= CEDUO_ROCKS_MAX && (def->stretches || def->stretches_count == 0);
     if (status == CEDUO_OK && !(good && ceduo_option_has_lists(def->option)))
         status = CEDUO_BAD_ARGUMENT;
     if (status != CEDUO_OK)

@@ -104,7 +104,7 @@ SELDOM bool has_enough(struct walker *w)
         return true;
     w->pause = next_pause(w);
     w->cancelled = is_cancelled(w);
-    return w->cancelled || w->contacts >= CEDUO_CONTACTS_MOST;
+    return w->cancelled || w->contacts >= CEDUO_CONTACTS_MAX;
 }
 
 /* Lands at `l`, which may not be known yet, past the stems before it; false where that ends it. */

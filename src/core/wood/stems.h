@@ -18,7 +18,7 @@
 /* Whether a rock has met too many stems to be followed further. */
 static inline bool ceduo_stems_too_many(const struct stems *stems)
 {
-    return stems->effort > CEDUO_STEMS_MOST;
+    return stems->effort > CEDUO_STEMS_MAX;
 }
 
 /* `stems` is zeroed: it is large, and mostly never touched. False without memory. */

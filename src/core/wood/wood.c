@@ -173,8 +173,8 @@ static bool allocate(struct wood *w, const struct ceduo_option *option)
     return w->kinds && w->strata_room && w->stools && w->rings && w->along[0] && w->along[1];
 }
 
-#define PLACES_MOST ((size_t)1 << 20)
-_Static_assert(PLACES_MOST > CEDUO_STEMS_MOST, "a rock that is among more stools is not followed further");
+#define PLACES_MAX ((size_t)1 << 20)
+_Static_assert(PLACES_MAX > CEDUO_STEMS_MAX, "a rock that is among more stools is not followed further");
 
 /* Stools whose shoots a rock can be among: those with a centre within the reach of the largest ring, of either side; by
  * far the most that chance will bring. */
@@ -186,7 +186,7 @@ static size_t places_for(const struct wood *w, double b)
             most = fmax(most, w->along[0][i].strata[0].still + w->along[0][i].strata[0].per_b * b);
     double wanted = 64 + 16 * most * 2 * w->reach;
     size_t places = 64;
-    while ((double)places < wanted && places < PLACES_MOST)
+    while ((double)places < wanted && places < PLACES_MAX)
         places *= 2;
     return places - 1;
 }

@@ -8,37 +8,37 @@
 
 /* ---- a sensitivity ---- */
 
-static const struct ceduo_doubt_figure *figure_of(const struct ceduo_place *p)
+static const struct ceduo_uncertainty_figure *figure_of(const struct ceduo_place *p)
 {
-    return &p->doubt->answer->figures[p->figure];
+    return &p->uncertainty->answer->figures[p->figure];
 }
 
 static const struct ceduo_scene *scene_of(const struct ceduo_place *p)
 {
-    return &p->doubt->file->scene;
+    return &p->uncertainty->file->scene;
 }
 
 /* Energies are shown in kJ. */
 static double shown(const struct ceduo_place *p, double value)
 {
-    return figure_of(p)->kind == CEDUO_DOUBT_ENERGY ? value * J_TO_KJ : value;
+    return figure_of(p)->kind == CEDUO_UNCERTAINTY_ENERGY ? value * J_TO_KJ : value;
 }
 
-static const struct ceduo_doubt_order *order_of(const struct ceduo_place *p)
+static const struct ceduo_uncertainty_order *order_of(const struct ceduo_place *p)
 {
-    return &ceduo_doubt_verdict(p->doubt->answer)->orders[p->item];
+    return &ceduo_uncertainty_verdict(p->uncertainty->answer)->orders[p->item];
 }
 
 static bool enter_figure(struct ceduo_place *p, size_t i)
 {
-    const struct ceduo_doubt_answer *a = p->doubt->answer;
+    const struct ceduo_uncertainty_answer *a = p->uncertainty->answer;
     for (p->figure = 0; a && p->figure < a->figures_count; p->figure++)
-        if (a->figures[p->figure].kind < CEDUO_DOUBT_SHOWN && a->figures[p->figure].fit.values && i-- == 0)
+        if (a->figures[p->figure].kind < CEDUO_UNCERTAINTY_SHOWN && a->figures[p->figure].fit.values && i-- == 0)
             return true;
     return false;
 }
 
-/* By what is left of the doubt if they are known, least first. */
+/* By what is left of the uncertainty if they are known, least first. */
 static bool enter_input(struct ceduo_place *p, size_t i)
 {
     p->input = i < figure_of(p)->uses ? figure_of(p)->order[i] : 0;
@@ -48,68 +48,69 @@ static bool enter_input(struct ceduo_place *p, size_t i)
 /* What to measure first, for the figure that pages advise on. */
 static bool enter_first(struct ceduo_place *p, size_t i)
 {
-    const struct ceduo_doubt_answer *a = p->doubt->answer;
+    const struct ceduo_uncertainty_answer *a = p->uncertainty->answer;
     if (!a)
         return false;
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, ceduo_doubt_chosen(p->doubt), a->main, false);
-    size_t input = ceduo_doubt_advised(p->doubt, f, i);
+    const struct ceduo_uncertainty_figure *f =
+        ceduo_uncertainty_figure_of(a, ceduo_uncertainty_chosen(p->uncertainty), a->main, false);
+    size_t input = ceduo_uncertainty_advised(p->uncertainty, f, i);
     p->figure = (size_t)(f - a->figures);
     p->input = input == SIZE_MAX ? 0 : input;
     return input != SIZE_MAX;
 }
 
-ENTER(enter_order, item, p->doubt->answer ? ceduo_doubt_verdict(p->doubt->answer)->count : 0)
+ENTER(enter_order, item, p->uncertainty->answer ? ceduo_uncertainty_verdict(p->uncertainty->answer)->count : 0)
 
 static struct ceduo_value end_of(const struct ceduo_place *p, int end)
 {
     const char *word;
-    double value = ceduo_doubt_input_value(p->doubt, p->input, end, &word);
+    double value = ceduo_uncertainty_input_value(p->uncertainty, p->input, end, &word);
     return word ? WORD(word) : NUMBER(value);
 }
 
 /* The share of a rotation is the one by which the place is judged. */
 static const char *figure_key(const struct ceduo_place *p)
 {
-    static const char *const keys[CEDUO_DOUBT_SHOWN] = {
-        [CEDUO_DOUBT_REACH] = "reach_probability",
-        [CEDUO_DOUBT_EXCEED] = "exceed_probability",
-        [CEDUO_DOUBT_ENERGY] = "energy_per_released_kJ",
-        [CEDUO_DOUBT_MEAN] = "rotation.exceed_probability",
-        [CEDUO_DOUBT_FAILING] = "rotation.unprotected_energy",
+    static const char *const keys[CEDUO_UNCERTAINTY_SHOWN] = {
+        [CEDUO_UNCERTAINTY_REACH] = "reach_probability",
+        [CEDUO_UNCERTAINTY_EXCEED] = "exceed_probability",
+        [CEDUO_UNCERTAINTY_ENERGY] = "energy_per_released_kJ",
+        [CEDUO_UNCERTAINTY_MEAN] = "rotation.exceed_probability",
+        [CEDUO_UNCERTAINTY_FAILING] = "rotation.unprotected_energy",
     };
-    enum ceduo_doubt_kind kind = figure_of(p)->kind;
-    bool reaches = kind == CEDUO_DOUBT_MEAN && p->doubt->answer->main == CEDUO_DOUBT_ENERGY;
+    enum ceduo_uncertainty_kind kind = figure_of(p)->kind;
+    bool reaches = kind == CEDUO_UNCERTAINTY_MEAN && p->uncertainty->answer->main == CEDUO_UNCERTAINTY_ENERGY;
     return reaches ? "rotation.reach_probability" : keys[kind];
 }
 
-OBJECT(doubted_scene, place, scene_of(o))
-OBJECT(doubted_figure, place, figure_of(o))
-OBJECT(input_of, place, &o->doubt->inputs->items[o->input])
+OBJECT(uncertain_scene, place, scene_of(o))
+OBJECT(uncertain_figure, place, figure_of(o))
+OBJECT(input_of, place, &o->uncertainty->inputs->items[o->input])
 OBJECT(first_of, place, &figure_of(o)->fit.first[o->input])
 OBJECT(total_of, place, &figure_of(o)->fit.total[o->input])
 OBJECT(ranked, place, order_of(o))
 
-VALUE(doubt_format, place, TEXT, WORD("ceduo-sensitivity-1"))
-VALUE(doubt_scene, place, TEXT, WORD(o->doubt->file->name))
-VALUE(doubt_rocks, place, COUNT, COUNT(o->doubt->rocks))
-VALUE(doubt_points, place, COUNT, COUNT(o->doubt->answer ? o->doubt->answer->points : o->doubt->points))
-VALUE(doubt_evaluations, place, COUNT, COUNT(o->doubt->answer ? o->doubt->answer->evaluations : 0))
-VALUE(doubt_option, place, TEXT, WORD(scene_of(o)->options[figure_of(o)->option].name_given))
-VALUE(doubt_against, place, TEXT, WORD(figure_of(o)->difference ? scene_of(o)->options[0].name_given : NULL))
-VALUE(doubt_x, place, NUMBER, NUMBER(scene_of(o)->controls[ceduo_scene_last_control(scene_of(o))].x_given))
-VALUE(doubt_figure, place, TEXT, WORD(figure_key(o)))
+VALUE(uncertainty_format, place, TEXT, WORD("ceduo-sensitivity-1"))
+VALUE(uncertainty_scene, place, TEXT, WORD(o->uncertainty->file->name))
+VALUE(uncertainty_rocks, place, COUNT, COUNT(o->uncertainty->rocks))
+VALUE(uncertainty_points, place, COUNT, COUNT(o->uncertainty->answer ? o->uncertainty->answer->points : o->uncertainty->points))
+VALUE(uncertainty_evaluations, place, COUNT, COUNT(o->uncertainty->answer ? o->uncertainty->answer->evaluations : 0))
+VALUE(uncertainty_option, place, TEXT, WORD(scene_of(o)->options[figure_of(o)->option].name_given))
+VALUE(uncertainty_against, place, TEXT, WORD(figure_of(o)->difference ? scene_of(o)->options[0].name_given : NULL))
+VALUE(uncertainty_x, place, NUMBER, NUMBER(scene_of(o)->controls[ceduo_scene_last_control(scene_of(o))].x_given))
+VALUE(uncertainty_figure, place, TEXT, WORD(figure_key(o)))
 VALUE(figure_number, place, NUMBER, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
-#define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_doubt_figure, member)
+#define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_uncertainty_figure, member)
 /* Paths that set the input: its own, or those of all its places, if no path means just these. */
 static void say_paths(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
-    const struct ceduo_input *input = &p->doubt->inputs->items[p->input];
+    const struct ceduo_input *input = &p->uncertainty->inputs->items[p->input];
     bool own = input->places_count == 1 || strchr(input->path, '*') || strncmp(input->path, "slope.materials[", 16) == 0;
     for (size_t i = 0; i < (own ? 1 : input->places_count); i++)
-        say(context, own ? input->path : ceduo_input_path(p->doubt->file, input->places[i]));
+        say(context, own ? input->path : ceduo_input_path(p->uncertainty->file, input->places[i]));
 }
 
-VALUE(input_measured, place, TEXT, WORD(ceduo_doubt_measured(o->doubt, o->input)))
+VALUE(input_measured, place, TEXT, WORD(ceduo_uncertainty_measured(o->uncertainty, o->input)))
 VALUE(input_lo, place, ANY, end_of(o, 0))
 VALUE(input_hi, place, ANY, end_of(o, 1))
 VALUE(input_at_lo, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][0])))
@@ -117,44 +118,48 @@ VALUE(input_at_hi, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][1])
 VALUE(input_left, place, NUMBER, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
 VALUE(order_better, place, TEXT, WORD(scene_of(o)->options[order_of(o)->better].name_given))
 VALUE(order_than, place, TEXT, WORD(scene_of(o)->options[order_of(o)->than].name_given))
-VALUE(order_over, place, TEXT, WORD(ceduo_doubt_verdict(o->doubt->answer)->rotation ? "rotation" : "today"))
+VALUE(order_over, place, TEXT, WORD(ceduo_uncertainty_verdict(o->uncertainty->answer)->rotation ? "rotation" : "today"))
 
 #define NO_BAND    UNSAID ", or there are fewer than 20 points"
 #define FEW_POINTS "there are too few points, or nothing varies"
 
-static const struct ceduo_figure doubt_scene_rows[] = {
-    {"scene", "", "path of the file", .value = doubt_scene},
-    {"title", "", "title of the scene", .from = doubted_scene, AT(scene, title)},
-    {"seed", "", "seed of the random numbers", .from = doubted_scene, AT(scene, simulation.seed)},
-    {"rocks", "", "rocks of each scene computed", .value = doubt_rocks},
-    {"points", "", "points of what may be true", .value = doubt_points},
+static const struct ceduo_figure uncertainty_scene_rows[] = {
+    {"scene", "", "path of the file", .value = uncertainty_scene},
+    {"title", "", "title of the scene", .from = uncertain_scene, AT(scene, title)},
+    {"seed", "", "seed of the random numbers", .from = uncertain_scene, AT(scene, simulation.seed)},
+    {"rocks", "", "rocks of each scene computed", .value = uncertainty_rocks},
+    {"points", "", "points of what may be true", .value = uncertainty_points},
     END};
 
-static const struct ceduo_figure doubt_figure_rows[] = {
-    {"option", "", "name of the option", .value = doubt_option},
-    {"against", "", "of a difference: the first option", .value = doubt_against, .null = "the figure is no difference"},
-    {"x_m", "m", "the last control", .value = doubt_x},
+static const struct ceduo_figure band_rows[] = {
+    {"p5", "", "5th percentile of the plausible cases, or the value if that is lower", FIGURE(fit.p5), .null = NO_BAND},
+    {"p50", "", "median of the plausible cases", FIGURE(fit.p50), .null = NO_BAND},
+    {"p95", "", "95th percentile of the plausible cases, or the value if that is higher", FIGURE(fit.p95), .null = NO_BAND},
+    {"p5_se", "", "standard error of p5, by the points and by the rocks", FIGURE(fit.p5_se), .null = NO_BAND},
+    {"p95_se", "", "standard error of p95", FIGURE(fit.p95_se), .null = NO_BAND},
+    END};
+
+static const struct ceduo_figure uncertainty_figure_rows[] = {
+    {"option", "", "name of the option", .value = uncertainty_option},
+    {"against", "", "of a difference: the first option", .value = uncertainty_against, .null = "the figure is no difference"},
+    {"x_m", "m", "the last control", .value = uncertainty_x},
     {"figure", "",
      "reach_probability, exceed_probability or energy_per_released_kJ; with --years also rotation.exceed_probability (without "
      "an accepted energy rotation.reach_probability), the mean of the years, and rotation.unprotected_energy, the years in "
      "which more exceed than are allowed",
-     .value = doubt_figure},
+     .value = uncertainty_figure},
     {"value", "", "in the scene as it is", FIGURE(value), .null = UNSAID},
     {"sampling_lo", "", "lower end of its 95 % interval, by the rocks", FIGURE(sampling_lo), .null = UNSAID},
     {"sampling_hi", "", "upper end of its 95 % interval", FIGURE(sampling_hi), .null = UNSAID},
-    {"doubt_p5", "", "5th percentile of what may be true, or the value if that is lower", FIGURE(fit.p5), .null = NO_BAND},
-    {"doubt_p50", "", "median of what may be true", FIGURE(fit.p50), .null = NO_BAND},
-    {"doubt_p95", "", "95th percentile of what may be true, or the value if that is higher", FIGURE(fit.p95), .null = NO_BAND},
-    {"doubt_p5_se", "", "standard error of doubt_p5, by the points and by the rocks", FIGURE(fit.p5_se), .null = NO_BAND},
-    {"doubt_p95_se", "", "standard error of doubt_p95", FIGURE(fit.p95_se), .null = NO_BAND},
+    {"uncertainty", "", "by the uncertain inputs", .of = band_rows},
     {"within", "", "share of what may be true in which no more exceed than are allowed", FIGURE(fit.below.value),
      .null = "the figure is not the share that exceeds, today or in the mean of the years"},
     {"within_se", "", "its standard error", FIGURE(fit.below.se),
      .null = "the figure is not the share that exceeds, today or in the mean of the years"},
-    {"q2", "", "share of the variance that the surface predicts, leaving out each point in turn", .from = doubted_figure,
-     AT(doubt_figure, fit.q2), .null = FEW_POINTS},
-    {"unexplained", "", "share of the variance that neither single inputs nor pairs explain", .from = doubted_figure,
-     AT(doubt_figure, fit.whole.value), .null = FEW_POINTS},
+    {"q2", "", "share of the variance that the surface predicts, leaving out each point in turn", .from = uncertain_figure,
+     AT(uncertainty_figure, fit.q2), .null = FEW_POINTS},
+    {"unexplained", "", "share of the variance that neither single inputs nor pairs explain", .from = uncertain_figure,
+     AT(uncertainty_figure, fit.whole.value), .null = FEW_POINTS},
     END};
 
 static const struct ceduo_figure input_range_rows[] = {
@@ -185,46 +190,46 @@ static const struct ceduo_figure first_rows[] = {
     {"path", "", "path of the input", .from = input_of, AT(input, path)},
     {"measured_by", "", "what would measure it", .value = input_measured},
     {"option", "", "option that it is about: the one that lets least pass in the mean of plausible cases",
-     .value = doubt_option},
+     .value = uncertainty_option},
     {"width_if_known", "", "expected width of the 90 % range of its figure if this input were known", .value = input_left,
      .null = FEW_POINTS},
     END};
 
-static const struct ceduo_figure doubt_figure_object[] = {
-    {.of = doubt_figure_rows},
+static const struct ceduo_figure uncertainty_figure_object[] = {
+    {.of = uncertainty_figure_rows},
     {"inputs", "", "an object for each input, the heaviest first", .of = input_rows, .enter = enter_input},
     END};
 
 static const struct ceduo_figure ranking_rows[] = {
     {"better", "", "name of the better option", .value = order_better},
     {"than", "", "name of the next one", .value = order_than},
-    {"x_m", "m", "the last control", .value = doubt_x},
+    {"x_m", "m", "the last control", .value = uncertainty_x},
     {"over", "", "today, or rotation: by the mean of the years", .value = order_over},
-    {"probability", "", "share of what may be true in which it is better", .from = ranked, AT(doubt_order, probability)},
+    {"probability", "", "share of what may be true in which it is better", .from = ranked, AT(uncertainty_order, probability)},
     {"equal", "", "in which they differ by at most 5 of 1000, or of energies by 0.5 % of the mean without forest",
-     .from = ranked, AT(doubt_order, equal)},
-    {"worse", "", "in which it is worse", .from = ranked, AT(doubt_order, worse)},
+     .from = ranked, AT(uncertainty_order, equal)},
+    {"worse", "", "in which it is worse", .from = ranked, AT(uncertainty_order, worse)},
     END};
 
-const struct ceduo_figure ceduo_doubt_figures[] = {
-    {"format", "", "always ceduo-sensitivity-1", .value = doubt_format},
+const struct ceduo_figure ceduo_uncertainty_figures[] = {
+    {"format", "", "always ceduo-sensitivity-1", .value = uncertainty_format},
     VERSION,
-    {.of = doubt_scene_rows},
-    {"figures", "", "an object for each figure and option", .of = doubt_figure_object, .enter = enter_figure},
+    {.of = uncertainty_scene_rows},
+    {"figures", "", "an object for each figure and option", .of = uncertainty_figure_object, .enter = enter_figure},
     {"ranking", "", "an object for each two neighbours in rank", .of = ranking_rows, .enter = enter_order},
     {"measure_first", "", "an object for each input to be measured, the first one first: only those that a reader can measure",
      .of = first_rows, .enter = enter_first},
-    {"evaluations", "", "scenes computed", .value = doubt_evaluations},
+    {"evaluations", "", "scenes computed", .value = uncertainty_evaluations},
     END};
 
-static const struct ceduo_figure doubt_columns[] = {{.of = doubt_scene_rows},
-                                                    {.of = doubt_figure_rows},
-                                                    {"path", "", "", .from = input_of, AT(input, path)},
-                                                    {"measured_by", "", "", .value = input_measured},
-                                                    {.of = input_range_rows},
-                                                    END};
+static const struct ceduo_figure uncertainty_columns[] = {{.of = uncertainty_scene_rows},
+                                                          {.of = uncertainty_figure_rows},
+                                                          {"path", "", "", .from = input_of, AT(input, path)},
+                                                          {"measured_by", "", "", .value = input_measured},
+                                                          {.of = input_range_rows},
+                                                          END};
 
-const struct ceduo_csv ceduo_doubt_csv = {doubt_columns, {enter_figure, enter_input}};
+const struct ceduo_csv ceduo_uncertainty_csv = {uncertainty_columns, {enter_figure, enter_input}};
 
 /* ---- a calibration ---- */
 

@@ -17,22 +17,22 @@
 #define SHOWN          0.01 /* shares from this on are shown */
 #define NOTHING_GAINED 0.995
 
-bool ceduo_doubt_is_off(const struct ceduo_doubt_report *r)
+bool ceduo_uncertainty_is_off(const struct ceduo_uncertainty_report *r)
 {
-    return ceduo_node_text(r->file->root, "doubt") != NULL;
+    return ceduo_node_text(r->file->root, "uncertainty") != NULL;
 }
 
-const char *ceduo_doubt_none(const struct ceduo_doubt_report *r)
+const char *ceduo_uncertainty_none(const struct ceduo_uncertainty_report *r)
 {
-    return ceduo_doubt_is_off(r) ? _("what is not known was not computed, because the scene says 'doubt: none'")
-                                 : _("nothing in this scene is marked as assumed");
+    return ceduo_uncertainty_is_off(r) ? _("what is not known was not computed, because the scene says 'uncertainty: none'")
+                                       : _("nothing in this scene is marked as assumed");
 }
 
 /* ---- what people and files call the inputs ---- */
 
 #define GROUND "slope.materials["
 
-void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *r, size_t i)
+void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertainty_report *r, size_t i)
 {
     const struct ceduo_input *input = &r->inputs->items[i];
     const char *place = input->places[0], *ground = input->path + sizeof GROUND - 1;
@@ -70,7 +70,7 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
     }
 }
 
-double ceduo_doubt_input_value(const struct ceduo_doubt_report *r, size_t i, int end, const char **word)
+double ceduo_uncertainty_input_value(const struct ceduo_uncertainty_report *r, size_t i, int end, const char **word)
 {
     const struct ceduo_input *input = &r->inputs->items[i];
     struct value v;
@@ -83,10 +83,10 @@ double ceduo_doubt_input_value(const struct ceduo_doubt_report *r, size_t i, int
     return *word ? NAN : input->kind == CEDUO_INPUT_FACTOR ? value * ceduo_value_get(&v) : value;
 }
 
-void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *r, size_t i, int end)
+void ceduo_uncertainty_input_end(struct text *text, const struct ceduo_uncertainty_report *r, size_t i, int end)
 {
     const char *word;
-    double value = ceduo_doubt_input_value(r, i, end, &word);
+    double value = ceduo_uncertainty_input_value(r, i, end, &word);
     if (word || !isnan(value))
         ceduo_text_put(text, word ? word : ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0}));
 }
@@ -101,10 +101,10 @@ static void append_value(struct text *text, const struct field *field, double va
         ceduo_text_put(text, fabs(value) < 1e4 ? ROUNDED(value, 4) : WRITTEN(value, 4));
 }
 
-static void append_input_end(struct text *text, const struct ceduo_doubt_report *r, size_t i, int end)
+static void append_input_end(struct text *text, const struct ceduo_uncertainty_report *r, size_t i, int end)
 {
     const char *word;
-    double value = ceduo_doubt_input_value(r, i, end, &word);
+    double value = ceduo_uncertainty_input_value(r, i, end, &word);
     struct value v;
     if (ceduo_value_find(&r->file->scene, r->inputs->items[i].places[0], &v))
         append_value(text, v.field, value, word);
@@ -121,7 +121,7 @@ static bool is_outside(const struct ceduo_input *input, double value)
     return word || value < input->lo || value > input->hi;
 }
 
-void ceduo_doubt_outside(const struct ceduo_doubt_report *r, ceduo_words_say *say, void *context)
+void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *r, ceduo_words_say *say, void *context)
 {
     for (size_t i = 0; i < r->inputs->n; i++) {
         const struct ceduo_input *input = &r->inputs->items[i];
@@ -137,7 +137,7 @@ void ceduo_doubt_outside(const struct ceduo_doubt_report *r, ceduo_words_say *sa
         LOCAL_TEXT(ends);
         LOCAL_TEXT(sentence);
         double value = ceduo_value_get(&v);
-        ceduo_doubt_input_name(&name, r, i);
+        ceduo_uncertainty_input_name(&name, r, i);
         append_value(&here, v.field, value, input->kind == CEDUO_INPUT_WORDS ? v.field->choices->names[(int)value] : NULL);
         append_input_end(&ends, r, i, 0);
         ceduo_text_put(&ends, "\xe2\x80\x93");
@@ -148,13 +148,13 @@ void ceduo_doubt_outside(const struct ceduo_doubt_report *r, ceduo_words_say *sa
     }
 }
 
-static const struct range *range_of(const struct ceduo_doubt_report *r, const struct ceduo_input *input)
+static const struct range *range_of(const struct ceduo_uncertainty_report *r, const struct ceduo_input *input)
 {
     struct value v;
     return ceduo_value_find(&r->file->scene, input->places[0], &v) ? ceduo_range_of(v.field) : NULL;
 }
 
-const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t i)
+const char *ceduo_uncertainty_measured(const struct ceduo_uncertainty_report *r, size_t i)
 {
     const struct ceduo_input *input = &r->inputs->items[i];
     const struct range *range = range_of(r, input);
@@ -165,21 +165,21 @@ const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t i)
 
 /* ---- figures ---- */
 
-const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_report *r, size_t option)
+const struct ceduo_uncertainty_figure *ceduo_uncertainty_main(const struct ceduo_uncertainty_report *r, size_t option)
 {
-    return ceduo_doubt_figure_of(r->answer, option, r->over ? CEDUO_DOUBT_MEAN : r->answer->main, false);
+    return ceduo_uncertainty_figure_of(r->answer, option, r->over ? CEDUO_UNCERTAINTY_MEAN : r->answer->main, false);
 }
 
 /* Factor that shows the main figure of 1000 rocks, or in kJ. */
-static double scale_of(const struct ceduo_doubt_report *r)
+static double scale_of(const struct ceduo_uncertainty_report *r)
 {
-    return ceduo_doubt_main(r, 0)->kind == CEDUO_DOUBT_ENERGY ? J_TO_KJ : 1000;
+    return ceduo_uncertainty_main(r, 0)->kind == CEDUO_UNCERTAINTY_ENERGY ? J_TO_KJ : 1000;
 }
 
 /* A value of a kind of figure: shares of 1000, energies in kJ. */
-void ceduo_doubt_value(struct text *t, enum ceduo_doubt_kind kind, double value)
+void ceduo_uncertainty_value(struct text *t, enum ceduo_uncertainty_kind kind, double value)
 {
-    bool energy = kind == CEDUO_DOUBT_ENERGY;
+    bool energy = kind == CEDUO_UNCERTAINTY_ENERGY;
     ceduo_words_number(t, energy ? value * J_TO_KJ : round(value * 1000), energy ? 3 : 0);
 }
 
@@ -188,17 +188,17 @@ void ceduo_doubt_value(struct text *t, enum ceduo_doubt_kind kind, double value)
 /* Return the main figure of 1000 rocks, or in kJ per released rock: in the scene as it is, with the error of the rocks, and what may be
  * true (NaN if perhaps one option alone was asked for). Sets `*rocks`, if given, to the number of rocks; over a rotation of each
  * year. */
-static struct ceduo_measure measure_of(const struct ceduo_doubt_report *r, size_t option, uint64_t *rocks)
+static struct ceduo_measure measure_of(const struct ceduo_uncertainty_report *r, size_t option, uint64_t *rocks)
 {
     const struct ceduo_scene *s = &r->file->scene;
-    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_main(r, option);
     const struct ceduo_result *finer = r->over ? NULL : r->finer;
     const struct ceduo_arrivals *a = finer ? ceduo_result_wooded(finer, option, finer->last_control) : NULL;
     const struct ceduo_choice *c = r->over && r->years && option < r->years->n ? &r->years->choices[option] : NULL;
-    bool energy = f->kind == CEDUO_DOUBT_ENERGY;
+    bool energy = f->kind == CEDUO_UNCERTAINTY_ENERGY;
     double scale = scale_of(r);
     uint64_t own = r->answer->own_rocks;
-    own = r->over && own > CEDUO_DOUBT_OWN_YEAR_ROCKS ? CEDUO_DOUBT_OWN_YEAR_ROCKS : own;
+    own = r->over && own > CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS ? CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS : own;
     struct ceduo_measure m = ceduo_share((struct ceduo_portion){NAN, NAN});
     if (a && a->released >= own) {
         own = a->released;
@@ -218,28 +218,28 @@ static struct ceduo_measure measure_of(const struct ceduo_doubt_report *r, size_
     return m;
 }
 
-void ceduo_doubt_points(struct text *text, const struct ceduo_doubt_report *r)
+void ceduo_uncertainty_points(struct text *text, const struct ceduo_uncertainty_report *r)
 {
     size_t n = r->answer->points;
-    if (n < CEDUO_DOUBT_LEAST)
+    if (n < CEDUO_UNCERTAINTY_MIN)
         ceduo_text_format(text, ngettext("%zu point is too few for a range.", "%zu points are too few for a range.", n), n);
-    else if (n < CEDUO_DOUBT_POINTS)
+    else if (n < CEDUO_UNCERTAINTY_POINTS)
         ceduo_text_format(text, ngettext("Uncertainty from %zu point.", "Uncertainty from %zu points.", n), n);
 }
 
 /* What a reader takes along: both errors. */
-void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, size_t option)
+void ceduo_uncertainty_both(struct text *text, const struct ceduo_uncertainty_report *r, size_t option)
 {
     const struct ceduo_measure m = measure_of(r, option, NULL);
     ceduo_text_format(text,
-                      r->over                                 ? _("Over the years %s of 1000 (rocks %s; doubt %s)")
-                      : r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
-                                                              : _("%s kJ per released rock (rocks %s; doubt %s)"),
+                      r->over                                       ? _("Over the years %s of 1000 (rocks %s; doubt %s)")
+                      : r->answer->main == CEDUO_UNCERTAINTY_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
+                                                                    : _("%s kJ per released rock (rocks %s; doubt %s)"),
                       VALUE_OF(m), SPAN(m, m.lo, m.hi), SPAN(m, m.may_lo, m.may_hi));
 }
 
 /* Today, or in the mean of the years with the years that fail. */
-static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report *report, bool over)
+static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_report *report, bool over)
 {
     static const struct ceduo_page_column today[] = {
         {N_("option"), 32, 2, 0}, {N_("now"), -7, 0, 0}, {N_("rocks"), -13, 2, 0}, {N_("doubt (90 %)"), -15, 2, 0}};
@@ -248,8 +248,8 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
                                                         {N_("rocks"), -9, 2, 0},
                                                         {N_("doubt (90 %)"), -13, 2, 0},
                                                         {N_("years fail"), -11, 2, 0}};
-    struct ceduo_doubt_report r = *report;
-    bool judged = over && r.answer->main == CEDUO_DOUBT_EXCEED;
+    struct ceduo_uncertainty_report r = *report;
+    bool judged = over && r.answer->main == CEDUO_UNCERTAINTY_EXCEED;
     r.over = over;
     ceduo_page_table(page, over ? rotation : today, judged ? 5 : 4);
     for (size_t i = 0; i < r.file->scene.options_count; i++) {
@@ -260,7 +260,8 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
         ceduo_page_write(page, "%s", SPAN(m, m.may_lo, m.may_hi));
         if (!judged)
             continue;
-        const struct ceduo_doubt_figure *years = ceduo_doubt_figure_of(r.answer, i, CEDUO_DOUBT_FAILING, false);
+        const struct ceduo_uncertainty_figure *years =
+            ceduo_uncertainty_figure_of(r.answer, i, CEDUO_UNCERTAINTY_FAILING, false);
         double lo = floor(years->fit.p5), hi = ceil(years->fit.p95); /* outwards */
         ceduo_page_write(page, lo == hi || isnan(lo) ? "%.0f" : "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
     }
@@ -268,30 +269,31 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
 
 /* ---- what it depends on ---- */
 
-double ceduo_doubt_share(const struct ceduo_doubt_figure *figure, size_t group)
+double ceduo_uncertainty_share(const struct ceduo_uncertainty_figure *figure, size_t group)
 {
     return fmin(1, fmax(0, figure->fit.total[group].value));
 }
 
 /* An input matters where its share is more than its error. */
-static bool matters(const struct ceduo_doubt_figure *f, size_t g)
+static bool matters(const struct ceduo_uncertainty_figure *f, size_t g)
 {
     return f->fit.total[g].value > 2 * f->fit.total[g].se && f->fit.total[g].value >= SHOWN;
 }
 
 /* Adds the width of a figure's range if an input is known, in `format`; "no gain" if that is all of it. */
-static void append_left(struct text *text, const struct ceduo_doubt_figure *f, size_t input, const char *format)
+static void append_left(struct text *text, const struct ceduo_uncertainty_figure *f, size_t input, const char *format)
 {
     double left = f->fit.left[input];
     LOCAL_TEXT(width);
-    ceduo_doubt_value(&width, f->kind, left);
+    ceduo_uncertainty_value(&width, f->kind, left);
     if (left > NOTHING_GAINED * (f->fit.p95 - f->fit.p5))
         ceduo_text_put(text, _("no gain"));
     else
         ceduo_append_with(text, format, width.bytes);
 }
 
-static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f)
+static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_report *r,
+                       const struct ceduo_uncertainty_figure *f)
 {
     static const struct ceduo_page_column columns[] = {{N_("it depends on"), 34, 2, 0},
                                                        {N_("from"), -9, 1, 0},
@@ -313,10 +315,10 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
             rest++;
             continue;
         }
-        ceduo_doubt_input_name(ceduo_page_text(page), r, g);
+        ceduo_uncertainty_input_name(ceduo_page_text(page), r, g);
         for (int end = 0; end < 2; end++)
             append_input_end(ceduo_page_text(page), r, g, end);
-        ceduo_page_write(page, "%.0f %%", ceduo_doubt_share(f, g) * 100);
+        ceduo_page_write(page, "%.0f %%", ceduo_uncertainty_share(f, g) * 100);
         append_left(ceduo_page_text(page), f, g, "%s");
     }
     if (f->fit.whole.value >= SHOWN && f->fit.whole.value > 2 * f->fit.whole.se) {
@@ -334,12 +336,12 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
                        rest);
 }
 
-size_t ceduo_doubt_chosen(const struct ceduo_doubt_report *r)
+size_t ceduo_uncertainty_chosen(const struct ceduo_uncertainty_report *r)
 {
     size_t chosen = SIZE_MAX;
     double least = INFINITY;
     for (size_t i = 0; i < r->file->scene.options_count; i++) {
-        const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(r->answer, i, r->answer->main, false)->fit;
+        const struct ceduo_surface_fit *fit = &ceduo_uncertainty_figure_of(r->answer, i, r->answer->main, false)->fit;
         if (fit->values && (chosen == SIZE_MAX || fit->mean < least))
             chosen = i, least = fit->mean;
     }
@@ -347,27 +349,27 @@ size_t ceduo_doubt_chosen(const struct ceduo_doubt_report *r)
 }
 
 /* True if a reader can measure an input, and the result matters for the figure. */
-static bool is_advised(const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t g)
+static bool is_advised(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f, size_t g)
 {
     const struct range *range = range_of(r, &r->inputs->items[g]);
-    return matters(f, g) && ceduo_doubt_measured(r, g) && !(range && range->research);
+    return matters(f, g) && ceduo_uncertainty_measured(r, g) && !(range && range->research);
 }
 
 /* True if one of the n inputs before it, which are advised, has the name of input i in the order of the figure. */
-static bool is_named_before(const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t i)
+static bool is_named_before(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f, size_t i)
 {
     bool named = false;
     LOCAL_TEXT(name);
-    ceduo_doubt_input_name(&name, r, f->order[i]);
+    ceduo_uncertainty_input_name(&name, r, f->order[i]);
     for (size_t k = 0; k < i && !named; k++) {
         LOCAL_TEXT(other);
-        ceduo_doubt_input_name(&other, r, f->order[k]);
+        ceduo_uncertainty_input_name(&other, r, f->order[k]);
         named = is_advised(r, f, f->order[k]) && strcmp(ceduo_text_string(&name), ceduo_text_string(&other)) == 0;
     }
     return named;
 }
 
-size_t ceduo_doubt_advised(const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t n)
+size_t ceduo_uncertainty_advised(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f, size_t n)
 {
     for (size_t i = 0; f->fit.enough && i < f->uses; i++)
         if (is_advised(r, f, f->order[i]) && !is_named_before(r, f, i) && n-- == 0)
@@ -375,27 +377,29 @@ size_t ceduo_doubt_advised(const struct ceduo_doubt_report *r, const struct cedu
     return SIZE_MAX;
 }
 
-void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t most)
+void ceduo_uncertainty_advice(struct text *text, const struct ceduo_uncertainty_report *r,
+                              const struct ceduo_uncertainty_figure *f, size_t most)
 {
-    for (size_t i = 0, g; i < most && (g = ceduo_doubt_advised(r, f, i)) != SIZE_MAX; i++) {
+    for (size_t i = 0, g; i < most && (g = ceduo_uncertainty_advised(r, f, i)) != SIZE_MAX; i++) {
         LOCAL_TEXT(name);
-        ceduo_doubt_input_name(&name, r, g);
+        ceduo_uncertainty_input_name(&name, r, g);
         ceduo_text_then(text, text->length > 0 ? " " : "", i == 0 ? _("Measure first: %s (%s).") : _("Then: %s (%s)."),
-                        ceduo_text_string(&name), _(ceduo_doubt_measured(r, g)));
+                        ceduo_text_string(&name), _(ceduo_uncertainty_measured(r, g)));
     }
 }
 
 /* "dbh, ADS 1 and per hectare, ADS 1" */
-bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
+bool ceduo_uncertainty_causes(struct text *text, const struct ceduo_uncertainty_report *r, size_t option,
+                              enum ceduo_uncertainty_kind light)
 {
-    size_t inputs[2], n = ceduo_doubt_depends(&r->file->scene, r->answer, option, light, inputs);
+    size_t inputs[2], n = ceduo_uncertainty_depends(&r->file->scene, r->answer, option, light, inputs);
     LOCAL_TEXT(first);
     LOCAL_TEXT(second);
     if (n == 0)
         return false;
-    ceduo_doubt_input_name(&first, r, inputs[0]);
+    ceduo_uncertainty_input_name(&first, r, inputs[0]);
     if (n == 2)
-        ceduo_doubt_input_name(&second, r, inputs[1]);
+        ceduo_uncertainty_input_name(&second, r, inputs[1]);
     if (n == 2)
         ceduo_text_format(text, _("%s and %s"), ceduo_text_string(&first), ceduo_text_string(&second));
     else
@@ -403,12 +407,13 @@ bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, s
     return true;
 }
 
-const enum ceduo_doubt_kind ceduo_doubt_lights[3] = {CEDUO_DOUBT_CONTACT, CEDUO_DOUBT_FREE_RUN, CEDUO_DOUBT_EXCEED};
+const enum ceduo_uncertainty_kind ceduo_uncertainty_lights[3] = {CEDUO_UNCERTAINTY_CONTACT, CEDUO_UNCERTAINTY_FREE_RUN,
+                                                                 CEDUO_UNCERTAINTY_EXCEED};
 
-void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *r, size_t option, size_t light)
+void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncertainty_report *r, size_t option, size_t light)
 {
     LOCAL_TEXT(causes);
-    if (ceduo_doubt_causes(&causes, r, option, ceduo_doubt_lights[light]))
+    if (ceduo_uncertainty_causes(&causes, r, option, ceduo_uncertainty_lights[light]))
         ceduo_text_format(text, _("Whether the test of %s passes depends on %s."), _(ceduo_light_names[light]),
                           ceduo_text_string(&causes));
 }
@@ -418,11 +423,11 @@ void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report 
 #define SURE   0.95
 #define LIKELY 0.8
 
-void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *r, size_t i)
+void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncertainty_report *r, size_t i)
 {
     const struct ceduo_scene *s = &r->file->scene;
-    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
-    const struct ceduo_doubt_order *o = &ranking->orders[i];
+    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_verdict(r->answer);
+    const struct ceduo_uncertainty_order *o = &ranking->orders[i];
     ceduo_text_format(text,
                       ranking->rotation ? _("Over the years %s is better than %s in %.0f %% of what may be true")
                                         : _("Today %s is better than %s in %.0f %% of what may be true"),
@@ -438,52 +443,52 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
 }
 
 /* Each option and the next one, and how far apart they may lie. */
-static void add_orders(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+static void add_orders(struct ceduo_page *page, const struct ceduo_uncertainty_report *r)
 {
-    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
-    enum ceduo_doubt_kind kind = ranking->rotation ? CEDUO_DOUBT_MEAN : r->answer->main;
+    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_verdict(r->answer);
+    enum ceduo_uncertainty_kind kind = ranking->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
     for (size_t i = 0; i < ranking->count; i++) {
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
         LOCAL_TEXT(lo);
         LOCAL_TEXT(hi);
-        ceduo_doubt_value(&lo, kind, ranking->orders[i].p5);
-        ceduo_doubt_value(&hi, kind, ranking->orders[i].p95);
-        ceduo_doubt_order_words(text, r, i);
+        ceduo_uncertainty_value(&lo, kind, ranking->orders[i].p5);
+        ceduo_uncertainty_value(&hi, kind, ranking->orders[i].p95);
+        ceduo_uncertainty_order_words(text, r, i);
         if (isnan(ranking->orders[i].p5))
             continue;
         ceduo_text_then(text, " ",
-                        kind == CEDUO_DOUBT_ENERGY ? _("The difference may be %s to %s kJ per released rock.")
-                                                   : _("The difference may be %s to %s of 1000."),
+                        kind == CEDUO_UNCERTAINTY_ENERGY ? _("The difference may be %s to %s kJ per released rock.")
+                                                         : _("The difference may be %s to %s of 1000."),
                         lo.bytes, hi.bytes);
     }
 }
 
 /* ---- all ---- */
 
-void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *r, bool all)
+void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, bool all)
 {
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_control *c = &s->controls[ceduo_scene_last_control(s)];
     bool several = s->options_count > 1;
     const char *place = c->name ? c->name : "";
-    if (r->answer->main == CEDUO_DOUBT_EXCEED)
+    if (r->answer->main == CEDUO_UNCERTAINTY_EXCEED)
         ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"),
                        place, c->x_given, ceduo_words_accepted(c));
     else
         ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"), place, c->x_given);
     add_options(page, r, false);
-    ceduo_doubt_outside(r, ceduo_page_warn, page);
-    size_t chosen = ceduo_doubt_chosen(r);
-    const struct ceduo_doubt_figure *figure = ceduo_doubt_figure_of(r->answer, chosen, r->answer->main, false);
+    ceduo_uncertainty_outside(r, ceduo_page_warn, page);
+    size_t chosen = ceduo_uncertainty_chosen(r);
+    const struct ceduo_uncertainty_figure *figure = ceduo_uncertainty_figure_of(r->answer, chosen, r->answer->main, false);
     add_inputs(page, r, figure);
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     LOCAL_TEXT(advice);
-    ceduo_doubt_advice(&advice, r, figure, 3);
+    ceduo_uncertainty_advice(&advice, r, figure, 3);
     if (advice.length > 0)
         ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
     for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change within what may be true */
         LOCAL_TEXT(words);
-        ceduo_doubt_light_words(&words, r, i / 3, i % 3);
+        ceduo_uncertainty_light_words(&words, r, i / 3, i % 3);
         if (words.length > 0)
             ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s%s%s", several ? s->options[i / 3].name : "", several ? ": " : "",
                            words.bytes);
@@ -491,13 +496,13 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     if (r->answer->rotation && all) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
         add_options(page, r, true);
-        add_inputs(page, r, ceduo_doubt_figure_of(r->answer, chosen, CEDUO_DOUBT_MEAN, false));
+        add_inputs(page, r, ceduo_uncertainty_figure_of(r->answer, chosen, CEDUO_UNCERTAINTY_MEAN, false));
         ceduo_page_add(page, CEDUO_PAGE_GAP);
     }
     if (all)
         add_orders(page, r);
     if (!several) /* of several the table has it */
-        ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
+        ceduo_uncertainty_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
     uint64_t rocks;
     measure_of(r, 0, &rocks);
     ceduo_page_say(page, CEDUO_PAGE_NOTE,
@@ -505,26 +510,26 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
                      "reduces it. %llu scenes were computed."),
                    (unsigned long long)rocks, (unsigned long long)r->answer->evaluations);
     LOCAL_TEXT(points);
-    ceduo_doubt_points(&points, r);
+    ceduo_uncertainty_points(&points, r);
     if (points.length > 0)
         ceduo_page_say(page, CEDUO_PAGE_NOTE, "%s", points.bytes);
 }
 
-void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, bool plain)
+void ceduo_uncertainty_page(struct text *text, const struct ceduo_uncertainty_report *r, bool plain)
 {
     LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
     ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_in_language(r->file->scene.title, r->file->scene.title_it));
     if (r->answer)
-        ceduo_doubt_blocks(&page, r, true);
+        ceduo_uncertainty_blocks(&page, r, true);
     else
-        ceduo_page_note(&page, ceduo_doubt_none(r));
+        ceduo_page_note(&page, ceduo_uncertainty_none(r));
     ceduo_page_print(text, &page, plain);
 }
 
 /* ---- the picture ---- */
 
-#define SHOWN_LEAST  0.005 /* of the share of an input */
-#define INPUTS_LEAST 2     /* lines: a head and one input */
+#define SHOWN_MIN  0.005 /* of the share of an input */
+#define INPUTS_MIN 2     /* lines: a head and one input */
 
 static void add_bar_of_option(struct ceduo_page *page, const struct ceduo_measure *m, enum ceduo_role role, const char *name)
 {
@@ -537,18 +542,18 @@ static void add_bar_of_option(struct ceduo_page *page, const struct ceduo_measur
 }
 
 /* Returns the lines that it takes. */
-static int add_option_bars(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t option, int height)
+static int add_option_bars(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, size_t option, int height)
 {
     static const struct ceduo_page_column columns[] = {
         {"", 10, 0, CEDUO_FILLS}, {"", 12, 1, CEDUO_FILLS}, {"", -12, 1, CEDUO_FITS}};
     const struct ceduo_scene *scene = &r->file->scene;
     size_t n = scene->options_count, lines = height > 4 ? (size_t)height - 1 : 3;
-    size_t most = lines * 2 / 3, room = n + INPUTS_LEAST <= lines ? n : most > 1 ? most - 1 : 1;
+    size_t most = lines * 2 / 3, room = n + INPUTS_MIN <= lines ? n : most > 1 ? most - 1 : 1;
     size_t first = option >= room ? option - room + 1 : 0;
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *heads = page->last->cells;
     const struct ceduo_measure judged = ceduo_judged(&scene->controls[ceduo_scene_last_control(scene)], NULL);
-    bool share = ceduo_doubt_main(r, 0)->kind != CEDUO_DOUBT_ENERGY;
+    bool share = ceduo_uncertainty_main(r, 0)->kind != CEDUO_UNCERTAINTY_ENERGY;
     ceduo_text_put(&heads[0].text, share ? NAMED(judged, CEDUO_HEAD) : _("kJ a rock"));
     ceduo_text_put(&heads[2].text, r->over ? _("years (may be)") : _("now (may be)"));
     double end = 0; /* of the axis */
@@ -568,19 +573,19 @@ static int add_option_bars(struct ceduo_page *page, const struct ceduo_doubt_rep
     return 1 + (int)(n > room ? room + 1 : n);
 }
 
-static void add_input_bars(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t option, int lines)
+static void add_input_bars(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, size_t option, int lines)
 {
     static const struct ceduo_page_column columns[] = {
         {N_("it depends on"), 18, 0, CEDUO_FILLS}, {"", 6, 1, CEDUO_FILLS}, {"", -5, 1, CEDUO_FITS}, {"", -8, 2, CEDUO_FITS}};
-    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_main(r, option);
     if (lines < 2)
         return;
     CEDUO_PAGE_TABLE_OF(page, columns);
     ceduo_text_format(&page->last->cells[3].text, _("of %.3g wide"), (f->fit.p95 - f->fit.p5) * scale_of(r));
     for (size_t i = 0, n = 1; f->fit.enough && i < f->uses && n < (size_t)lines; i++)
-        if (f->fit.total[f->order[i]].value >= SHOWN_LEAST) {
-            double share = ceduo_doubt_share(f, f->order[i]);
-            ceduo_doubt_input_name(ceduo_page_text(page), r, f->order[i]);
+        if (f->fit.total[f->order[i]].value >= SHOWN_MIN) {
+            double share = ceduo_uncertainty_share(f, f->order[i]);
+            ceduo_uncertainty_input_name(ceduo_page_text(page), r, f->order[i]);
             ceduo_page_bar(page, share, CEDUO_ROLE_MEAN);
             ceduo_page_write(page, "%.0f %%", share * 100);
             append_left(ceduo_page_text(page), f, f->order[i], _("leaves %s"));
@@ -588,13 +593,13 @@ static void add_input_bars(struct ceduo_page *page, const struct ceduo_doubt_rep
         }
 }
 
-const char *ceduo_plot_doubt(struct ceduo_drawing *d)
+const char *ceduo_plot_uncertainty(struct ceduo_drawing *d)
 {
-    const struct ceduo_doubt_report *r = d->picture->doubt;
+    const struct ceduo_uncertainty_report *r = d->picture->uncertainty;
     if (!r)
         return _("not computed yet");
     if (!r->answer)
-        return ceduo_doubt_none(r);
+        return ceduo_uncertainty_none(r);
     int used = add_option_bars(d->page, r, d->picture->option, d->height);
     add_input_bars(d->page, r, d->picture->option, d->height - used);
     return NULL;

@@ -6,13 +6,13 @@
 
 static void build(struct app *app, struct form *form)
 {
-    const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
+    const struct node *rows = ceduo_node_get(app->document.file.root, "uncertainty");
     size_t n = rows && rows->kind == NODE_LIST ? rows->n : 0;
     bool means = false;
     for (size_t i = 0; i < n; i++)
         means |= ceduo_node_get(rows->items[i], "mean") != NULL;
     if (n > 0)
-        ceduo_form_table(form, "doubt", NULL, means ? "path lo hi mean sd" : "path lo hi");
+        ceduo_form_table(form, "uncertainty", NULL, means ? "path lo hi mean sd" : "path lo hi");
     else
         ceduo_form_note(form, _("a: name a range in the scene, to edit it"));
 }
@@ -29,20 +29,21 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_page page = {.width = (size_t)area.width - 2};
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_pane pane = ceduo_app_pane(app, area.height - form - 1);
-    const struct ceduo_doubt_report *r = pane.report->doubt;
+    const struct ceduo_uncertainty_report *r = pane.report->uncertainty;
     bool waits = app->over && r && r->answer && !r->over;
-    picture.doubt = waits ? NULL : r;
+    picture.uncertainty = waits ? NULL : r;
     const char *never = waits ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;
     if (never)
         ceduo_page_say(&page, CEDUO_PAGE_NOTE, "%s", _(never));
-    else if (ceduo_plot_add(CEDUO_PLOT_DOUBT, &page, &picture, pane.height - WORDS_MIN - 1))
+    else if (ceduo_plot_add(CEDUO_PLOT_UNCERTAINTY, &page, &picture, pane.height - WORDS_MIN - 1))
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
     if (!waits)
-        ceduo_pane_doubt(&page, &pane);
+        ceduo_pane_uncertainty(&page, &pane);
     if (r && r->answer && !waits)
-        ceduo_page_say(
-            &page, CEDUO_PAGE_NOTE, r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
-            (unsigned long long)r->answer->evaluations, (unsigned long long)(r->over ? CEDUO_DOUBT_YEAR_ROCKS : r->rocks));
+        ceduo_page_say(&page, CEDUO_PAGE_NOTE,
+                       r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
+                       (unsigned long long)r->answer->evaluations,
+                       (unsigned long long)(r->over ? CEDUO_UNCERTAINTY_YEAR_ROCKS : r->rocks));
     area.height = pane.height;
     area.width -= 2;
     ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
@@ -70,14 +71,14 @@ static bool is_named(const struct node *rows, const char *path)
 /* Names the most important input that the scene does not name yet, with the range that it has now. */
 static void add(struct app *app)
 {
-    const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
-    struct ceduo_doubt_report r;
-    bool known = ceduo_app_doubt(app, &r) && (!r.answer || !isnan(ceduo_doubt_main(&r, app->option)->fit.p5));
+    const struct node *rows = ceduo_node_get(app->document.file.root, "uncertainty");
+    struct ceduo_uncertainty_report r;
+    bool known = ceduo_app_uncertainty(app, &r) && (!r.answer || !isnan(ceduo_uncertainty_main(&r, app->option)->fit.p5));
     if (!known || !r.answer || (rows && rows->kind != NODE_LIST)) {
         ceduo_app_say(app, "%s", known ? _("nothing here has a range") : _("not computed yet"));
         return;
     }
-    const struct ceduo_doubt_figure *f = ceduo_doubt_main(&r, app->option);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_main(&r, app->option);
     for (size_t i = 0; i < f->uses; i++) {
         const struct ceduo_input *input = &r.inputs->items[f->order[i]];
         if (input->kind == CEDUO_INPUT_WORDS || input->places_count != 1 || is_named(rows, input->places[0]))
@@ -86,16 +87,16 @@ static void add(struct app *app)
         ceduo_text_put(&row, "{path: ");
         ceduo_emit_scalar(&row, input->places[0], true);
         ceduo_text_put(&row, ", lo: ");
-        ceduo_doubt_input_end(&row, &r, f->order[i], 0);
+        ceduo_uncertainty_input_end(&row, &r, f->order[i], 0);
         ceduo_text_put(&row, ", hi: ");
-        ceduo_doubt_input_end(&row, &r, f->order[i], 1);
+        ceduo_uncertainty_input_end(&row, &r, f->order[i], 1);
         ceduo_text_char(&row, '}');
         size_t n = rows ? rows->n : 0;
-        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "doubt", n, row.bytes, &app->problems)))
-            ceduo_form_go(ceduo_app_form(app), "doubt", n);
+        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "uncertainty", n, row.bytes, &app->problems)))
+            ceduo_form_go(ceduo_app_form(app), "uncertainty", n);
         return;
     }
-    ceduo_app_say(app, "%s", _("every single value in doubt has a range of the scene already"));
+    ceduo_app_say(app, "%s", _("every uncertain value has a range of the scene already"));
 }
 
 static const struct act acts[] = {{ACTION_ADD, .plain = add},
@@ -105,14 +106,14 @@ static const struct act acts[] = {{ACTION_ADD, .plain = add},
                                   {ACTION_PAGE_DOWN, .function = ceduo_app_read_on, .by = 4},
                                   {0}};
 
-const struct view ceduo_view_doubt = {.panes = 1,
-                                      .uncertainty = true,
-                                      .build = build,
-                                      .draw = draw,
-                                      .acts = {acts},
-                                      .bar = {{ACTION_EDIT, N_("edit")},
-                                              {ACTION_ADD, N_("a range")},
-                                              {ACTION_DELETE, N_("delete")},
-                                              {ACTION_NEXT_PANE, N_("today or years")},
-                                              {ACTION_NEXT_OPTION, N_("next option")},
-                                              {ACTION_PAGE_DOWN, N_("read on")}}};
+const struct view ceduo_view_uncertainty = {.panes = 1,
+                                            .uncertainty = true,
+                                            .build = build,
+                                            .draw = draw,
+                                            .acts = {acts},
+                                            .bar = {{ACTION_EDIT, N_("edit")},
+                                                    {ACTION_ADD, N_("a range")},
+                                                    {ACTION_DELETE, N_("delete")},
+                                                    {ACTION_NEXT_PANE, N_("today or years")},
+                                                    {ACTION_NEXT_OPTION, N_("next option")},
+                                                    {ACTION_PAGE_DOWN, N_("read on")}}};

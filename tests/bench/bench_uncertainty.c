@@ -4,7 +4,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "ceduo/doubt.h"
+#include "ceduo/uncertainty.h"
 #include "frame.h"
 #include "io/scene_file.h"
 
@@ -17,23 +17,23 @@ static void measure(const char *path, bool rotation, double goal, size_t repeats
     read_scene(&file, path);
     if (!ceduo_inputs_of(&file, &inputs))
         fail("no memory");
-    const struct ceduo_doubt_def def = {.scene = &file.scene,
-                                        .inputs_count = inputs.n,
-                                        .inputs = inputs.items,
-                                        .points = points,
-                                        .rocks = rocks,
-                                        .rotation = rotation,
-                                        .threads = threads};
+    const struct ceduo_uncertainty_def def = {.scene = &file.scene,
+                                              .inputs_count = inputs.n,
+                                              .inputs = inputs.items,
+                                              .points = points,
+                                              .rocks = rocks,
+                                              .rotation = rotation,
+                                              .threads = threads};
     struct timing t;
     uint64_t evaluations = 0;
     for (size_t r = 0; r < repeats; r++) {
-        struct ceduo_doubt_answer answer;
+        struct ceduo_uncertainty_answer answer;
         timing_begin(&t);
-        if (ceduo_doubt_ask(&def, &answer) != CEDUO_OK)
+        if (ceduo_uncertainty_ask(&def, &answer) != CEDUO_OK)
             fail("the sensitivity failed");
         timing_end(&t, r);
         evaluations = answer.evaluations;
-        ceduo_doubt_free(&answer);
+        ceduo_uncertainty_free(&answer);
     }
     printf("%s,%s,%zu,%zu,%" PRIu64 ",%u,%" PRIu64 ",%.3f,%.3f,%g\n", path, rotation ? "rotation" : "today", inputs.n, points,
            rocks, threads, evaluations, median(t.seconds, repeats), median(t.busy, repeats), goal);
@@ -43,8 +43,8 @@ static void measure(const char *path, bool rotation, double goal, size_t repeats
 int main(int argc, char **argv)
 {
     (void)argc;
-    size_t repeats = argument(argv, 1, 5, 1, REPEATS_MOST), points = argument(argv, 2, CEDUO_DOUBT_POINTS, 2, SIZE_MAX);
-    uint64_t rocks = argument(argv, 3, CEDUO_DOUBT_ROCKS, 2, UINT64_MAX);
+    size_t repeats = argument(argv, 1, 5, 1, REPEATS_MAX), points = argument(argv, 2, CEDUO_UNCERTAINTY_POINTS, 2, SIZE_MAX);
+    uint64_t rocks = argument(argv, 3, CEDUO_UNCERTAINTY_ROCKS, 2, UINT64_MAX);
     unsigned threads = (unsigned)argument(argv, 4, 2, 1, 1024);
     puts("scene,years,inputs,points,rocks,threads,evaluations,seconds_median,cpu_seconds_median,goal_seconds");
     measure("profiles/scenes/paper-site.yaml", false, .35, repeats, points, rocks, threads);

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Doubt of a known law, what a light depends on, and inputs at the ends of their ranges. */
+/* Uncertainty of a known law, what a light depends on, and inputs at the ends of their ranges. */
 #include "expect.h"
 
 #include <stdlib.h>
 
-#include "ceduo/doubt.h"
 #include "ceduo/question.h"
+#include "ceduo/uncertainty.h"
 #include "io/scene_file.h"
 #include "study/effort.h"
 #include "study/inputs.h"
 #include "study/points.h"
 #include "study/sure.h"
 
-/* The doubt of a density with a large error: within 1 % of its mean, where a uniform law cut at 0 was 17 and 37 % above. */
+/* The uncertainty of a density with a large error: within 1 % of its mean, where a uniform law cut at 0 was 17 and 37 % above. */
 TEST(gamma_laws_keep_the_mean)
 {
     for (double ratio = .34; ratio <= 1; ratio += .06) {
@@ -62,18 +62,18 @@ static struct ceduo_input range_of(const char *const *place, double lo, double h
 
 /* Contacts per metre of 1000 to 2000 trees per ha of either class: 0.1·(2 + U + V), a triangular law with p5 at sqrt(0.1), p50 at 1
  * and p95 at 2 - sqrt(0.1) of U + V. Were one known the other's 0.9 were left. What does not act leaves all. */
-TEST(doubt_of_a_known_law)
+TEST(uncertainty_of_a_known_law)
 {
     static const char *const places[] = {"forest[0].stand.trees[0].per_ha", "forest[0].stand.trees[1].per_ha",
                                          "rock.density_kg_m3"};
     const struct ceduo_input inputs[] = {range_of(&places[2], 2400, 2700), range_of(&places[0], 1000, 2000),
                                          range_of(&places[1], 1000, 2000)};
-    struct ceduo_doubt_answer a;
+    struct ceduo_uncertainty_answer a;
     open_wood();
-    const struct ceduo_doubt_def def = {
+    const struct ceduo_uncertainty_def def = {
         .scene = &file.scene, .inputs_count = 3, .inputs = inputs, .points = 1024, .rocks = 2, .threads = 2};
-    EXPECT(ceduo_doubt_ask(&def, &a), ==, CEDUO_OK);
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&a, 0, CEDUO_DOUBT_CONTACT, false);
+    EXPECT(ceduo_uncertainty_ask(&def, &a), ==, CEDUO_OK);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(&a, 0, CEDUO_UNCERTAINTY_CONTACT, false);
     double root = sqrt(.1);
     EXPECT_NEAR(f->fit.p5, .2 + .1 * root, .002);
     EXPECT_NEAR(f->fit.p50, .3, .002);
@@ -85,7 +85,7 @@ TEST(doubt_of_a_known_law)
     EXPECT_NEAR(f->at[1][0], .2, 1e-12);
     EXPECT_NEAR(f->at[1][1], .3, 1e-12);
     EXPECT(f->order[2], ==, 0);
-    ceduo_doubt_free(&a);
+    ceduo_uncertainty_free(&a);
     ceduo_scene_release(&file);
 }
 
@@ -95,24 +95,24 @@ TEST(more_points_where_inputs_are_many)
     enum { MANY = 60 };
     static const char *const places[] = {"rock.density_kg_m3", "forest[0].stand.trees[0].height_m"};
     struct ceduo_input inputs[MANY];
-    struct ceduo_doubt_answer a;
+    struct ceduo_uncertainty_answer a;
     for (size_t i = 0; i < MANY; i++)
         inputs[i] = i == 0 ? range_of(&places[0], 2400, 2700) : range_of(&places[1], 11, 13);
     open_wood();
     file.scene.controls[0].accepted = NAN;
-    const struct ceduo_doubt_def def = {.scene = &file.scene,
-                                        .inputs_count = MANY,
-                                        .inputs = inputs,
-                                        .points = CEDUO_DOUBT_POINTS,
-                                        .rocks = CEDUO_SURFACE_GROUPS,
-                                        .threads = 2};
-    EXPECT(ceduo_doubt_ask(&def, &a), ==, CEDUO_OK);
-    EXPECT(a.points, ==, 2 * CEDUO_DOUBT_POINTS);
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&a, 0, CEDUO_DOUBT_ENERGY, false);
+    const struct ceduo_uncertainty_def def = {.scene = &file.scene,
+                                              .inputs_count = MANY,
+                                              .inputs = inputs,
+                                              .points = CEDUO_UNCERTAINTY_POINTS,
+                                              .rocks = CEDUO_SURFACE_GROUPS,
+                                              .threads = 2};
+    EXPECT(ceduo_uncertainty_ask(&def, &a), ==, CEDUO_OK);
+    EXPECT(a.points, ==, 2 * CEDUO_UNCERTAINTY_POINTS);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(&a, 0, CEDUO_UNCERTAINTY_ENERGY, false);
     assert_true(f->fit.enough);
     EXPECT_NEAR(f->fit.total[0].value, 1, 1e-6);
     EXPECT_NEAR(f->fit.p5 / f->fit.p95, 2415. / 2685, .002);
-    ceduo_doubt_free(&a);
+    ceduo_uncertainty_free(&a);
     ceduo_scene_release(&file);
 }
 
@@ -121,40 +121,40 @@ TEST(too_much_work_is_given_up)
 {
     static const char *const place = "slope.segments[0].rn";
     const struct ceduo_input input = range_of(&place, .2, .6);
-    struct ceduo_doubt_answer a;
+    struct ceduo_uncertainty_answer a;
     open_wood();
-    struct ceduo_doubt_def def = {
+    struct ceduo_uncertainty_def def = {
         .scene = &file.scene, .inputs_count = 1, .inputs = &input, .points = 64, .points_max = 64, .rocks = 8, .threads = 1};
     uint64_t few = 1, enough = 1 << 20; /* contacts */
     while (enough - few > 1) {
         def.effort_max = (few + enough) / 2;
-        *(ceduo_doubt_ask(&def, &a) == CEDUO_OK ? &enough : &few) = def.effort_max;
-        ceduo_doubt_free(&a);
+        *(ceduo_uncertainty_ask(&def, &a) == CEDUO_OK ? &enough : &few) = def.effort_max;
+        ceduo_uncertainty_free(&a);
     }
     EXPECT(enough, >, 64 * 8); /* each rock touches the ground */
     EXPECT(enough, <, 1 << 20);
     def.threads = 2;
     for (int i = 0; i < 20; i++) {
         def.effort_max = enough - (uint64_t)i % 2;
-        EXPECT(ceduo_doubt_ask(&def, &a), ==, (i % 2 == 0 ? CEDUO_OK : CEDUO_CANCELLED));
-        ceduo_doubt_free(&a);
+        EXPECT(ceduo_uncertainty_ask(&def, &a), ==, (i % 2 == 0 ? CEDUO_OK : CEDUO_CANCELLED));
+        ceduo_uncertainty_free(&a);
     }
     ceduo_scene_release(&file);
 }
 
 #define LONG 120 /* years, two for each that a point takes */
 
-static struct ceduo_doubt_def over_long_years(const struct ceduo_input *input)
+static struct ceduo_uncertainty_def over_long_years(const struct ceduo_input *input)
 {
-    return (struct ceduo_doubt_def){.scene = &file.scene,
-                                    .inputs_count = 1,
-                                    .inputs = input,
-                                    .points = 2,
-                                    .points_max = 2,
-                                    .rocks = CEDUO_SURFACE_GROUPS,
-                                    .rotation = true,
-                                    .window = {CEDUO_WINDOW_GIVEN, 1, LONG, 1},
-                                    .threads = 1};
+    return (struct ceduo_uncertainty_def){.scene = &file.scene,
+                                          .inputs_count = 1,
+                                          .inputs = input,
+                                          .points = 2,
+                                          .points_max = 2,
+                                          .rocks = CEDUO_SURFACE_GROUPS,
+                                          .rotation = true,
+                                          .window = {CEDUO_WINDOW_GIVEN, 1, LONG, 1},
+                                          .threads = 1};
 }
 
 /* All rocks arrive in every year, and each of them has too much energy: 120 years fail, though a point has 60. */
@@ -162,29 +162,29 @@ TEST(a_year_of_a_point_stands_for_several)
 {
     static const char *const place = "rocks_per_year";
     const struct ceduo_input input = range_of(&place, 1, 2);
-    struct ceduo_doubt_answer a;
+    struct ceduo_uncertainty_answer a;
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
     file.scene.options[0].belts_count = 0;
     file.scene.controls[0].accepted = 1;
-    const struct ceduo_doubt_def def = over_long_years(&input);
-    EXPECT(ceduo_doubt_ask(&def, &a), ==, CEDUO_OK);
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&a, 0, CEDUO_DOUBT_FAILING, false);
+    const struct ceduo_uncertainty_def def = over_long_years(&input);
+    EXPECT(ceduo_uncertainty_ask(&def, &a), ==, CEDUO_OK);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(&a, 0, CEDUO_UNCERTAINTY_FAILING, false);
     EXPECT(f->value, ==, LONG);
     for (int p = 0; p < 2; p++)
         EXPECT_NEAR(f->fit.values[p], LONG, 1e-9);
-    ceduo_doubt_free(&a);
+    ceduo_uncertainty_free(&a);
     ceduo_scene_release(&file);
 }
 
-#define TREE_MOST .5 /* m: a tree of 0.2 m becomes as thick by 0.01 a year of what is left */
+#define TREE_MAX .5 /* m: a tree of 0.2 m becomes as thick by 0.01 a year of what is left */
 
 static void read_year(void *context, const struct point *point, const struct brought *at)
 {
     double *years = context;
     (void)at;
-    double left = 1 - point->forest->belts[0].stand.trees[0].dbh / TREE_MOST;
-    years[point->slot] = log((1 - .2 / TREE_MOST) / left) / .01;
+    double left = 1 - point->forest->belts[0].stand.trees[0].dbh / TREE_MAX;
+    years[point->slot] = log((1 - .2 / TREE_MAX) / left) / .01;
 }
 
 /* Year by year the diameter of the trees says how old they are: slot n is of one of the two years 2n - 1 and 2n. */
@@ -193,16 +193,16 @@ TEST(years_of_a_point_are_of_all_its_years)
     static const char *const place = "rocks_per_year";
     const struct ceduo_input input = range_of(&place, 1, 2);
     const double u[2] = {.25, .75};
-    double years[1 + CEDUO_DOUBT_YEARS_MAX] = {0};
+    double years[1 + CEDUO_UNCERTAINTY_YEARS_MAX] = {0};
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
     struct ceduo_stand *stand = &file.scene.options[0].belts[0].stand;
-    stand->growth.trees = (struct ceduo_curve){.dbh_most = TREE_MOST, .dbh_rate = .01, .height_most = 20, .height_rate = .01};
-    const struct ceduo_doubt_def def = over_long_years(&input);
+    stand->growth.trees = (struct ceduo_curve){.dbh_most = TREE_MAX, .dbh_rate = .01, .height_most = 20, .height_rate = .01};
+    const struct ceduo_uncertainty_def def = over_long_years(&input);
     const struct points points = {.def = &def, .u = u, .read = read_year, .context = years};
-    EXPECT(ceduo_points_years(&def), ==, CEDUO_DOUBT_YEARS_MAX);
+    EXPECT(ceduo_points_years(&def), ==, CEDUO_UNCERTAINTY_YEARS_MAX);
     EXPECT(ceduo_points_run(&points, 0, 1, 0), ==, CEDUO_OK);
-    for (int slot = 1; slot <= CEDUO_DOUBT_YEARS_MAX; slot++)
+    for (int slot = 1; slot <= CEDUO_UNCERTAINTY_YEARS_MAX; slot++)
         EXPECT_NEAR(years[slot], 2 * slot - .5, .5 + 1e-6);
     ceduo_scene_release(&file);
 }
@@ -213,7 +213,7 @@ static void read_nothing(void *context, const struct point *point, const struct 
 }
 
 /* Effort of all points of a definition, of one option today. */
-static double effort_of(const struct ceduo_doubt_def *def)
+static double effort_of(const struct ceduo_uncertainty_def *def)
 {
     uint64_t met = 0;
     double *u = malloc(def->points * def->inputs_count * sizeof *u);
@@ -234,9 +234,9 @@ TEST(the_effort_of_a_page_is_bounded)
         double per_ha, diameter;
         uint64_t own;
         size_t least, most; /* points */
-    } cases[] = {{1000, .8, 1000, CEDUO_DOUBT_POINTS, CEDUO_DOUBT_POINTS},
-                 {1000, .8, 16, CEDUO_DOUBT_POINTS, CEDUO_DOUBT_POINTS},
-                 {1e5, 1, 400, CEDUO_DOUBT_LEAST, CEDUO_DOUBT_POINTS - 1},
+    } cases[] = {{1000, .8, 1000, CEDUO_UNCERTAINTY_POINTS, CEDUO_UNCERTAINTY_POINTS},
+                 {1000, .8, 16, CEDUO_UNCERTAINTY_POINTS, CEDUO_UNCERTAINTY_POINTS},
+                 {1e5, 1, 400, CEDUO_UNCERTAINTY_MIN, CEDUO_UNCERTAINTY_POINTS - 1},
                  {4e5, 60, 100, 0, 0}};
     const struct ceduo_input input = range_of(&place, .25, .35);
     open_wood();
@@ -252,20 +252,21 @@ TEST(the_effort_of_a_page_is_bounded)
         q.rocks = q.run.rocks_most = cases[i].own;
         EXPECT(ceduo_ask(&q, NULL, &own), ==, CEDUO_OK);
         for (unsigned threads = 1; threads <= 2; threads++) {
-            struct ceduo_doubt_def def = {.scene = &file.scene,
-                                          .inputs_count = 1,
-                                          .inputs = &input,
-                                          .points = CEDUO_DOUBT_POINTS,
-                                          .rocks = cases[i].own < CEDUO_DOUBT_ROCKS ? cases[i].own : CEDUO_DOUBT_ROCKS,
-                                          .brief = true,
-                                          .threads = threads};
+            struct ceduo_uncertainty_def def = {.scene = &file.scene,
+                                                .inputs_count = 1,
+                                                .inputs = &input,
+                                                .points = CEDUO_UNCERTAINTY_POINTS,
+                                                .rocks = cases[i].own < CEDUO_UNCERTAINTY_ROCKS ? cases[i].own
+                                                                                                : CEDUO_UNCERTAINTY_ROCKS,
+                                                .brief = true,
+                                                .threads = threads};
             EXPECT(ceduo_effort_bound(&def, &own.work), ==, CEDUO_OK);
             EXPECT(def.points, >=, cases[i].least);
             EXPECT(def.points, <=, cases[i].most);
             if (def.points > 0) {
                 EXPECT(effort_of(&def), <=, CEDUO_EFFORT_MAX);
                 EXPECT(effort_of(&def), <=,
-                       fmax(CEDUO_EFFORT_LEAST, CEDUO_EFFORT_TIMES * ceduo_effort_of(&file.scene, &own.work)));
+                       fmax(CEDUO_EFFORT_MIN, CEDUO_EFFORT_TIMES * ceduo_effort_of(&file.scene, &own.work)));
             }
             assert_true(threads == 1 || def.points == points);
             points = def.points;
@@ -304,8 +305,8 @@ TEST(what_a_light_depends_on)
         size_t named;
     } cases[] = {{.01, .2, .3, true, 2},  {.01, .2, .299, true, 1}, {.05, .2, .6, true, 2},
                  {.01, .05, .6, true, 0}, {.051, .2, .6, true, 0},  {.01, .2, .3, false, 0}};
-    struct ceduo_doubt_figure figures[CEDUO_DOUBT_KINDS] = {0}, *f = &figures[CEDUO_DOUBT_EXCEED];
-    const struct ceduo_doubt_answer a = {.figures_count = CEDUO_DOUBT_KINDS, .figures = figures};
+    struct ceduo_uncertainty_figure figures[CEDUO_UNCERTAINTY_KINDS] = {0}, *f = &figures[CEDUO_UNCERTAINTY_EXCEED];
+    const struct ceduo_uncertainty_answer a = {.figures_count = CEDUO_UNCERTAINTY_KINDS, .figures = figures};
     struct ceduo_share total[3] = {{0}};
     size_t order[] = {0, 1, 2}, inputs[2];
     f->uses = 3, f->order = order, f->fit.total = total;
@@ -313,7 +314,7 @@ TEST(what_a_light_depends_on)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         f->fit.p5 = cases[i].p5, f->fit.p95 = cases[i].p95, f->fit.enough = cases[i].enough;
         total[0].value = .1, total[1].value = cases[i].second, total[2].value = .6;
-        EXPECT(ceduo_doubt_depends(&file.scene, &a, 0, CEDUO_DOUBT_EXCEED, inputs), ==, cases[i].named);
+        EXPECT(ceduo_uncertainty_depends(&file.scene, &a, 0, CEDUO_UNCERTAINTY_EXCEED, inputs), ==, cases[i].named);
         if (cases[i].named > 0 && cases[i].second < .6)
             EXPECT(inputs[0], ==, 2);
         if (cases[i].named > 1 && cases[i].second < .6)
@@ -367,7 +368,7 @@ TEST(a_normal_input_at_its_ends)
     EXPECT_NEAR(erfc(-z / sqrt(2)) / 2, least + (1 - 2 * least) / 4, 1e-12);
 }
 
-/* Stools in doubt above their shoots are as many as these; the next look begins with those of the scene. */
+/* Stools in uncertainty above their shoots are as many as these; the next look begins with those of the scene. */
 TEST(stools_are_not_more_than_their_shoots)
 {
     static const char *const places[] = {"forest[0].stand.stools.per_ha", "forest[0].stand.shoots[0].per_ha"};

@@ -3,7 +3,7 @@
  * same few rocks (points.c), and with one input at each end of its range; a surface through each figure says what it depends on
  * (surface.c). Over a rotation each year has a surface of its own, whose values at the points are without the noise of the few
  * rocks; they say which years fail. */
-#include "ceduo/doubt.h"
+#include "ceduo/uncertainty.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,20 +23,20 @@
 
 /* Rows of inputs: two for each input, with it at its ends and all others NaN, then the points. */
 struct rows {
-    const struct ceduo_doubt_def *def;
-    struct ceduo_doubt_answer *answer;
+    const struct ceduo_uncertainty_def *def;
+    struct ceduo_uncertainty_answer *answer;
     struct arena memory;
     size_t ends, points, options, most; /* most: points */
     double *u;
     struct ceduo_groups *values; /* of each row, option and kind */
-    enum ceduo_doubt_kind judged;
+    enum ceduo_uncertainty_kind judged;
     double released;             /* J: mean energy per released rock without forest */
     size_t *years, *first_year;  /* of each option how many, and where they begin; NULL: not asked for */
     double *year_counts;         /* of each option how many years these stand for */
     struct ceduo_groups *shares; /* of each year and point */
     bool deciding; /* only figures that decide whether there are points enough are read; otherwise only the others */
-    struct ceduo_doubt_ranking *ranking; /* that is made */
-    size_t all;                          /* evaluations, for the progress */
+    struct ceduo_uncertainty_ranking *ranking; /* that is made */
+    size_t all;                                /* evaluations, for the progress */
     atomic_size_t done;
     struct talk talk;
 };
@@ -48,7 +48,7 @@ static bool is_asked(const struct rows *r, size_t option)
 
 static struct ceduo_groups *values_of(const struct rows *r, size_t row, size_t option)
 {
-    return r->values + (row * r->options + option) * CEDUO_DOUBT_KINDS;
+    return r->values + (row * r->options + option) * CEDUO_UNCERTAINTY_KINDS;
 }
 
 /* ---- the rows ---- */
@@ -56,7 +56,7 @@ static struct ceduo_groups *values_of(const struct rows *r, size_t row, size_t o
 static void report(void *context)
 {
     struct rows *r = context;
-    const struct ceduo_doubt_def *def = r->def;
+    const struct ceduo_uncertainty_def *def = r->def;
     size_t done = atomic_fetch_add(&r->done, 1) + 1;
     if (!def->progress || !ceduo_talk_begin(&r->talk))
         return;
@@ -79,8 +79,8 @@ static void read_point(void *context, const struct point *point, const struct br
     double weight = limit_of(r->def->scene) / limit_of(point->scene);
     for (size_t g = 0; g < GROUPS && point->slot > 0; g++) {
         const struct ceduo_brief *b = &at[last].of[g];
-        double share = r->judged == CEDUO_DOUBT_EXCEED ? weight * b->exceed_probability : b->reach_probability;
-        double *mean = &values[CEDUO_DOUBT_MEAN].of[g]; /* of the years, added up as they come */
+        double share = r->judged == CEDUO_UNCERTAINTY_EXCEED ? weight * b->exceed_probability : b->reach_probability;
+        double *mean = &values[CEDUO_UNCERTAINTY_MEAN].of[g]; /* of the years, added up as they come */
         r->shares[(r->first_year[point->option] + point->slot - 1) * r->most + point->row - r->ends].of[g] = share;
         *mean = (point->slot == 1 ? 0 : *mean) + share / (double)r->years[point->option];
     }
@@ -88,23 +88,24 @@ static void read_point(void *context, const struct point *point, const struct br
         return;
     struct ceduo_index index = ceduo_assess_index(point->scene, point->forest, &point->scene->controls[last], NAN);
     for (size_t g = 0; g < GROUPS; g++) {
-        values[CEDUO_DOUBT_REACH].of[g] = at[last].of[g].reach_probability;
-        values[CEDUO_DOUBT_EXCEED].of[g] = weight * at[last].of[g].exceed_probability;
-        values[CEDUO_DOUBT_ENERGY].of[g] = at[last].of[g].energy_per_released;
-        values[CEDUO_DOUBT_CONTACT].of[g] = 1 / index.worst_adc; /* no rock decides it: the same in all groups */
-        values[CEDUO_DOUBT_FREE_RUN].of[g] = index.worst_free_run;
+        values[CEDUO_UNCERTAINTY_REACH].of[g] = at[last].of[g].reach_probability;
+        values[CEDUO_UNCERTAINTY_EXCEED].of[g] = weight * at[last].of[g].exceed_probability;
+        values[CEDUO_UNCERTAINTY_ENERGY].of[g] = at[last].of[g].energy_per_released;
+        values[CEDUO_UNCERTAINTY_CONTACT].of[g] = 1 / index.worst_adc; /* no rock decides it: the same in all groups */
+        values[CEDUO_UNCERTAINTY_FREE_RUN].of[g] = index.worst_free_run;
     }
 }
 
 /* Room for all rows, and for the years of a rotation. */
-static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
+static enum ceduo_status open_rows(struct rows *r, const struct ceduo_uncertainty_def *def,
+                                   struct ceduo_uncertainty_answer *answer)
 {
     size_t n = def->inputs_count, years = 0;
     *r = (struct rows){.def = def, .answer = answer, .ends = def->brief ? 0 : 2 * n, .options = def->scene->options_count};
-    r->most = def->points_max > 0 ? def->points_max : CEDUO_DOUBT_POINTS_MAX;
+    r->most = def->points_max > 0 ? def->points_max : CEDUO_UNCERTAINTY_POINTS_MAX;
     r->most = def->points > r->most ? def->points : r->most;
     r->u = ceduo_arena_take(&r->memory, (r->ends + r->most) * n * sizeof *r->u);
-    r->values = ceduo_arena_take(&r->memory, (r->ends + r->most) * r->options * CEDUO_DOUBT_KINDS * sizeof *r->values);
+    r->values = ceduo_arena_take(&r->memory, (r->ends + r->most) * r->options * CEDUO_UNCERTAINTY_KINDS * sizeof *r->values);
     if (def->rotation) {
         r->years = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->years);
         r->first_year = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->first_year);
@@ -139,16 +140,16 @@ static enum ceduo_status extend(struct rows *r, size_t points)
 
 /* ---- figures ---- */
 
-static size_t figure_at(size_t options, size_t option, enum ceduo_doubt_kind kind, bool difference)
+static size_t figure_at(size_t options, size_t option, enum ceduo_uncertainty_kind kind, bool difference)
 {
-    return (difference ? options + option - 1 : option) * CEDUO_DOUBT_KINDS + kind;
+    return (difference ? options + option - 1 : option) * CEDUO_UNCERTAINTY_KINDS + kind;
 }
 
-const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
-                                                       enum ceduo_doubt_kind kind, bool difference)
+const struct ceduo_uncertainty_figure *ceduo_uncertainty_figure_of(const struct ceduo_uncertainty_answer *answer, size_t option,
+                                                                   enum ceduo_uncertainty_kind kind, bool difference)
 {
-    size_t options = (answer->figures_count / CEDUO_DOUBT_KINDS + 1) / 2;
-    if (option >= options || kind >= CEDUO_DOUBT_KINDS || (difference && option == 0))
+    size_t options = (answer->figures_count / CEDUO_UNCERTAINTY_KINDS + 1) / 2;
+    if (option >= options || kind >= CEDUO_UNCERTAINTY_KINDS || (difference && option == 0))
         return NULL;
     return &answer->figures[figure_at(options, option, kind, difference)];
 }
@@ -196,7 +197,7 @@ static void close_subject(struct subject *s)
 }
 
 /* What a row has of a subject: of a difference that of its option less that of the other. */
-static struct ceduo_groups value_at(const struct rows *r, const struct subject *s, size_t row, enum ceduo_doubt_kind kind)
+static struct ceduo_groups value_at(const struct rows *r, const struct subject *s, size_t row, enum ceduo_uncertainty_kind kind)
 {
     struct ceduo_groups y = values_of(r, row, s->option)[kind];
     for (size_t g = 0; s->option != s->against && g < GROUPS; g++)
@@ -204,20 +205,20 @@ static struct ceduo_groups value_at(const struct rows *r, const struct subject *
     return y;
 }
 
-static bool is_rotation(enum ceduo_doubt_kind kind)
+static bool is_rotation(enum ceduo_uncertainty_kind kind)
 {
-    return kind == CEDUO_DOUBT_MEAN || kind == CEDUO_DOUBT_FAILING;
+    return kind == CEDUO_UNCERTAINTY_MEAN || kind == CEDUO_UNCERTAINTY_FAILING;
 }
 
 /* Figures of today do not depend on inputs of the years. */
-static void choose_inputs(const struct rows *r, const struct subject *s, enum ceduo_doubt_kind kind)
+static void choose_inputs(const struct rows *r, const struct subject *s, enum ceduo_uncertainty_kind kind)
 {
     for (size_t i = 0; i < r->def->inputs_count; i++)
         s->uses[i] = s->has[i] && (is_rotation(kind) || !ceduo_input_is_of_years(&r->def->inputs[i]));
 }
 
 /* Fits what the points have of a subject; `figure`: within what bounds. */
-static enum ceduo_status fit_points(const struct rows *r, const struct subject *s, enum ceduo_doubt_kind kind,
+static enum ceduo_status fit_points(const struct rows *r, const struct subject *s, enum ceduo_uncertainty_kind kind,
                                     struct ceduo_surface_figure figure, struct ceduo_surface_fit *fit)
 {
     for (size_t p = 0; p < r->points; p++)
@@ -231,7 +232,7 @@ static enum ceduo_status fit_points(const struct rows *r, const struct subject *
 /* Widens the range until it holds the value of the scene as it is (NaN: unknown); of too few points there is none. */
 static void set_range(const struct rows *r, double value, struct ceduo_surface_fit *fit)
 {
-    if (r->points < CEDUO_DOUBT_LEAST) {
+    if (r->points < CEDUO_UNCERTAINTY_MIN) {
         fit->p5 = fit->p50 = fit->p95 = fit->p5_se = fit->p95_se = NAN;
         for (size_t i = 0; i < r->def->inputs_count; i++)
             fit->left[i] = NAN;
@@ -241,12 +242,13 @@ static void set_range(const struct rows *r, double value, struct ceduo_surface_f
         fit->p5 = fmin(fit->p5, value), fit->p95 = fmax(fit->p95, value);
 }
 
-static enum ceduo_status read_figure(const struct rows *r, const struct subject *s, struct ceduo_doubt_figure *f)
+static enum ceduo_status read_figure(const struct rows *r, const struct subject *s, struct ceduo_uncertainty_figure *f)
 {
-    const struct ceduo_doubt_def *def = r->def;
-    bool judged = !f->difference && (f->kind == r->judged || f->kind == CEDUO_DOUBT_MEAN) && r->judged == CEDUO_DOUBT_EXCEED;
-    double max = f->kind == CEDUO_DOUBT_ENERGY || f->kind == CEDUO_DOUBT_CONTACT ? INFINITY : 1;
-    if (f->kind == CEDUO_DOUBT_FAILING)
+    const struct ceduo_uncertainty_def *def = r->def;
+    bool judged =
+        !f->difference && (f->kind == r->judged || f->kind == CEDUO_UNCERTAINTY_MEAN) && r->judged == CEDUO_UNCERTAINTY_EXCEED;
+    double max = f->kind == CEDUO_UNCERTAINTY_ENERGY || f->kind == CEDUO_UNCERTAINTY_CONTACT ? INFINITY : 1;
+    if (f->kind == CEDUO_UNCERTAINTY_FAILING)
         max = fmax(r->year_counts[s->option], r->year_counts[s->against]);
     for (size_t row = 0; row < r->ends; row++) {
         const struct ceduo_groups y = value_at(r, s, row, f->kind);
@@ -269,12 +271,12 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
 }
 
 /* True if a kind of figure is computed. Years fail by what the place withstands. */
-static bool is_there(const struct rows *r, enum ceduo_doubt_kind kind)
+static bool is_there(const struct rows *r, enum ceduo_uncertainty_kind kind)
 {
     if (is_rotation(kind))
-        return r->years && (kind == CEDUO_DOUBT_MEAN || r->judged == CEDUO_DOUBT_EXCEED);
-    bool share = kind == CEDUO_DOUBT_REACH || kind == CEDUO_DOUBT_EXCEED;
-    return !r->def->brief || (share ? kind == r->judged : kind != CEDUO_DOUBT_ENERGY || kind == r->answer->main);
+        return r->years && (kind == CEDUO_UNCERTAINTY_MEAN || r->judged == CEDUO_UNCERTAINTY_EXCEED);
+    bool share = kind == CEDUO_UNCERTAINTY_REACH || kind == CEDUO_UNCERTAINTY_EXCEED;
+    return !r->def->brief || (share ? kind == r->judged : kind != CEDUO_UNCERTAINTY_ENERGY || kind == r->answer->main);
 }
 
 /* An option, or behind them a difference to the first one: its figures one after the other, as their surfaces have the terms in
@@ -289,12 +291,12 @@ static int read_figures_of(void *context, size_t item, size_t worker)
     if (!is_asked(r, option) || (difference && (r->def->alone || r->def->brief)))
         return CEDUO_OK;
     enum ceduo_status status = open_subject(r, option, difference ? 0 : option, &s);
-    for (size_t kind = 0; kind < CEDUO_DOUBT_KINDS && status == CEDUO_OK; kind++) {
-        struct ceduo_doubt_figure *f = &r->answer->figures[item * CEDUO_DOUBT_KINDS + kind];
-        f->kind = (enum ceduo_doubt_kind)kind;
+    for (size_t kind = 0; kind < CEDUO_UNCERTAINTY_KINDS && status == CEDUO_OK; kind++) {
+        struct ceduo_uncertainty_figure *f = &r->answer->figures[item * CEDUO_UNCERTAINTY_KINDS + kind];
+        f->kind = (enum ceduo_uncertainty_kind)kind;
         f->difference = difference;
         f->option = option;
-        bool decides = !difference && (f->kind == r->answer->main || f->kind == CEDUO_DOUBT_MEAN);
+        bool decides = !difference && (f->kind == r->answer->main || f->kind == CEDUO_UNCERTAINTY_MEAN);
         if (is_there(r, f->kind) && decides == r->deciding)
             status = read_figure(r, &s, f);
     }
@@ -304,7 +306,7 @@ static int read_figures_of(void *context, size_t item, size_t worker)
 
 static enum ceduo_status read_figures(struct rows *r, bool deciding)
 {
-    size_t items = deciding ? r->options : r->answer->figures_count / CEDUO_DOUBT_KINDS;
+    size_t items = deciding ? r->options : r->answer->figures_count / CEDUO_UNCERTAINTY_KINDS;
     r->deciding = deciding;
     return (enum ceduo_status)ceduo_parallel(&(struct parallel){items, r->def->threads, read_figures_of, r});
 }
@@ -329,14 +331,14 @@ static int count_years(void *context, size_t option, size_t worker)
     struct ceduo_groups *changes = ceduo_arena_take(&s.memory, years * points * sizeof *changes);
     status = s.memory.failed ? CEDUO_NO_MEMORY : status;
     if (status == CEDUO_OK) {
-        choose_inputs(r, &s, CEDUO_DOUBT_FAILING);
+        choose_inputs(r, &s, CEDUO_UNCERTAINTY_FAILING);
         for (size_t k = 0; k < years; k++)
             memcpy(y + k * points, r->shares + (r->first_year[option] + k) * r->most, points * sizeof *y);
         const struct ceduo_surface_figure figure = {.y = y, .uses = s.uses, .hi = 1, .limit = NAN};
         status = ceduo_surface_values(s.surface, &figure, years, values, changes);
     }
     for (size_t p = 0; p < points && status == CEDUO_OK; p++) {
-        struct ceduo_groups *failing = &values_of(r, r->ends + p, option)[CEDUO_DOUBT_FAILING];
+        struct ceduo_groups *failing = &values_of(r, r->ends + p, option)[CEDUO_UNCERTAINTY_FAILING];
         double all = 0, halves[GROUPS] = {0};
         for (size_t k = p; k < years * points; k += points) {
             all += each * (values[k] > limit);
@@ -353,12 +355,13 @@ static int count_years(void *context, size_t option, size_t worker)
 /* Whether more points would tell more: a surface of an option explains too little. */
 static bool wants_more(const struct rows *r)
 {
-    const struct ceduo_doubt_answer *a = r->answer;
+    const struct ceduo_uncertainty_answer *a = r->answer;
     for (size_t i = 0; i < r->options; i++)
         for (size_t over = is_asked(r, i) ? 0 : 2; over < (r->years ? 2 : 1); over++) {
-            const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(a, i, over ? CEDUO_DOUBT_MEAN : a->main, false)->fit;
-            if (fit->enough && !fit->linear ? fit->explained < CEDUO_DOUBT_EXPLAINED
-                                            : fit->variance > 0 && r->points >= CEDUO_DOUBT_POINTS)
+            const struct ceduo_surface_fit *fit =
+                &ceduo_uncertainty_figure_of(a, i, over ? CEDUO_UNCERTAINTY_MEAN : a->main, false)->fit;
+            if (fit->enough && !fit->linear ? fit->explained < CEDUO_UNCERTAINTY_EXPLAINED
+                                            : fit->variance > 0 && r->points >= CEDUO_UNCERTAINTY_POINTS)
                 return true;
         }
     return false;
@@ -366,7 +369,7 @@ static bool wants_more(const struct rows *r)
 
 /* ---- the scene as it is ---- */
 
-static void set_sampling(struct ceduo_doubt_figure *f, struct ceduo_estimate estimate)
+static void set_sampling(struct ceduo_uncertainty_figure *f, struct ceduo_estimate estimate)
 {
     f->value = estimate.mean;
     f->sampling_lo = estimate.lo;
@@ -375,22 +378,22 @@ static void set_sampling(struct ceduo_doubt_figure *f, struct ceduo_estimate est
 
 static void set_years(const struct rows *r, struct ceduo_years *const *years, bool judges)
 {
-    struct ceduo_doubt_answer *answer = r->answer;
+    struct ceduo_uncertainty_answer *answer = r->answer;
     double first[3] = {0};
     for (size_t i = 0, options = r->options; i < options; i++) {
         size_t control = years[i]->last_control;
         double each = r->year_counts[i] / (double)years[i]->count; /* years that one year stands for */
         struct ceduo_years_summary s = ceduo_years_sum(years[i], control);
-        struct ceduo_doubt_figure *f = &answer->figures[i * CEDUO_DOUBT_KINDS],
-                                  *d = &answer->figures[figure_at(options, i, CEDUO_DOUBT_REACH, i > 0)];
+        struct ceduo_uncertainty_figure *f = &answer->figures[i * CEDUO_UNCERTAINTY_KINDS],
+                                        *d = &answer->figures[figure_at(options, i, CEDUO_UNCERTAINTY_REACH, i > 0)];
         struct ceduo_estimate mean = judges ? s.exceed : s.reach;
         double counts[3] = {0};
         mean = ceduo_estimate_by_se(mean.mean, mean.se);
         mean.lo = fmax(0, mean.lo);
         mean.hi = fmin(1, mean.hi);
-        set_sampling(&f[CEDUO_DOUBT_MEAN], mean);
+        set_sampling(&f[CEDUO_UNCERTAINTY_MEAN], mean);
         if (i > 0)
-            set_sampling(&d[CEDUO_DOUBT_MEAN], ceduo_years_difference(years[i], years[0]));
+            set_sampling(&d[CEDUO_UNCERTAINTY_MEAN], ceduo_years_difference(years[i], years[0]));
         if (!judges)
             continue;
         for (size_t k = 0; k < years[i]->count; k++) { /* by the ends of their intervals, and by their shares */
@@ -399,9 +402,9 @@ static void set_years(const struct rows *r, struct ceduo_years *const *years, bo
             counts[1] += each * (a->exceed.mean > a->limit);
             counts[2] += each * (a->exceed.hi > a->limit);
         }
-        set_sampling(&f[CEDUO_DOUBT_FAILING], (struct ceduo_estimate){counts[1], NAN, counts[0], counts[2]});
+        set_sampling(&f[CEDUO_UNCERTAINTY_FAILING], (struct ceduo_estimate){counts[1], NAN, counts[0], counts[2]});
         if (i > 0)
-            set_sampling(&d[CEDUO_DOUBT_FAILING],
+            set_sampling(&d[CEDUO_UNCERTAINTY_FAILING],
                          (struct ceduo_estimate){counts[1] - first[1], NAN, counts[0] - first[2], counts[2] - first[0]});
         else
             memcpy(first, counts, sizeof first);
@@ -410,8 +413,8 @@ static void set_years(const struct rows *r, struct ceduo_years *const *years, bo
 
 static enum ceduo_status read_sampling(struct rows *rows)
 {
-    const struct ceduo_doubt_def *def = rows->def;
-    struct ceduo_doubt_answer *answer = rows->answer;
+    const struct ceduo_uncertainty_def *def = rows->def;
+    struct ceduo_uncertainty_answer *answer = rows->answer;
     struct ceduo_question q = ceduo_question_default(def->scene);
     struct ceduo_answer asked = {0};
     const struct ceduo_answer *is = def->own ? def->own : &asked;
@@ -422,32 +425,32 @@ static enum ceduo_status read_sampling(struct rows *rows)
     q.run.arrivals_only = true;
     q.years = rows->years;
     q.window = def->window;
-    q.year_rocks = CEDUO_DOUBT_OWN_YEAR_ROCKS;
+    q.year_rocks = CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS;
     enum ceduo_status status = def->own ? CEDUO_OK : ceduo_ask(&q, NULL, &asked);
     answer->own_rocks = status == CEDUO_OK ? ceduo_result_rocks(is->result) : 0;
     for (size_t i = 0; status == CEDUO_OK && i < options; i++) {
         const struct ceduo_result *r = is->result;
         const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, i, r->last_control);
         const struct ceduo_arrivals *a = wooded ? wooded : &r->bare.arrivals[r->last_control];
-        struct ceduo_doubt_figure *f = &answer->figures[i * CEDUO_DOUBT_KINDS];
-        set_sampling(&f[CEDUO_DOUBT_REACH], a->reach);
-        set_sampling(&f[CEDUO_DOUBT_EXCEED], a->exceed);
+        struct ceduo_uncertainty_figure *f = &answer->figures[i * CEDUO_UNCERTAINTY_KINDS];
+        set_sampling(&f[CEDUO_UNCERTAINTY_REACH], a->reach);
+        set_sampling(&f[CEDUO_UNCERTAINTY_EXCEED], a->exceed);
         struct ceduo_estimate energy = a->energy_per_released;
         double half = ceduo_half_width(energy.se, a->released);
-        set_sampling(&f[CEDUO_DOUBT_ENERGY],
+        set_sampling(&f[CEDUO_UNCERTAINTY_ENERGY],
                      (struct ceduo_estimate){energy.mean, energy.se, energy.mean - half, energy.mean + half});
         if (i == 0)
             continue;
-        f = &answer->figures[figure_at(options, i, CEDUO_DOUBT_REACH, true)];
+        f = &answer->figures[figure_at(options, i, CEDUO_UNCERTAINTY_REACH, true)];
         const struct ceduo_difference *d = &r->options[i].differences[r->last_control];
-        set_sampling(&f[CEDUO_DOUBT_REACH], d->reach);
-        set_sampling(&f[CEDUO_DOUBT_EXCEED], d->exceed);
-        set_sampling(&f[CEDUO_DOUBT_ENERGY], d->energy_per_released);
+        set_sampling(&f[CEDUO_UNCERTAINTY_REACH], d->reach);
+        set_sampling(&f[CEDUO_UNCERTAINTY_EXCEED], d->exceed);
+        set_sampling(&f[CEDUO_UNCERTAINTY_ENERGY], d->energy_per_released);
     }
     if (status == CEDUO_OK) {
-        bool judges = !isnan(answer->figures[CEDUO_DOUBT_EXCEED].value);
-        answer->main = judges ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_ENERGY;
-        rows->judged = judges ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_REACH;
+        bool judges = !isnan(answer->figures[CEDUO_UNCERTAINTY_EXCEED].value);
+        answer->main = judges ? CEDUO_UNCERTAINTY_EXCEED : CEDUO_UNCERTAINTY_ENERGY;
+        rows->judged = judges ? CEDUO_UNCERTAINTY_EXCEED : CEDUO_UNCERTAINTY_REACH;
         rows->released = is->result->bare.arrivals[is->result->last_control].energy_per_released.mean;
         if (rows->years)
             set_years(rows, is->years, judges);
@@ -458,9 +461,9 @@ static enum ceduo_status read_sampling(struct rows *rows)
 
 /* ---- ranks ---- */
 
-static double value_of(const struct rows *r, size_t option, enum ceduo_doubt_kind kind)
+static double value_of(const struct rows *r, size_t option, enum ceduo_uncertainty_kind kind)
 {
-    return ceduo_doubt_figure_of(r->answer, option, kind, false)->value;
+    return ceduo_uncertainty_figure_of(r->answer, option, kind, false)->value;
 }
 
 /* How two options compare, by the surface of their difference. */
@@ -468,8 +471,8 @@ static int compare_pair(void *context, size_t item, size_t worker)
 {
     (void)worker;
     const struct rows *r = context;
-    struct ceduo_doubt_order *o = &r->ranking->orders[item];
-    enum ceduo_doubt_kind kind = r->ranking->rotation ? CEDUO_DOUBT_MEAN : r->answer->main;
+    struct ceduo_uncertainty_order *o = &r->ranking->orders[item];
+    enum ceduo_uncertainty_kind kind = r->ranking->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
     struct subject s;
     struct ceduo_surface_fit found = {0};
     enum ceduo_status status = open_subject(r, o->better, o->than, &s);
@@ -481,8 +484,8 @@ static int compare_pair(void *context, size_t item, size_t worker)
     o->p95 = found.p95;
     size_t better = 0, worse = 0; /* counts: shares added up one by one may come to more than 1 */
     for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
-        double whole = kind == CEDUO_DOUBT_ENERGY ? r->released : limit_of(r->def->scene) / CEDUO_EXCEED_MOST;
-        double within = CEDUO_DOUBT_EQUAL * whole, value = found.values[p];
+        double whole = kind == CEDUO_UNCERTAINTY_ENERGY ? r->released : limit_of(r->def->scene) / CEDUO_EXCEED_MAX;
+        double within = CEDUO_UNCERTAINTY_EQUAL * whole, value = found.values[p];
         better += value < -within;
         worse += value > within;
     }
@@ -494,7 +497,7 @@ static int compare_pair(void *context, size_t item, size_t worker)
     return (int)status;
 }
 
-static enum ceduo_status rank_options(struct rows *r, bool rotation, struct ceduo_doubt_ranking *ranking)
+static enum ceduo_status rank_options(struct rows *r, bool rotation, struct ceduo_uncertainty_ranking *ranking)
 {
     size_t options = r->options, *ranks = ceduo_arena_take(&r->memory, options * sizeof *ranks);
     double *values = ceduo_arena_take(&r->memory, options * sizeof *values);
@@ -505,15 +508,15 @@ static enum ceduo_status rank_options(struct rows *r, bool rotation, struct cedu
         return CEDUO_NO_MEMORY;
     ranking->count = options - 1;
     for (size_t i = 0; i < options; i++) {
-        values[i] = value_of(r, i, rotation ? CEDUO_DOUBT_MEAN : r->answer->main);
+        values[i] = value_of(r, i, rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main);
         insert_index(values, i, ranks);
     }
     for (size_t i = 0; i < ranking->count; i++)
-        ranking->orders[i] = (struct ceduo_doubt_order){.better = ranks[i], .than = ranks[i + 1]};
+        ranking->orders[i] = (struct ceduo_uncertainty_order){.better = ranks[i], .than = ranks[i + 1]};
     return (enum ceduo_status)ceduo_parallel(&(struct parallel){ranking->count, r->def->threads, compare_pair, r});
 }
 
-const struct ceduo_doubt_ranking *ceduo_doubt_verdict(const struct ceduo_doubt_answer *answer)
+const struct ceduo_uncertainty_ranking *ceduo_uncertainty_verdict(const struct ceduo_uncertainty_answer *answer)
 {
     return answer->rotation ? &answer->over_rotation : &answer->today;
 }
@@ -523,15 +526,15 @@ const struct ceduo_doubt_ranking *ceduo_doubt_verdict(const struct ceduo_doubt_a
 /* Room for all figures, with what they say of each input behind them. */
 static enum ceduo_status open_answer(struct rows *r)
 {
-    struct ceduo_doubt_answer *a = r->answer;
-    size_t n = r->def->inputs_count, count = (2 * r->options - 1) * CEDUO_DOUBT_KINDS;
+    struct ceduo_uncertainty_answer *a = r->answer;
+    size_t n = r->def->inputs_count, count = (2 * r->options - 1) * CEDUO_UNCERTAINTY_KINDS;
     a->figures = calloc(count, sizeof *a->figures + n * (sizeof *a->figures->at + sizeof *a->figures->order));
     if (!a->figures)
         return CEDUO_NO_MEMORY;
     double(*at)[2] = (void *)(a->figures + count);
     size_t *order = (void *)(at + count * n);
     for (; a->figures_count < count; a->figures_count++) {
-        struct ceduo_doubt_figure *f = &a->figures[a->figures_count];
+        struct ceduo_uncertainty_figure *f = &a->figures[a->figures_count];
         f->at = at + a->figures_count * n;
         f->order = order + a->figures_count * n;
         set_sampling(f, CEDUO_NO_ESTIMATE);
@@ -542,18 +545,19 @@ static enum ceduo_status open_answer(struct rows *r)
     return read_sampling(r);
 }
 
-struct ceduo_doubt_def ceduo_doubt_def_default(const struct ceduo_scene *scene)
+struct ceduo_uncertainty_def ceduo_uncertainty_def_default(const struct ceduo_scene *scene)
 {
-    return (struct ceduo_doubt_def){.scene = scene, .points = CEDUO_DOUBT_POINTS, .rocks = CEDUO_DOUBT_ROCKS, .threads = 1};
+    return (struct ceduo_uncertainty_def){
+        .scene = scene, .points = CEDUO_UNCERTAINTY_POINTS, .rocks = CEDUO_UNCERTAINTY_ROCKS, .threads = 1};
 }
 
-enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
+enum ceduo_status ceduo_uncertainty_ask(const struct ceduo_uncertainty_def *def, struct ceduo_uncertainty_answer *answer)
 {
     GSL_RETURNS_ERRORS;
     struct rows rows;
-    struct ceduo_doubt_def enough = *def;
-    *answer = (struct ceduo_doubt_answer){0};
-    enum ceduo_status status = ceduo_check_doubt_def(def);
+    struct ceduo_uncertainty_def enough = *def;
+    *answer = (struct ceduo_uncertainty_answer){0};
+    enum ceduo_status status = ceduo_check_uncertainty_def(def);
     if (status != CEDUO_OK)
         return status;
     enough.threads = def->threads > 0 ? def->threads : 1;
@@ -570,7 +574,7 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
             break;
     }
     answer->rotation = rows.years;
-    if (status == CEDUO_OK && rows.years && rows.judged == CEDUO_DOUBT_EXCEED)
+    if (status == CEDUO_OK && rows.years && rows.judged == CEDUO_UNCERTAINTY_EXCEED)
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){rows.options, def->threads, count_years, &rows});
     if (status == CEDUO_OK)
         status = read_figures(&rows, false);
@@ -583,34 +587,34 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
     answer->evaluations = rows.ends + rows.points;
     ceduo_arena_free(&rows.memory);
     if (status != CEDUO_OK)
-        ceduo_doubt_free(answer);
+        ceduo_uncertainty_free(answer);
     return status;
 }
 
-void ceduo_doubt_free(struct ceduo_doubt_answer *answer)
+void ceduo_uncertainty_free(struct ceduo_uncertainty_answer *answer)
 {
     for (size_t i = 0; i < answer->figures_count; i++)
         ceduo_surface_release(&answer->figures[i].fit);
     free(answer->figures);
     free(answer->today.orders);
     free(answer->over_rotation.orders);
-    *answer = (struct ceduo_doubt_answer){0};
+    *answer = (struct ceduo_uncertainty_answer){0};
 }
 
 /* ---- what a light hangs on ---- */
 
-size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_doubt_answer *a, size_t option,
-                           enum ceduo_doubt_kind light, size_t inputs[2])
+size_t ceduo_uncertainty_depends(const struct ceduo_scene *scene, const struct ceduo_uncertainty_answer *a, size_t option,
+                                 enum ceduo_uncertainty_kind light, size_t inputs[2])
 {
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, option, light, false);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(a, option, light, false);
     if (!f)
         return 0;
-    double limit = light == CEDUO_DOUBT_EXCEED    ? limit_of(scene)
-                   : light == CEDUO_DOUBT_CONTACT ? 1 / scene->simulation.threshold
-                                                  : CEDUO_FREE_RUN_MOST;
+    double limit = light == CEDUO_UNCERTAINTY_EXCEED    ? limit_of(scene)
+                   : light == CEDUO_UNCERTAINTY_CONTACT ? 1 / scene->simulation.threshold
+                                                        : CEDUO_FREE_RUN_MAX;
     const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
     double gap = ceduo_assess_index(scene, &scene->options[option], control, NAN).longest_gap;
-    bool decided = light != CEDUO_DOUBT_EXCEED && gap > scene->simulation.threshold; /* whatever the stands are */
+    bool decided = light != CEDUO_UNCERTAINTY_EXCEED && gap > scene->simulation.threshold; /* whatever the stands are */
     if (decided || !f->fit.enough || !(f->fit.p5 <= limit && f->fit.p95 > limit))
         return 0;
     const struct ceduo_share *total = f->fit.total;

@@ -3,7 +3,7 @@
  * (ceduo/surface.h) beside the usual design, in which every input is drawn anew alone (Saltelli et al. 2010, with the estimator of
  * the totals by Jansen 1999). What is true comes from the usual design with many points and rocks.
  *
- *     bench_doubt_error [SEEDS [POINTS]]
+ *     bench_uncertainty_error [SEEDS [POINTS]]
  *
  * prints CSV: root mean squares over the seeds, of both ends of the 90 % band, and of the total shares of all inputs; and, of the
  * surface, how often what is true lies within 1.96 of the errors that it tells with them. */
@@ -38,19 +38,19 @@ static struct scene_inputs inputs;
 
 static void by_surface(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
 {
-    const struct ceduo_doubt_def def = {.scene = &file.scene,
-                                        .inputs_count = inputs.n,
-                                        .inputs = inputs.items,
-                                        .points = points,
-                                        .points_max = points,
-                                        .rocks = rocks,
-                                        .threads = THREADS};
-    struct ceduo_doubt_answer answer;
+    const struct ceduo_uncertainty_def def = {.scene = &file.scene,
+                                              .inputs_count = inputs.n,
+                                              .inputs = inputs.items,
+                                              .points = points,
+                                              .points_max = points,
+                                              .rocks = rocks,
+                                              .threads = THREADS};
+    struct ceduo_uncertainty_answer answer;
     file.scene.simulation.seed = seed;
     double start = processor_s();
-    if (ceduo_doubt_ask(&def, &answer) != CEDUO_OK)
+    if (ceduo_uncertainty_ask(&def, &answer) != CEDUO_OK)
         fail("the sensitivity failed");
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_EXCEED, false);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(&answer, 0, CEDUO_UNCERTAINTY_EXCEED, false);
     *found = (struct found){.band = {f->fit.p5, f->fit.p95},
                             .band_se = {f->fit.p5_se, f->fit.p95_se},
                             .seconds = processor_s() - start,
@@ -59,7 +59,7 @@ static void by_surface(size_t points, uint64_t rocks, uint64_t seed, struct foun
         found->totals[i] = f->fit.total[i].value;
         found->totals_se[i] = f->fit.total[i].se;
     }
-    ceduo_doubt_free(&answer);
+    ceduo_uncertainty_free(&answer);
 }
 
 /* ---- the usual design ---- */
@@ -91,7 +91,7 @@ static void fill_rows(size_t n, uint64_t seed, double *u)
 static void run_rows(const double *u, size_t rows, uint64_t rocks, uint64_t seed, double *y)
 {
     file.scene.simulation.seed = seed;
-    const struct ceduo_doubt_def def = {
+    const struct ceduo_uncertainty_def def = {
         .scene = &file.scene, .inputs = inputs.items, .inputs_count = inputs.n, .rocks = rocks, .threads = THREADS};
     const struct points points = {.def = &def, .u = u, .today = true, .read = read_value, .context = y};
     if (ceduo_points_run(&points, 0, rows, 0) != CEDUO_OK)

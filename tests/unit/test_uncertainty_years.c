@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Doubt over a rotation, beside every point simulated by itself with many more rocks. */
+/* Uncertainty over a rotation, beside every point simulated by itself with many more rocks. */
 #include "expect.h"
 
 #include <gsl/gsl_sort.h>
@@ -28,7 +28,7 @@ static const char scene[] = "ceduo: scene/1\n"
 
 static struct scene_file file;
 static struct scene_inputs inputs;
-static struct ceduo_doubt_answer answer;
+static struct ceduo_uncertainty_answer answer;
 
 /* Of each point by itself: the mean of the years of each option and of the difference; the years that fail, and the variance of
  * their number by the rocks of both: those of the point by itself, and the few that it has in a year among others. */
@@ -39,8 +39,8 @@ static size_t years_count;
  * their shares are too high, or too low, together; among others each year has rocks of its own, and is above the limit by chance. */
 static double variance_of_failing(const struct ceduo_years *years)
 {
-    const double limit = CEDUO_EXCEED_MOST, sd = sqrt(limit * (1 - limit) / ROCKS),
-                 few = sqrt(limit * (1 - limit) / CEDUO_DOUBT_YEAR_ROCKS);
+    const double limit = CEDUO_EXCEED_MAX, sd = sqrt(limit * (1 - limit) / ROCKS),
+                 few = sqrt(limit * (1 - limit) / CEDUO_UNCERTAINTY_YEAR_ROCKS);
     double lo = 0, hi = 0, apart = 0;
     for (size_t k = 0; k < years->count; k++) {
         double share = years->years[k].wooded.arrivals[years->last_control].exceed.mean;
@@ -73,22 +73,22 @@ static void look_at_point(struct input_scene *copy, const double *u, size_t poin
     ceduo_answer_release(&own);
 }
 
-static struct ceduo_doubt_def def_of(unsigned threads, size_t points)
+static struct ceduo_uncertainty_def def_of(unsigned threads, size_t points)
 {
-    return (struct ceduo_doubt_def){.scene = &file.scene,
-                                    .inputs_count = inputs.n,
-                                    .inputs = inputs.items,
-                                    .points = points,
-                                    .rocks = CEDUO_SURFACE_GROUPS,
-                                    .own_rocks = ROCKS,
-                                    .rotation = true,
-                                    .threads = threads};
+    return (struct ceduo_uncertainty_def){.scene = &file.scene,
+                                          .inputs_count = inputs.n,
+                                          .inputs = inputs.items,
+                                          .points = points,
+                                          .rocks = CEDUO_SURFACE_GROUPS,
+                                          .own_rocks = ROCKS,
+                                          .rotation = true,
+                                          .threads = threads};
 }
 
-static void ask(unsigned threads, size_t points, struct ceduo_doubt_answer *to)
+static void ask(unsigned threads, size_t points, struct ceduo_uncertainty_answer *to)
 {
-    const struct ceduo_doubt_def def = def_of(threads, points);
-    EXPECT(ceduo_doubt_ask(&def, to), ==, CEDUO_OK);
+    const struct ceduo_uncertainty_def def = def_of(threads, points);
+    EXPECT(ceduo_uncertainty_ask(&def, to), ==, CEDUO_OK);
 }
 
 static void open_scene(void)
@@ -113,9 +113,9 @@ static void look_at_points(void)
     free(u);
 }
 
-static const struct ceduo_doubt_figure *mean_of(size_t i)
+static const struct ceduo_uncertainty_figure *mean_of(size_t i)
 {
-    return ceduo_doubt_figure_of(&answer, i < OPTIONS ? i : 1, CEDUO_DOUBT_MEAN, i == OPTIONS);
+    return ceduo_uncertainty_figure_of(&answer, i < OPTIONS ? i : 1, CEDUO_UNCERTAINTY_MEAN, i == OPTIONS);
 }
 
 static double mean(const double *values)
@@ -133,7 +133,7 @@ static double variance_of_mean(size_t i)
     if (i == OPTIONS)
         return variance_of_mean(0) + variance_of_mean(1);
     double p = mean(means[i]);
-    return p * (1 - p) * (1. / ROCKS + 1. / (double)(CEDUO_DOUBT_YEAR_ROCKS * years_count));
+    return p * (1 - p) * (1. / ROCKS + 1. / (double)(CEDUO_UNCERTAINTY_YEAR_ROCKS * years_count));
 }
 
 /* Of each option, and of one less the other: the mean over all points within three errors; then, less that mean, every point within
@@ -141,7 +141,7 @@ static double variance_of_mean(size_t i)
 static void expect_means(void)
 {
     for (size_t i = 0; i <= OPTIONS; i++) {
-        const struct ceduo_doubt_figure *f = mean_of(i);
+        const struct ceduo_uncertainty_figure *f = mean_of(i);
         double off = 0, spread = 0, shift = mean(f->fit.values) - mean(means[i]);
         EXPECT_NEAR(shift, 0, 3 * sqrt(variance_of_mean(i)));
         for (size_t p = 0; p < POINTS; p++) {
@@ -167,7 +167,7 @@ static double percentile(const double *values, double share)
 static void expect_failing(void)
 {
     for (size_t i = 0; i < OPTIONS; i++) {
-        const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(&answer, i, CEDUO_DOUBT_FAILING, false)->fit;
+        const struct ceduo_surface_fit *fit = &ceduo_uncertainty_figure_of(&answer, i, CEDUO_UNCERTAINTY_FAILING, false)->fit;
         double error = sqrt(mean(failing_variance[i])), shift = mean(fit->values) - mean(failing[i]), off = 0, spread = 0;
         for (size_t p = 0; p < POINTS; p++) {
             off += pow(fit->values[p] - failing[i][p] - shift, 2) / POINTS;
@@ -176,7 +176,7 @@ static void expect_failing(void)
         EXPECT_NEAR(shift, 0, CEDUO_Z95 * error);
         EXPECT_NEAR(fit->p5, percentile(failing[i], .05), 3 * error);
         EXPECT_NEAR(fit->p95, percentile(failing[i], .95), 3 * error);
-        EXPECT(off, <, error * error + (1 - CEDUO_DOUBT_EXPLAINED) * spread);
+        EXPECT(off, <, error * error + (1 - CEDUO_UNCERTAINTY_EXPLAINED) * spread);
     }
 }
 
@@ -186,10 +186,10 @@ static void expect_order(void)
     double better = 0;
     for (size_t p = 0; p < POINTS; p++)
         better += (means[OPTIONS][p] < 0) / (double)POINTS;
-    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(&answer);
+    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_verdict(&answer);
     assert_true(ranking->rotation);
     EXPECT(ranking->count, ==, 1);
-    const struct ceduo_doubt_order *o = ranking->orders;
+    const struct ceduo_uncertainty_order *o = ranking->orders;
     EXPECT(o->better, ==, 1);
     EXPECT(o->than, ==, 0);
     EXPECT_NEAR(o->probability + o->equal + o->worse, 1, 1e-12);
@@ -206,7 +206,7 @@ TEST(over_a_rotation_as_point_by_point)
     expect_means();
     expect_failing();
     expect_order();
-    ceduo_doubt_free(&answer);
+    ceduo_uncertainty_free(&answer);
     ceduo_scene_release(&file);
 }
 
@@ -214,41 +214,42 @@ TEST(over_a_rotation_bits_do_not_depend_on_threads)
 {
     open_scene();
     for (unsigned threads = 1; threads <= 3; threads++) {
-        struct ceduo_doubt_answer other;
+        struct ceduo_uncertainty_answer other;
         ask(threads, 16, threads == 1 ? &answer : &other);
         for (size_t i = 0; threads > 1 && i < answer.figures_count; i++) {
-            const struct ceduo_doubt_figure *f = &answer.figures[i], *g = &other.figures[i];
+            const struct ceduo_uncertainty_figure *f = &answer.figures[i], *g = &other.figures[i];
             assert_memory_equal(f->fit.values, g->fit.values, answer.points * sizeof *f->fit.values);
             assert_memory_equal(&f->fit.p5_se, &g->fit.p5_se, sizeof f->fit.p5_se);
         }
         if (threads > 1)
-            ceduo_doubt_free(&other);
+            ceduo_uncertainty_free(&other);
     }
-    ceduo_doubt_free(&answer);
+    ceduo_uncertainty_free(&answer);
     ceduo_scene_release(&file);
 }
 
 /* One option alone has the bits that it has among others, of which there are no surfaces; also of points that may not grow. */
 TEST(one_option_alone_over_a_rotation)
 {
-    struct ceduo_doubt_answer alone;
+    struct ceduo_uncertainty_answer alone;
     open_scene();
-    struct ceduo_doubt_def def = def_of(2, 16);
+    struct ceduo_uncertainty_def def = def_of(2, 16);
     ask(2, 16, &answer);
     def.alone = true;
     def.option = 1;
     def.points_max = 8;
-    EXPECT(ceduo_doubt_ask(&def, &alone), ==, CEDUO_OK);
+    EXPECT(ceduo_uncertainty_ask(&def, &alone), ==, CEDUO_OK);
     EXPECT(alone.points, ==, 16);
-    for (int kind = 0; kind < CEDUO_DOUBT_KINDS; kind++) {
-        const struct ceduo_surface_fit *f = &ceduo_doubt_figure_of(&answer, 1, (enum ceduo_doubt_kind)kind, false)->fit,
-                                       *g = &ceduo_doubt_figure_of(&alone, 1, (enum ceduo_doubt_kind)kind, false)->fit;
+    for (int kind = 0; kind < CEDUO_UNCERTAINTY_KINDS; kind++) {
+        const struct ceduo_surface_fit
+            *f = &ceduo_uncertainty_figure_of(&answer, 1, (enum ceduo_uncertainty_kind)kind, false)->fit,
+            *g = &ceduo_uncertainty_figure_of(&alone, 1, (enum ceduo_uncertainty_kind)kind, false)->fit;
         assert_memory_equal(f->values, g->values, 16 * sizeof *f->values);
-        assert_null(ceduo_doubt_figure_of(&alone, 0, (enum ceduo_doubt_kind)kind, false)->fit.values);
+        assert_null(ceduo_uncertainty_figure_of(&alone, 0, (enum ceduo_uncertainty_kind)kind, false)->fit.values);
     }
-    EXPECT(ceduo_doubt_verdict(&alone)->count, ==, 0);
-    ceduo_doubt_free(&alone);
-    ceduo_doubt_free(&answer);
+    EXPECT(ceduo_uncertainty_verdict(&alone)->count, ==, 0);
+    ceduo_uncertainty_free(&alone);
+    ceduo_uncertainty_free(&answer);
     ceduo_scene_release(&file);
 }
 
@@ -259,13 +260,14 @@ TEST(failing_years_differ_by_both_intervals)
     open_scene();
     file.scene.controls[0].accepted = 150e3;
     ask(2, 4, &answer);
-    const struct ceduo_doubt_figure *first = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_FAILING, false),
-                                    *second = ceduo_doubt_figure_of(&answer, 1, CEDUO_DOUBT_FAILING, false),
-                                    *difference = ceduo_doubt_figure_of(&answer, 1, CEDUO_DOUBT_FAILING, true);
+    const struct ceduo_uncertainty_figure *first = ceduo_uncertainty_figure_of(&answer, 0, CEDUO_UNCERTAINTY_FAILING, false),
+                                          *second = ceduo_uncertainty_figure_of(&answer, 1, CEDUO_UNCERTAINTY_FAILING, false),
+                                          *difference =
+                                              ceduo_uncertainty_figure_of(&answer, 1, CEDUO_UNCERTAINTY_FAILING, true);
     EXPECT(first->sampling_lo, <, first->sampling_hi); /* some years are near the limit */
     EXPECT_NEAR(difference->sampling_lo, second->sampling_lo - first->sampling_hi, 1e-12);
     EXPECT_NEAR(difference->sampling_hi, second->sampling_hi - first->sampling_lo, 1e-12);
-    ceduo_doubt_free(&answer);
+    ceduo_uncertainty_free(&answer);
     ceduo_scene_release(&file);
 }
 
@@ -276,18 +278,18 @@ TEST(what_there_is_over_a_rotation)
     open_scene();
     file.scene.controls[0].accepted = NAN;
     ask(2, 24, &answer);
-    const struct ceduo_doubt_figure *mean = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_MEAN, false),
-                                    *years = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_FAILING, false);
+    const struct ceduo_uncertainty_figure *mean = ceduo_uncertainty_figure_of(&answer, 0, CEDUO_UNCERTAINTY_MEAN, false),
+                                          *years = ceduo_uncertainty_figure_of(&answer, 0, CEDUO_UNCERTAINTY_FAILING, false);
     EXPECT(mean->value, >, .5); /* most arrive just after the cut */
     EXPECT_NEAR(mean->value, mean->fit.p50, .2);
     assert_true(isnan(years->value));
     assert_null(years->fit.values);
-    ceduo_doubt_free(&answer);
+    ceduo_uncertainty_free(&answer);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     ask(2, 8, &answer);
     assert_false(answer.rotation);
-    assert_false(ceduo_doubt_verdict(&answer)->rotation);
-    assert_null(ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_MEAN, false)->fit.values);
-    ceduo_doubt_free(&answer);
+    assert_false(ceduo_uncertainty_verdict(&answer)->rotation);
+    assert_null(ceduo_uncertainty_figure_of(&answer, 0, CEDUO_UNCERTAINTY_MEAN, false)->fit.values);
+    ceduo_uncertainty_free(&answer);
     ceduo_scene_release(&file);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which values of a scene are in doubt. The table of keys and the scene's document are followed together; a value that is
+/* Which values of a scene are in uncertainty. The table of keys and the scene's document are followed together; a value that is
  * marked as assumed and has a range becomes a place of an input. Places with the same origin are one input. */
 #include "scene_file.h"
 
@@ -131,11 +131,11 @@ static void consider(struct finder *f, const struct field *field, const struct n
     const struct ceduo_belt *belt = ceduo_input_belt(&f->file->scene, path);
     bool law = !node && range->kind == CEDUO_INPUT_WORDS; /* nobody chose it */
     bool is_model = strcmp(key, "model") == 0, is_offset = strcmp(key, "offset") == 0;
-    bool in_doubt = ceduo_scene_assumes_value(f->file, path) || (law && !ceduo_stand_is_bare(&belt->stand));
+    bool in_uncertainty = ceduo_scene_assumes_value(f->file, path) || (law && !ceduo_stand_is_bare(&belt->stand));
     if (is_model)
-        f->brauner =
-            belt->stand.energy == CEDUO_BRAUNER || in_doubt || ceduo_inputs_have(f->file->inputs, f->file->inputs_count, path);
-    if (!in_doubt || (is_offset && !f->brauner))
+        f->brauner = belt->stand.energy == CEDUO_BRAUNER || in_uncertainty ||
+                     ceduo_inputs_have(f->file->inputs, f->file->inputs_count, path);
+    if (!in_uncertainty || (is_offset && !f->brauner))
         return;
     if (is_model || is_offset)
         origin = key;
@@ -265,7 +265,7 @@ bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
     size_t count;
     const struct ceduo_material *library = ceduo_materials(&count);
     *inputs = (struct scene_inputs){0};
-    if (ceduo_node_text(file->root, "doubt")) /* none */
+    if (ceduo_node_text(file->root, "uncertainty")) /* none */
         return true;
     walk(&f, ceduo_schema_scene(), file->root);
     for (size_t i = 0; file->scene.slope.segments_given == 0 && i < count; i++)

@@ -18,7 +18,7 @@
 
 /* A row, where it stands, and what its path begins at: "" or a stand and a dot. */
 struct row {
-    struct doubt doubt;
+    struct uncertainty_row uncertainty;
     const char *at, *within;
     const struct node *list; /* of the stand of a belt, and which of its items */
     size_t i;
@@ -138,7 +138,7 @@ static void find_places(struct places *p, const char *path)
 }
 
 /* The row of the table of keys that a path means, whether the scene has such an item or not; NULL: it is of no number and no
- * word, or no answer is in doubt because of it. */
+ * word, or no answer is in uncertainty because of it. */
 static const struct field *field_of(struct validator *v, const char *path)
 {
     const char *key, *ground = ground_of(v, path, &key);
@@ -155,15 +155,15 @@ static const struct field *field_of(struct validator *v, const char *path)
 
 static bool read_range(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
 {
-    double mean = row->doubt.mean, sd = row->doubt.sd;
+    double mean = row->uncertainty.mean, sd = row->uncertainty.sd;
     bool normal = !isnan(mean), gamma = normal && field->lo >= 0 && mean > 0 && sd > mean / 3;
     input->kind = gamma ? CEDUO_INPUT_GAMMA : normal ? CEDUO_INPUT_NORMAL : CEDUO_INPUT_RANGE;
     input->mean = mean;
     input->sd = sd;
-    if (gamma && sd > CEDUO_GAMMA_MOST * mean)
-        return ceduo_complain(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MOST);
-    input->lo = gamma ? ceduo_input_quantile(input, 0) : normal ? mean - 3 * sd : row->doubt.lo;
-    input->hi = gamma ? ceduo_input_quantile(input, 1) : normal ? mean + 3 * sd : row->doubt.hi;
+    if (gamma && sd > CEDUO_GAMMA_MAX * mean)
+        return ceduo_complain(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MAX);
+    input->lo = gamma ? ceduo_input_quantile(input, 0) : normal ? mean - 3 * sd : row->uncertainty.lo;
+    input->hi = gamma ? ceduo_input_quantile(input, 1) : normal ? mean + 3 * sd : row->uncertainty.hi;
     if (!(input->lo < input->hi))
         return ceduo_complain(v, row->at, normal ? "sd" : "hi", _("the range is empty; make it larger"));
     const double ends[] = {input->lo, input->hi};
@@ -177,7 +177,7 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
 
 static bool read_words(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
 {
-    size_t n = row->doubt.one_of_count;
+    size_t n = row->uncertainty.one_of_count;
     int *words = ceduo_room(v, n, sizeof *words);
     input->kind = CEDUO_INPUT_WORDS;
     input->words = words;
@@ -185,7 +185,7 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
     if (n < 2)
         ceduo_complain(v, row->at, "one_of", _("name at least two words"));
     for (size_t i = 0; words && i < n; i++) {
-        const char *word = row->doubt.one_of[i], *instead = ceduo_gone(word);
+        const char *word = row->uncertainty.one_of[i], *instead = ceduo_gone(word);
         const char *at = ceduo_format(v, "%s.one_of[%zu]", row->at, i);
         words[i] = ceduo_choice_find(field->choices, word);
         if (instead)
@@ -203,7 +203,7 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
  * which has been reported. */
 static bool make_input(struct validator *v, const struct row *row, struct places *places, struct ceduo_input *input)
 {
-    const struct doubt *d = &row->doubt;
+    const struct uncertainty_row *d = &row->uncertainty;
     bool of_stand = row->within[0] != '\0';
     const char *path = of_stand ? ceduo_format(v, "%s%s", row->within, d->path) : kept_path(v, d->path);
     if (!path)
@@ -215,7 +215,7 @@ static bool make_input(struct validator *v, const struct row *row, struct places
         return ceduo_complain(v, row->at, "path", "%s", _(instead));
     if (!field)
         return ceduo_complain(v, row->at, "path",
-                              _("no answer is in doubt because of '%s'; name a number or a word of the rock, its release, the "
+                              _("'%s' does not affect the result; name a number or a word of the rock, its release, the "
                                 "slope, a stand or the law"),
                               d->path);
     find_places(places, path);
@@ -232,7 +232,7 @@ static bool make_input(struct validator *v, const struct row *row, struct places
     *input = (struct ceduo_input){.path = of_stand ? ceduo_input_path(v->file, places->items[0]) : d->path,
                                   .places = places->items,
                                   .places_count = places->n,
-                                  .source = of_stand ? N_("doubt, in the stand") : N_("doubt, in the scene")};
+                                  .source = of_stand ? N_("uncertainty, in the stand") : N_("uncertainty, in the scene")};
     return choice ? read_words(v, row, field, input) : read_range(v, row, field, input);
 }
 
@@ -262,9 +262,9 @@ static struct row *list_rows(struct validator *v, size_t *n)
         const char *option = several ? ceduo_format(v, "options[%zu].", o) : "";
         for (size_t k = 0; forest && forest->kind == NODE_LIST && k < forest->n; k++) {
             const char *within = ceduo_format(v, "%sforest[%zu].stand.", option, k);
-            const struct node *list = ceduo_node_get(ceduo_node_get(forest->items[k], "stand"), "doubt");
+            const struct node *list = ceduo_node_get(ceduo_node_get(forest->items[k], "stand"), "uncertainty");
             for (size_t i = 0; list && list->kind == NODE_LIST && i < list->n; i++) {
-                const char *at = ceduo_format(v, "%sdoubt[%zu]", within, i);
+                const char *at = ceduo_format(v, "%suncertainty[%zu]", within, i);
                 if (!ceduo_is_sound(v, at))
                     continue;
                 struct row *rows = ceduo_arena_more(v->arena, all, *n, 1, &room, sizeof *all);
@@ -283,7 +283,7 @@ static void take_stands(struct validator *v)
 {
     size_t n = 0;
     struct row *rows = list_rows(v, &n);
-    const struct object *object = ceduo_schema_field(ceduo_schema_stand(), "doubt")->object;
+    const struct object *object = ceduo_schema_field(ceduo_schema_stand(), "uncertainty")->object;
     for (struct row *r = rows; rows && r < rows + n; r++) {
         const struct node *node = r->list->items[r->i];
         const struct source_note *notes = NULL;
@@ -292,21 +292,21 @@ static void take_stands(struct validator *v)
         bool twice = false;
         if (r->done)
             continue;
-        ceduo_schema_init(object, &r->doubt);
+        ceduo_schema_init(object, &r->uncertainty);
         ceduo_bind(&(struct binding){.arena = v->arena, .problems = v->problems, .notes = &notes, .bad = &v->bad}, object, node,
-                   &r->doubt);
+                   &r->uncertainty);
         for (size_t before = 0; before < r->i; before++) {
             const char *other = ceduo_node_text(r->list->items[before], "path");
-            twice |= other && ceduo_schema_same(other, r->doubt.path);
+            twice |= other && ceduo_schema_same(other, r->uncertainty.path);
         }
         if (twice)
-            ceduo_complain(v, r->at, "path", _("'%s' is given twice"), r->doubt.path);
+            ceduo_complain(v, r->at, "path", _("'%s' is given twice"), r->uncertainty.path);
         bool good = !twice && make_input(v, r, &places, &input);
         for (struct row *same = r + 1; same < rows + n; same++)
             if (same->list->items[same->i] == node) {
                 same->done = true;
                 if (good)
-                    find_places(&places, ceduo_format(v, "%s%s", same->within, r->doubt.path));
+                    find_places(&places, ceduo_format(v, "%s%s", same->within, r->uncertainty.path));
             }
         if (!good)
             continue;
@@ -368,8 +368,8 @@ static bool take_header(struct draws *t)
             t->csv.source->foreign &= f == NULL;
             if (!f || found.places_count == 0) {
                 if (t->csv.source->foreign)
-                    path[ceduo_utf8_cut(path, CEDUO_FOREIGN_MOST)] = '\0';
-                return ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"),
+                    path[ceduo_utf8_cut(path, CEDUO_FOREIGN_MAX)] = '\0';
+                return ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "uncertainty.draws"),
                                         _("the table has a column '%s', which is no value of this scene"), path);
             }
             t->places =
@@ -418,7 +418,7 @@ static bool read_table(struct draws *t, const char *path)
         if (by_name(&t->places[i - 1], &t->places[i]) == 0)
             ceduo_problem(problems, t->csv.source, 1, 1, _("'%s' is given twice"), t->places[i].place);
     if (t->rows == 0)
-        ceduo_problem_at(problems, ceduo_node_place(t->v->draws, "doubt.draws"), _("the table has no row"));
+        ceduo_problem_at(problems, ceduo_node_place(t->v->draws, "uncertainty.draws"), _("the table has no row"));
     return problems->met == before;
 }
 
@@ -427,12 +427,12 @@ static void add_draws(struct validator *v)
 {
     struct draws t = {.v = v};
     if (v->draws->kind != NODE_SCALAR) {
-        ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"), _("expected a path to a file"));
+        ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "uncertainty.draws"), _("expected a path to a file"));
         return;
     }
     const char *path = ceduo_resolve_path(v->arena, v->draws, "scenes");
     if (!path)
-        ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"),
+        ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "uncertainty.draws"),
                          _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), v->draws->text);
     if (!path || !read_table(&t, path))
         return;
@@ -450,27 +450,27 @@ static void add_draws(struct validator *v)
                                       .places = places,
                                       .draws_count = t.rows,
                                       .draws = draws,
-                                      .source = N_("doubt, in the scene")};
+                                      .source = N_("uncertainty, in the scene")};
     if (!places || !draws)
         return;
     add_input(v, input, NULL);
     LOCAL_TEXT(line);
     ceduo_text_safe(&line, ceduo_file_name(path));
     ceduo_text_format(&line, _(": %zu draws of %zu values that belong together"), t.rows, t.columns);
-    ceduo_understand(v, "doubt.draws", ceduo_text_string(&line));
+    ceduo_understand(v, "uncertainty.draws", ceduo_text_string(&line));
 }
 
 /* ---- all ---- */
 
-void ceduo_validate_doubt(struct validator *v)
+void ceduo_validate_uncertainty(struct validator *v)
 {
-    size_t n = ceduo_is_sound(v, "doubt") ? v->draft.doubts_count : 0;
-    if (!v->profile || ceduo_is_too_long(v, "doubt", n))
+    size_t n = ceduo_is_sound(v, "uncertainty") ? v->draft.uncertainties_count : 0;
+    if (!v->profile || ceduo_is_too_long(v, "uncertainty", n))
         return;
     if (v->draws)
         add_draws(v);
     for (size_t i = 0; i < n; i++) {
-        const struct row row = {.doubt = v->draft.doubts[i], .at = ceduo_format(v, "doubt[%zu]", i), .within = ""};
+        const struct row row = {.uncertainty = v->draft.uncertainties[i], .at = ceduo_format(v, "uncertainty[%zu]", i), .within = ""};
         struct places places;
         struct ceduo_input input;
         bool good = make_input(v, &row, &places, &input), twice = false;
@@ -482,7 +482,7 @@ void ceduo_validate_doubt(struct validator *v)
             twice |= b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(with_numbers(v, b->path), with_numbers(v, input.path));
         }
         if (twice)
-            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.doubt.path);
+            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.uncertainty.path);
         else if (good)
             add_input(v, input, row.at);
     }
@@ -492,7 +492,7 @@ void ceduo_validate_doubt(struct validator *v)
 
 /* ---- ends of ranges ---- */
 
-#define BORDERS_MOST 30 /* inputs that are places along the slope: of more no two are tried together */
+#define BORDERS_MAX 30 /* inputs that are places along the slope: of more no two are tried together */
 
 /* The scene with single inputs at an end of their ranges. */
 struct ends {
@@ -588,7 +588,7 @@ void ceduo_validate_ends(struct validator *v)
     for (size_t i = 0; good && i < n; i++)
         for (size_t k = 0; v->file->inputs[i].places_count > 0 && k < tries_of(&v->file->inputs[i]); k++)
             check_end(&e, i, k, i, k);
-    good = good && v->problems->met == before && places_count <= BORDERS_MOST;
+    good = good && v->problems->met == before && places_count <= BORDERS_MAX;
     for (size_t a = 1; good && a < places_count; a++)
         for (size_t b = 0; b < a; b++)
             for (size_t k = 0; k < 4; k++)
