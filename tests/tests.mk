@@ -174,13 +174,13 @@ all-threads:
 	@+$(MAKE) --no-print-directory VARIANT=tsan check-threads
 all-lint: lint
 
-# Runs these under valgrind: every scene as a batch, a picture, a report, years, a doubt, a search, and the terminal program with
+# Runs these under valgrind: every scene as a batch, a picture, a report, years, a uncertainty, a search, and the terminal program with
 # a script. What is not known takes most of the time, and is asked of two of them.
 VALGRIND := valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=definite,possible
 define IN_VALGRIND
---batch -n 200 -s doubt=none $(wildcard profiles/scenes/*.yaml)
+--batch -n 200 -s uncertainty=none $(wildcard profiles/scenes/*.yaml)
 --plot profile -n 200 paper-site
---report - -n 100 -s doubt=none paper-site staggered
+--report - -n 100 -s uncertainty=none paper-site staggered
 --years 0:3 -f json -n 100 rotation
 --sensitivity=3 -n 50 paper-site four-systems
 --batch -n 50 paper-site

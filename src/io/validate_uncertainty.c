@@ -470,7 +470,8 @@ void ceduo_validate_uncertainty(struct validator *v)
     if (v->draws)
         add_draws(v);
     for (size_t i = 0; i < n; i++) {
-        const struct row row = {.uncertainty = v->draft.uncertainties[i], .at = ceduo_format(v, "uncertainty[%zu]", i), .within = ""};
+        const struct row row = {
+            .uncertainty = v->draft.uncertainties[i], .at = ceduo_format(v, "uncertainty[%zu]", i), .within = ""};
         struct places places;
         struct ceduo_input input;
         bool good = make_input(v, &row, &places, &input), twice = false;

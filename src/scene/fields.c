@@ -344,7 +344,8 @@ static const struct field stand_fields[] = {
     GROUP("energy", N_("energy"), SAME, 0, &energy_object),
     GROUP("growth", N_("growth"), AT(ceduo_stand, growth), 0, &growth_object),
     GROUP("cutting", N_("cutting"), SAME, 0, &cutting_object),
-    ITEMS("uncertainty", N_("uncertainty"), NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED, &uncertainty_object),
+    ITEMS("uncertainty", N_("uncertainty"), NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED,
+          &uncertainty_object),
 };
 static const struct object stand_object = OBJECT(ceduo_stand, stand_fields, "stands");
 

@@ -38,7 +38,7 @@ enum key {
     V(RESULTS, results, '4', "4", NP_("view", "results"))                                                                      \
     V(COMPARE, compare, '5', "5", NP_("view", "compare"))                                                                      \
     V(ROTATION, rotation, '6', "6", NP_("view", "rotation"))                                                                   \
-    V(UNCERTAINTY, uncertainty, '7', "7", NP_("view", "uncertainty"))                                                                \
+    V(UNCERTAINTY, uncertainty, '7', "7", NP_("view", "uncertainty"))                                                          \
     V(OBSERVED, observed, '8', "8", NP_("view", "observed"))
 
 #define K_F(n) (K_F1 + (n)-1)

@@ -6,7 +6,7 @@
 #
 # ONLY in the environment: names of benches, with or without bench_; errors: those whose tables do not depend on how much else
 # the machine does; times: the others, for a quiet machine. CC names the compiler.
-errors=" bench_calibration bench_coverage bench_doubt_error bench_ground bench_rounding bench_tschamut bench_verdict "
+errors=" bench_calibration bench_coverage bench_uncertainty_error bench_ground bench_rounding bench_tschamut bench_verdict "
 
 is_wanted() { # name
     [ -n "$ONLY" ] || return 0

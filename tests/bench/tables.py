@@ -131,16 +131,16 @@ class Results:
                      [[r["place"], r["kernel"], r["law"], r["contacts_a_rock"], digits(r["ns_a_contact"]), r["rock_to_lumped"],
                        r["contact_to_lumped"]] for r in self.rows("bench_laws")])
 
-    def doubt(self):
+    def uncertainty(self):
         return table(["scene", "years", "inputs", "points", "rocks", "evaluations", "processor s"],
                      [[Path(r["scene"]).stem, r["years"], r["inputs"], r["points"], r["rocks"], r["evaluations"],
-                       digits(r["cpu_seconds_median"])] for r in self.rows("bench_doubt")])
+                       digits(r["cpu_seconds_median"])] for r in self.rows("bench_uncertainty")])
 
-    def doubt_error(self):
+    def uncertainty_error(self):
         return table(["design", "points", "rocks", "scenes", "cpu s", "band", "held, %", "shares, %", "held, %"],
                      [[r["design"], r["points"], r["rocks"], r["scenes"], digits(r["cpu_seconds"]), digits(r["band_of_1000"], 2),
                        r["band_held_percent"] or "\\-", digits(r["shares_percent"], 2), r["shares_held_percent"] or "\\-"]
-                      for r in self.rows("bench_doubt_error")])
+                      for r in self.rows("bench_uncertainty_error")])
 
     def keys(self):
         return table(["scene", "keys in", "keys", "median, ms", "p99, ms", "most, ms"],

@@ -9,7 +9,7 @@ from harness import expect, expect_equal, expect_in, expect_near
 
 
 # The whole page; what is not known is left out, as most tests look at other figures and it takes a second.
-WHOLE = ("--batch", "--details", "-s", "doubt=none")
+WHOLE = ("--batch", "--details", "-s", "uncertainty=none")
 
 
 def expect_order(text, *parts):

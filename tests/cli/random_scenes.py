@@ -126,7 +126,7 @@ SOURCES = ["measured", "literature", "assumed", "calibrated"]
 
 # What stands beside a scene and changes no figure of a run: it is drawn apart, random_observed.py, or by tests of their own.
 BESIDE_KEYS = ("observed", "rules")
-BESIDE = ("observed[]", "rules.", "forest[].stand.doubt[]")
+BESIDE = ("observed[]", "rules.", "forest[].stand.uncertainty[]")
 
 
 def clamp(value, lo, hi):
@@ -532,7 +532,7 @@ class Maker:
             self.stools(stand)
         if kind in ("trees", "both"):
             self.trees(stand)
-        self.fill(node, stand, ("base", "stools", "shoots", "trees", "doubt"))
+        self.fill(node, stand, ("base", "stools", "shoots", "trees", "uncertainty"))
         for low in ("stumps", "logs"):  # all of it, or nothing
             for key in node[low]:
                 if low in stand and key not in stand[low]:
@@ -606,7 +606,7 @@ class Maker:
                 scene["options"].append(option)
             self.case.used.add("options[].name")
 
-    def doubt(self):
+    def uncertainty(self):
         """What is not known: it changes no figure of a run."""
         rows = {"lo": {"path": "simulation.gravity_m_s2", "lo": 9.7, "hi": self.rng.uniform(9.8, 10)},
                 "mean": {"path": "release.height_m", "mean": 10, "sd": self.rng.uniform(0.1, 3)},
@@ -614,7 +614,7 @@ class Maker:
         if self.chance(0.2):
             return "none"
         keys = self.rng.sample(list(rows), self.rng.randint(1, 3))
-        self.case.used |= {f"doubt[].{key}" for one in keys for key in rows[one]}
+        self.case.used |= {f"uncertainty[].{key}" for one in keys for key in rows[one]}
         return [rows[key] for key in keys]
 
     def blocks(self):
@@ -643,9 +643,9 @@ class Maker:
         scene["simulation"] = self.fill(tree["simulation"], {}, ("rocks",))
         scene["simulation"]["rocks"] = case.rocks = self.rng.choice([1, 2, 3, 10, 20, 50])
         case.used.add("simulation.rocks")
-        self.fill(tree, scene, ("controls", "controls_m", "forest", "options", "simulation", "release", "doubt", "blocks", *BESIDE_KEYS))
+        self.fill(tree, scene, ("controls", "controls_m", "forest", "options", "simulation", "release", "uncertainty", "blocks", *BESIDE_KEYS))
         if self.chance(0.2):
-            scene["doubt"] = self.doubt()
+            scene["uncertainty"] = self.uncertainty()
         if self.chance(0.1):
             scene["blocks"] = self.blocks()
             for control in scene.get("controls", []):  # it is refused without blocks

@@ -13,7 +13,7 @@ def assumed(slope, law):
     """What the result says is assumed of the slope"""
     with Folder() as f:
         path = f.write("s.yaml", scene(slope={"vertices_m": PROFILE, **slope}, simulation={"law": law}))
-        r = ceduo("-b", "--details", "-s", "doubt=none", "-n", 20, path)
+        r = ceduo("-b", "--details", "-s", "uncertainty=none", "-n", 20, path)
         expect_equal(r.status, DONE, r)
         return r.out.count("friction mu 0.6 where a rock strikes")
 
@@ -28,7 +28,7 @@ def test_mu_is_said_to_be_assumed():
     with Folder() as f:  # a profile without a word on its ground: talus
         f.write("p.csv", "distance,elevation\n0,60\n60,8\n200,0\n")
         path = f.write("s.yaml", scene(slope={"csv": "p.csv"}, simulation={"law": "arm"}))
-        expect("friction mu 0.6 where a rock strikes" in ceduo("-b", "--details", "-s", "doubt=none", "-n", 20, path).out)
+        expect("friction mu 0.6 where a rock strikes" in ceduo("-b", "--details", "-s", "uncertainty=none", "-n", 20, path).out)
 
 
 def inputs(law):
@@ -40,7 +40,7 @@ def inputs(law):
         return {i["path"] for i in find(r.json()[0], "inputs")}
 
 
-def test_doubt_is_of_what_the_law_knows():
+def test_uncertainty_is_of_what_the_law_knows():
     """mu with arm, Rt with the others"""
     mu, rt = "slope.materials[talus].mu", "slope.materials[talus].rt"
     expect(mu in inputs("arm") and rt not in inputs("arm"))

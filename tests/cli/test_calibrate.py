@@ -208,7 +208,7 @@ def test_scars():
 
 
 def test_written():
-    """-o writes the scene with the best value and the draws beside it, which doubt reads back"""
+    """-o writes the scene with the best value and the draws beside it, which uncertainty reads back"""
     materials = {"vertices_m": [[0, 60], [40, 20], [60, 8], [200, 0]],
                  "materials": [{"from_m": 0, "to_m": 50, "material": "talus"}, {"from_m": 50, "to_m": 200, "material": "colluvium"}]}
     with Folder() as f:
@@ -222,7 +222,7 @@ def test_written():
                 text = out.read_text()
                 expect_in(f"rt: {best}", text)
                 expect_in("kind: calibrated", text)
-                expect_in("doubt: {draws: fitted.draws.csv}", text)
+                expect_in("uncertainty: {draws: fitted.draws.csv}", text)
                 draws = (out.parent / "fitted.draws.csv").read_text().splitlines()
                 expect_in("slope.segments[0].rt", draws[0])
                 expect(len(draws) > 200)
@@ -255,7 +255,7 @@ def test_written_as_yml():
     with Folder() as f:
         r = ceduo("-n", 20, "--calibrate", f"{RT}=0.7:0.98", "-o", f.path / "fitted.yml", f.write("s.yaml", quarry()))
         expect_equal(r.status, DONE, r)
-        expect_in("doubt: {draws: fitted.draws.csv}", (f.path / "fitted.yml").read_text())
+        expect_in("uncertainty: {draws: fitted.draws.csv}", (f.path / "fitted.yml").read_text())
 
 
 def test_not_written():
@@ -270,12 +270,12 @@ def test_not_written():
             expect(not (f.path / f"{name}.yaml").exists() and f.names() == ["fitted.draws.csv", "s.yaml"], f.names())
 
 
-def test_doubt_written():
-    """Of the rows of doubt that there are those of fitted values go, and the others stay, also beside draws of an earlier fit"""
+def test_uncertainty_written():
+    """Of the rows of uncertainty that there are those of fitted values go, and the others stay, also beside draws of an earlier fit"""
     density = {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}
-    doubt = [{"path": "slope.segments[0].rt", "lo": 0.6, "hi": 0.99}, density]
+    uncertainty = [{"path": "slope.segments[0].rt", "lo": 0.6, "hi": 0.99}, density]
     with Folder() as f:
-        path = f.write("s.yaml", quarry(doubt=doubt))
+        path = f.write("s.yaml", quarry(uncertainty=uncertainty))
         for scene_path, out in ((path, f.path / "fitted.yaml"), (f.path / "fitted.yaml", f.path / "again.yaml")):
             r = ceduo("-n", 50, "--calibrate", f"{RT}=0.7:0.98", "-o", out, scene_path)
             expect_equal((r.status, r.err), (DONE, ""), r)
@@ -304,14 +304,14 @@ def test_draws():
         f.write("other.csv", "slope.colour\n0.8\n")
         f.write("short.csv", "slope.segments[0].rt,slope.segments[0].rn\n0.8\n")
         f.write("empty.csv", "slope.segments[0].rt\n")
-        good = f.write("s.yaml", quarry(doubt={"draws": "good.csv", "rows": [{"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}]}))
+        good = f.write("s.yaml", quarry(uncertainty={"draws": "good.csv", "rows": [{"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}]}))
         expect_equal(ceduo("--check", good).err, "")
-        for doubt, what in (({"draws": "none.csv"}, "cannot find 'none.csv' beside this file"),
+        for uncertainty, what in (({"draws": "none.csv"}, "cannot find 'none.csv' beside this file"),
                             ({"draws": "other.csv"}, "a column 'slope.colour', which is no value of this scene"),
                             ({"draws": "short.csv"}, "too few columns"), ({"draws": "empty.csv"}, "the table has no row"),
                             ({"draws": ["good.csv"]}, "expected a path to a file"),
                             ({"draws": "good.csv", "row": []}, "unknown key; known here: draws, rows")):
-            r = ceduo("--check", f.write("s.yaml", quarry(doubt=doubt)))
+            r = ceduo("--check", f.write("s.yaml", quarry(uncertainty=uncertainty)))
             expect_equal(r.status, INPUT, r)
             expect_in(what, r.err)
 
@@ -332,21 +332,21 @@ def test_draws_that_fit_nothing():
         (f"{rt} {rt}\n0.8\n", [], f"t.csv:1:1: '{rt}' is given twice"),
         (f"{rn},slope.segments[*].rn\n0.5,0.5\n", [], f"t.csv:1:1: '{rn}' is given twice"),
         (f"{rn}\n0.5\n", [row], None),
-        (f"{rn},{rt}\n0.5,0.8\n", [row], f"doubt[0].path: '{rt}' is given twice"),
-        (f"{rt}\n0.8\n", [{**row, "path": "slope.segments[*].rt"}], "doubt[0].path: 'slope.segments[*].rt' is given twice"),
+        (f"{rn},{rt}\n0.5,0.8\n", [row], f"uncertainty[0].path: '{rt}' is given twice"),
+        (f"{rt}\n0.8\n", [{**row, "path": "slope.segments[*].rt"}], "uncertainty[0].path: 'slope.segments[*].rt' is given twice"),
     )
     with Folder() as f:
         for table, rows, told in tables:
             f.write("t.csv", table)
-            r = ceduo("--check", f.write("s.yaml", quarry(doubt={"draws": "t.csv", "rows": rows})))
+            r = ceduo("--check", f.write("s.yaml", quarry(uncertainty={"draws": "t.csv", "rows": rows})))
             expect_equal(r.status, DONE if told is None else INPUT, (table, r))
             expect_in(told or "", r.err)
         wood = {"name": "wood", "trees": [{"per_ha": 600, "dbh_m": 0.2, "height_m": 14, "volume_m3": 0.2}]}
         for first, status in (("0", INPUT), ("wood", INPUT), ("*", DONE)):
-            doubt = [{"path": f"forest[{i}].stand.trees[0].dbh_m", "lo": 0.1, "hi": 0.3} for i in (first, "wood")]
-            r = ceduo("--check", f.write("s.yaml", quarry(forest=[{"from_m": 60, "to_m": 90, "stand": wood}], doubt=doubt)))
+            uncertainty = [{"path": f"forest[{i}].stand.trees[0].dbh_m", "lo": 0.1, "hi": 0.3} for i in (first, "wood")]
+            r = ceduo("--check", f.write("s.yaml", quarry(forest=[{"from_m": 60, "to_m": 90, "stand": wood}], uncertainty=uncertainty)))
             expect_equal(r.status, status, r)
-            expect_in("doubt[1].path: 'forest[wood].stand.trees[0].dbh_m' is given twice" if status else "", r.err)
+            expect_in("uncertainty[1].path: 'forest[wood].stand.trees[0].dbh_m' is given twice" if status else "", r.err)
 
 
 def test_draws_of_many_places():
@@ -356,8 +356,8 @@ def test_draws_of_many_places():
     head = " ".join(f"slope.segments[{i}].rt" for i in range(n))
     with Folder() as f:
         f.write("t.csv", f"{head}\n0.8\n0.9\n")
-        doubt = {"draws": "t.csv", "rows": [{"path": "slope.segments[*].rn", "lo": 0.2, "hi": 0.5}]}
-        expect_equal(ceduo("--check", f.write("s.yaml", quarry(slope=slope, doubt=doubt))).err, "")
+        uncertainty = {"draws": "t.csv", "rows": [{"path": "slope.segments[*].rn", "lo": 0.2, "hi": 0.5}]}
+        expect_equal(ceduo("--check", f.write("s.yaml", quarry(slope=slope, uncertainty=uncertainty))).err, "")
 
 
 def test_refused():

@@ -101,7 +101,7 @@ def no_memory(words, on):
         expect(failed > 20, f"{failed} failures: is the library loaded?")
 
 
-CERTAIN = () if FULL else ("-s", "doubt=none")  # most of the time of a page goes to what may be true
+CERTAIN = () if FULL else ("-s", "uncertainty=none")  # most of the time of a page goes to what may be true
 BATCH = ("--batch", "-f", "csv", "-n", 20, "-j", 1, "scene.yaml")
 
 

@@ -42,7 +42,7 @@ def ways(path):
     yield scene(slope={**table, "materials": [{"from_m": 0, "to_m": 100, "material": "talus"}]})
     for what in (str(path), {"base": str(path)}, {"base": str(path), "name": "wood"}):
         yield scene(forest=[{"from_m": 10, "to_m": 90, "stand": what}])
-    yield scene(slope=flat, doubt={"draws": str(path)})
+    yield scene(slope=flat, uncertainty={"draws": str(path)})
     for more in ({}, {"column": column}, {"column": column, "only": "user=qroot"}, {"only": f"{column}=qroot"}):
         for kind in ("stops", "speed"):
             at = {} if kind == "stops" else {"x_m": 60}
@@ -97,7 +97,7 @@ def test_first_characters():
         told, line, caret = done.err.splitlines()
         expect_equal(told, f"{path}:1:1: the first line must name the columns 'distance' and 'elevation'")
         expect_equal((line, caret), (f"  {FIRST[:20]}… {WHY}", "  ^"))
-        done = ceduo("--check", f.write("s.yaml", scene(doubt={"draws": str(path)})))
+        done = ceduo("--check", f.write("s.yaml", scene(uncertainty={"draws": str(path)})))
         expect_in(f"the table has a column '{FIRST[:20]}', which is no value", done.err)
         path = f.write("long.yaml", "alpha: 1\nbeta: {gamma: 1, delta: 2, rest: 3}\nrock: 5\n")
         lines = ceduo("--check", path).err.splitlines()
@@ -130,7 +130,7 @@ def test_own_files_whole():
             err = ceduo("--check", f.write("s.yaml", scene(observed={"stops": {"csv": "o.csv", **more}}))).err
             expect_in("\n  1,somewhere below,me\n", err)
         f.write("d.csv", "slope.segments[0].rt,slope.segments[0].rn\n0.8,nothing that is a number\n")
-        err = ceduo("--check", f.write("s.yaml", scene(doubt={"draws": "d.csv"}))).err
+        err = ceduo("--check", f.write("s.yaml", scene(uncertainty={"draws": "d.csv"}))).err
         expect_in("\n  0.8,nothing that is a number\n", err)
 
 

@@ -545,21 +545,21 @@ def test_few_arrive():
     expect_equal((one["reach_probability"], one["energy_kJ"]["se"]), (1, None))
 
 
-def test_tolerance_and_doubt():
-    """-e works with weights; doubt of the sizes moves the answer"""
+def test_tolerance_and_uncertainty():
+    """-e works with weights; uncertainty of the sizes moves the answer"""
     result = run(slope_site(), "-e", "0.05")
     for side in ("bare", "wooded"):
         energy = result["options"][0]["controls"][1][side]["energy_kJ"]
         expect(1.96 * energy["se"] <= 0.05 * energy["mean"], energy)
     with Folder() as f:
         for blocks, place in ((POWER, "blocks.exponent"), ([POWER], "blocks[0].exponent")):
-            doubt = [{"path": place, "lo": 0.6, "hi": 2}]
-            r = ceduo("--sensitivity=20", "-f", "json", "-n", 100, f.write("s.yaml", slope_site(blocks=blocks, doubt=doubt)))
+            uncertainty = [{"path": place, "lo": 0.6, "hi": 2}]
+            r = ceduo("--sensitivity=20", "-f", "json", "-n", 100, f.write("s.yaml", slope_site(blocks=blocks, uncertainty=uncertainty)))
             expect_equal(r.status, DONE, r)
             figures = r.json()[0]["figures"]
             reach = next(x for x in figures if x["figure"] == "reach_probability")
             expect(place in [i["path"] for i in reach["inputs"]], reach)
-            expect(reach["doubt_p5"] < reach["doubt_p95"], reach)
+            expect(reach["uncertainty"]["p5"] < reach["uncertainty"]["p95"], reach)
 
 
 def test_refused():

@@ -21,7 +21,7 @@ CORE = {"stand": "", "wood": "stand", "walk": "stand wood", "runs": "stand wood 
 # The room of each public header: a header knows what its room knows.
 HEADERS = {"base": "flag", "scene": "rock scene slope stand status",
            "core": "adc assess blocks hazard key other pool question record result rotation run statistics trajectory variants years yield",
-           "study": "calibrate doubt find naslund observe surface survey", "io": "ceduo read"}
+           "study": "calibrate uncertainty find naslund observe surface survey", "io": "ceduo read"}
 SCIENCE = ("scene", "core")  # reaches for nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
 # A rock is the same on every machine: what decides about its trajectory, and about the stand of a year, takes only what
@@ -164,7 +164,7 @@ h = hash_bytes(&s, sizeof s);
 h = hash_bytes(&p, sizeof p);
 static const struct field f[] = {TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), NO_RUN, "")};
 static const struct field f[] = {TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), REQUIRED, "")};
-static const struct field f[] = {OTHER(FIELD_WORDS, "one_of", NAMED(""), LIST(doubt, one_of, one_of_count), 0, NULL, "", NULL, NULL)};
+static const struct field f[] = {OTHER(FIELD_WORDS, "one_of", NAMED(""), LIST(uncertainty, one_of, one_of_count), 0, NULL, "", NULL, NULL)};
 static const struct field f[] = {OTHER(FIELD_FLAG, "x", NAMED(""), AT(ceduo_belt, felled), 0, NULL, "", NULL, NULL)};
 """
 GOOD = (0, 3, 5, 6, 10, 13, 15, 18, 21)

@@ -155,7 +155,7 @@ def test_glossary():
     expect_equal({row["english"] for row in terms} - used, set(), "terms that no message has")
 
 
-NEVER = ("doubt", "fit", "FAILS", "free run", "growth", "large reserves", "observed", "reserve", "return period", "roughness",
+NEVER = ("uncertainty", "fit", "FAILS", "free run", "growth", "large reserves", "observed", "reserve", "return period", "roughness",
          "standard deviation", "talus", "what may be true", "withstands", "yield")  # the words of these have no other use in the manual
 
 
@@ -189,9 +189,9 @@ def test_data():
 def test_pages():
     """Pages, help and lists are Italian, no wider than in English, with the same numbers"""
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
-        doubt = () if path.stem in ("paper-site", "rotation") else ("-s", "doubt=none")  # it takes most of the time
-        for words in (("--batch", *doubt, "-n", 50, path), (*WHOLE, "-n", 50, path), (*WHOLE, "--years", "0:2", "-n", 20, path),
-                      ("--batch", *doubt, "-n", 20, "-s", "simulation.contact_model=index", path)):
+        uncertainty = () if path.stem in ("paper-site", "rotation") else ("-s", "uncertainty=none")  # it takes most of the time
+        for words in (("--batch", *uncertainty, "-n", 50, path), (*WHOLE, "-n", 50, path), (*WHOLE, "--years", "0:2", "-n", 20, path),
+                      ("--batch", *uncertainty, "-n", 20, "-s", "simulation.contact_model=index", path)):
             english, italian = both(*words)
             expect_width(italian)
             expect(english != italian and "nplurals" not in italian, italian)
@@ -230,10 +230,10 @@ def test_shipped():
 
 
 def test_shipped_title():
-    """The report and the page of doubt have a shipped title in Italian; JSON has it as it is"""
+    """The report and the page of uncertainty have a shipped title in Italian; JSON has it as it is"""
     titles = "Test site of Ciabocco et al. 2009", "Sito di prova di Ciabocco et al. 2009"
     with Folder() as f:
-        good("--report", f.path / "r.html", "-s", "doubt=none", "-n", 10, "--language", "it", PAPER)
+        good("--report", f.path / "r.html", "-s", "uncertainty=none", "-n", 10, "--language", "it", PAPER)
         report = (f.path / "r.html").read_text(encoding="utf-8")
         expect_in(f"<title>{titles[1]}</title>", report)
         expect_in(f"<h1>{titles[1]}</h1>", report)

@@ -81,20 +81,20 @@ int main()
         ceduo_answer_release(&answer);
         question.run.cancel = &stop;
     }
-    ceduo_doubt_def doubt{};
-    doubt.scene = &file.scene;
-    doubt.inputs_count = file.inputs_count;
-    doubt.inputs = file.inputs;
-    doubt.points = 20;
-    doubt.rocks = doubt.own_rocks = 20;
-    doubt.threads = 1;
-    ceduo_doubt_answer range;
-    if (ceduo_doubt_ask(&doubt, &range) != CEDUO_OK)
+    ceduo_uncertainty_def uncertainty{};
+    uncertainty.scene = &file.scene;
+    uncertainty.inputs_count = file.inputs_count;
+    uncertainty.inputs = file.inputs;
+    uncertainty.points = 20;
+    uncertainty.rocks = uncertainty.own_rocks = 20;
+    uncertainty.threads = 1;
+    ceduo_uncertainty_answer range;
+    if (ceduo_uncertainty_ask(&uncertainty, &range) != CEDUO_OK)
         return 2;
     for (size_t i = 0; i < file.inputs_count; i++)
         std::puts(file.inputs[i].path);
     std::printf("%.17g %.17g\\n", range.figures[0].fit.p5, range.figures[0].fit.p95);
-    ceduo_doubt_free(&range);
+    ceduo_uncertainty_free(&range);
     ceduo_reading_release(&file);
     if (ceduo_scene_read("vaujany", nullptr, &file) != CEDUO_OK)
         return 3;
@@ -123,7 +123,7 @@ def test_cpp():
         inputs = next(f["inputs"] for f in years if f["figure"].startswith("rotation."))  # those of growth, too
         seen = re.findall(r"^  - name: (.*)\n(?:    .*\n)*?    option:", (ROOT / "profiles/scenes/vaujany.yaml").read_text(), re.M)
         known = "".join(f"{line}\n" for line in [*(i["path"] for i in inputs),
-                                                f"{figure['doubt_p5']:.17g} {figure['doubt_p95']:.17g}", *seen])
+                                                f"{figure['uncertainty']['p5']:.17g} {figure['uncertainty']['p95']:.17g}", *seen])
         for how in [""] if BUILT else ["", "--static"]:
             place.shell(f"g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror {how.replace('--', '-')} {BUILT} -o ask ask.cc "
                         f"$(pkg-config {how} --cflags --libs ceduo)")

@@ -105,7 +105,7 @@ def test_bounds_are_listed():
         places = f.write("p.yaml", {key: value for key, value in mapping.items() if key != "controls"} | {"controls_m": [50]})
         for name, kind, unit, text, *_ in lines:
             # bounds of a range as of the value in doubt; those of what was seen: test_observed.py
-            if kind not in forms or "doubt[]" in name or name.startswith("observed[]"):
+            if kind not in forms or "uncertainty[]" in name or name.startswith("observed[]"):
                 continue
             seen += 1
             shown = re.fullmatch(r"(>?)(\S*)\u2026(<?)(\S*)", text) or re.fullmatch(r"(>=?) (\S+)", text)

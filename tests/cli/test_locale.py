@@ -41,9 +41,9 @@ def test_plain_ascii():
         return done
     plain = {"LC_ALL": "C"}
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
-        doubt = () if path.stem == "paper-site" else ("-s", "doubt=none")  # of all it takes most of the time, and says the same
-        text = ascii_only(good("--batch", *doubt, "-n", 20, path, env=plain)).out
-        wide = good("--batch", *doubt, "-n", 20, path).out
+        uncertainty = () if path.stem == "paper-site" else ("-s", "uncertainty=none")  # of all it takes most of the time, and says the same
+        text = ascii_only(good("--batch", *uncertainty, "-n", 20, path, env=plain)).out
+        wide = good("--batch", *uncertainty, "-n", 20, path).out
         expect_same_means(*(good(*WHOLE, "-n", 100, path, env=env).out for env in (plain, {})))
         texts = [MEAN.sub("", page) for page in (text, wide)]
         expect_equal(*(re.findall(r"\d+\.\d+", page) for page in texts), "numbers")
@@ -86,7 +86,7 @@ def test_comma_locale():
 
 def test_plain_environment():
     """NO_COLOR, TERM=dumb, no TERM, no HOME, unknown locales change nothing"""
-    short = ("--batch", "-s", "doubt=none", "-n", 50, FOUR)
+    short = ("--batch", "-s", "uncertainty=none", "-n", 50, FOUR)
     wanted = good(*short).out
     for env in ({"NO_COLOR": "1"}, {"TERM": "dumb"}, {"TERM": None}, {"HOME": None}, {"HOME": ""}, {"XDG_DATA_HOME": ""},
                 {"XDG_DATA_HOME": "relative"}):

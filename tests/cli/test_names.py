@@ -90,8 +90,8 @@ def test_name_with_a_number_sign():
     name = "road #2"
     with Folder() as f:
         place = f"controls[{name}].accepted_kJ"
-        doubt = [{"path": place, "lo": 40, "hi": 60}, {"path": "rock.density_kg_m3", "lo": 2500, "hi": 2700}]
-        path = f.write("s.yaml", scene(controls=[{"x_m": 70, "name": name, "accepted_kJ": 50}], doubt=doubt))
+        uncertainty = [{"path": place, "lo": 40, "hi": 60}, {"path": "rock.density_kg_m3", "lo": 2500, "hi": 2700}]
+        path = f.write("s.yaml", scene(controls=[{"x_m": 70, "name": name, "accepted_kJ": 50}], uncertainty=uncertainty))
         for change, wanted in ((f"{place}=70", (name, 70)), (f'controls[{name}].name="way #3"', ("way #3", 50))):
             control = result("-n", 5, "-s", change, path)["options"][0]["controls"][0]
             expect_equal((control["name"], control["accepted_kJ"]), wanted, change)
@@ -107,7 +107,7 @@ def test_name_with_a_number_sign():
 def test_file_that_is_no_utf8():
     """JSON is UTF-8 whatever the name of a file: what is none becomes U+FFFD"""
     with Folder() as f:
-        plain = f.write("s.yaml", scene(doubt=[{"path": "rock.density_kg_m3", "lo": 2500, "hi": 2700}]))
+        plain = f.write("s.yaml", scene(uncertainty=[{"path": "rock.density_kg_m3", "lo": 2500, "hi": 2700}]))
         odd = os.fsencode(f.path) + b"/x\xff\xed\xa0\xbd.yaml"
         Path(os.fsdecode(odd)).write_bytes(Path(plain).read_bytes())
         for words in (("-b",), ("--sensitivity=16",), ("--find", "controls[0].x_m=61:79", "--goal", "arrive=0.5")):

@@ -189,30 +189,30 @@ def test_mirrored():
 
 
 def test_mirrored_paths():
-    """A path into such a slope means the item of its file, for --set and for doubt alike; so does a ground of the library"""
+    """A path into such a slope means the item of its file, for --set and for uncertainty alike; so does a ground of the library"""
     with Folder() as f:
-        def file(up, doubt):
+        def file(up, uncertainty):
             profile = {"vertices_m": upward(LINE) if up else LINE, "segments": copy.deepcopy(GROUND[::-1] if up else GROUND)}
             return behind_the_edge(f, release={"x_m": 4}, slope={**profile, **({"reversed": True} if up else {})},
-                                   doubt=[{"path": f"slope.segments[{doubt}].rn", "lo": 0.1, "hi": 0.6}])
+                                   uncertainty=[{"path": f"slope.segments[{uncertainty}].rn", "lo": 0.1, "hi": 0.6}])
         wanted = figures(file(False, 3), "-s", "slope.segments[3].rn=0.5")
         expect_equal(figures(file(True, 1), "-s", "slope.segments[1].rn=0.5"), wanted, "--set")
         one, two = (good("--sensitivity=20", "-n", 200, "-f", "json", file(*how)).json()[0] for how in ((False, 3), (True, 1)))
-        expect_equal([figure["doubt_p95"] for figure in two["figures"]], [figure["doubt_p95"] for figure in one["figures"]], "doubt")
-        expect(one["figures"][0]["doubt_p5"] < one["figures"][0]["doubt_p95"], "nothing is in doubt")
+        expect_equal([figure["uncertainty"]["p95"] for figure in two["figures"]], [figure["uncertainty"]["p95"] for figure in one["figures"]], "uncertainty")
+        expect(one["figures"][0]["uncertainty"]["p5"] < one["figures"][0]["uncertainty"]["p95"], "nothing is in doubt")
 
         def library(up):
             bands = [band(160 - b, 160 - a, m) for a, b, m in reversed(BANDS)] if up else [band(*b) for b in BANDS]
             return behind_the_edge(f, release={"x_m": 4}, slope={"vertices_m": upward(LINE) if up else LINE, "materials": bands,
                                                                  **({"reversed": True} if up else {})},
-                                   doubt=[{"path": "slope.materials[talus].rn", "lo": 0.1, "hi": 0.6}])
+                                   uncertainty=[{"path": "slope.materials[talus].rn", "lo": 0.1, "hi": 0.6}])
         one, two = (good("--sensitivity=20", "-n", 200, "-f", "json", library(up)).json()[0] for up in (False, True))
-        expect_equal([figure["doubt_p95"] for figure in two["figures"]], [figure["doubt_p95"] for figure in one["figures"]], "a ground")
+        expect_equal([figure["uncertainty"]["p95"] for figure in two["figures"]], [figure["uncertainty"]["p95"] for figure in one["figures"]], "a ground")
 
 
 NO_NUMBER = re.compile(r"(?<![\w])[-+\u00b1]?(?:inf|nan|infinity)(?![\w])", re.IGNORECASE)
 OUTPUTS = ("", "--details --years", "--sensitivity=4", "--report -", "-f csv --years", "-f csv --rows stands", "-f csv --sensitivity=4",
-           "-f json --years", "-f json --sensitivity=4", *(f"--plot {kind}" for kind in ("tradeoff", "hazard", "energy", "doubt")))
+           "-f json --years", "-f json --sensitivity=4", *(f"--plot {kind}" for kind in ("tradeoff", "hazard", "energy", "uncertainty")))
 
 
 def test_no_number():

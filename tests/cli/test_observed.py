@@ -254,7 +254,7 @@ def test_misplaced():
 
 def test_draws_have_names():
     """A column of draws without a name, or with one of no value of the scene"""
-    draws = {"doubt": {"draws": "d.csv"}}
+    draws = {"uncertainty": {"draws": "d.csv"}}
     accepted([], ("d.csv", "rock.density_kg_m3\n2600\n"), **draws)
     refused("the table has a column '', which is no value of this scene", [], ("d.csv", "rock.density_kg_m3,\n2600,1\n"), **draws)
     refused("the table has a column '2600', which is no value of this scene", [], ("d.csv", "\n2600\n"), **draws)

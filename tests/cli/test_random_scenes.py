@@ -65,10 +65,10 @@ def table_of_parameters():
 
 
 def kinds_of_pictures():
-    """As the program names them where it knows none of that name; those of doubt
+    """As the program names them where it knows none of that name; those of uncertainty
     and of a whole rotation take up to thousands of runs of a scene."""
     said = ceduo("--plot", "-", "paper-site").err
-    return [kind for kind in re.search(r"one of: (.*)", said)[1].split(", ") if kind not in ("doubt", "tradeoff")]
+    return [kind for kind in re.search(r"one of: (.*)", said)[1].split(", ") if kind not in ("uncertainty", "tradeoff")]
 
 
 # ---- numbers ----
@@ -825,7 +825,7 @@ def check_fit(case, fit):
 
 # ---- a chunk of scenes ----
 
-SHORT_PAGES = 3  # of a chunk: with their doubt they are hundreds of scenes
+SHORT_PAGES = 3  # of a chunk: with their uncertainty they are hundreds of scenes
 
 
 def without_sum(err):
@@ -958,7 +958,7 @@ class Chunk:
                     self.check(i, compare_controls, case, results[i], own, years)
 
     def on_pages(self, results):
-        for done, indices in self.call("--batch", "--details", "-s", "doubt=none"):
+        for done, indices in self.call("--batch", "--details", "-s", "uncertainty=none"):
             found = pages(done.out)
             for i in indices:
                 self.check(i, check_page, self.cases[i], found.get(i, []), results[i])
@@ -1002,7 +1002,7 @@ class Chunk:
         if i in self.cases:
             self.in_csv({i: found}, *orders, years=True, of={i})
         dense = found["work"]["stems_drawn"] > 1000 * found["rocks"]  # hundreds of scenes of such rocks would take minutes
-        for done, _ in self.call("--batch", *orders, *(["-s", "doubt=none"] if dense else []), of={i}):
+        for done, _ in self.call("--batch", *orders, *(["-s", "uncertainty=none"] if dense else []), of={i}):
             self.check(i, check_lines, done.out.splitlines(), 80, "the page of the years")
         self.count["years"] += 1
 

@@ -17,8 +17,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (CEDUO, INPUT, OUTPUT, PROFILES, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good,  # noqa: E402
                      run_all, scene)
 
-FEW = ("-n", 60, "-s", "doubt=none", "-j", 2)
-DOUBT = ("-n", 60, "-s", "doubt=[{path: rock.density_kg_m3, lo: 2400, hi: 2750}]", "--sensitivity=20", "-j", 2)
+FEW = ("-n", 60, "-s", "uncertainty=none", "-j", 2)
+UNCERTAINTY = ("-n", 60, "-s", "uncertainty=[{path: rock.density_kg_m3, lo: 2400, hi: 2750}]", "--sensitivity=20", "-j", 2)
 VOID = {"meta", "link", "img", "br", "hr", "input", "path", "rect"}
 ODD = "Forst <b>&amp; \"Fels\" 'x' \u00e8 \u2264 </title><script>alert(1)</script>"
 
@@ -101,7 +101,7 @@ def test_same_bytes():
 
 def test_command():
     """The command on the page gives the same page"""
-    first, page = report("-s", "title=It's 'so' $HOME", "--option", "large reserves", "four-systems", few=DOUBT)
+    first, page = report("-s", "title=It's 'so' $HOME", "--option", "large reserves", "four-systems", few=UNCERTAINTY)
     command = page.text["pre"].split("ceduo: scene/1")[0]
     shell = command.replace("ceduo --report report.html", '"$CEDUO" --report -', 1)
     env = {**os.environ, "CEDUO": CEDUO, "LC_ALL": "C.UTF-8"}
@@ -124,16 +124,16 @@ def test_scene_text():
 
 
 def test_answer():
-    """The answer has the figures of the batch run, with the error of the rocks and the doubt"""
-    run = good("-b", "-f", "json", *DOUBT[:4], "paper-site").json()[0]
+    """The answer has the figures of the batch run, with the error of the rocks and the uncertainty"""
+    run = good("-b", "-f", "json", *UNCERTAINTY[:4], "paper-site").json()[0]
     wooded = run["options"][0]["controls"][0]["wooded"]
-    _, page = report("paper-site", few=DOUBT)
+    _, page = report("paper-site", few=UNCERTAINTY)
     window = run["options"][0]["window"]
     expect(re.match(rf"\s*✘ NO: in {window['failing_years']} of 20 years more than 50 of 1000 rocks exceed 50 kJ", page.text["div"]), page.text["div"])
     expect_in(f"; today {1000 * wooded['exceed_probability']:.0f} (NO)", page.text["div"])
     lo, hi = math.floor(1000 * wooded["exceed_lo"]), math.ceil(1000 * wooded["exceed_hi"])
     expect(re.search(rf"\b{lo}–{hi} by the number of rocks \(\d+\); \d+–\d+ by what is not known\.", page.text["dl"]), page.text["dl"])
-    expect_in("what is not known was not computed, because the scene says 'doubt: none'.", report("-s", "doubt=none", "paper-site")[1].text["dl"])
+    expect_in("what is not known was not computed, because the scene says 'uncertainty: none'.", report("-s", "uncertainty=none", "paper-site")[1].text["dl"])
     few = ("--years=1:2", "--option", "simple coppice", "--option", "selection coppice", "-n", 32)  # within the bound of a page
     sure = re.search(r"HOW SURE .*?(Over the years .*?) ASSUMED", " ".join(good("-b", *few, "rotation").out.split()))[1]
     expect_in(sure, " ".join(report("rotation", few=few)[1].text["dl"].split()), "the same as the page")
@@ -146,30 +146,30 @@ GROWS = ("{name: grows, stools: {per_ha: 800, spacing_m: 0.3}, shoots: [{per_ha:
 STAYS = "{name: stays, trees: [{per_ha: 300, dbh_m: 0.2, height_m: 12}], energy: {model: brauner, u_J_m3: 100000, offset: whole}}"
 
 
-def doubtful(f, cut, kept):
+def uncertain(f, cut, kept):
     """Two options of one wood on the paper's slope, in doubt of what stems take."""
     stand = "  - {{name: {}, forest: [{{from_m: 10, to_m: 60, stand: {}}}]}}\n"
     return f.write("turn.yaml", "ceduo: scene/1\ntitle: A turn\nrock: {shape: sphere, diameter_m: 0.5, density_kg_m3: 2600}\n"
                    "release: {x_m: 1, vx_m_s: 3}\nslope: {vertices_m: [[0, 80], [100, 0]], segments: [{rn: 0.35, rt: 0.85}]}\n"
                    "controls: [{x_m: 80, accepted_kJ: 20}]\noptions:\n" + stand.format("cut", cut) + stand.format("kept", kept)
                    + "simulation: {rocks: 500}\n"
-                   'doubt: [{path: "options[*].forest[0].stand.energy.u_J_m3", lo: 50000, hi: 200000}]\n')
+                   'uncertainty: [{path: "options[*].forest[0].stand.energy.u_J_m3", lo: 50000, hi: 200000}]\n')
 
 
 def test_rotation():
-    """Of a scene with a rotation the doubt of its mean is said without being asked for, of each option and of the difference,
+    """Of a scene with a rotation the uncertainty of its mean is said without being asked for, of each option and of the difference,
     and the order is that over the years, as on the short page"""
     with Folder() as f:
-        scene = doubtful(f, GROWS, STAYS)
+        scene = uncertain(f, GROWS, STAYS)
         words = " ".join(report(scene, few=("--sensitivity=256",))[1].text["body"].split())
         figures = good("--sensitivity=256", "--years", "-n", 400, "-f", "json", scene).json()[0]
         short = " ".join(good("-b", scene).out.split())
-        still = " ".join(report(doubtful(f, STAYS, STAYS.replace("300", "200")), few=("--sensitivity=256",))[1].text["body"].split())
+        still = " ".join(report(uncertain(f, STAYS, STAYS.replace("300", "200")), few=("--sensitivity=256",))[1].text["body"].split())
     rows = [row for row in figures["figures"] if row["figure"] == "rotation.exceed_probability"]
     first, second = sorted((row for row in rows if row["against"] is None), key=lambda row: row["value"])
     for row in (first, second):
-        expect(re.search(rf"{row['option']} \d+ \d+–\d+ {1000 * row['doubt_p5']:.0f}–{1000 * row['doubt_p95']:.0f}", words), row, words)
-    ends = next((row["doubt_p5"], row["doubt_p95"]) for row in rows if row["against"])
+        expect(re.search(rf"{row['option']} \d+ \d+–\d+ {1000 * row['uncertainty']['p5']:.0f}–{1000 * row['uncertainty']['p95']:.0f}", words), row, words)
+    ends = next((row["uncertainty"]["p5"], row["uncertainty"]["p95"]) for row in rows if row["against"])
     ends = ends if first["option"] == "kept" else (-ends[1], -ends[0])  # of the better one less the other
     order = figures["ranking"][0]
     said = f"Over the years {order['better']} is better than {order['than']} in {100 * order['probability']:.0f} % of what may be true"
@@ -181,8 +181,8 @@ def test_rotation():
 
 
 def test_one_figure():
-    """The table of the doubt has the figures of the run, where that has more rocks, and says of how many its error is"""
-    run = ("-n", 1500, "-s", DOUBT[3], "four-systems")
+    """The table of the uncertainty has the figures of the run, where that has more rocks, and says of how many its error is"""
+    run = ("-n", 1500, "-s", UNCERTAINTY[3], "four-systems")
     options = good("-b", "-f", "json", *run).json()[0]["options"]
     text, _ = report("--sensitivity=20", *run, few=())
     flat = re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]*>", " ", text)))
@@ -238,7 +238,7 @@ def contrast(colour, opacity=1.0):
 def test_trajectories():
     """The trajectories are drawn on the slope and, each by itself, as heights above the ground; no line is too pale or too thin for
     a black and white printer"""
-    text, page = report("paper-site", few=("-n", 200, "-s", "doubt=none"))
+    text, page = report("paper-site", few=("-n", 200, "-s", "uncertainty=none"))
     titles = re.findall(r"<figcaption>(.*?)</figcaption>", text)
     pictures = dict(zip(titles, re.findall(r"<svg.*?</svg>", text, re.S), strict=True))
     for what in ("slope, forest, and ways", "height of the rocks above the ground"):
@@ -309,14 +309,14 @@ def test_powers():
 
 def test_unknown():
     """What is not known is a sentence of the answer: what may be true, and whether the answer depends on it"""
-    def said(*arguments, few=DOUBT):
+    def said(*arguments, few=UNCERTAINTY):
         return " ".join(report(*arguments, few=few)[1].text["div"].split())
     between = (r"In nine of ten plausible cases, (\d+) to (\d+) of 1000 rocks arrive with more than (\d+) kJ today\. "
                r"The limit is exceeded in (\d+) to (\d+) of the next 20 years\. ")
     for limit in (50, 2000):
-        found = re.search(between + r"The answer is the same in all of these cases\.", said("-s", f"controls[0].accepted_kJ={limit}", "paper-site", few=("-n", 300, *DOUBT[2:])))
+        found = re.search(between + r"The answer is the same in all of these cases\.", said("-s", f"controls[0].accepted_kJ={limit}", "paper-site", few=("-n", 300, *UNCERTAINTY[2:])))
         expect(found and int(found[3]) == limit and (int(found[4]) >= 1 if limit == 50 else int(found[5]) == 0), said("paper-site"))
-    wide = ("-n", 200, "-s", "doubt=[{path: rock.density_kg_m3, lo: 500, hi: 5000}]", "--sensitivity=20")
+    wide = ("-n", 200, "-s", "uncertainty=[{path: rock.density_kg_m3, lo: 500, hi: 5000}]", "--sensitivity=20")
     found = re.search(between + "Some of these cases keep within the limit and some do not: the answer depends on", said(
         "-s", "controls[0].accepted_kJ=120", "paper-site", few=wide))
     expect(found and int(found[4]) == 0 < int(found[5]), said("-s", "controls[0].accepted_kJ=120", "paper-site", few=wide))
@@ -333,7 +333,7 @@ def test_office():
     """Of several options the page has percentiles and design values of the one that is drawn, at each control, the rules of
     the region with their sources, and the curves of how often"""
     _, page = report("--option", "selection coppice", "--option", "large reserves", *EVERYTHING, "four-systems",
-                     few=("-n", 200, "-s", "doubt=none"))
+                     few=("-n", 200, "-s", "uncertainty=none"))
     for place in ("path (100 m)", "road (135 m)"):
         expect(re.search(f"At {re.escape(place)}, with '(selection coppice|large reserves)'", page.text["h3"]), page.text["h3"])
     expect_equal(page.text["p"].count("Design values of UNI 11211-4"), 4, page.text["p"])
@@ -344,8 +344,8 @@ def test_office():
 
 
 def test_few_rocks():
-    """With fewer rocks than it usually takes the doubt has no more than were asked for"""
-    _, page = report("four-systems", few=("-n", 50, *DOUBT[2:]))
+    """With fewer rocks than it usually takes the uncertainty has no more than were asked for"""
+    _, page = report("four-systems", few=("-n", 50, *UNCERTAINTY[2:]))
     expect_in("'rocks' is the error of 50 rocks", page.text["p"])
 
 
@@ -415,7 +415,7 @@ def test_tidy():
     """tidy finds nothing to mend, where it is installed"""
     if not shutil.which("tidy"):
         return
-    for scene, few in (("paper-site", DOUBT), ("rotation", FEW)):
+    for scene, few in (("paper-site", UNCERTAINTY), ("rotation", FEW)):
         text, _ = report(scene, few=few)
         done = subprocess.run(["tidy", "-q", "-e", "-utf8"], input=text, capture_output=True, text=True, check=False)
         expect_equal((done.returncode, done.stderr), (0, ""), scene)

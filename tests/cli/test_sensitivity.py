@@ -58,23 +58,23 @@ def figure(result, name, option=0):
 
 def test_nothing():
     """Where nothing is in doubt it is said, and nothing is computed"""
-    for what in (measured(), measured(doubt="none"), measured(doubt=[])):
+    for what in (measured(), measured(uncertainty="none"), measured(uncertainty=[])):
         result = answer(what)
         expect_equal((result["figures"], result["ranking"], result["evaluations"]), ([], [], 0))
     with Folder() as f:
-        for doubt, told in ([], "nothing in this scene is marked as assumed"), ("none", "not computed, because the scene says 'doubt: none'"):
-            path = f.write("s.yaml", measured(doubt=doubt))
+        for uncertainty, told in ([], "nothing in this scene is marked as assumed"), ("none", "not computed, because the scene says 'uncertainty: none'"):
+            path = f.write("s.yaml", measured(uncertainty=uncertainty))
             report = f.path / "r.html"
             expect_in(told, " ".join(ceduo("--sensitivity", path).out.split()))
             expect_equal(ceduo("--report", report, "-n", 20, path).status, DONE)
             words = " ".join(html.unescape(re.sub("<[^>]*>", "", report.read_text(encoding="utf-8"))).split())
             expect_in(told, words)
-            expect_equal("nothing in this scene" in words, doubt == [], "the report")
+            expect_equal("nothing in this scene" in words, uncertainty == [], "the report")
 
 
 def test_page_of_a_run():
     """A page says both errors where anything is in doubt, and that nothing is where nothing is"""
-    for what, says in ((measured(), False), (measured(doubt=[DENSITY]), True)):
+    for what, says in ((measured(), False), (measured(uncertainty=[DENSITY]), True)):
         with Folder() as f:
             page = " ".join(good("--batch", "--details", "-n", 50, f.write("s.yaml", what)).out.split())
             expect(re.search(r"by the number of rocks \(50\); [\d-]+–[\d-]+ by what is not known\." if says else
@@ -85,14 +85,14 @@ def test_lights():
     """A light that changes within what may be true says on what it depends; one that does not is silent"""
     speed = {"path": "release.vx_m_s", "lo": 1, "hi": 9}
     trees = {"path": "forest[0].stand.trees[0].per_ha"}
-    for doubt, energy, contact, free_run in (([speed], True, False, False), ([trees | {"lo": 150, "hi": 600}], False, True, False),
+    for uncertainty, energy, contact, free_run in (([speed], True, False, False), ([trees | {"lo": 150, "hi": 600}], False, True, False),
                                              ([trees | {"lo": 500, "hi": 1500}], False, False, True)):
         accepted = 120 if energy else 1e6  # kJ: from 1 to 9 m/s at the release .01 to .15 of the rocks pass with more
         with Folder() as f:
-            path = f.write("s.yaml", measured(doubt=doubt, controls=[{"x_m": 90, "accepted_kJ": accepted}]))
-            result = answer(measured(doubt=doubt, controls=[{"x_m": 90, "accepted_kJ": accepted}]))
+            path = f.write("s.yaml", measured(uncertainty=uncertainty, controls=[{"x_m": 90, "accepted_kJ": accepted}]))
+            result = answer(measured(uncertainty=uncertainty, controls=[{"x_m": 90, "accepted_kJ": accepted}]))
             exceed = figure(result, "exceed_probability")
-            expect_equal(exceed["doubt_p5"] <= 0.05 < exceed["doubt_p95"], energy, exceed)
+            expect_equal(exceed["uncertainty"]["p5"] <= 0.05 < exceed["uncertainty"]["p95"], energy, exceed)
             page = " ".join(ceduo(f"--sensitivity={POINTS}", "-n", 200, path).out.split())
             expect_equal("Whether the test of energy passes depends on " in page, energy, page)
             expect_equal("Whether the test of contact passes depends on " in page, contact, page)
@@ -100,13 +100,13 @@ def test_lights():
 
 
 def test_lights_of_two_inputs():
-    """Two kinds of trees that are alike and in equal doubt are both named; beside one that is nearly known the other alone"""
+    """Two kinds of trees that are alike and in equal uncertainty are both named; beside one that is nearly known the other alone"""
     tree = {"per_ha": 200, "dbh_m": 0.3, "height_m": 18}
     for least, most, both in ((50, 350, True), (195, 205, False)):
-        doubt = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 50, "hi": 350},
+        uncertainty = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 50, "hi": 350},
                  {"path": "forest[0].stand.trees[1].per_ha", "lo": least, "hi": most}]
         forest = [{"from_m": 0, "to_m": 85, "stand": {"trees": [tree, tree], "species": "fagus-sylvatica"}}]
-        what = measured(doubt=doubt, forest=forest, simulation={"threshold_m": 30})
+        what = measured(uncertainty=uncertainty, forest=forest, simulation={"threshold_m": 30})
         with Folder() as f:
             page = " ".join(good("--sensitivity=128", "-n", 20, f.write("s.yaml", what)).out.split())
             found = re.search(r"Whether the test of contact passes depends on (.*?)\.", page)
@@ -116,9 +116,9 @@ def test_lights_of_two_inputs():
 
 def test_lights_of_gaps():
     """A gap without stems fails the test of contact whatever stems stand beside it: it depends on nothing"""
-    doubt = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 150, "hi": 600}]
+    uncertainty = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 150, "hi": 600}]
     for start, depends in ((0, True), (60, False)):
-        what = measured(doubt=doubt, forest=[{"from_m": start, "to_m": 85, "stand": wood()}], simulation={"threshold_m": 30})
+        what = measured(uncertainty=uncertainty, forest=[{"from_m": start, "to_m": 85, "stand": wood()}], simulation={"threshold_m": 30})
         with Folder() as f:
             page = " ".join(good(f"--sensitivity={POINTS}", "-n", 20, f.write("s.yaml", what)).out.split())
             expect_equal("Whether the test of contact passes depends on " in page, depends, page)
@@ -126,21 +126,21 @@ def test_lights_of_gaps():
 
 def test_index():
     """By the index no rock flies among stems: its figures are those without forest, and no stem moves them"""
-    doubt = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 150, "hi": 600}]
-    what = measured(doubt=doubt, simulation={"contact_model": "index"})
+    uncertainty = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 150, "hi": 600}]
+    what = measured(uncertainty=uncertainty, simulation={"contact_model": "index"})
     result = answer(what)
     with Folder() as f:
         run = json.loads(good("-b", "-f", "json", "-n", 200, f.write("s.yaml", what)).out)
     bare = run["options"][0]["controls"][0]["bare"]
     for name in ("reach_probability", "exceed_probability"):
         found = figure(result, name)
-        expect_equal([found[k] for k in ("value", "doubt_p5", "doubt_p95")], [bare[name]] * 3, name)
+        expect_equal([found["value"], *(found["uncertainty"][k] for k in ("p5", "p95"))], [bare[name]] * 3, name)
 
 
 def test_what_is_not_given():
     """A value that the scene does not give is set where it is varied, and not given where it is not"""
     accepted = {"path": "controls[0].accepted_kJ", "lo": 20, "hi": 100}
-    result = answer(measured(controls=[{"x_m": 90}], doubt=[accepted, DENSITY]))
+    result = answer(measured(controls=[{"x_m": 90}], uncertainty=[accepted, DENSITY]))
     exceed = figure(result, "exceed_probability")
     ends = {i["path"]: [i["at_lo"], i["at_hi"]] for i in exceed["inputs"]}
     expect_equal((exceed["value"], ends[DENSITY["path"]]), (None, [None, None]), "without an accepted energy")
@@ -154,7 +154,7 @@ def test_ends_of_counts_and_ranges():
              "segments": [{"rn": 0.3, "rt": 0.98, "roughness_rad": 0.2, "friction": 0.5, "source": assumed}]}
     group = {"path": "forest[0].stand.trees[0].groups.stems", "lo": 1.2, "hi": 4.6}
     trees = [{**TREES[0], "groups": {"stems": 2, "radius_m": 2}}]
-    what = measured(slope=slope, forest=[{"from_m": 0, "to_m": 80, "stand": wood(trees=trees)}], doubt=[group])
+    what = measured(slope=slope, forest=[{"from_m": 0, "to_m": 80, "stand": wood(trees=trees)}], uncertainty=[group])
     ends = {i["path"]: i for i in figure(answer(what), "energy_per_released_kJ")["inputs"]}
     with Folder() as f:
         path = f.write("s.yaml", what)
@@ -167,7 +167,7 @@ def test_ends_of_counts_and_ranges():
 
 def test_named():
     """What a scene names is varied within its range, and nothing else"""
-    result = answer(measured(doubt=[LAW, DENSITY]))
+    result = answer(measured(uncertainty=[LAW, DENSITY]))
     expect_equal(result["format"], "ceduo-sensitivity-1")
     expect_equal(paths(result), ["forest[*].stand.energy.model", "rock.density_kg_m3"])
     expect_equal(result["evaluations"], result["points"] + 2 * 2)
@@ -179,7 +179,7 @@ def test_named():
 
 def test_ends_are_runs():
     """The figure with one input at either end is that of the scene with that value"""
-    what = measured(doubt=[LAW, DENSITY])
+    what = measured(uncertainty=[LAW, DENSITY])
     result = answer(what)
     with Folder() as f:
         path = f.write("s.yaml", what)
@@ -196,14 +196,14 @@ def test_ends_are_runs():
 
 def test_value_is_the_run():
     """The figures of the scene as it is are those of a run, with its intervals"""
-    what = measured(doubt=[LAW])
+    what = measured(uncertainty=[LAW])
     result = answer(what)
     with Folder() as f:
         run = json.loads(ceduo("--batch", "-f", "json", "-n", 200, f.write("s.yaml", what)).out)
     wooded, found = run["options"][0]["controls"][0]["wooded"], figure(result, "exceed_probability")
     expect_equal((found["value"], found["sampling_lo"], found["sampling_hi"]),
                  tuple(wooded[f"exceed_{k}"] for k in ("probability", "lo", "hi")))
-    expect(found["doubt_p5"] <= found["doubt_p50"] <= found["doubt_p95"], found)
+    expect(found["uncertainty"]["p5"] <= found["uncertainty"]["p50"] <= found["uncertainty"]["p95"], found)
 
 
 def test_assumed():
@@ -217,11 +217,11 @@ def test_assumed():
     dbh = [i for i in result["figures"][0]["inputs"] if i["path"] == place + "dbh_m"][0]
     expect(abs(dbh["lo"] - 0.18) < 1e-12 and abs(dbh["hi"] - 0.22) < 1e-12, dbh)
     named = {"path": place + "dbh_m", "lo": 0.19, "hi": 0.25}
-    dbh = [i for i in answer(measured(forest=forest, doubt=[named]))["figures"][0]["inputs"] if i["path"] == named["path"]][0]
+    dbh = [i for i in answer(measured(forest=forest, uncertainty=[named]))["figures"][0]["inputs"] if i["path"] == named["path"]][0]
     expect_equal((dbh["lo"], dbh["hi"]), (0.19, 0.25))
 
 
-def words_in_doubt(result):
+def words_in_uncertainty(result):
     """Number of places and both words of the energy law and of the offset, where they are in doubt."""
     return {i["path"].rpartition(".")[2]: (i["places"], i["lo"], i["hi"]) for i in (result["figures"] or [{"inputs": []}])[0]["inputs"]
             if ".energy." in i["path"] and isinstance(i["lo"], str)}
@@ -233,12 +233,12 @@ def test_words_of_nobody():
     for energy, wanted in ((None, {**law, **offset}), ({"model": "brauner"}, offset), ({"model": "dorren"}, {}),
                            ({"offset": "whole"}, law), (ENERGY, {})):
         belts = [{"from_m": a, "to_m": a + 40, "stand": wood(energy=energy)} for a in (0, 40)]
-        expect_equal(words_in_doubt(answer(measured(forest=belts))), wanted, energy)
+        expect_equal(words_in_uncertainty(answer(measured(forest=belts))), wanted, energy)
     belts = [{"from_m": 0, "to_m": 80, "stand": wood(energy={"model": "dorren"})}]
-    expect_equal(words_in_doubt(answer(measured(forest=belts, doubt=[LAW]))),
+    expect_equal(words_in_uncertainty(answer(measured(forest=belts, uncertainty=[LAW]))),
                  {"model": (1, "brauner", "dorren"), "offset": (1, "whole", "dorren")}, "dorren, or brauner")
     four = {key: (8, *words) for key, (_, *words) in (law | offset).items()}
-    expect_equal(words_in_doubt(json.loads(good("--sensitivity=16", "-f", "json", "-n", 50, "four-systems").out)), four, "shipped stands")
+    expect_equal(words_in_uncertainty(json.loads(good("--sensitivity=16", "-f", "json", "-n", 50, "four-systems").out)), four, "shipped stands")
 
 
 CURVE = {"dbh_most_m": (0.16, 0.15), "dbh_rate_1_y": (0.022, 0.2), "height_most_m": (14, 0.15), "height_rate_1_y": (0.035, 0.2)}
@@ -277,10 +277,10 @@ def test_growth():
         expect(found["measured_by"], found)
     space = inputs.pop("trees_sdi_most")
     expect_equal((space["lo"], space["hi"], inputs), (175, 700, {}))
-    expect(mean["doubt_p95"] - mean["doubt_p5"] > 0.01, mean)
+    expect(mean["uncertainty"]["p95"] - mean["uncertainty"]["p5"] > 0.01, mean)
     for name in ("exceed_probability", "reach_probability"):
         expect_equal(figure(result, name)["inputs"], [], f"{name}: today")
-        expect_near(figure(result, name)["doubt_p5"], figure(result, name)["doubt_p95"], 0.005, f"{name}: today")  # the points', and the value of more rocks
+        expect_near(figure(result, name)["uncertainty"]["p5"], figure(result, name)["uncertainty"]["p95"], 0.005, f"{name}: today")  # the points', and the value of more rocks
     expect_equal(answer(two_options())["figures"], [], "without --years nothing is in doubt")
     expect_equal(answer(two_options(kind="measured"), "--years")["figures"], [], "measured growth")
     two = two_options()
@@ -290,14 +290,14 @@ def test_growth():
 
 def test_growth_leaves_today_alone():
     """Figures of today are the same to the bit whether growth is assumed or measured"""
-    named = {"doubt": [DENSITY, LAW]}
+    named = {"uncertainty": [DENSITY, LAW]}
     found = [answer({**two_options(kind=kind), **named}, "--years", points=64) for kind in ("assumed", "measured")]
     for name in ("exceed_probability", "reach_probability", "energy_per_released_kJ"):
-        ranges = [[(f["doubt_p5"], f["doubt_p95"], f["q2"], f["inputs"]) for f in result["figures"] if f["figure"] == name] for result in found]
+        ranges = [[(f["uncertainty"]["p5"], f["uncertainty"]["p95"], f["q2"], f["inputs"]) for f in result["figures"] if f["figure"] == name] for result in found]
         expect_equal(len(ranges[0]), 3, name)
         expect_equal(ranges[0], ranges[1], name)
     means = [figure(result, "rotation.exceed_probability") for result in found]
-    wide, narrow = (m["doubt_p95"] - m["doubt_p5"] for m in means)
+    wide, narrow = (m["uncertainty"]["p95"] - m["uncertainty"]["p5"] for m in means)
     expect(wide > 1.2 * narrow, means)
 
 
@@ -311,14 +311,14 @@ def test_ground_of_the_library():
     rn = inputs["slope.materials[talus].rn"]
     expect_equal((rn["lo"], rn["hi"], rn["places"]), (0.30, 0.33, 2))  # Pfeiffer et al. 1993
     named = {"path": "slope.materials[talus].rn", "lo": 0.2, "hi": 0.5}
-    rn = {i["path"]: i for i in answer(measured(slope=slope, doubt=[named]))["figures"][0]["inputs"]}["slope.materials[talus].rn"]
+    rn = {i["path"]: i for i in answer(measured(slope=slope, uncertainty=[named]))["figures"][0]["inputs"]}["slope.materials[talus].rn"]
     expect_equal((rn["lo"], rn["hi"]), (0.2, 0.5))
 
 
 def test_threads():
     """The answer does not depend on the number of threads"""
     with Folder() as f:
-        path = f.write("s.yaml", measured(doubt=[LAW, DENSITY]))
+        path = f.write("s.yaml", measured(uncertainty=[LAW, DENSITY]))
         one, two, three = (ceduo("--sensitivity=8", "-f", "csv", "-n", 100, "-j", j, path).out for j in (1, 2, 3))
     expect(one == two == three, "other bits")
     rows = list(csv.DictReader(io.StringIO(one)))
@@ -331,7 +331,7 @@ def test_no_effect():
     slope = {"vertices_m": [[0, 50], [60, 8], [160, 0]],
              "segments": [{"rn": 0.3, "rt": 0.9, "roughness_rad": 0.2, "friction": 0.5}]}
     result = answer(measured(forest=[], slope=slope, controls=[{"x_m": 100}], simulation={"rocks": 200, "law": "lumped"},
-                             doubt=[{"path": "release.height_m", "lo": 0, "hi": 6},
+                             uncertainty=[{"path": "release.height_m", "lo": 0, "hi": 6},
                                     {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}]), points=64)
     density = [i for i in figure(result, "reach_probability")["inputs"] if i["path"] == "rock.density_kg_m3"][0]
     expect(abs(density["total"]) <= 3 * density["total_se"] < 0.1, "of the share that arrives", density)
@@ -343,16 +343,16 @@ CLOSED = [{"path": "rock.density_kg_m3", "lo": 2385, "hi": 2915}, {"path": "simu
 IDLE = {"path": "forest[0].stand.trees[0].per_ha", "lo": 400, "hi": 600}  # of a belt that lies behind the last control
 
 
-def energies_in_doubt(points, seeds, idle):
+def energies_in_uncertainty(points, seeds, idle):
     """The energy per rock started at rest: it goes as density times gravity by the law lumped, which has no scale of speed."""
     what = measured(forest=[{"from_m": 92, "to_m": 99, "stand": wood()}] if idle else [], release={"x_m": 5}, simulation={"rocks": 200, "law": "lumped"},
-                    rock={"shape": "sphere", "diameter_m": 0.7, "density_kg_m3": 2650}, doubt=CLOSED + [IDLE] * idle)
+                    rock={"shape": "sphere", "diameter_m": 0.7, "density_kg_m3": 2650}, uncertainty=CLOSED + [IDLE] * idle)
     with Folder() as f:
         path = f.write("s.yaml", what)
         for seed in range(1, seeds + 1):
             result = good(f"--sensitivity={points}", "-f", "json", "-n", 200, "--seed", seed, path).json()[0]
             found = figure(result, "energy_per_released_kJ")
-            yield seed, found["doubt_p95"] - found["doubt_p5"], {i["path"]: i for i in found["inputs"]}
+            yield seed, found["uncertainty"]["p95"] - found["uncertainty"]["p5"], {i["path"]: i for i in found["inputs"]}
 
 
 def test_shares_in_closed_form():
@@ -361,7 +361,7 @@ def test_shares_in_closed_form():
     both = one * other / (one + other + one * other)
     alone = 1 - both
     left = {row["path"]: 0 for row in CLOSED}
-    for seed, width, found in energies_in_doubt(256, 20, False):
+    for seed, width, found in energies_in_uncertainty(256, 20, False):
         for row, share in zip(CLOSED, (0.8, 0.2)):
             expect_near(found[row["path"]]["first"], share * alone, 1e-6, f"seed {seed}: {row['path']}")
             expect_near(found[row["path"]]["total"], share * alone + both, 1e-6, f"seed {seed}: {row['path']}")
@@ -372,15 +372,15 @@ def test_shares_in_closed_form():
 
 
 def test_left_without_effect():
-    """Of an input without effect all of the doubt is left, on the mean of ten seeds, from however few points"""
+    """Of an input without effect all of the uncertainty is left, on the mean of ten seeds, from however few points"""
     for points in (20, 64):
-        shares = [found[IDLE["path"]]["width_if_known"] / width for _, width, found in energies_in_doubt(points, 10, True)]
+        shares = [found[IDLE["path"]]["width_if_known"] / width for _, width, found in energies_in_uncertainty(points, 10, True)]
         expect_near(sum(shares) / 10, 1, 0.1, f"{points} points: {shares}")
 
 
 def test_page_of_shares():
     """The page names an input whose share is more than two errors and 1 %, as at most 100 %, and counts the others; the first three are what to measure"""
-    what = measured(doubt=[DENSITY, {"path": "release.vx_m_s", "lo": 4, "hi": 6}, {**IDLE, "lo": 150},
+    what = measured(uncertainty=[DENSITY, {"path": "release.vx_m_s", "lo": 4, "hi": 6}, {**IDLE, "lo": 150},
                            {"path": "slope.segments[0].friction", "lo": 0.45, "hi": 0.55}])
     between = named = 0
     with Folder() as f:
@@ -404,17 +404,17 @@ def test_many():
     """Sixty inputs: each has its shares where there are points enough; with a few there is neither a band nor advice"""
     belts = [{"from_m": 4 * i, "to_m": 4 * i + 4, "stand": wood()} for i in range(20)]
     speed = {"path": "release.vx_m_s", "lo": 1, "hi": 9}
-    doubt = [{"path": f"forest[{i}].stand.{key}", "lo": lo, "hi": hi} for i in range(20)
+    uncertainty = [{"path": f"forest[{i}].stand.{key}", "lo": lo, "hi": hi} for i in range(20)
              for key, lo, hi in (("trees[0].dbh_m", 0.119, 0.121), ("trees[0].height_m", 7, 10), ("energy.u_J_m3", 99e3, 101e3))]
     with Folder() as f:
-        path = f.write("s.yaml", measured(forest=belts, doubt=[*doubt[1:], speed]))
+        path = f.write("s.yaml", measured(forest=belts, uncertainty=[*uncertainty[1:], speed]))
         inputs = figure(ceduo("--sensitivity=512", "-f", "json", "-n", 64, path).json()[0], "energy_per_released_kJ")["inputs"]
-        expect_equal({i["path"] for i in inputs}, {row["path"] for row in [*doubt[1:], speed]})
+        expect_equal({i["path"] for i in inputs}, {row["path"] for row in [*uncertainty[1:], speed]})
         expect_equal(max(inputs, key=lambda i: i["total"])["path"], speed["path"], "the heaviest, wherever it stands")
         expect(inputs[0]["path"] == speed["path"] and inputs[0]["total"] > 0.8, inputs[0])
         few = ceduo("--sensitivity=4", "-f", "json", "-n", 20, path).json()[0]["figures"][0]
         expect_equal({i["total"] for i in few["inputs"]} | {few["q2"], few["unexplained"]}, {None}, "too few points")
-        expect_equal([few[k] for k in few if k.startswith("doubt_")], [None] * 5, few)
+        expect_equal([few[k] for k in few if k.startswith("uncertainty_")], [None] * 5, few)
         page = " ".join(ceduo("--sensitivity=4", "-n", 20, path).out.split())
         expect_in("There are too few points to say what it depends on", page)
         expect("Measure first" not in page, page)
@@ -436,7 +436,7 @@ def rotating(**changes):
     """Two woods that are cut, with what is in doubt of both"""
     options = [{"name": n, "forest": [{"from_m": 0, "to_m": 80, "stand": coppice(True, stay)}]} for n, stay in (("few", 50), ("many", 200))]
     what = measured(options=options, controls=[{"x_m": 90, "accepted_kJ": 120}],
-                    doubt=[{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in ROTATING.items()], **changes)
+                    uncertainty=[{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in ROTATING.items()], **changes)
     del what["forest"]
     return what
 
@@ -462,13 +462,13 @@ def test_over_a_rotation_as_scenes_at_random():
                 i = names.index(option)
                 all_seen.append(means[i] - means[0] if against else means[i])
     for key, figure in figures.items():
-        for share, name in ((0.05, "doubt_p5"), (0.5, "doubt_p50"), (0.95, "doubt_p95")):
-            off = 3 * math.hypot(max(figure["doubt_p5_se"], figure["doubt_p95_se"]), max(errors))
+        for share, name in ((0.05, "p5"), (0.5, "p50"), (0.95, "p95")):
+            off = 3 * math.hypot(max(figure["uncertainty"]["p5_se"], figure["uncertainty"]["p95_se"]), max(errors))
             chance = 3 * math.sqrt(share * (1 - share) / 40)
-            below = [sum(x <= figure[name] + side for x in seen[key]) / 40 for side in (-off, off)]
-            expect(below[0] <= share + chance and below[1] >= share - chance, key, name, figure[name], off, below)
+            below = [sum(x <= figure["uncertainty"][name] + side for x in seen[key]) / 40 for side in (-off, off)]
+            expect(below[0] <= share + chance and below[1] >= share - chance, key, name, figure["uncertainty"][name], off, below)
     spread = max(seen[names[0], None]) - min(seen[names[0], None])
-    expect(0.4 * spread < figures[names[0], None]["doubt_p95"] - figures[names[0], None]["doubt_p5"] < 1.2 * spread, spread, figures)
+    expect(0.4 * spread < figures[names[0], None]["uncertainty"]["p95"] - figures[names[0], None]["uncertainty"]["p5"] < 1.2 * spread, spread, figures)
 
 
 def test_over_a_rotation():
@@ -481,9 +481,9 @@ def test_over_a_rotation():
     expect_equal(answer(rotating(), "-n", 32)["ranking"][0]["over"], "today")
     cut = figure(answer(rotating(), "--years=1:2", "-n", 32), "rotation.exceed_probability")
     full = figure(result, "rotation.exceed_probability")
-    expect(cut["value"] > full["value"] and cut["doubt_p50"] > full["doubt_p50"], "two years just after the cut", cut, full)
+    expect(cut["value"] > full["value"] and cut["uncertainty"]["p50"] > full["uncertainty"]["p50"], "two years just after the cut", cut, full)
     years = figure(answer(rotating(), "--years=1:2", "-n", 32), "rotation.unprotected_energy")
-    expect_equal((years["value"], years["doubt_p95"]), (2, 2))
+    expect_equal((years["value"], years["uncertainty"]["p95"]), (2, 2))
     expect_equal({i["at_lo"] for i in full["inputs"]}, {None})
     what = rotating()
     del what["controls"][0]["accepted_kJ"]
@@ -498,13 +498,13 @@ def test_over_a_rotation():
 def test_failing_years_outwards():
     """The page rounds the range of failing years outwards: 7.9 to 19.1 years are 7 to 20"""
     what = rotating()
-    what["doubt"] = [DENSITY | {"lo": 2450}]
+    what["uncertainty"] = [DENSITY | {"lo": 2450}]
     result, seen = answer(what, "--years", "-n", 32), 0
     with Folder() as f:
         page = good(f"--sensitivity={POINTS}", "--years", "-n", 32, f.write("s.yaml", what)).out
     for i, name in enumerate(("few", "many")):
         years = figure(result, "rotation.unprotected_energy", i)
-        lo, hi = years["doubt_p5"], years["doubt_p95"]
+        lo, hi = years["uncertainty"]["p5"], years["uncertainty"]["p95"]
         seen += math.floor(lo) != round(lo) or math.ceil(hi) != round(hi)
         expect(re.search(rf"^  {name} .* {years['value']:.0f}, {math.floor(lo)}–{math.ceil(hi)}$", page, re.M), name, lo, hi, page)
     expect(seen > 0, "ends that would be rounded inwards", result)
@@ -512,27 +512,27 @@ def test_failing_years_outwards():
 
 def test_a_year_as_today():
     """A forest that neither grows nor is cut has one year, which is today's"""
-    result = answer(measured(doubt=[DENSITY]), "--years", "-n", 400)
+    result = answer(measured(uncertainty=[DENSITY]), "--years", "-n", 400)
     today, mean = figure(result, "exceed_probability"), figure(result, "rotation.exceed_probability")
-    expect_equal([today[k] for k in ("doubt_p5", "doubt_p50", "doubt_p95")], [mean[k] for k in ("doubt_p5", "doubt_p50", "doubt_p95")])
+    expect_equal([today["uncertainty"][k] for k in ("p5", "p50", "p95")], [mean["uncertainty"][k] for k in ("p5", "p50", "p95")])
 
 
 def test_stools_that_were_just_cut():
     """Stools of a stand without shoots live on, whatever of the stand is in doubt: the rotation after is that of the grown stand"""
     for shoots in (True, False):
         what = measured(forest=[{"from_m": 0, "to_m": 80, "cut_year": 1, "stand": coppice(shoots, 50)}], controls=[{"x_m": 90, "accepted_kJ": 120}],
-                        doubt=[{"path": "rock.density_kg_m3", "lo": 2599, "hi": 2601}])
+                        uncertainty=[{"path": "rock.density_kg_m3", "lo": 2599, "hi": 2601}])
         mean = figure(answer(what, "--years", "-n", 32), "rotation.exceed_probability")
-        expect_near(mean["doubt_p50"], mean["value"], 3 * math.hypot(mean["doubt_p5_se"], (mean["sampling_hi"] - mean["value"]) / 2), shoots)
+        expect_near(mean["uncertainty"]["p50"], mean["value"], 3 * math.hypot(mean["uncertainty"]["p5_se"], (mean["sampling_hi"] - mean["value"]) / 2), shoots)
         grown = mean if shoots else grown
-        expect_near(mean["doubt_p50"], grown["doubt_p50"], 1e-9, "the same rotation")
+        expect_near(mean["uncertainty"]["p50"], grown["uncertainty"]["p50"], 1e-9, "the same rotation")
 
 
 def test_ranking():
     """Options: each pair of neighbours in rank, in how much of what may be true it is better, equal, worse; two alike are equal"""
     belts = [{"from_m": 0, "to_m": 80, "stand": wood()}]
     options = [{"name": "a", "forest": belts}, {"name": "b", "forest": belts}, {"name": "none", "forest": []}]
-    what = measured(options=options, doubt=[DENSITY])
+    what = measured(options=options, uncertainty=[DENSITY])
     del what["forest"]
     result = answer(what)
     expect_equal(len(result["figures"]), 3 * 3 + 2 * 3)
@@ -541,7 +541,7 @@ def test_ranking():
     expect_equal(pairs.get(("a", "b"), pairs.get(("b", "a"))), (0, 1, 0), "the same forest twice")
     expect(any(than == "none" and p == (1, 0, 0) for (_, than), p in pairs.items()), pairs)
     difference = [f for f in result["figures"] if f["against"] == "a" and f["option"] == "b"]
-    expect_equal([(f["value"], f["doubt_p5"], f["doubt_p95"]) for f in difference], [(0, 0, 0)] * 3)
+    expect_equal([(f["value"], f["uncertainty"]["p5"], f["uncertainty"]["p95"]) for f in difference], [(0, 0, 0)] * 3)
 
 
 def test_equal_whatever_the_rocks():
@@ -550,7 +550,7 @@ def test_equal_whatever_the_rocks():
     for trees in (560, 600, 650):
         options = [{"name": str(n), "forest": [{"from_m": 0, "to_m": 80, "stand": wood(trees=[{**TREES[0], "per_ha": n}])}]}
                    for n in (500, trees)]
-        what = measured(options=options, doubt=[DENSITY, {"path": "release.vx_m_s", "lo": 4, "hi": 6}], controls=[{"x_m": 90, "accepted_kJ": 80}])
+        what = measured(options=options, uncertainty=[DENSITY, {"path": "release.vx_m_s", "lo": 4, "hi": 6}], controls=[{"x_m": 90, "accepted_kJ": 80}])
         del what["forest"]
         with Folder() as f:
             path = f.write("s.yaml", what)
@@ -565,7 +565,7 @@ def test_equal_whatever_the_rocks():
 def test_what_would_settle_it():
     """Each input says what would settle it, words too; measured first is what a reader can measure, each once, the same everywhere"""
     belts = [{"from_m": a, "to_m": a + 40, "stand": {k: v for k, v in wood().items() if k != "energy"}} for a in (0, 40)]
-    what = measured(forest=belts, doubt=[DENSITY, {"path": "forest[*].stand.trees[0].per_ha", "lo": 300, "hi": 700}])
+    what = measured(forest=belts, uncertainty=[DENSITY, {"path": "forest[*].stand.trees[0].per_ha", "lo": 300, "hi": 700}])
     result = answer(what, points=256)
     inputs = {i["path"]: i["measured_by"] for i in figure(result, "exceed_probability")["inputs"]}
     law = "forest[*].stand.energy.model"
@@ -593,7 +593,7 @@ def test_bound_of_a_page():
     """Where a page would cost too much its uncertainty is from fewer points, or not computed, and the page says so"""
     def of(per_ha, rock):
         trees = [{"per_ha": per_ha, "dbh_m": 0.03, "height_m": 12, "volume_m3": 1e-6}]
-        return measured(forest=[{"from_m": 0, "to_m": 85, "stand": wood(trees=trees)}], doubt=[DENSITY],
+        return measured(forest=[{"from_m": 0, "to_m": 85, "stand": wood(trees=trees)}], uncertainty=[DENSITY],
                         rock={"shape": "sphere", "diameter_m": rock, "density_kg_m3": 2600})
     with Folder() as f:
         for what, rocks, says in ((of(500, 0.7), 20, ""), (of(60000, 4), 400, r"Uncertainty from \d+ points\."),
@@ -613,10 +613,10 @@ def test_too_few_points_for_a_range():
     """A 90 % range of fewer than 20 points is not there: null in JSON, and the page says how many points there are"""
     with Folder() as f:
         path = f.write("s.yaml", measured(forest=[], release={"x_m": 5}, simulation={"rocks": 200, "law": "lumped"},
-                                          controls=[{"x_m": 90}], doubt=CLOSED))  # what explains all takes no more points
+                                          controls=[{"x_m": 90}], uncertainty=CLOSED))  # what explains all takes no more points
         for points in (19, 20):
             found = figure(good(f"--sensitivity={points}", "-f", "json", "-n", 60, path).json()[0], "energy_per_released_kJ")
-            ends = [found[k] for k in ("doubt_p5", "doubt_p50", "doubt_p95", "doubt_p5_se", "doubt_p95_se")]
+            ends = [found["uncertainty"][k] for k in ("p5", "p50", "p95", "p5_se", "p95_se")]
             expect_equal([e is None for e in ends], [points < 20] * 5, found)
             expect_equal([i["width_if_known"] is None for i in found["inputs"]], [points < 20] * 2, found)
             report = f.path / "r.html"
@@ -635,10 +635,10 @@ def test_a_range_holds_its_value():
         for f in good("--sensitivity=32", "-f", "json", "-n", 600, "--years", path).json()[0]["figures"]:
             where = f"{path}: {f['option']}, {f['figure']}, against {f['against']}"
             if f["value"] is not None:
-                expect(f["doubt_p5"] <= f["value"] <= f["doubt_p95"], where, f["doubt_p5"], f["value"], f["doubt_p95"])
+                expect(f["uncertainty"]["p5"] <= f["value"] <= f["uncertainty"]["p95"], where, f["uncertainty"]["p5"], f["value"], f["uncertainty"]["p95"])
             for i in f["inputs"]:
                 if i["width_if_known"] is not None:
-                    expect(i["width_if_known"] <= (f["doubt_p95"] - f["doubt_p5"]) * (1 + 1e-12), where, i)
+                    expect(i["width_if_known"] <= (f["uncertainty"]["p95"] - f["uncertainty"]["p5"]) * (1 + 1e-12), where, i)
 
 
 def test_paths_can_be_set():
@@ -684,19 +684,19 @@ def test_as_scenes_at_random():
         drawn.append([o["controls"][-1]["wooded"]["exceed_probability"] for o in run["options"]])
     for f in figures:
         column = sorted(d[1] - d[0] if f["against"] else d[names.index(f["option"])] for d in drawn)
-        for key, share in (("doubt_p5", 0.05), ("doubt_p95", 0.95)):
+        for key, share in (("p5", 0.05), ("p95", 0.95)):
             found = column[round(share * (count - 1))]
             apart = math.sqrt(count * share * (1 - share))  # ranks that other draws may move it by
             near = [column[min(count - 1, max(0, round(share * (count - 1) + k * apart)))] for k in (-1, 1)]
-            error = math.hypot((near[1] - near[0]) / 2, f[key + "_se"], math.sqrt(0.25 / rocks))
-            expect_near(found, f[key], 3 * error, f"{f['option']} against {f['against']}: {key}")
+            error = math.hypot((near[1] - near[0]) / 2, f["uncertainty"][key + "_se"], math.sqrt(0.25 / rocks))
+            expect_near(found, f["uncertainty"][key], 3 * error, f"{f['option']} against {f['against']}: {key}")
 
 
 def test_options_by_number():
-    """A doubt of the file that names an option by its number is of that option, whichever --option keeps"""
+    """A uncertainty of the file that names an option by its number is of that option, whichever --option keeps"""
     belts = [[{"from_m": 0, "to_m": 80, "stand": wood(trees=[{**TREES[0], "per_ha": n}])}] for n in (300, 500)]
     what = measured(options=[{"name": n, "forest": b} for n, b in zip("ab", belts)],
-                    doubt=[{"path": "options[1].forest[0].stand.trees[0].per_ha", "lo": 400, "hi": 600}])
+                    uncertainty=[{"path": "options[1].forest[0].stand.trees[0].per_ha", "lo": 400, "hi": 600}])
     del what["forest"]
     expect_equal(paths(answer(what, "--option", "b")), ["options[1].forest[0].stand.trees[0].per_ha"])
     expect_equal(answer(what, "--option", "a")["figures"], [], "nothing of the other option is in doubt")
@@ -707,33 +707,33 @@ def test_what_is_not_there():
     gone = [{"path": p, "lo": 0.1, "hi": 0.2} for p in ("forest[7].stand.trees[0].dbh_m", "forest[0].stand.shoots[0].dbh_m",
                                                         "options[other].forest[0].stand.trees[0].dbh_m",
                                                         "slope.materials[talus].rn")]
-    expect_equal(paths(answer(measured(doubt=[*gone, DENSITY]))), ["rock.density_kg_m3"])
+    expect_equal(paths(answer(measured(uncertainty=[*gone, DENSITY]))), ["rock.density_kg_m3"])
     some = {"path": "forest[*].stand.trees[0].dbh_m", "lo": 0.1, "hi": 0.2}
     belts = [{"from_m": 0, "to_m": 30, "stand": wood()}, {"from_m": 30, "to_m": 40, "stand": {"system": "bare"}}]
-    inputs = answer(measured(forest=belts, doubt=[some]))["figures"][0]["inputs"]
+    inputs = answer(measured(forest=belts, uncertainty=[some]))["figures"][0]["inputs"]
     expect_equal([(i["path"], i["places"]) for i in inputs], [(some["path"], 1)])
     expect_equal(ceduo("--check", "-s", "forest=[]", "paper-site").status, DONE)
 
 
 REFUSED = {
-    "doubt[0].path: no answer is in doubt because of 'rock.colour'": {"path": "rock.colour", "lo": 1, "hi": 2},
-    "doubt[0].path: no answer is in doubt because of 'title'": {"path": "title", "lo": 1, "hi": 2},
-    "doubt[0].path: no answer is in doubt because of 'slope.materials[gold].rn'": {"path": "slope.materials[gold].rn", "lo": 0.1, "hi": 0.2},
-    "doubt[0].path: no answer is in doubt because of 'simulation.rocks'": {"path": "simulation.rocks", "lo": 100, "hi": 200},
-    "doubt[0].path: no answer is in doubt because of 'doubt[*].lo'": {"path": "doubt[*].lo", "lo": 100, "hi": 200},
-    "doubt[0].path: no answer is in doubt because of 'years.first'": {"path": "years.first", "lo": 1, "hi": 2},
-    "doubt[0].hi: the range is empty": {"path": "rock.density_kg_m3", "lo": 2500, "hi": 2500},
-    "doubt[0].sd: the range is empty": {"path": "rock.density_kg_m3", "mean": 2500, "sd": 0},
-    "doubt[0].hi: 1.5 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "lo": 0.5, "hi": 1.5},
-    "doubt[0].sd: 1.5 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "mean": 0.75, "sd": 0.25},
-    "doubt[0].sd: sd is more than 2 times the mean; give lo and hi": {"path": "slope.segments[0].rn", "mean": 0.1, "sd": 0.25},
-    "doubt[0].one_of[1]: 'dorian' is unknown; one of: brauner, dorren": {**LAW, "one_of": ["brauner", "dorian"]},
-    "doubt[0].one_of: name at least two words": {**LAW, "one_of": ["brauner"]},
-    "doubt[0].one_of[1]: 'brauner' is given twice": {**LAW, "one_of": ["brauner", "brauner"]},
-    "doubt[0]: 'density_kg_m3' is a number; give lo and hi, or mean": {"path": "rock.density_kg_m3", "lo": 2500},
-    "doubt[0]: 'density_kg_m3' is a number; give lo and hi": {"path": "rock.density_kg_m3", "one_of": ["a", "b"]},
-    "doubt[0]: 'model' is a word; give one_of": {"path": LAW["path"], "lo": 0, "hi": 1},
-    "doubt[0]: 'path' is missing": {"lo": 0, "hi": 1},
+    "uncertainty[0].path: 'rock.colour' does not affect the result": {"path": "rock.colour", "lo": 1, "hi": 2},
+    "uncertainty[0].path: 'title' does not affect the result": {"path": "title", "lo": 1, "hi": 2},
+    "uncertainty[0].path: 'slope.materials[gold].rn' does not affect the result": {"path": "slope.materials[gold].rn", "lo": 0.1, "hi": 0.2},
+    "uncertainty[0].path: 'simulation.rocks' does not affect the result": {"path": "simulation.rocks", "lo": 100, "hi": 200},
+    "uncertainty[0].path: 'uncertainty[*].lo' does not affect the result": {"path": "uncertainty[*].lo", "lo": 100, "hi": 200},
+    "uncertainty[0].path: 'years.first' does not affect the result": {"path": "years.first", "lo": 1, "hi": 2},
+    "uncertainty[0].hi: the range is empty": {"path": "rock.density_kg_m3", "lo": 2500, "hi": 2500},
+    "uncertainty[0].sd: the range is empty": {"path": "rock.density_kg_m3", "mean": 2500, "sd": 0},
+    "uncertainty[0].hi: 1.5 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "lo": 0.5, "hi": 1.5},
+    "uncertainty[0].sd: 1.5 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "mean": 0.75, "sd": 0.25},
+    "uncertainty[0].sd: sd is more than 2 times the mean; give lo and hi": {"path": "slope.segments[0].rn", "mean": 0.1, "sd": 0.25},
+    "uncertainty[0].one_of[1]: 'dorian' is unknown; one of: brauner, dorren": {**LAW, "one_of": ["brauner", "dorian"]},
+    "uncertainty[0].one_of: name at least two words": {**LAW, "one_of": ["brauner"]},
+    "uncertainty[0].one_of[1]: 'brauner' is given twice": {**LAW, "one_of": ["brauner", "brauner"]},
+    "uncertainty[0]: 'density_kg_m3' is a number; give lo and hi, or mean": {"path": "rock.density_kg_m3", "lo": 2500},
+    "uncertainty[0]: 'density_kg_m3' is a number; give lo and hi": {"path": "rock.density_kg_m3", "one_of": ["a", "b"]},
+    "uncertainty[0]: 'model' is a word; give one_of": {"path": LAW["path"], "lo": 0, "hi": 1},
+    "uncertainty[0]: 'path' is missing": {"lo": 0, "hi": 1},
 }
 
 
@@ -747,7 +747,7 @@ def test_outside():
         page = told(*args, *changes, "paper-site")
         expect("outside its doubt" not in told(*args, "--set", "forest[0].stand.shoots[0].per_ha=9575", "paper-site"), args)
     expect(re.search(r"per hectare, [^.]* is 20000, outside its doubt \(7077.9575\): what may be true", page), page)
-    page = told("-b", "--set", "simulation.law=arm", "--set", "doubt=[{path: simulation.law, one_of: [lumped, crsp]}]", "paper-site")
+    page = told("-b", "--set", "simulation.law=arm", "--set", "uncertainty=[{path: simulation.law, one_of: [lumped, crsp]}]", "paper-site")
     expect(re.search(r"law of impact is arm, outside its doubt \(lumped.crsp\)", page), page)
     for scene in (PROFILES / "scenes").glob("*.yaml"):
         expect("outside its doubt" not in told("--sensitivity=4", scene), scene)
@@ -757,12 +757,12 @@ def test_refused():
     """A range that is empty or impossible, an unknown path or word: named, with line and column"""
     for told, row in REFUSED.items():
         with Folder() as f:
-            r = ceduo("--sensitivity", f.write("s.yaml", measured(doubt=[row])))
+            r = ceduo("--sensitivity", f.write("s.yaml", measured(uncertainty=[row])))
             expect_equal((r.status, r.out), (INPUT, ""), told)
             expect_in(told, r.err, row)
     with Folder() as f:
-        r = ceduo("--check", f.write("s.yaml", measured(doubt=[DENSITY, DENSITY])))
-        expect_in("doubt[1].path: 'rock.density_kg_m3' is given twice", r.err)
+        r = ceduo("--check", f.write("s.yaml", measured(uncertainty=[DENSITY, DENSITY])))
+        expect_in("uncertainty[1].path: 'rock.density_kg_m3' is given twice", r.err)
     for n in ("0", "1", "x", "1e9"):
         expect_equal(ceduo(f"--sensitivity={n}", "paper-site").status, USAGE, n)
     for others in (("--plot", "energy"), ("-e", "0.1"), ("--rows", "stands")):

@@ -105,8 +105,8 @@ def test_set_all():
     expect_equal(together, apart)
     with Folder() as f:
         belts = [{"from_m": x, "to_m": x + 9, "stand": stand()} for x in (10, 20)]
-        path = f.write("s.yaml", scene(forest=belts, doubt=[]))
-        expect_in("'*': the list is empty", ceduo("--check", "-s", "doubt[*].lo=1", path).err)
+        path = f.write("s.yaml", scene(forest=belts, uncertainty=[]))
+        expect_in("'*': the list is empty", ceduo("--check", "-s", "uncertainty[*].lo=1", path).err)
         done = ceduo("--check", "-s", "forest[*].to_m=-1", path)
         expect_in("--set:1:16: forest[0].to_m", done.err)
         trees = stand(stools=None, shoots=None)

@@ -71,8 +71,8 @@ def test_figures():
     expect(re.search(rf"^  mean {1000 * window['mean']:.0f} ±\d+ \(range \d+–\d+\) of 1000, worst {1000 * window['worst']:.0f} in year "
                      rf"{window['worst_year']}; ", page, re.M), page)
     few = ("-n", 32, "-s", "years.first=1", "-s", "years.last=2", PAPER)  # all points are within the bound of a page
-    doubt = next(f for f in good("--sensitivity", "-f", "json", *few).json()[0]["figures"] if f["figure"] == "exceed_probability")
-    band = f"{1000 * doubt['doubt_p5']:.0f}–{1000 * doubt['doubt_p95']:.0f}"
+    uncertainty = next(f for f in good("--sensitivity", "-f", "json", *few).json()[0]["figures"] if f["figure"] == "exceed_probability")
+    band = f"{1000 * uncertainty['uncertainty']['p5']:.0f}–{1000 * uncertainty['uncertainty']['p95']:.0f}"
     expect_in(f"; {band} by what is not known.", " ".join(good("--batch", *few).out.split()), "how sure")
 
 
@@ -84,9 +84,9 @@ def test_over_the_years():
     page = good("--batch", "--years", *few).out
     for option in result("--years", *few)["options"]:
         name, rocks = option["name"], option["rotation"]["exceed_probability"]
-        doubt = next(f for f in figures if f["figure"] == "rotation.exceed_probability" and f["option"] == name and not f["against"])
+        uncertainty = next(f for f in figures if f["figure"] == "rotation.exceed_probability" and f["option"] == name and not f["against"])
         mean, *band = map(int, re.search(rf"^  {name} +(\d+) +(\d+)–(\d+) ", page, re.M).groups())
-        lo, hi = (round(1000 * doubt[end]) for end in ("doubt_p5", "doubt_p95"))
+        lo, hi = (round(1000 * uncertainty["uncertainty"][end]) for end in ("p5", "p95"))
         half = 1.959964 * rocks["se"]
         expect_equal(mean, round(1000 * rocks["mean"]), name)
         expect_equal(band, [min(math.floor(1000 * (rocks["mean"] - half)), lo), max(math.ceil(1000 * (rocks["mean"] + half)), hi)], name)
@@ -111,7 +111,7 @@ def test_answers():
         expect(re.match(r"  ✘ NO: \d+ of 1000 arrive with more than 0.01 kJ", first(controls=[{**road, "accepted_kJ": 0.01}])), "no")
         expect(re.match(r"  \d+ of 1000 arrive \(\d+ without forest\)", first(controls=[road])), "no limit")
         expect_in("the index leaves ", first(simulation={"contact_model": "index", "rocks": 200}, controls=[{"x_m": 110}]))
-    expect_in("what is not known was not computed, because the scene says 'doubt: none'.", " ".join(page_of(PAPER, "-s", "doubt=none").split()))
+    expect_in("what is not known was not computed, because the scene says 'uncertainty: none'.", " ".join(page_of(PAPER, "-s", "uncertainty=none").split()))
     expect(re.search(r"\? IT DEPENDS: in 0–\d+ of 20 years more than 50 of 1000 rocks exceed 140 kJ", page_of(PAPER, "-s", "controls[0].accepted_kJ=140")), "depends")
     page = " ".join(page_of(FOUR, *through("index")).split())
     expect("of what may be true" not in page and "no column decides alone" in page, page)

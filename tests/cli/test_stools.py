@@ -112,7 +112,7 @@ def energy(f, of):
     return run["options"][0]["controls"][-1]["wooded"]["energy_per_released_kJ"]["mean"]
 
 
-def test_doubt():
+def test_uncertainty():
     """Where stools are in doubt, shoots given per stool go along; per_ha and per_stool are in doubt whichever is given"""
     def of(stools, **given):
         return {**coppice(stools, **given), "energy": {"model": "brauner", "u_J_m3": 100000}}
@@ -125,7 +125,7 @@ def test_doubt():
              (shoots + "per_stool", (2, 4), of(2000, per_ha=6000), (of(2000, per_ha=4000), of(2000, per_ha=8000))))
     with Folder() as f:
         for path, (lo, hi), given, ends in cases:
-            made = f.write("s.yaml", wood(given, doubt=[{"path": path, "lo": lo, "hi": hi}]))
+            made = f.write("s.yaml", wood(given, uncertainty=[{"path": path, "lo": lo, "hi": hi}]))
             r = good("--sensitivity=8", "-f", "json", made).json()[0]
             found = [(i["at_lo"], i["at_hi"]) for x in r["figures"] if x["figure"] == "energy_per_released_kJ" and x["x_m"] == 105
                      for i in x["inputs"] if i["path"] == path]
@@ -135,13 +135,13 @@ def test_doubt():
                 expect(abs(at - known) < 1e-9 * known, f"{path}, {given['shoots']}: {at} instead of {known}")
 
 
-def test_one_doubt():
+def test_one_uncertainty():
     """A row about one of the two keys takes the place of the range that the other has where it is assumed"""
     of = coppice()
     of["shoots"][0]["source"] = {"kind": "assumed", "text": "a guess"}
     with Folder() as f:
         for more in ([], [{"path": "forest[0].stand.shoots[0].per_ha", "lo": 7000, "hi": 8000}]):
-            r = good("--sensitivity=4", "-f", "json", "-n", 50, f.write("s.yaml", wood(of, doubt=more) if more else wood(of))).json()[0]
+            r = good("--sensitivity=4", "-f", "json", "-n", 50, f.write("s.yaml", wood(of, uncertainty=more) if more else wood(of))).json()[0]
             paths = [i["path"] for i in r["figures"][0]["inputs"] if ".per_" in i["path"]]
             expect_equal(paths, [more[0]["path"] if more else "forest[0].stand.shoots[0].per_stool"], "of the shoots")
 

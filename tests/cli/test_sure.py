@@ -22,12 +22,12 @@ ENERGY = {"model": "brauner", "u_J_m3": 1e5, "offset": "whole"}
 SLOPE = {"vertices_m": [[0, 70], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.9, "roughness_rad": 0.2, "friction": 0.5}]}
 
 
-def wood(doubt=({"path": PER_HA.format(1), "lo": 1000, "hi": 2000},), **changes):
+def wood(uncertainty=({"path": PER_HA.format(1), "lo": 1000, "hi": 2000},), **changes):
     trees = [{"per_ha": 1000, "dbh_m": 0.2, "height_m": 12, "volume_m3": 0.2}] * 2
     return scene(rock={"shape": "sphere", "diameter_m": 0.8, "density_kg_m3": 2600}, controls=[{"x_m": 90, "accepted_kJ": 20}],
                  forest=[{"from_m": 0, "to_m": 100, "stand": stand(stools=None, shoots=None, trees=trees, energy=ENERGY)}],
                  release={"vx_m_s": 5, "height_m": 1}, slope=SLOPE,
-                 doubt=list(doubt), simulation={"rocks": 300, "rule": "gsteiger-stems", **changes.pop("simulation", {})}, **changes)
+                 uncertainty=list(uncertainty), simulation={"rocks": 300, "rule": "gsteiger-stems", **changes.pop("simulation", {})}, **changes)
 
 
 def find(mapping, goal, sure, *others, path=PER_HA.format(0), lo=1, hi=5000, form="json"):
@@ -59,7 +59,7 @@ def test_free_run():
 
 def largest(*controls, contact_model="index", goal="energy=30", forest=()):
     """Of the diameter, where the density is in doubt."""
-    mapping = wood(doubt=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}], simulation={"contact_model": contact_model})
+    mapping = wood(uncertainty=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}], simulation={"contact_model": contact_model})
     mapping |= {"forest": list(forest), "controls": [{"x_m": x, "accepted_kJ": 20} for x in controls]}
     return find(mapping, goal, 0.9, "-n", 200, path="rock.diameter_m", lo=0.1, hi=1)
 
@@ -94,13 +94,13 @@ def test_no_energy():
         expect_equal((found["found"], found["value"], found["probability"]), (True, 0.1, 1), model)
 
 
-def test_nothing_in_doubt():
-    """Without doubt, or where the value itself is all that is in doubt, the plain answer holds, and that is said"""
-    for doubt in ((), ({"path": PER_HA.format(0), "lo": 500, "hi": 1500},)):
-        expect_equal(find(wood(doubt), "adc=4", 0.9)["sure"], None, doubt)
-        expect_in("nothing else is in doubt", find(wood(doubt), "adc=4", 0.9, form="table"), doubt)
+def test_nothing_in_uncertainty():
+    """Without uncertainty, or where the value itself is all that is in doubt, the plain answer holds, and that is said"""
+    for uncertainty in ((), ({"path": PER_HA.format(0), "lo": 500, "hi": 1500},)):
+        expect_equal(find(wood(uncertainty), "adc=4", 0.9)["sure"], None, uncertainty)
+        expect_in("nothing else is in doubt", find(wood(uncertainty), "adc=4", 0.9, form="table"), uncertainty)
     none = wood()
-    none["doubt"] = "none"
+    none["uncertainty"] = "none"
     expect_equal(find(none, "adc=4", 0.9)["sure"], None)
     with Folder() as f:
         path = f.write("s.yaml", wood())
@@ -184,7 +184,7 @@ def test_over_a_rotation():
         r = ceduo("--find", f"{PER_HA.format(0)}=1:100", "--goal", "energy=5", "--years", "--sure", "0.9", path)
         expect_equal((r.status, r.out), (USAGE, ""), r)
         expect_in("over a rotation the mean energy is not known at each point", r.err)
-    mapping = wood(doubt=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}])
+    mapping = wood(uncertainty=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}])
     mapping["forest"] = [{"from_m": 0, "to_m": 90, "stand": "coppice-with-standards"}]
     found = find(mapping, "exceed=0.5", 0.9, "--years", "-n", 100, path="forest[0].stand.cutting.stay_per_ha[0]", lo=100, hi=103)
     expect_equal(found["over"], "rotation")
@@ -193,7 +193,7 @@ def test_over_a_rotation():
 
 def test_worst_year():
     """What hangs on the index is that of the worst year: where what is in doubt changes nothing of it, as without"""
-    mapping = wood(doubt=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}])
+    mapping = wood(uncertainty=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}])
     measured = {"source": {"kind": "measured", "text": "on this slope"}}
     wooded = {"from_m": 0, "to_m": 90, "stand": {"base": "coppice-with-standards", "growth": measured}}
     both = [{**wooded, "to_m": 45, "cut_year": 0}, {**wooded, "from_m": 45, "cut_year": 10}]  # years are shown from 10 on
@@ -230,7 +230,7 @@ def test_share_in_the_worst_year():
     expect(worst <= goal and goal - worst < 3 * math.sqrt(goal * (1 - goal) / rocks), worst, goal)
     expect(not mean["found"] or mean["value"] < found["value"], "the mean keeps to it earlier", mean)
     expect_in("in the worst of the years ahead", page)
-    mapping["doubt"] = [{"path": "controls[0].accepted_kJ", "lo": 100, "hi": 140}]
+    mapping["uncertainty"] = [{"path": "controls[0].accepted_kJ", "lo": 100, "hi": 140}]
     # The largest of 20 years of 32 rocks is too large, by the same rocks at all points: of many seeds none is found.
     sure = find(mapping, f"worst-exceed={goal}", 0.5, "-n", 100, "--seed", 6, path=path, lo=10, hi=600)["sure"]
     expect(sure["found"] and sure["value_lo"] and sure["value_lo"] <= found["value"] <= sure["value_hi"], "half of what may be accepted is above the scene's", sure, found)

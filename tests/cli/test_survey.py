@@ -276,11 +276,11 @@ def test_what_is_assumed():
         one = {"A": STEMS["A"]}
         text = survey(f, table(one)).out
         expect_in("One plot has no standard error", text)
-        expect("doubt:" not in text, text)
+        expect("uncertainty:" not in text, text)
         expect_in("one plot, no standard error", text)
         stand_of(f, text)
         two = {"A": (200, 0, [("ostrya-carpinifolia", "shoot", n, 6.2, 6.4, 0.3 + n / 10) for n in (1, 2)])}
-        paths = re.findall(r"path: ([^,}]*)", survey(f, table(two)).out.split("doubt:")[1])
+        paths = re.findall(r"path: ([^,}]*)", survey(f, table(two)).out.split("uncertainty:")[1])
         expect_equal(paths, ["stools.spacing_m"], "of two stools of one plot the spacing alone has an error")
 
 
@@ -579,7 +579,7 @@ def test_years_of_a_survey():
         expect_equal([y for y in waiting if y["cut"]], [], "not cut")
         areas = [y["stands"][0]["basal_area_m2_ha"] for y in waiting]
         expect(all(a < b for a, b in zip(areas, areas[1:])), f"it grows: {areas}")
-        page = " ".join(good("--batch", "--details", "--years", "-s", "doubt=none", "-n", 20, site).out.split())
+        page = " ".join(good("--batch", "--details", "--years", "-s", "uncertainty=none", "-n", 20, site).out.split())
         expect_in("that comes with ceduo; not of this survey (growth", page)
 
 

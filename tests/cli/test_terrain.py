@@ -80,7 +80,7 @@ def test_sampling():
         rough = site(sampled(0.5, 0.15, 0), controls=[{"x_m": 215}])
         answer = json.loads(good("--sensitivity", "-f", "json", f.write("s.yaml", rough)).out)
         band = next(x for x in answer["figures"] if x["figure"] == "reach_probability")
-        expect(band["doubt_p5"] <= given[2] <= band["doubt_p95"], "within what is uncertain", band)
+        expect(band["uncertainty"]["p5"] <= given[2] <= band["uncertainty"]["p95"], "within what is uncertain", band)
         # the same relief used as it is stops rocks on the way
         whole = shares(run_of(f, site(ground=slope(sampled(1, 0.1, 0), tolerance_m=0))))
         expect(whole[2] < given[2] - 0.2, "without simplifying", whole)
@@ -117,9 +117,9 @@ def test_points_are_counted():
         expect_in("slope.tolerance_m: each stretch between two points has a ground of its own", done.err)
         expect_in("remove 'tolerance_m'", done.err)
         del each["tolerance_m"]
-        done = ceduo("--check", f.write("s.yaml", site(ground=each, doubt=[{"path": "slope.tolerance_m", "lo": 0.2, "hi": 1}])))
+        done = ceduo("--check", f.write("s.yaml", site(ground=each, uncertainty=[{"path": "slope.tolerance_m", "lo": 0.2, "hi": 1}])))
         expect_equal(done.status, 3)
-        expect_in("no answer is in doubt because of 'slope.tolerance_m'", done.err)
+        expect_in("'slope.tolerance_m' does not affect the result", done.err)
 
 
 def test_tolerance_is_uncertain():

@@ -68,7 +68,7 @@ def test_given_years():
 
 def test_verdict_of_the_window():
     """The answer is that of the years, today's stands beside it, and a cut that is due is in the first line"""
-    arguments = ["-n", 4000, "-s", "controls[0].accepted_kJ=150", "-s", "doubt=none", "--option", "simple coppice", "rotation"]
+    arguments = ["-n", 4000, "-s", "controls[0].accepted_kJ=150", "-s", "uncertainty=none", "--option", "simple coppice", "rotation"]
     control = json_of(*arguments)["options"][0]["controls"][0]
     expect_equal([control["verdict"]["answer"], control["verdict"]["today"]], ["no", "yes"])
     page = text_of(*arguments)
@@ -97,7 +97,7 @@ def test_rotation_in_details():
 
 SITE = dict(rock={"diameter_m": 0.6, "density_kg_m3": 2600}, release={"vx_m_s": 1, "height_m": 1},
             slope={"vertices_m": [[0, 100], [150, 0], [200, 0]], "segments": [{"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25}]},
-            simulation={"rocks": 1000}, doubt="none")
+            simulation={"rocks": 1000}, uncertainty="none")
 
 
 def site(**changes):

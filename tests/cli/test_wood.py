@@ -252,7 +252,7 @@ forest:
       trees: [{per_ha: 400, dbh_m: 0.2, height_m: 15}]
       energy: {model: inertia, green_density_kg_m3: 900}
 simulation: {contact_model: poisson}
-doubt:
+uncertainty:
   - {path: "forest[0].stand.energy.model", one_of: [brauner, inertia]}
   - {path: "forest[0].stand.energy.green_density_kg_m3", lo: 800, hi: 1000}
 controls: [{x_m: 95}]

@@ -211,11 +211,11 @@ def write_readme():
 
 def test_marks():
     """The marked blocks of the page are found"""
-    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("doubt", 2), ("hazard", 2), ("fit", 2),
+    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("uncertainty", 2), ("hazard", 2), ("fit", 2),
                        ("page", 3), ("sections", 2), ("scenes", 7), ("valley", 6)):
         expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
     marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
-    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "doubt", "hazard", "fit", "page", "sections", "scenes", "valley")
+    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "uncertainty", "hazard", "fit", "page", "sections", "scenes", "valley")
     expect_equal(len(marks), sum(len(blocks(way)) for way in ways), "marks with a block")
 
 
@@ -516,14 +516,14 @@ def test_groups():
     expect_in("standards in groups", walk.outputs[1])
 
 
-def test_doubt():
-    """How sure: the doubt is many times the error of the rocks, most of it comes from the energy law"""
-    walk = walked("doubt")
+def test_uncertainty():
+    """How sure: the uncertainty is many times the error of the rocks, most of it comes from the energy law"""
+    walk = walked("uncertainty")
     now, lo, hi, low, high = map(int, re.search(r"current +(\d+) +(\d+)–(\d+) +(\d+)–(\d+)", walk.outputs[0]).groups())
     expect(450 < now < 510 and 440 < lo < hi < 520, "480, 30 more or less", now, lo, hi)
     ends = told(r"but (\d+) to (\d+) may be true")
     expect(abs(low - ends[0]) <= 15 and abs(high - ends[1]) <= 15, ends, low, high)
-    expect(high - low > 6 * (hi - lo), "the doubt is mostly far more")
+    expect(high - low > 6 * (hi - lo), "the uncertainty is mostly far more")
     shares = [(m[1].strip(), int(m[2])) for m in re.finditer(r"^  (\S.{33}).* (\d+) % +\d+$", walk.outputs[0], re.M)]
     expect_equal([name for name, _ in shares[:2]], ["energy law", "hit off centre"])
     expect(shares[0][1] > 50, shares)

@@ -22,7 +22,7 @@ static const char *const uses[] = {
     "observed: {stops: {csv: %s, column: x_m, only: block=1, seen_from_m: 20, of: 9}}\n",
     "observed: [{energy: {x_m: 50, csv: %s}}, {scars: {from_m: 10, to_m: 60, height_m: %s, share_seen: 0.5}}]\n",
     "observed: [{on_the_way: {from_m: 10, to_m: 60, height_m: {csv: %s}}}, {largest: {speed_m_s: {csv: %s}}}]\n",
-    "doubt: {draws: %s}\n",
+    "uncertainty: {draws: %s}\n",
 };
 
 static void fail(const char *what, const char *text)
@@ -47,7 +47,7 @@ static void check_observed(const struct scene_file *file, const char *use)
 static void check_draws(struct scene_file *file, const char *use)
 {
     struct scene_inputs inputs;
-    bool wanted = strncmp(use, "doubt", 5) == 0, found = false;
+    bool wanted = strncmp(use, "uncertainty", 11) == 0, found = false;
     if (!ceduo_inputs_of(file, &inputs))
         fail("no inputs", use);
     for (size_t i = 0; i < inputs.n; i++) {

@@ -46,7 +46,7 @@ static const char seen[] =
     "observed:\n"
     "  - {name: few, stops: {x_m: stops.csv, only: block=1, use: check}, release: {vx_m_s: 3}, rock: {diameter_m: 0.4}}\n"
     "  - {passed: {x_m: 30, count: 1, of: 2}, on_the_way: {from_m: 5, to_m: 9, height_m: {mean: 1, sd: 1, n: 4}}}\n"
-    "doubt: {draws: draws.csv, rows: [{path: release.vx_m_s, lo: 1, hi: 3}]}\n";
+    "uncertainty: {draws: draws.csv, rows: [{path: release.vx_m_s, lo: 1, hi: 3}]}\n";
 
 static const char upward[] =
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols_m: [90]\n"
@@ -60,13 +60,13 @@ static const char kinds[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: pro
 static const char uncertain[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
                                 "blocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}\n"
                                 "rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: [acer]}]}\n"
-                                "options:\n  - name: wood\n    forest: [{from_m: 10, to_m: 30, stand: doubtful.yaml}, "
-                                "{from_m: 30, to_m: 50, stand: doubtful.yaml}]\n  - {name: bare}\n"
-                                "doubt: [{path: 'options[*].forest[0].stand.energy.model', one_of: [brauner, dorren]}, "
+                                "options:\n  - name: wood\n    forest: [{from_m: 10, to_m: 30, stand: uncertain.yaml}, "
+                                "{from_m: 30, to_m: 50, stand: uncertain.yaml}]\n  - {name: bare}\n"
+                                "uncertainty: [{path: 'options[*].forest[0].stand.energy.model', one_of: [brauner, dorren]}, "
                                 "{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.3}]\n";
 
 static const char uncertain[] = "ceduo: stand/1\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n"
-                                "doubt: [{path: 'trees[*].per_ha', lo: 50, hi: 70}]\n";
+                                "uncertainty: [{path: 'trees[*].per_ha', lo: 50, hi: 70}]\n";
 
 static const char survey[] =
     "plot,area_m2,kind,stool,species,dbh_cm,height_m,note\n1,100,shoot,1,beech,6,7,x\n1,100,shoot,1,,5,,\n"
@@ -98,8 +98,8 @@ static int set_up(void **state)
     put("seen.yaml", seen);
     put("upward.yaml", upward);
     put("kinds.yaml", kinds);
-    put("doubted.yaml", uncertain);
-    put("doubtful.yaml", uncertain);
+    put("uncertain_scene.yaml", uncertain);
+    put("uncertain.yaml", uncertain);
     put("survey.csv", survey);
     put("stops.csv", "block,x_m\n1,40\n2,50\n1,60\n");
     put("draws.csv", "rock.density_kg_m3\n2600\n2550\n");
@@ -212,7 +212,7 @@ static const struct reading {
     {"seen.yaml", {NULL}, false}, /* a scene, what was seen there, and what is not known of it */
     {"upward.yaml", {NULL}, false},
     {"kinds.yaml", {NULL}, false},
-    {"doubted.yaml", {NULL}, false},
+    {"uncertain_scene.yaml", {NULL}, false},
     {"faulty.yaml", {NULL}, true},
     {"mil", {NULL}, true},
     {"scene.yaml", {"rock.density_kg_m3=2500", "release.x_m=92", "simulation.seed=5"}, true},

@@ -30,13 +30,13 @@ _seen = {}
 
 def scene_for(folder, scene):
     """The name of a copy of a shipped scene, maybe computed by the index alone. Nothing is in doubt: that takes long, and these views
-    do not show it; test_doubt.py does."""
+    do not show it; test_uncertainty.py does."""
     name = scene.removesuffix(BY_INDEX)
     text = (PROFILES / f"scenes/{name}.yaml").read_text()
     if name != scene:
         text, found = re.subn(r"^simulation:$", "simulation:\n  contact_model: index", text, flags=re.M)
         expect_equal(found, 1, name)
-    text = re.sub(r"^doubt:\n(  - .*\n)*", "", text, flags=re.M) + "doubt: none\n"
+    text = re.sub(r"^uncertainty:\n(  - .*\n)*", "", text, flags=re.M) + "uncertainty: none\n"
     folder.write(f"{name}.yaml", text)
     return f"{name}.yaml"
 

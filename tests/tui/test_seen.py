@@ -30,7 +30,7 @@ observed:
   - {name: too slow, speed: {x_m: 20, n: 5, mean: 20, sd: 0.5}, use: check}
   - {name: all pass, passed: {x_m: 20, count: 10, of: 10}}
   - {name: few pass and nobody knows why, passed: {x_m: 20, count: 6, of: 10}, use: check}
-doubt: [{path: release.vx_m_s, lo: 5, hi: 15}]
+uncertainty: [{path: release.vx_m_s, lo: 5, hi: 15}]
 simulation: {rocks: 100}
 """
 # A slope on which rocks stop; two grounds of the library.
@@ -188,7 +188,7 @@ def test_spread():
 
 
 def test_fit_taken():
-    """c fits what 'doubt' names; the speed that gives 22 m/s at the gate; Enter takes it as one edit, u takes it back"""
+    """c fits what 'uncertainty' names; the speed that gives 22 m/s at the gate; Enter takes it as one edit, u takes it back"""
     with Place() as place:
         place.write("flight.yaml", FLIGHT + SEEN)
         popup, fitted, large, taken, saved, undone = place.play(
@@ -294,7 +294,7 @@ def test_grounds():
             "key 8 Tab\nwait idle\ndump\nresize 60 20\ndump\nresize 200 50\ndump\nkey c\ndump", "two.yaml")
         smallest.whole().has("mean or count")
         length, angle = [place.play("key 8\nresize 200 50\nkey c\ndump", f"{name}.yaml")[0] for name in ("length", "angle")]
-        place.write("mu.yaml", (GROUNDS % "talus").replace("slope:", "doubt: [{path: 'slope.materials[talus].mu', lo: 0.4, hi: 0.9}]\nslope:")
+        place.write("mu.yaml", (GROUNDS % "talus").replace("slope:", "uncertainty: [{path: 'slope.materials[talus].mu', lo: 0.4, hi: 0.9}]\nslope:")
                     .replace("rocks: 60", "rocks: 60, law: arm"))
         mu, = place.play("key 8\nresize 200 50\nkey c\ndump", "mu.yaml")
         expect("friction, talus" in mu.popup and "0.4:0.9" not in mu.popup, "one shape does not tell mu; the grounds are offered:", mu)

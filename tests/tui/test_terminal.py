@@ -856,14 +856,14 @@ def test_live_wood():
         t.keys("s", "q")
 
 
-def test_doubt_of_the_shown_option_first():
+def test_uncertainty_of_the_shown_option_first():
     """View 7 has the option that is shown first; what it says of that stays when the others come"""
     with Place() as place, Tmux(place, 120, 40) as t:
         t.start("four-systems")
         t.keys("7")
-        shown = r"doubt (\d+–\d+)\)"
+        shown = r"uncertainty (\d+–\d+)\)"
         first = re.search(shown, t.sees("of 1000 (rocks ", "; doubt "))
-        all_of_them = until("the doubt of all options",
+        all_of_them = until("the uncertainty of all options",
                             lambda: (lambda s: len(re.findall(r"^[a-z].* \(\d+–\d+\) ", s, re.M)) >= 8 and s)(t.screen()))
         expect(first and first[1] == re.search(shown, all_of_them)[1], first, all_of_them)
         expect(re.search(r"│   may be +\d+–\d+$", all_of_them, re.M), all_of_them)

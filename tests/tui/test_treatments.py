@@ -18,7 +18,7 @@ title: mill
 rock: {diameter_m: 0.7}
 slope: {vertices_m: [[0, 180], [40, 120], [120, 40], [200, 0]], materials: [{from_m: 0, to_m: 200, material: talus}]}
 controls: [{x_m: 130, name: road, accepted_kJ: 50}]
-doubt: none
+uncertainty: none
 simulation: {contact_model: index}
 """
 # A stand as a survey of version 0.4 writes it: without growth and cutting.

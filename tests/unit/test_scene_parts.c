@@ -45,7 +45,7 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
 
 #define SHOOTS     "stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]"
 #define BELT       "from_m: 10, to_m: 80, stand: {" SHOOTS
-#define GROUND_ROW "doubt: [{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.4}]"
+#define GROUND_ROW "uncertainty: [{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.4}]"
 #define CLIFF_AND_TALUS                                                                                                        \
     "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, "                  \
     "{from_m: 40, to_m: 100, material: talus}]}"
@@ -57,11 +57,11 @@ TEST_WITH(rows_of_uncertainty_are_told, folder_set_up, folder_tear_down)
 {
     LOCAL_TEXT(many);
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    ceduo_text_put(&many, "doubt: [");
+    ceduo_text_put(&many, "uncertainty: [");
     for (int i = 0; i <= CEDUO_ITEMS_MAX; i++)
         ceduo_text_put(&many, "{path: rock.density_kg_m3, lo: 1, hi: 2},");
     ceduo_text_put(&many, "]");
-    read_scene(&file, many.bytes, NULL, 0, "doubt: 1001 items; at most 1000 can be computed");
+    read_scene(&file, many.bytes, NULL, 0, "uncertainty: 1001 items; at most 1000 can be computed");
 }
 
 /* The input of one row of uncertainty has these places, with a comma between them. */
@@ -78,19 +78,19 @@ static void expect_places(const char *lines, const char *places)
 
 TEST_WITH(rows_of_uncertainty_mean_places, folder_set_up, folder_tear_down)
 {
-    expect_places("doubt: [{path: 'forest[0].stand.cutting.rotation_years', lo: 10, hi: 20}]\n"
+    expect_places("uncertainty: [{path: 'forest[0].stand.cutting.rotation_years', lo: 10, hi: 20}]\n"
                   "forest: [{" BELT ", cutting: {rotation_years: 15}}}]",
                   "forest[0].stand.cutting.rotation_years");
-    expect_places("doubt: [{path: 'controls[*].x_m', lo: 50, hi: 60}]\ncontrols: [{x_m: 90}, {x_m: 95}]",
+    expect_places("uncertainty: [{path: 'controls[*].x_m', lo: 50, hi: 60}]\ncontrols: [{x_m: 90}, {x_m: 95}]",
                   "controls[0].x_m,controls[1].x_m");
-    expect_places("doubt: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]", ""); /* there are no options */
+    expect_places("uncertainty: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]", ""); /* there are no options */
     /* an option without a forest is passed over, the others are not */
-    expect_places("doubt: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]\n"
+    expect_places("uncertainty: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]\n"
                   "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}, {name: cut}]",
                   "options[1].forest[0].to_m");
     /* one stand says it, the other that nothing is in uncertainty */
-    expect_places("forest: [{" BELT ", doubt: none}}, {from_m: 80, to_m: 90, stand: {trees: [{per_ha: 10, " TREE "}], "
-                  "doubt: [{path: 'trees[0].per_ha', lo: 1, hi: 90}]}}]",
+    expect_places("forest: [{" BELT ", uncertainty: none}}, {from_m: 80, to_m: 90, stand: {trees: [{per_ha: 10, " TREE "}], "
+                  "uncertainty: [{path: 'trees[0].per_ha', lo: 1, hi: 90}]}}]",
                   "forest[1].stand.trees[0].per_ha");
     expect_places(CLIFF_AND_TALUS "\n" GROUND_ROW, "slope.segments[1].rn");
 }
@@ -99,14 +99,14 @@ TEST_WITH(rows_of_uncertainty_mean_places, folder_set_up, folder_tear_down)
 TEST_WITH(places_by_name, folder_set_up, folder_tear_down)
 {
     static const char place[] = "options[1].forest[0].stand.trees[0].per_ha";
-    static const char *const more[] = {"doubt: [{path: 'trees[0].per_ha', lo: 40, hi: 120}]", "source: {kind: assumed}"};
+    static const char *const more[] = {"uncertainty: [{path: 'trees[0].per_ha', lo: 40, hi: 120}]", "source: {kind: assumed}"};
     for (size_t i = 0; i < LENGTH(more); i++) { /* which the row of the scene goes before */
         struct text lines = {0};
         struct scene_file file;
         struct scene_inputs inputs;
         size_t found = 0;
         ceduo_text_format(&lines,
-                          "doubt: [{path: 'options[wood].forest[trees].stand.trees[0].per_ha', lo: 70, hi: 90}]\n"
+                          "uncertainty: [{path: 'options[wood].forest[trees].stand.trees[0].per_ha', lo: 70, hi: 90}]\n"
                           "options: [{name: bare}, {name: wood, forest: [{from_m: 10, to_m: 80, stand: {name: trees, "
                           "trees: [{per_ha: 80, " TREE "}], energy: {model: brauner, u_J_m3: 1e5}, %s}}]}]",
                           more[i]);
@@ -121,9 +121,9 @@ TEST_WITH(places_by_name, folder_set_up, folder_tear_down)
         ceduo_scene_release(&file);
         ceduo_text_free(&lines);
     }
-    expect_places("doubt: [{path: 'forest[wood].to_m', lo: 50, hi: 60}]", "");
-    expect_places("doubt: [{path: 'options[wood].forest[0].to_m', lo: 50, hi: 60}]\nforest: [{" BELT "}}]", "");
-    expect_places("doubt: [{path: 'forest[wood].to_m', lo: 50, hi: 60}]\nforest: [{" BELT "}}]", "");
+    expect_places("uncertainty: [{path: 'forest[wood].to_m', lo: 50, hi: 60}]", "");
+    expect_places("uncertainty: [{path: 'options[wood].forest[0].to_m', lo: 50, hi: 60}]\nforest: [{" BELT "}}]", "");
+    expect_places("uncertainty: [{path: 'forest[wood].to_m', lo: 50, hi: 60}]\nforest: [{" BELT "}}]", "");
 }
 
 /* More places than there are rows in any list. */
@@ -131,7 +131,7 @@ TEST_WITH(all_places_are_meant, folder_set_up, folder_tear_down)
 {
     LOCAL_TEXT(lines);
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    ceduo_text_put(&lines, "doubt: [{path: 'options[*].forest[*].stand.energy.u_J_m3', lo: 80000, hi: 120000}]\n"
+    ceduo_text_put(&lines, "uncertainty: [{path: 'options[*].forest[*].stand.energy.u_J_m3', lo: 80000, hi: 120000}]\n"
                            "options:\n");
     for (int i = 0; i < 4; i++) {
         ceduo_text_format(&lines, "  - name: n%d\n    forest: [", i);
@@ -150,8 +150,8 @@ TEST_WITH(sources_of_ranges_are_no_notes, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     read_scene(&file,
-               "doubt: [{path: 'rock.density_kg_m3', lo: 2000, hi: 3000, source: {kind: assumed, text: mine}}]\n"
-               "forest: [{" BELT ", doubt: [{path: stools.per_ha, lo: 1, hi: 9000, "
+               "uncertainty: [{path: 'rock.density_kg_m3', lo: 2000, hi: 3000, source: {kind: assumed, text: mine}}]\n"
+               "forest: [{" BELT ", uncertainty: [{path: stools.per_ha, lo: 1, hi: 9000, "
                "source: {kind: assumed, text: mine}}]}}]",
                NULL, 0, NULL);
     assert_int_equal(file.inputs_count, 2);
@@ -182,7 +182,7 @@ TEST_WITH(entries_have_numbers, folder_set_up, folder_tear_down)
 /* Where the slope's file says no ground, talus and segments are those of all stretches; a column may set many. */
 TEST_WITH(draws_of_an_assumed_ground, folder_set_up, folder_tear_down)
 {
-    static const char lines[] = "slope: {csv: profile.csv, tolerance_m: 0}\ndoubt: {draws: draws.csv}";
+    static const char lines[] = "slope: {csv: profile.csv, tolerance_m: 0}\nuncertainty: {draws: draws.csv}";
     static const char *const places[] = {"rock.density_kg_m3", "slope.segments[0].rn", "slope.segments[0].rt", /* by name */
                                          "slope.segments[1].rn", "slope.segments[1].rt"};
     static const double values[] = {0.75, 0.25, 0.75, 0.25, 0.75};
@@ -198,7 +198,7 @@ TEST_WITH(draws_of_an_assumed_ground, folder_set_up, folder_tear_down)
     }
     ceduo_scene_release(&file);
     put("draws.csv", "slope.materials[talus].rn\n0.25\n"); /* else it is where the file says so */
-    read_scene(&file, "doubt: {draws: draws.csv}\n" CLIFF_AND_TALUS, NULL, 0, NULL);
+    read_scene(&file, "uncertainty: {draws: draws.csv}\n" CLIFF_AND_TALUS, NULL, 0, NULL);
     assert_int_equal(file.inputs[0].places_count, 1);
     assert_string_equal(file.inputs[0].places[0], "slope.segments[1].rn");
     ceduo_scene_release(&file);
@@ -219,7 +219,7 @@ TEST_WITH(draws_of_many_columns, folder_set_up, folder_tear_down)
     ceduo_text_put(&heads, draws.bytes);
     put("profile.csv", profile.bytes);
     put("draws.csv", heads.bytes);
-    read_scene(&file, "slope: {csv: profile.csv, tolerance_m: 0}\ndoubt: {draws: draws.csv}", NULL, 0, NULL);
+    read_scene(&file, "slope: {csv: profile.csv, tolerance_m: 0}\nuncertainty: {draws: draws.csv}", NULL, 0, NULL);
     assert_int_equal(file.inputs[0].places_count, 6000);
     for (size_t i = 0; i < 6000; i++) {
         int segment;

@@ -280,7 +280,7 @@ static void check_row(void *context, const char *path, const struct field *f)
     struct text place = {0};
     bool taken = false, flight = false, years = false;
     if (f->type == FIELD_TAG || (strncmp(path, "slope.materials[]", 17) == 0 && f->type == FIELD_NUMBER) ||
-        strcmp(f->key, "base") == 0 || strcmp(path, "slope.reversed") == 0 || strstr(path, "doubt[]") ||
+        strcmp(f->key, "base") == 0 || strcmp(path, "slope.reversed") == 0 || strstr(path, "uncertainty[]") ||
         strncmp(path, "observed[]", 10) == 0 || strncmp(path, "options[].forest[].", 19) == 0)
         return; /* grounds must meet, so that no end of one can be changed alone; a base is followed before it is set;
                  * options hold what the forest does; a profile says itself whether it is reversed; of a uncertainty nothing can be changed alone; what was seen has test_observed.py */

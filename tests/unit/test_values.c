@@ -66,7 +66,7 @@ static void try_field(void *context, const char *path, const struct field *f)
 {
     (void)context;
     bool points = f->type == FIELD_POINTS, listed = f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS || points;
-    if (strstr(path, "doubt[]") || strncmp(path, "observed[]", 10) == 0) /* as of the value; test_observed.py */
+    if (strstr(path, "uncertainty[]") || strncmp(path, "observed[]", 10) == 0) /* as of the value; test_observed.py */
         return;
     if (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT && !listed)
         return;

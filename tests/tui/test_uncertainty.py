@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""View 7: how sure the answer is, and what it depends on; the doubt in the column on the right; ranges edited there."""
+"""View 7: how sure the answer is, and what it depends on; the uncertainty in the column on the right; ranges edited there."""
 import json
 import math
 import re
@@ -11,8 +11,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import CUTS, WOOD, Place  # noqa: E402
 from harness import ceduo, expect, expect_equal, expect_in, run_all  # noqa: E402
 
-DOUBT = """
-doubt:
+UNCERTAINTY = """
+uncertainty:
   - {path: "forest[0].stand.energy.u_J_m3", lo: 50000, hi: 200000}
   - {path: release.vx_m_s, lo: 2.9, hi: 3.1}
 """
@@ -20,9 +20,9 @@ NO_LAW = WOOD.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
 
 
 def test_nothing():
-    """A scene with nothing in doubt, or whose doubt is not asked for, says which, computes nothing, and has none in the column"""
-    told = {NO_LAW + "doubt: none\n": "what is not known was not computed, because the scene says 'doubt: none'",
-            NO_LAW + "doubt: []\n": "nothing in this scene is marked as assumed"}
+    """A scene with nothing in doubt, or whose uncertainty is not asked for, says which, computes nothing, and has none in the column"""
+    told = {NO_LAW + "uncertainty: none\n": "what is not known was not computed, because the scene says 'uncertainty: none'",
+            NO_LAW + "uncertainty: []\n": "nothing in this scene is marked as assumed"}
     with Place() as place:
         for scene, why in told.items():
             place.write("sure.yaml", scene)
@@ -35,10 +35,10 @@ def test_so_far():
     """While the uncertainty is computed every view's answer is one so far, with how much of it is known; not without one asked for."""
     edited = "".join(f"key 3\nfind title\nset {view}\nkey {view}\ndump\n" for view in range(1, 9))
     with Place() as place:
-        place.write("unsure.yaml", NO_LAW + DOUBT)
-        place.write("sure.yaml", NO_LAW + "doubt: none\n")
+        place.write("unsure.yaml", NO_LAW + UNCERTAINTY)
+        place.write("sure.yaml", NO_LAW + "uncertainty: none\n")
         place.write("options.yaml", CUTS.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
-                    + DOUBT.replace("forest[0]", "options[*].forest[0]"))
+                    + UNCERTAINTY.replace("forest[0]", "options[*].forest[0]"))
         for scene, keys, edits in (("unsure.yaml", edited, 8), ("options.yaml", "key 3\nfind title\nset x\nkey ] 5\ndump\n", 1)):
             unasked, first, known, *open_, last = place.play(
                 f"wait idle\ndump\nkey 7\ndump\nwait idle\ndump\n{keys}wait idle\ndump", scene)
@@ -55,13 +55,13 @@ def test_so_far():
 def test_view():
     """View 7 at 80x24 and 200x50: the answer with both errors as the batch has it, the inputs in their order, the column"""
     with Place() as place:
-        place.write("unsure.yaml", NO_LAW + DOUBT)
+        place.write("unsure.yaml", NO_LAW + UNCERTAINTY)
         small, large, slope = place.play("key 7\nwait idle\ndump\nresize 200 50\ndump\nkey 1\ndump", "unsure.yaml")
         run = json.loads(ceduo("--sensitivity=256", "-n", 400, "-f", "json", place.path / "unsure.yaml").out)
         rocks = re.search(r"(\d+) rocks", small.now).group(1)
         finer = json.loads(ceduo("--batch", "-n", rocks, "-f", "json", place.path / "unsure.yaml").out)
     figure, = (f for f in run["figures"] if f["figure"] == "exceed_probability" and f["against"] is None)
-    band = [round(figure[k] * 1000) for k in ("doubt_p5", "doubt_p95")]
+    band = [round(figure["uncertainty"][k] * 1000) for k in ("p5", "p95")]
     wooded = finer["options"][0]["controls"][-1]["wooded"]
     found = wooded["exceed_probability"] * 1000  # as all other views have it, not that of the few rocks of each scene
     ends = math.floor(wooded["exceed_lo"] * 1000), math.ceil(wooded["exceed_hi"] * 1000)
@@ -73,29 +73,29 @@ def test_view():
         expect("forest[" not in screen.body, "a path of the file in", screen)
         expect_in("Enter edit", screen.bar)
     for screen in (small, large, slope):
-        expect(re.search(rf"^  may be +{band[0]}–{band[1]}$", screen.now, re.M), "the doubt in the column:", screen.now)
+        expect(re.search(rf"^  may be +{band[0]}–{band[1]}$", screen.now, re.M), "the uncertainty in the column:", screen.now)
         expect(re.search(rf"^ .*{found:.0f} of 1000 .*; may be {band[0]}–{band[1]}$", screen.lines[1]), "the verdict:", screen.lines[1])
     expect(re.search("^energy depends on stem stren", large.now, re.M), "what turns the test:", large.now)
 
 
 def test_scripts_look_first():
-    """A script computes no doubt before it looks at it; then every edit computes it anew"""
+    """A script computes no uncertainty before it looks at it; then every edit computes it anew"""
     with Place() as place:
-        place.write("unsure.yaml", NO_LAW + DOUBT)
+        place.write("unsure.yaml", NO_LAW + UNCERTAINTY)
         before, first, edited, undone = place.play(
             "wait idle\ndump\nkey 7\nwait idle\ndump\nkey 3\nfind rock.density_kg_m3\nset 4000\nwait idle\ndump\nkey u\nwait idle\ndump",
             "unsure.yaml")
-    doubt = [re.findall(r"may be +(\S+)$", s.now, re.M) for s in (before, first, edited, undone)]
-    expect_equal([len(d) for d in doubt], [0, 1, 1, 1])
-    expect(doubt[2] != doubt[1], "a heavier rock has another doubt", doubt)
+    uncertainty = [re.findall(r"may be +(\S+)$", s.now, re.M) for s in (before, first, edited, undone)]
+    expect_equal([len(d) for d in uncertainty], [0, 1, 1, 1])
+    expect(uncertainty[2] != uncertainty[1], "a heavier rock has another uncertainty", uncertainty)
 
 
 def test_ranges():
     """A range of the scene is edited in view 7, and undone; a names another input with the range that it has"""
     with Place() as place:
-        place.write("unsure.yaml", NO_LAW + DOUBT)
+        place.write("unsure.yaml", NO_LAW + UNCERTAINTY)
         start, wider, back = place.play(
-            "key 7\nwait idle\ndump\nfind doubt[0].hi\nset 150000\nwait idle\ndump\nkey u\nwait idle\ndump", "unsure.yaml")
+            "key 7\nwait idle\ndump\nfind uncertainty[0].hi\nset 150000\nwait idle\ndump\nkey u\nwait idle\ndump", "unsure.yaml")
         expect_in("200000", start.body)
         expect("200000" not in wider.body, wider)
         expect_in("200000", back.body)
@@ -104,13 +104,13 @@ def test_ranges():
         none, named = place.play("key 7\nwait idle\ndump\nkey a\nwait idle\ndump\nkey s", "assumed.yaml")
         expect_in("a: name a range in the scene", none.body)
         expect(re.search(r"^1 +\S+", named.body, re.M), "a row in", named)
-        expect(re.search(r"doubt:", place.text("assumed.yaml")), place.text("assumed.yaml"))
+        expect(re.search(r"uncertainty:", place.text("assumed.yaml")), place.text("assumed.yaml"))
 
 
 def test_options():
     """Options: whether they separate, for the one that is shown"""
     with Place() as place:
-        place.write("cuts.yaml", CUTS + DOUBT.replace("forest[0]", "options[*].forest[0]"))
+        place.write("cuts.yaml", CUTS + UNCERTAINTY.replace("forest[0]", "options[*].forest[0]"))
         thick, thin, further, compared = place.play(
             "key 7\nwait idle\ndump\nkey ]\nwait idle\ndump\nkey PgDn\ndump\nkey 5\nwait idle\ndump", "cuts.yaml")
     thick.has("thick is better than thin in", "clear.", "depends on")
@@ -130,7 +130,7 @@ def test_over_the_rotation():
               " cutting: {rotation_years: 3, stay_per_ha: [0]}, energy: {model: brauner, u_J_m3: 100000}}",
               "{name: stays, trees: [{per_ha: 300, dbh_m: 0.2, height_m: 12}], energy: {model: brauner, u_J_m3: 100000}}")
     scene = CUTS[:CUTS.index("options:")] + "options:\n" + "".join(map(option.format, ("cut", "kept"), stands)) \
-        + CUTS[CUTS.index("simulation:"):] + DOUBT.replace("forest[0]", "options[*].forest[0]")
+        + CUTS[CUTS.index("simulation:"):] + UNCERTAINTY.replace("forest[0]", "options[*].forest[0]")
     with Place() as place:
         place.write("turn.yaml", scene)
         today, over, other, back, compared, small = place.play(
@@ -138,7 +138,7 @@ def test_over_the_rotation():
             "key 5\nwait idle\ndump\nresize 80 24\ndump\nkey 1 w\nwait idle\nkey Down Down Down Down Down" + 7 * " Enter" + "\nwait idle\nkey Enter", "turn.yaml")
         written = " ".join(re.sub("<[^>]*>", " ", place.text("ceduo.html")).split())
         run = json.loads(ceduo("--sensitivity=256", "--years", "-f", "json", place.path / "turn.yaml").out)
-    bands = {f["option"]: "–".join(f"{f[k] * 1000:.0f}" for k in ("doubt_p5", "doubt_p95"))
+    bands = {f["option"]: "–".join(f"{f["uncertainty"][k] * 1000:.0f}" for k in ("p5", "p95"))
              for f in run["figures"] if f["figure"] == "rotation.exceed_probability" and f["against"] is None}
     rank, = run["ranking"]
     order = rf"Over the years {rank['better']} is better than {rank['than']} in {rank['probability'] * 100:.0f} % of what may be true"
@@ -151,7 +151,7 @@ def test_over_the_rotation():
     expect(re.search(order, written), order, written)
     mean = re.search(r"^cut .* (\d+) [(]", over.body, re.M)[1]
     expect_in(f"Over the years {mean} of 1000 (rocks ", over.body)
-    expect_in(f"doubt {bands['kept']})", other.body)
+    expect_in(f"uncertainty {bands['kept']})", other.body)
     for screen in (over, other, compared, small):
         expect(re.search(order, " ".join(screen.body.split())), order, screen)
     expect(re.search("^ +today +mean, may be ", compared.body, re.M), compared)
@@ -161,10 +161,10 @@ def test_over_the_rotation():
 
 def test_units():
     """The ends of a diameter's range stand in cm under their head, and are typed in cm; those of a density in its own unit"""
-    rows = "doubt:\n  - {path: 'forest[0].stand.trees[0].dbh_m', lo: 0.15, hi: 0.25}\n  - {path: rock.density_kg_m3, lo: 2400, hi: 2700}\n"
+    rows = "uncertainty:\n  - {path: 'forest[0].stand.trees[0].dbh_m', lo: 0.15, hi: 0.25}\n  - {path: rock.density_kg_m3, lo: 2400, hi: 2700}\n"
     with Place() as place:
         place.write("wide.yaml", NO_LAW + rows)
-        shown, = place.play("resize 120 40\nkey 7\nfind doubt[0].hi\nset 24\nwait idle\ndump\nkey s", "wide.yaml")
+        shown, = place.play("resize 120 40\nkey 7\nfind uncertainty[0].hi\nset 24\nwait idle\ndump\nkey s", "wide.yaml")
         expect(re.search(r"^1 +diameter, c.*? 15 +24\b", shown.body, re.M), shown)
         expect(re.search(r"^2 +density.*? 2400 +2700\b", shown.body, re.M), shown)
         expect_in("hi: 0.24", place.text("wide.yaml"))
@@ -177,7 +177,7 @@ def test_many_options():
     with Place() as place:
         for n in (4, 8):
             options = "".join(f"  - name: {thick.replace('thick', name, 1)}" for name in names[:n])
-            place.write(f"{n}.yaml", head + "options:\n" + options + tail + DOUBT.replace("forest[0]", "options[*].forest[0]"))
+            place.write(f"{n}.yaml", head + "options:\n" + options + tail + UNCERTAINTY.replace("forest[0]", "options[*].forest[0]"))
         four, = place.play("key 7\nwait idle\ndump", "4.yaml")
         eight, last = place.play("key 7\nwait idle\ndump\nkey [\nwait idle\ndump", "8.yaml")
     for screen, shown, more in ((four, names[:4], 0), (eight, names[:4], 4), (last, names[4:], 4)):

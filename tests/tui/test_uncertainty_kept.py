@@ -9,8 +9,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, check_good  # noqa: E402
 from harness import expect_equal, run_all  # noqa: E402
 
-DOUBTED = FAST + """\
-doubt:
+UNCERTAIN = FAST + """\
+uncertainty:
   - {path: "forest[*].stand.energy.u_J_m3", lo: 80000, hi: 120000}
   - {path: "forest[0].stand.stools.per_ha", lo: 2700, hi: 3300}
   - {path: "forest[0].stand.trees[1].dbh_m", lo: 0.3, hi: 0.4}
@@ -21,14 +21,14 @@ doubt:
 
 def paths_after(keys):
     with Place() as place:
-        place.write("doubted.yaml", DOUBTED)
-        place.play(f"{keys}\nkey s\ndump", "doubted.yaml")
-        check_good(place.path, "doubted.yaml")
-        saved = place.text("doubted.yaml")
-        return re.findall(r'path: "?([^",]+)"?,', saved.split("doubt:")[1]) if "doubt:" in saved else []
+        place.write("uncertain.yaml", UNCERTAIN)
+        place.play(f"{keys}\nkey s\ndump", "uncertain.yaml")
+        check_good(place.path, "uncertain.yaml")
+        saved = place.text("uncertain.yaml")
+        return re.findall(r'path: "?([^",]+)"?,', saved.split("uncertainty:")[1]) if "uncertainty:" in saved else []
 
 
-ALL, STOOLS, TREE, LOWER, ROCK = re.findall(r'path: "([^"]+)"', DOUBTED)
+ALL, STOOLS, TREE, LOWER, ROCK = re.findall(r'path: "([^"]+)"', UNCERTAIN)
 
 
 def test_items_that_go():
@@ -60,7 +60,7 @@ ceduo: stand/1
 stools: {per_ha: 3000, spacing_m: 0.4}
 shoots: [{per_ha: 7000, dbh_m: 0.06, height_m: 6}]
 trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}, {per_ha: 30, dbh_m: 0.3, height_m: 15}]
-doubt:
+uncertainty:
   - {path: stools.per_ha, lo: 2700, hi: 3300}
   - {path: "trees[1].dbh_m", lo: 0.25, hi: 0.35}
 """
@@ -74,7 +74,7 @@ def own_after(keys):
         place.play(f"{keys}\nkey s\ndump", "scene.yaml")
         check_good(place.path, "scene.yaml")
         saved = place.text("scene.yaml")
-        return re.findall(r'path: "?([^",]+)"?,', saved.split("doubt:")[1]) if "doubt:" in saved else None
+        return re.findall(r'path: "?([^",]+)"?,', saved.split("uncertainty:")[1]) if "uncertainty:" in saved else None
 
 
 def test_rows_of_a_stand():

@@ -13,7 +13,7 @@ def coppice(*rows):
     return stand(stools={"per_ha": 1800, "spacing_m": 0.3},
                  shoots=[{"per_ha": 4000, "dbh_m": 0.06, "height_m": 7, "volume_m3": 0.01}],
                  trees=[{"per_ha": 80, "dbh_m": 0.18, "height_m": 11, "volume_m3": 0.2}],
-                 energy={"model": "brauner", "u_J_m3": 102800, "offset": "whole"}, doubt=list(rows))
+                 energy={"model": "brauner", "u_J_m3": 102800, "offset": "whole"}, uncertainty=list(rows))
 
 
 def site(*belts, **more):
@@ -54,22 +54,22 @@ def test_two_stands():
 
 
 def test_the_scene_goes_before():
-    """What the scene names has the scene's range; doubt: none of the scene switches off the stand's"""
+    """What the scene names has the scene's range; uncertainty: none of the scene switches off the stand's"""
     with Folder() as f:
         f.write("c.yaml", coppice(TREES))
         own = {"path": "options[*].forest[0].stand.trees[0].per_ha", "lo": 70, "hi": 90}
-        expect_equal(inputs(f, site([belt("c.yaml")], doubt=[own])), {own["path"]: (70, 90)})
+        expect_equal(inputs(f, site([belt("c.yaml")], uncertainty=[own])), {own["path"]: (70, 90)})
         one = {**own, "path": "options[o1].forest[0].stand.trees[0].per_ha"}
-        expect_equal(inputs(f, site([belt("c.yaml")], [belt("c.yaml")], doubt=[one])),
+        expect_equal(inputs(f, site([belt("c.yaml")], [belt("c.yaml")], uncertainty=[one])),
                      {one["path"]: (70, 90), "options[0].forest[0].stand.trees[0].per_ha": (40, 120)})
-        expect_equal(inputs(f, site([belt("c.yaml")], doubt="none")), {})
+        expect_equal(inputs(f, site([belt("c.yaml")], uncertainty="none")), {})
 
 
 def test_none_instead_of_the_base():
-    """doubt: none over a base takes its rows away; all items of a list by a star"""
+    """uncertainty: none over a base takes its rows away; all items of a list by a star"""
     with Folder() as f:
         f.write("c.yaml", coppice(TREES))
-        expect_equal(inputs(f, site([belt({"base": "c.yaml", "doubt": "none"})])), {})
+        expect_equal(inputs(f, site([belt({"base": "c.yaml", "uncertainty": "none"})])), {})
         f.write("d.yaml", coppice({"path": "trees[*].per_ha", "lo": 40, "hi": 120},
                                   {"path": "energy.model", "one_of": ["brauner", "dorren"]}))
         found = inputs(f, site([belt("d.yaml")]))
@@ -98,12 +98,12 @@ def test_no_change_of_a_run():
 
 def test_refused():
     """What is wrong is told once, in the stand's file"""
-    wrong = [({**TREES, "path": "rock.mass_kg"}, "c.yaml", "doubt[0].path: no answer is in doubt because of 'rock.mass_kg'"),
-             ({**TREES, "path": "doubt[0].lo"}, "c.yaml", "doubt[0].path: no answer is in doubt because of 'doubt[0].lo'"),
-             ({**TREES, "lo": 130}, "c.yaml", "doubt[0].hi: the range is empty"),
-             ({**TREES, "lo": -1}, "c.yaml", "doubt[0].lo: -1 is outside the range of per_ha"),
-             ({"path": "trees[0].per_ha"}, "c.yaml", "doubt[0]: 'per_ha' is a number; give lo and hi, or mean and sd"),
-             ({**TREES, "low": 3}, "c.yaml", "doubt[0].low: unknown key; did you mean 'lo'?"),
+    wrong = [({**TREES, "path": "rock.mass_kg"}, "c.yaml", "uncertainty[0].path: 'rock.mass_kg' does not affect the result"),
+             ({**TREES, "path": "uncertainty[0].lo"}, "c.yaml", "uncertainty[0].path: 'uncertainty[0].lo' does not affect the result"),
+             ({**TREES, "lo": 130}, "c.yaml", "uncertainty[0].hi: the range is empty"),
+             ({**TREES, "lo": -1}, "c.yaml", "uncertainty[0].lo: -1 is outside the range of per_ha"),
+             ({"path": "trees[0].per_ha"}, "c.yaml", "uncertainty[0]: 'per_ha' is a number; give lo and hi, or mean and sd"),
+             ({**TREES, "low": 3}, "c.yaml", "uncertainty[0].low: unknown key; did you mean 'lo'?"),
              ({"lo": 1, "hi": 2}, "c.yaml", "'path' is missing")]
     with Folder() as f:
         for row, name, words in wrong:
@@ -117,7 +117,7 @@ def test_refused():
         r = ceduo("--check", f.write("s.yaml", site([belt("c.yaml")])))
         expect_in("'trees[0].per_ha' is given twice", r.err)
         f.write("c.yaml", coppice())
-        r = ceduo("--check", "-s", "options[0].forest[0].stand.doubt=5", f.write("s.yaml", site([belt("c.yaml")])))
+        r = ceduo("--check", "-s", "options[0].forest[0].stand.uncertainty=5", f.write("s.yaml", site([belt("c.yaml")])))
         expect(r.status != DONE, r)
 
 
