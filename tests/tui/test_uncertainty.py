@@ -138,7 +138,7 @@ def test_over_the_rotation():
             "key 5\nwait idle\ndump\nresize 80 24\ndump\nkey 1 w\nwait idle\nkey Down Down Down Down Down" + 7 * " Enter" + "\nwait idle\nkey Enter", "turn.yaml")
         written = " ".join(re.sub("<[^>]*>", " ", place.text("ceduo.html")).split())
         run = json.loads(ceduo("--sensitivity=256", "--years", "-f", "json", place.path / "turn.yaml").out)
-    bands = {f["option"]: "–".join(f"{f["uncertainty"][k] * 1000:.0f}" for k in ("p5", "p95"))
+    bands = {f["option"]: "–".join(f"{end * 1000:.0f}" for end in (f["uncertainty"]["p5"], f["uncertainty"]["p95"]))
              for f in run["figures"] if f["figure"] == "rotation.exceed_probability" and f["against"] is None}
     rank, = run["ranking"]
     order = rf"Over the years {rank['better']} is better than {rank['than']} in {rank['probability'] * 100:.0f} % of what may be true"
