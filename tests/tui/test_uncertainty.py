@@ -151,7 +151,7 @@ def test_over_the_rotation():
     expect(re.search(order, written), order, written)
     mean = re.search(r"^cut .* (\d+) [(]", over.body, re.M)[1]
     expect_in(f"Over the years {mean} of 1000 (rocks ", over.body)
-    expect_in(f"uncertainty {bands['kept']})", other.body)
+    expect_in(f"doubt {bands['kept']})", other.body)
     for screen in (over, other, compared, small):
         expect(re.search(order, " ".join(screen.body.split())), order, screen)
     expect(re.search("^ +today +mean, may be ", compared.body, re.M), compared)
