@@ -45,7 +45,7 @@ for page in ceduo.1 ceduo-output.5 ceduo-scene.5 ceduo-terminal.7 ceduo-workflow
 done
 bash -c '. /usr/share/bash-completion/completions/ceduo && complete -p ceduo' >/dev/null || fail "completion"
 [ -f /usr/share/zsh/vendor-completions/_ceduo ] || fail "completion of zsh"
-printf '#include <ceduo/ceduo.h>\nint main(void) { struct ceduo_reading r; return ceduo_scene_read("paper-site", NULL, &r); }\n' >use.c
+printf '#include <ceduo/ceduo.h>\nint main(void) { struct ceduo_scene_file r; return ceduo_scene_read("paper-site", NULL, &r); }\n' >use.c
 ${CC:-gcc} -std=c17 use.c $(pkg-config --cflags --libs ceduo) -o use && ./use || fail "the shared library"
 readelf -d use | grep -q 'NEEDED.*\[libceduo.so.0\]' || fail "the name of the shared library"
 ${CC:-gcc} -std=c17 -static use.c $(pkg-config --static --cflags --libs ceduo) -o use && ./use || fail "the static library"

@@ -16,7 +16,7 @@
     }
 
 LOCAL_FREES(ceduo_cells)
-LOCAL_FREES(ceduo_follower)
+LOCAL_FREES(ceduo_tracer)
 LOCAL_FREES(ceduo_observer)
 LOCAL_FREES(ceduo_pool)
 LOCAL_FREES(ceduo_result)

@@ -67,7 +67,7 @@ $(UNIT):
 	@ln -sf all $@
 
 # The tests of memory put their own calls in the place of these.
-WRAPPED := malloc calloc realloc aligned_alloc strdup realpath free pthread_create fsync ceduo_arena_take ceduo_arena_more \
+WRAPPED := malloc calloc realloc aligned_alloc strdup realpath free pthread_create fsync ceduo_arena_alloc ceduo_arena_grow \
 	ceduo_arena_copy ceduo_arena_string ceduo_arena_vformat
 $(T)/memory/all: LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 

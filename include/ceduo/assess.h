@@ -36,7 +36,7 @@ struct ceduo_stand_result {
 
 /* What the lights of contact and free run say where stems count from some dbh on. Contact passes where every belt
  * is under the threshold, free run where every belt leaves few of them; neither does where a gap is longer than the threshold. */
-struct ceduo_meeting {
+struct ceduo_contact_check {
     double worst_adc;      /* m, the largest of the belts; infinite where no belt is, or one without stems that count */
     double worst_free_run; /* the largest of the belts; 1 where no belt is */
     enum ceduo_light contact, free_run;
@@ -52,13 +52,13 @@ struct ceduo_index {
     double residual;                  /* Eq. 5: max(0, bare mean - dissipated); NaN if no rock arrives */
     bool exhausted;                   /* it was cut at 0 */
     double measured;                  /* J: half M v2 of the measured speed; NaN without one */
-    double worst_adc, worst_free_run; /* as in struct ceduo_meeting, of stems from simulation.contact_dbh on */
+    double worst_adc, worst_free_run; /* as in struct ceduo_contact_check, of stems from simulation.contact_dbh on */
     enum ceduo_light contact, free_run, energy;
-    struct ceduo_meeting thick; /* of stems from CEDUO_THICK_DBH on, or from contact_dbh if that is more */
+    struct ceduo_contact_check thick; /* of stems from CEDUO_THICK_DBH on, or from contact_dbh if that is more */
 };
 
 /* Whether the lights of contact and free run would say anything else of the thick stems alone. */
-bool ceduo_index_hangs_on_thin(const struct ceduo_index *index);
+bool ceduo_index_depends_on_thin_stems(const struct ceduo_index *index);
 
 /* Pass if the share of the released that exceeds the accepted energy is at most the limit of the control. Unknown for NULL,
  * without an accepted energy, and if rocks that never came to an end decide it. */
@@ -71,7 +71,7 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 /* Whether nothing can be said of a forest: even without it no rock arrives, or fewer than one of CEDUO_ARRIVE_MIN released
  * if at least that many were simulated, or the ground contradicts the terrain (CEDUO_TERRAIN_CONTRADICTS). Unfinished rocks count
  * as arriving. False if no rock was simulated. */
-bool ceduo_says_nothing(const struct ceduo_arrivals *bare);
+bool ceduo_too_few_arrivals(const struct ceduo_arrivals *bare);
 
 /* Compare the rocks that arrive without forest with the terrain. Rocks usually reach places under a steep reach or shadow angle, and
  * rarely places under a flat one. Evans and Hungr (1993) suggest 27.5 degrees as the smallest shadow angle. The limits are
@@ -91,7 +91,7 @@ enum ceduo_terrain ceduo_terrain(const struct ceduo_arrivals *bare);
  * and the sampling error alone. `wooded` may be NULL (not simulated). Return CEDUO_UNANSWERED without an accepted energy, or if
  * `wooded` is NULL and the slope without forest does not meet the limit. */
 enum ceduo_judgement { CEDUO_UNANSWERED, CEDUO_YES, CEDUO_NO, CEDUO_NOT_DECIDED, CEDUO_DEPENDS, CEDUO_NOTHING };
-enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded);
+enum ceduo_judgement ceduo_judge_control(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded);
 
 /* Judge whether a share is at most a limit; CEDUO_NOT_DECIDED if its interval holds the limit. */
 enum ceduo_judgement ceduo_judge_share(struct ceduo_estimate share, double limit);

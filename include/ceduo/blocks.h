@@ -6,7 +6,7 @@
 #include "run.h"
 
 /* The same scene with blocks of other sizes: what a forest does to small blocks it does not do to large ones. */
-struct ceduo_block {
+struct ceduo_size_result {
     double volume;         /* m3 */
     double mass, diameter; /* kg, m: of the mean rock */
     double adc;            /* m, by the scene's rule: the worst belt before the control; infinite where there is none */
@@ -17,7 +17,7 @@ struct ceduo_block {
 
 /* 0.05, 0.2, 1, 5 m3: the limits of the rock classes of the Swiss guideline NaiS (Frehner et al. 2005), and 1 m3 between;
  * and the scene's own. */
-#define CEDUO_BLOCKS 5
+#define CEDUO_SIZES 5
 
 /* A rock of the same shape and density `factor` times as long in every dimension; spreads are scaled with the sizes. */
 struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double factor);
@@ -40,6 +40,6 @@ struct ceduo_blocks_def ceduo_blocks_def_default(const struct ceduo_scene *scene
 
 /* Simulates blocks of each size through the forest to the control; sorted by volume. With the contact model index none is
  * simulated. CEDUO_CANCELLED, CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT, or what ceduo_run_create() says. */
-enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_block blocks[CEDUO_BLOCKS]);
+enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_size_result blocks[CEDUO_SIZES]);
 
 #endif

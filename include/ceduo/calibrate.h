@@ -64,7 +64,7 @@ struct ceduo_fitted {
 /* One observation beside what the fit says of it. */
 struct ceduo_predicted {
     size_t scene, observation;
-    struct ceduo_counterpart at_best;
+    struct ceduo_observation_fit at_best;
     double p_value;      /* share of samples from the fit that lie as far from it as what was seen, or further */
     double seen, lo, hi; /* the mean that was seen, or the count; 95 % of what the fit predicts of it */
     bool inside;
@@ -90,17 +90,17 @@ struct ceduo_calibration {
 
 /* Whether the rocks that were seen, to be fitted, are of two shapes: only then does what was seen tell mu of the law arm, as that
  * acts through the shape. */
-bool ceduo_calibration_tells_mu(const struct ceduo_calibration_scene *scenes, size_t n);
+bool ceduo_calibration_identifies_mu(const struct ceduo_calibration_scene *scenes, size_t n);
 
 /* What a scene as it is says of what was seen there, without any fit: `to` has one for each observation, p_value and range of new
  * samples as large as those seen. Simulates `rocks` rocks of each setting on this thread. CEDUO_NO_MEMORY, CEDUO_CANCELLED, or what
  * ceduo_scene_check() says. */
-enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scene *scene, uint64_t rocks,
-                                             const ceduo_flag *cancel, struct ceduo_predicted *to);
+enum ceduo_status ceduo_compare_with_observations(const struct ceduo_calibration_scene *scene, uint64_t rocks,
+                                                  const ceduo_flag *cancel, struct ceduo_predicted *to);
 
 /* Which values to leave as they are, so that what was seen tells the others: first those that may be anything within their bounds,
  * then one of each two that are known only together. One value stays. Returns how many. */
-size_t ceduo_calibration_loose(const struct ceduo_calibration *answer, bool loose[CEDUO_CALIBRATION_MAX]);
+size_t ceduo_calibration_unidentified(const struct ceduo_calibration *answer, bool loose[CEDUO_CALIBRATION_MAX]);
 
 /* CEDUO_NO_MEMORY, CEDUO_CANCELLED (at once, of whatever is known), CEDUO_BAD_ARGUMENT, or what ceduo_scene_check() says; then nothing
  * is to be freed. */

@@ -24,7 +24,7 @@ extern const double ceduo_intensity_from[CEDUO_INTENSITIES + 1]; /* J; the last 
 extern const unsigned ceduo_return_years[CEDUO_RETURNS];
 
 /* The class of an energy, 0 the weakest; -1 of NaN. */
-int ceduo_intensity_of(double energy);
+int ceduo_intensity_find(double energy);
 
 struct ceduo_intensity {
     const char *word;              /* weak, medium, strong */

@@ -47,12 +47,12 @@ struct ceduo_observation ceduo_observation_default(void);
 
 /* A list is compared in classes between its own quantiles: as many as there are times five values, at most ten, at least
  * two. One more is for rocks that have no value: those that did not stop, where it is known how many were released. */
-#define CEDUO_CLASSES_MAX 11
-#define CEDUO_CLASSES_FEW 10 /* simulated rocks for each class, below which a list counts as rarer than it is */
+#define CEDUO_CLASSES_MAX     11
+#define CEDUO_CLASS_ROCKS_MIN 10 /* simulated rocks for each class, below which a list counts as rarer than it is */
 
 /* What simulated rocks say of one observation. */
 #define CEDUO_SOME_VALUES 40
-struct ceduo_counterpart {
+struct ceduo_observation_fit {
     uint64_t rocks;                                           /* simulated rocks that it is of */
     size_t classes;                                           /* 0: compared by their means */
     double seen[CEDUO_CLASSES_MAX], count[CEDUO_CLASSES_MAX]; /* in each class: seen, simulated */
@@ -79,8 +79,8 @@ void ceduo_observer_free(struct ceduo_observer *observer);
 
 /* Simulates `rocks` rocks of each kind in a scene, always the same, on this thread, and fills `to`, one counterpart for each
  * observation. `cancel` may be NULL. CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
-enum ceduo_status ceduo_observer_look(const struct ceduo_observer *observer, const struct ceduo_scene *scene, uint64_t rocks,
-                                      const ceduo_flag *cancel, struct ceduo_counterpart *to);
+enum ceduo_status ceduo_observer_simulate(const struct ceduo_observer *observer, const struct ceduo_scene *scene,
+                                          uint64_t rocks, const ceduo_flag *cancel, struct ceduo_observation_fit *to);
 
 /* The same of one observation, value by value: *values is the caller's to free, NaN where a rock has none. Of scars one value
  * for each blow. */

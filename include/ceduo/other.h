@@ -8,10 +8,10 @@
  * Dorren et al. 2006), and nobody knows yet which of them holds there; so what follows from both is shown. */
 
 /* What another law would change is seen with few rocks: the first of the scene's, whole blocks of them. */
-#define CEDUO_OTHER_ROCKS ((uint64_t)10 * CEDUO_BLOCK_ROCKS)
+#define CEDUO_OTHER_ROCKS ((uint64_t)10 * CEDUO_BATCH_ROCKS)
 
 /* What another law makes of an option at one control. */
-struct ceduo_other_energy {
+struct ceduo_alternative_energy {
     bool known;
     bool stems; /* there are any; otherwise no law changes anything */
     enum ceduo_energy_model model;
@@ -21,16 +21,16 @@ struct ceduo_other_energy {
 };
 
 /* The other law of an option: brauner where all its stems follow dorren, otherwise dorren. */
-enum ceduo_energy_model ceduo_other_law(const struct ceduo_option *option);
+enum ceduo_energy_model ceduo_alternative_law(const struct ceduo_option *option);
 
 /* The scene with that law in every stand of its options. Their belts are its own, all else is shared with `scene`. False without
  * memory. Release it in any case. */
-bool ceduo_other_scene(const struct ceduo_scene *scene, struct ceduo_scene *other);
-void ceduo_other_scene_release(struct ceduo_scene *other);
+bool ceduo_alternative_scene(const struct ceduo_scene *scene, struct ceduo_scene *other);
+void ceduo_alternative_scene_release(struct ceduo_scene *other);
 
 /* Reads a control of the run of an option under its other law. `first`: that of the first option. Both may be missing.
  * CEDUO_NO_MEMORY or CEDUO_OK. */
-enum ceduo_status ceduo_other_read(const struct ceduo_option *option, const struct ceduo_run *run,
-                                   const struct ceduo_run *first, size_t control, struct ceduo_other_energy *other);
+enum ceduo_status ceduo_alternative_read(const struct ceduo_option *option, const struct ceduo_run *run,
+                                         const struct ceduo_run *first, size_t control, struct ceduo_alternative_energy *other);
 
 #endif

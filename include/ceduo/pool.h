@@ -12,10 +12,10 @@ struct ceduo_pool;
 enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct ceduo_pool **pool);
 void ceduo_pool_free(struct ceduo_pool *pool);
 
-/* A pool for the scene of `def` from what was kept: *pool is turned to it, see ceduo_pool_turn(), or freed and made anew
+/* A pool for the scene of `def` from what was kept: *pool is turned to it, see ceduo_pool_set_scene(), or freed and made anew
  * where its rocks meet anything else than a forest that differs. *pool may be NULL; it is NULL unless CEDUO_OK. A pool
  * that is kept simulates as it was made: threads, cancel and progress stay those. */
-enum ceduo_status ceduo_pool_for(const struct ceduo_run_def *def, struct ceduo_pool **pool);
+enum ceduo_status ceduo_pool_reuse_or_create(const struct ceduo_run_def *def, struct ceduo_pool **pool);
 
 /* The run through the forest of `option` (NULL: without forest), as long as it is; the pool's. CEDUO_NO_MEMORY. */
 enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_option *option, struct ceduo_run **run);
@@ -34,20 +34,20 @@ enum ceduo_status ceduo_pool_simulate(struct ceduo_pool *pool, const struct cedu
 /* Makes every run of the pool as long as `rocks`, as ceduo_run_extend(). */
 enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks);
 
-#define CEDUO_FEW_ROCKS 100 /* arrivals below which a mean is not waited for */
+#define CEDUO_ARRIVALS_MIN 100 /* arrivals below which a mean is not waited for */
 
 /* Whether the 95 % half-width of a mean of so many arrivals is at most `tolerance` of it, or they are too few to wait for. */
 bool ceduo_mean_is_precise(uint64_t reached, struct ceduo_estimate mean, double tolerance);
 
 /* Makes them longer, from one block on by an eighth each time, until the 95 % half-width of the mean energy of every run at every
- * control that at least CEDUO_FEW_ROCKS of its rocks reach is below `tolerance` of it, or `max` rocks are done. `*met`:
+ * control that at least CEDUO_ARRIVALS_MIN of its rocks reach is below `tolerance` of it, or `max` rocks are done. `*met`:
  * whether it is. */
-enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t max, bool *met);
+enum ceduo_status ceduo_pool_run_to_tolerance(struct ceduo_pool *pool, double tolerance, uint64_t max, bool *met);
 
 /* Turns the pool to a scene that differs in nothing but its forests and options, names and titles. Runs of forests that
  * it has no more are freed, but for the CEDUO_POOL_SPARE that were asked for last. */
 #define CEDUO_POOL_SPARE 16
-void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene);
+void ceduo_pool_set_scene(struct ceduo_pool *pool, const struct ceduo_scene *scene);
 
 /* Frees runs that the scene does not need, as those of years, the oldest first, until the samples of all runs take no
  * more than CEDUO_POOL_BYTES. */

@@ -18,7 +18,7 @@ struct ceduo_stretch_means {
     double speed, height, energy; /* m/s; clearance of the underside, m; J */
 };
 
-struct ceduo_blow {
+struct ceduo_stem_impact {
     uint64_t rock;
     double x;      /* m, relative */
     double height; /* m: of the rock's centre above the ground */
@@ -49,7 +49,7 @@ struct ceduo_record {
     struct ceduo_crossing *crossings;  /* [rock][control] */
     struct ceduo_stretch_means *means; /* [rock][stretch] */
     size_t blows_count;
-    struct ceduo_blow *blows; /* in the order of the rocks */
+    struct ceduo_stem_impact *blows; /* in the order of the rocks */
 };
 
 /* CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or what ceduo_scene_check() says, with nothing to release, or CEDUO_OK. */

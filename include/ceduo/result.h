@@ -25,11 +25,11 @@ void ceduo_simulated_free(struct ceduo_simulated *simulated);
 
 /* What is found for one option. */
 struct ceduo_option_result {
-    struct ceduo_stand_result *stands;    /* one for each belt */
-    struct ceduo_index *controls;         /* one for each control, in the scene's order */
-    struct ceduo_simulated wooded;        /* through its forest; with the contact model index: without forest */
-    struct ceduo_difference *differences; /* of that to the first option; all NaN where not known */
-    struct ceduo_other_energy *others;    /* one for each control: the same rocks under the other energy law */
+    struct ceduo_stand_result *stands;       /* one for each belt */
+    struct ceduo_index *controls;            /* one for each control, in the scene's order */
+    struct ceduo_simulated wooded;           /* through its forest; with the contact model index: without forest */
+    struct ceduo_difference *differences;    /* of that to the first option; all NaN where not known */
+    struct ceduo_alternative_energy *others; /* one for each control: the same rocks under the other energy law */
 };
 
 /* All that is found for a scene: plain columns, to be shown or written. */
@@ -54,7 +54,7 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
  * index none of the three is looked at. */
 enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_simulated *bare,
                                       const struct ceduo_simulated *const *wooded, const struct ceduo_difference *differences,
-                                      const struct ceduo_other_energy *others, struct ceduo_result **result);
+                                      const struct ceduo_alternative_energy *others, struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 
 /* Assesses an option by what was simulated: each belt to `stands`, each control to `controls`. `wooded` without rocks: not

@@ -30,7 +30,7 @@
  * shoots. Logs stay. Trees that a cut leaves stand in groups as the first class of the inventory that does.
  *
  * Trees and shoots share the growing space (assumed): in computed years (all but year 0 as filed) the shoots, and only
- * they, are thinned by one factor to growth.sdi_most·(1 - ceduo_space_of_trees()). If less than one a stool is left, stools die:
+ * they, are thinned by one factor to growth.sdi_most·(1 - ceduo_growing_space_used()). If less than one a stool is left, stools die:
  * as many stand as there are shoots, with one shoot each. As every year is computed by itself, a cut finds all stools of the
  * inventory again. */
 
@@ -94,6 +94,6 @@ double ceduo_stems_sdi(const struct ceduo_stems *stems, size_t n);
 
 /* The share of the growing space that the trees of a grown stand take: their density index over growth.trees_sdi_most. Above
  * 1 they are more than the ground bears; 0 without sdi_most. */
-double ceduo_space_of_trees(const struct ceduo_growth *growth, const struct ceduo_stand *grown);
+double ceduo_growing_space_used(const struct ceduo_growth *growth, const struct ceduo_stand *grown);
 
 #endif

@@ -14,7 +14,7 @@
  * and read at any time between. */
 struct ceduo_run;
 
-#define CEDUO_BLOCK_ROCKS 1024 /* rocks summed as one */
+#define CEDUO_BATCH_ROCKS 1024 /* rocks summed as one */
 #define CEDUO_THREADS_MAX 1024
 
 /* How rocks are simulated: one by one, or 32 at once in the lanes of wide registers. All give the same bits.
@@ -99,12 +99,12 @@ struct ceduo_estimate ceduo_run_energy(const struct ceduo_run *run, size_t contr
 
 /* As cheap: shares of all released, and means (J), of each of n groups of rocks, which are equal or one larger, in their order.
  * Requires at least n rocks. */
-struct ceduo_brief {
+struct ceduo_group_means {
     double reach_probability, exceed_probability; /* exceed: NaN without an accepted energy */
     double energy;                                /* of those that reached; NaN where none did */
     double energy_per_released;
 };
-void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_brief *briefs);
+void ceduo_run_group_means(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_group_means *briefs);
 
 /* What one run brings to a control less what another brings, rock by rock of the same numbers; over all released. */
 struct ceduo_difference {

@@ -116,7 +116,7 @@ struct ceduo_simulation {
 
 /* Blocks of some sizes that come down. Number above a volume v goes with v^-exponent, cut at the largest; 0: as many in
  * every range of equal ratio. */
-struct ceduo_block_class {
+struct ceduo_size_class {
     double per_year;      /* > 0 */
     double exponent;      /* >= 0 */
     size_t volumes_count; /* 2 */
@@ -178,8 +178,8 @@ struct ceduo_scene {
     char *title_it; /* in Italian; NULL: not said */
     struct ceduo_report_head page;
     struct ceduo_rock_def rock;
-    size_t blocks_count;              /* classes that do not overlap; 0: every rock is `rock` */
-    struct ceduo_block_class *blocks; /* sizes that `rock` has, scaled; figures of one rock, such as the ADC, are of `rock` */
+    size_t blocks_count;             /* classes that do not overlap; 0: every rock is `rock` */
+    struct ceduo_size_class *blocks; /* sizes that `rock` has, scaled; figures of one rock, such as the ADC, are of `rock` */
     struct ceduo_release release;
     struct ceduo_slope slope;
     size_t controls_count;

@@ -115,13 +115,13 @@ struct ceduo_stand {
 };
 
 /* Sets per_ha of the shoots that are given per stool. What reads and changes stands does so; all else reads per_ha. */
-void ceduo_stand_count_shoots(struct ceduo_stand *stand);
+void ceduo_stand_update_shoot_density(struct ceduo_stand *stand);
 
 /* Sums over a stand, per hectare. */
 double ceduo_stand_shoots(const struct ceduo_stand *stand);
 double ceduo_stand_trees(const struct ceduo_stand *stand);
-double ceduo_stand_stay(const struct ceduo_stand *stand);       /* single trees that a cut leaves */
-double ceduo_stand_basal_area(const struct ceduo_stand *stand); /* m2/ha: sum of N pi d2/4 */
+double ceduo_stand_retained_per_ha(const struct ceduo_stand *stand); /* single trees that a cut leaves */
+double ceduo_stand_basal_area(const struct ceduo_stand *stand);      /* m2/ha: sum of N pi d2/4 */
 bool ceduo_stand_has_shoots(const struct ceduo_stand *stand);
 bool ceduo_stand_has_stems(const struct ceduo_stand *stand); /* that stand: shoots or trees */
 bool ceduo_stand_is_bare(const struct ceduo_stand *stand);   /* neither stems nor stumps or logs */

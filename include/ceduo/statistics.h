@@ -38,8 +38,8 @@ struct ceduo_estimate {
 #define CEDUO_NO_ESTIMATE ((struct ceduo_estimate){NAN, NAN, NAN, NAN})
 
 /* Half the width of the 95 % interval of a mean of n values, by Student's law with n - 1 degrees of freedom, from its standard
- * error in any unit; NaN for n < CEDUO_FEW, of which it would say too little. */
-#define CEDUO_FEW 10
+ * error in any unit; NaN for n < CEDUO_INTERVAL_MIN_N, of which it would say too little. */
+#define CEDUO_INTERVAL_MIN_N 10
 double ceduo_half_width(double se, uint64_t n);
 
 /* The standard error of a share of n. */

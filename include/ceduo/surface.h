@@ -32,7 +32,7 @@ void ceduo_surface_free(struct ceduo_surface *surface);
 /* A figure at one point by each group of the rocks, the same rocks at every point; equal values have no noise. Products of two
  * groups carry none on the mean. */
 #define CEDUO_SURFACE_GROUPS 16
-struct ceduo_groups {
+struct ceduo_replicates {
     double of[CEDUO_SURFACE_GROUPS];
 };
 
@@ -42,10 +42,10 @@ struct ceduo_share {
 
 /* A figure at the points. */
 struct ceduo_surface_figure {
-    const struct ceduo_groups *y; /* of each point */
-    const bool *uses;             /* the inputs that it may depend on; NULL: all */
-    double lo, hi;                /* it is never below nor above, which a surface may be: its values are put there */
-    double limit;                 /* how many values are at most this is read as well; NaN: it is not */
+    const struct ceduo_replicates *y; /* of each point */
+    const bool *uses;                 /* the inputs that it may depend on; NULL: all */
+    double lo, hi;                    /* it is never below nor above, which a surface may be: its values are put there */
+    double limit;                     /* how many values are at most this is read as well; NaN: it is not */
 };
 
 struct ceduo_surface_fit {
@@ -73,9 +73,10 @@ void ceduo_surface_release(struct ceduo_surface_fit *fit);
  * others', row by row. `changes`: in 1 and on how much higher the value of half of the rocks is; that of the other half is as much
  * lower. CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_surface_values(struct ceduo_surface *surface, const struct ceduo_surface_figure *figure, size_t n,
-                                       double *values, struct ceduo_groups *changes);
+                                       double *values, struct ceduo_replicates *changes);
 
 /* Groups with this mean, and with the noise that such changes by halves of the rocks say. */
-void ceduo_groups_set(struct ceduo_groups *groups, double value, const double changes[CEDUO_SURFACE_GROUPS]);
+void ceduo_replicates_from_half_samples(struct ceduo_replicates *groups, double value,
+                                        const double changes[CEDUO_SURFACE_GROUPS]);
 
 #endif

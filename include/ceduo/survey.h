@@ -54,7 +54,7 @@ double ceduo_survey_horizontal(double area, double slope_rad);
 
 /* The basal area per hectare of a species (-1: not said), or of CEDUO_SURVEY_ALL, stumps left out, summed over the plots: for shares
  * of it. In m2 of the squares of the diameters, per m2. */
-double ceduo_survey_basal(const struct ceduo_survey *survey, int species);
+double ceduo_survey_basal_area(const struct ceduo_survey *survey, int species);
 
 #define CEDUO_SURVEY_CLASS   0.05 /* m of dbh: the width of a class */
 #define CEDUO_SURVEY_SPACING 0.35 /* m between the shoots of a stool where nobody measured it: assumed, as in the presets */
@@ -93,7 +93,7 @@ struct ceduo_survey_heights {
 /* Heights are not known better than that where none was measured: so much less or more, assumed. */
 #define CEDUO_SURVEY_HEIGHT_UNCERTAINTY 0.3
 
-struct ceduo_survey_answer {
+struct ceduo_survey_result {
     struct ceduo_estimate per_ha[CEDUO_SURVEY_KINDS_COUNT], stools;
     struct ceduo_estimate spacing; /* m, over the stools where it was measured; its mean is NaN where it was not */
     size_t stools_measured;        /* those stools */
@@ -106,7 +106,7 @@ struct ceduo_survey_answer {
 };
 
 /* CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK; release it in the latter case. */
-enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ceduo_survey_answer *answer);
-void ceduo_survey_free(struct ceduo_survey_answer *answer);
+enum ceduo_status ceduo_survey_compute(const struct ceduo_survey *survey, struct ceduo_survey_result *answer);
+void ceduo_survey_free(struct ceduo_survey_result *answer);
 
 #endif

@@ -15,7 +15,7 @@ enum ceduo_end { CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED, CEDUO_STOPPE
 
 /* A piece of a trajectory, from (x, z) to (x1, z1): in flight the parabola that starts with (vx, vz), in a roll the
  * straight line along the ground, speeds (vx, vz) at its start and (vx1, vz1) at its end. */
-struct ceduo_piece {
+struct ceduo_trajectory_segment {
     bool rolls;
     double x, z, vx, vz;
     double x1, z1, vx1, vz1;
@@ -25,7 +25,7 @@ struct ceduo_piece {
 };
 
 /* A stem that a rock reached. Coordinates relative to the slope's first vertex. */
-struct ceduo_stem_passed {
+struct ceduo_stem_encounter {
     double x, y;          /* m: place along the trajectory, offset to the side; y NaN of a lying log */
     double dbh, height;   /* m; dbh NaN of a lying log */
     bool shoot;           /* of a stool; otherwise a single tree */
@@ -36,10 +36,10 @@ struct ceduo_stem_passed {
 };
 
 /* Who watches a trajectory as it is computed: each may be NULL. */
-struct ceduo_watch {
+struct ceduo_trajectory_callbacks {
     bool (*enough)(void *context); /* asked every few milliseconds: true ends it there, CEDUO_CANCELLED */
-    void (*piece)(void *context, const struct ceduo_piece *piece);     /* each piece, in order */
-    void (*stem)(void *context, const struct ceduo_stem_passed *stem); /* each stem, after the piece that leads to it */
+    void (*piece)(void *context, const struct ceduo_trajectory_segment *piece); /* each piece, in order */
+    void (*stem)(void *context, const struct ceduo_stem_encounter *stem); /* each stem, after the piece that leads to it */
     void *context;
 };
 
@@ -67,15 +67,15 @@ struct ceduo_trajectory {
  * have passed ceduo_scene_check(). CEDUO_NO_MEMORY, CEDUO_CANCELLED (`trajectory` is what is known up to there), otherwise
  * CEDUO_OK. */
 enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                          const struct ceduo_watch *watch, struct ceduo_trajectory *trajectory,
+                                          const struct ceduo_trajectory_callbacks *watch, struct ceduo_trajectory *trajectory,
                                           struct ceduo_crossing *crossings);
 
 /* The same for many rocks, one at a time: what they share of the scene is prepared once. NULL without memory, or where
  * the scene has not passed ceduo_scene_check(). */
-struct ceduo_follower;
-struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, const struct ceduo_option *option);
-enum ceduo_status ceduo_follower_follow(struct ceduo_follower *follower, uint64_t rock, const struct ceduo_watch *watch,
-                                        struct ceduo_trajectory *trajectory, struct ceduo_crossing *crossings);
-void ceduo_follower_free(struct ceduo_follower *follower);
+struct ceduo_tracer;
+struct ceduo_tracer *ceduo_tracer_create(const struct ceduo_scene *scene, const struct ceduo_option *option);
+enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *follower, uint64_t rock, const struct ceduo_trajectory_callbacks *watch,
+                                   struct ceduo_trajectory *trajectory, struct ceduo_crossing *crossings);
+void ceduo_tracer_free(struct ceduo_tracer *follower);
 
 #endif

@@ -8,7 +8,7 @@
 #include "years.h"
 
 /* Uncertainty: what is not known of a scene's values, and what that does to its figures. It is not the error of the sample,
- * which more rocks reduce; only measuring reduces it. Every value that is in uncertainty is an input with a range; many scenes are
+ * which more rocks reduce; only measuring reduces it. Every value that is uncertain is an input with a range; many scenes are
  * drawn from the ranges, and each is computed with the same rocks. */
 
 /* One thing that is not known. It may stand at several places of the scene, which then change together. */
@@ -64,7 +64,7 @@ enum ceduo_uncertainty_kind {
 #define CEDUO_UNCERTAINTY_YEARS_MAX      60
 #define CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS 1000
 
-struct ceduo_answer; /* question.h */
+struct ceduo_results; /* question.h */
 
 struct ceduo_uncertainty_def {
     const struct ceduo_scene *scene;
@@ -76,7 +76,7 @@ struct ceduo_uncertainty_def {
     uint64_t own_rocks; /* of the scene as it is; 0: as many */
     /* The scene as it is, computed before; with the years of each option if `rotation` is true. Requires `brief`. NULL: computed
      * here, from own_rocks. */
-    const struct ceduo_answer *own;
+    const struct ceduo_results *own;
     size_t years_max; /* years of each option at a point, at most CEDUO_UNCERTAINTY_YEARS_MAX; 0: as many */
     /* Neither differences between options nor values at the ends of the inputs; of each option only the figures that pages
      * show. The others have fit.p5 and fit.p95 NaN. */
@@ -128,14 +128,15 @@ struct ceduo_uncertainty_ranking {
     struct ceduo_uncertainty_order *orders; /* each option and the next one */
 };
 
-struct ceduo_uncertainty_answer {
+struct ceduo_uncertainty_result {
     size_t points;
     uint64_t rocks; /* of each point */
     uint64_t own_rocks;
     bool rotation; /* figures over a rotation are there */
     size_t figures_count;
-    struct ceduo_uncertainty_figure *figures; /* by option and kind, then the differences; see ceduo_uncertainty_figure_of() */
-    enum ceduo_uncertainty_kind main;         /* too much energy where that is known, otherwise energy */
+    struct ceduo_uncertainty_figure
+        *figures;                     /* by option and kind, then the differences; see ceduo_uncertainty_find_figure() */
+    enum ceduo_uncertainty_kind main; /* too much energy where that is known, otherwise energy */
     struct ceduo_uncertainty_ranking today, over_rotation;
     uint64_t evaluations; /* scenes computed; each is of all options, and of their years */
 };
@@ -143,20 +144,21 @@ struct ceduo_uncertainty_answer {
 /* Computes all. Bits do not depend on the number of threads. CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT (a number of the
  * def outside its range, an input without words or draws, a scene without control) or what ceduo_scene_check() says: then nothing
  * is to be freed. */
-enum ceduo_status ceduo_uncertainty_ask(const struct ceduo_uncertainty_def *def, struct ceduo_uncertainty_answer *answer);
-void ceduo_uncertainty_free(struct ceduo_uncertainty_answer *answer);
+enum ceduo_status ceduo_uncertainty_compute(const struct ceduo_uncertainty_def *def, struct ceduo_uncertainty_result *answer);
+void ceduo_uncertainty_free(struct ceduo_uncertainty_result *answer);
 
 /* The figures over a rotation are there if answer->rotation is true. NULL: there is no such option or figure. */
-const struct ceduo_uncertainty_figure *ceduo_uncertainty_figure_of(const struct ceduo_uncertainty_answer *answer, size_t option,
-                                                                   enum ceduo_uncertainty_kind kind, bool difference);
+const struct ceduo_uncertainty_figure *ceduo_uncertainty_find_figure(const struct ceduo_uncertainty_result *answer,
+                                                                     size_t option, enum ceduo_uncertainty_kind kind,
+                                                                     bool difference);
 
 /* The order of the options that pages and views give: over the rotation where that is known, otherwise today's. */
-const struct ceduo_uncertainty_ranking *ceduo_uncertainty_verdict(const struct ceduo_uncertainty_answer *answer);
+const struct ceduo_uncertainty_ranking *ceduo_uncertainty_ranking_by(const struct ceduo_uncertainty_result *answer);
 
 /* Whether a light of the last control changes within the 90 % band of uncertainty: contact, free run, or energy
  * (CEDUO_UNCERTAINTY_EXCEED). Returns how many inputs it depends on above all, 1 or 2, the heaviest first; 0: it does not change, or
  * there are too few points to say by what. */
-size_t ceduo_uncertainty_depends(const struct ceduo_scene *scene, const struct ceduo_uncertainty_answer *answer, size_t option,
-                                 enum ceduo_uncertainty_kind light, size_t inputs[2]);
+size_t ceduo_uncertainty_dominant_inputs(const struct ceduo_scene *scene, const struct ceduo_uncertainty_result *answer,
+                                         size_t option, enum ceduo_uncertainty_kind light, size_t inputs[2]);
 
 #endif

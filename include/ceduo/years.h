@@ -23,7 +23,7 @@ enum ceduo_window_kind {
     CEDUO_WINDOW_GIVEN,    /* the caller or the scene asks for them */
     CEDUO_WINDOW_AHEAD,    /* the next years from today, the same for all options */
     CEDUO_WINDOW_ROTATION, /* one whole rotation, from the year on in which every belt that is ever cut has been cut */
-    CEDUO_WINDOW_ALIKE     /* nothing grows and nothing is cut: year 0, today, represents all years */
+    CEDUO_WINDOW_CONSTANT  /* nothing grows and nothing is cut: year 0, today, represents all years */
 };
 
 /* The years first, first + step … last; step >= 1. */
@@ -39,15 +39,15 @@ struct ceduo_window {
 
 /* One whole rotation of an option: after its first cut a forest repeats itself, so a rotation has each of its states once. If its
  * belts have several rotations, all of them must have ended together. Without a cut the next CEDUO_YEARS_AHEAD years
- * (CEDUO_WINDOW_AHEAD), or CEDUO_WINDOW_ALIKE. */
-struct ceduo_window ceduo_window_of(const struct ceduo_option *option);
+ * (CEDUO_WINDOW_AHEAD), or CEDUO_WINDOW_CONSTANT. */
+struct ceduo_window ceduo_window_compute(const struct ceduo_option *option);
 
 /* At the most so many (> 0) of its years, evenly spread. */
-struct ceduo_window ceduo_window_of_most(struct ceduo_window window, unsigned max);
+struct ceduo_window ceduo_window_thinned(struct ceduo_window window, unsigned max);
 
 /* The years by which all options of a scene are judged and compared: from year 1 to the longest rotation of any belt, at least
  * CEDUO_YEARS_AHEAD and at most CEDUO_AHEAD_MAX years. The scene may name the first year, the last, or both: CEDUO_WINDOW_GIVEN, at
- * most CEDUO_YEARS_MAX years. CEDUO_WINDOW_ALIKE if no option has a stand that grows or is cut. */
+ * most CEDUO_YEARS_MAX years. CEDUO_WINDOW_CONSTANT if no option has a stand that grows or is cut. */
 struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene);
 
 struct ceduo_years {
@@ -78,8 +78,8 @@ enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_p
 
 /* The same with rocks of its own in each year, which are those of the same year of another window: in the mean over the years
  * their errors cancel out, so that few rocks tell it. `def` is of the scene, which has no blocks. */
-enum ceduo_status ceduo_years_simulate_apart(struct ceduo_years *years, const struct ceduo_run_def *def,
-                                             const struct ceduo_simulated *bare, uint64_t rocks);
+enum ceduo_status ceduo_years_simulate_independent(struct ceduo_years *years, const struct ceduo_run_def *def,
+                                                   const struct ceduo_simulated *bare, uint64_t rocks);
 
 /* Assesses simulated years once more, for a scene that differs in what no rock sees: the threshold, the rule of the
  * ADC, how many rocks come down a year. It has as many controls, at the same places, and `bare` is of them. */
@@ -91,7 +91,7 @@ void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *sce
  * NaN where a figure does not exist. */
 struct ceduo_years_summary {
     size_t years, simulated;
-    bool nothing; /* nothing can be said of the forest (ceduo_says_nothing()): no light fails and none passes */
+    bool nothing; /* nothing can be said of the forest (ceduo_too_few_arrivals()): no light fails and none passes */
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which that light fails */
     size_t thick_contact, thick_free_run; /* and where only stems from CEDUO_THICK_DBH on count */
     size_t failing_lo, failing_hi;        /* years whose 95 % interval of the energy's share lies above the limit; whose upper

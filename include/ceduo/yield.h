@@ -32,7 +32,7 @@ struct ceduo_yield {
 
 /* The yield of an option. Fellings are those from year 0 to `last`, at most CEDUO_YEAR_MAX. CEDUO_NO_MEMORY,
  * CEDUO_BAD_STAND or CEDUO_BAD_ARGUMENT, with nothing to free, or CEDUO_OK. */
-enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield);
+enum ceduo_status ceduo_yield_compute(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield);
 void ceduo_yield_release(struct ceduo_yield *yield);
 
 /* Stem volume of a stand, m3/ha. */

@@ -17,7 +17,7 @@ struct arena_page {
     max_align_t bytes[];
 };
 
-void *ceduo_arena_take(struct arena *arena, size_t size)
+void *ceduo_arena_alloc(struct arena *arena, size_t size)
 {
     size_t align = alignof(max_align_t);
     bool too_much = size > SIZE_MAX / 2;
@@ -43,12 +43,12 @@ void *ceduo_arena_take(struct arena *arena, size_t size)
     return p;
 }
 
-void *ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
+void *ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
 {
     if (n + more <= *room)
         return items;
     size_t all = 2 * n + more;
-    void *grown = ceduo_arena_take(arena, all * size);
+    void *grown = ceduo_arena_alloc(arena, all * size);
     if (grown && n > 0)
         memcpy(grown, items, n * size);
     *room = grown ? all : *room;
@@ -57,7 +57,7 @@ void *ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, 
 
 char *ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)
 {
-    char *p = ceduo_arena_take(arena, n + 1);
+    char *p = ceduo_arena_alloc(arena, n + 1);
     if (p && n > 0)
         memcpy(p, bytes, n);
     return p;

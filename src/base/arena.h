@@ -16,11 +16,11 @@ struct arena {
 };
 
 /* Return `size` zeroed bytes, aligned for any type; NULL on failure. */
-void *ceduo_arena_take(struct arena *arena, size_t size);
+void *ceduo_arena_alloc(struct arena *arena, size_t size);
 
 /* Grow a list of n items of `size` bytes so that it holds `more` items more; `*room` is the number that it holds. Returns the list,
  * which may have moved. NULL on failure: the list stays as it was. */
-void *ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
+void *ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
 
 /* Copy n bytes to a string; copy a string. NULL on failure. */
 char *ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);

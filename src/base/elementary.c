@@ -107,7 +107,7 @@ double ceduo_length(double x, double y)
     return sqrt(square);
 }
 
-void ceduo_direction(uint64_t i, uint64_t n, double *cosine, double *sine)
+void ceduo_sincos_turn(uint64_t i, uint64_t n, double *cosine, double *sine)
 {
     uint64_t quarter = 4 * i / n;
     double angle = 1.5707963267948966 * ((double)(4 * i % n) / (double)n), c, s;
@@ -117,7 +117,7 @@ void ceduo_direction(uint64_t i, uint64_t n, double *cosine, double *sine)
 }
 
 /* 1/2 + phi(z) (z + z3/3 + z5/(3 5) + …), of which no term cancels another. */
-double ceduo_normal_chance(double z)
+double ceduo_normal_cdf(double z)
 {
     double term = z, sum = z;
     for (int n = 3; n < 100; n += 2) {

@@ -22,10 +22,10 @@ double ceduo_pow(double x, double y);
 double ceduo_length(double x, double y);
 
 /* sin and cos of 2 pi i/n. */
-void ceduo_direction(uint64_t i, uint64_t n, double *cosine, double *sine);
+void ceduo_sincos_turn(uint64_t i, uint64_t n, double *cosine, double *sine);
 
 /* The normal law: the chance of less than z, for |z| <= 3; and the z of which p is the chance, for 0 < p < 1. */
-double ceduo_normal_chance(double z);
+double ceduo_normal_cdf(double z);
 double ceduo_normal_quantile(double p);
 
 static inline uint64_t elementary_bits(double x)

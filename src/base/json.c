@@ -14,7 +14,7 @@ static void append_string(struct text *text, const char *string)
         uint32_t code = 0;
         size_t length = ceduo_utf8_decode(string + i, n - i, &code);
         if (length == 0) {
-            ceduo_text_put(text, "\\ufffd");
+            ceduo_text_append(text, "\\ufffd");
             length = 1;
         } else if (code == '"' || code == '\\') {
             ceduo_text_char(text, '\\');
@@ -35,11 +35,11 @@ static void append_string(struct text *text, const char *string)
 static void begin(struct json *json, const char *key)
 {
     if (json->more)
-        ceduo_text_put(json->text, ", ");
+        ceduo_text_append(json->text, ", ");
     json->more = true;
     if (key) {
         append_string(json->text, key);
-        ceduo_text_put(json->text, ": ");
+        ceduo_text_append(json->text, ": ");
     }
 }
 
@@ -59,7 +59,7 @@ void ceduo_json_close(struct json *json, char bracket)
 void ceduo_json_number(struct json *json, const char *key, double value)
 {
     begin(json, key);
-    ceduo_text_put(json->text, NUMERAL(value));
+    ceduo_text_append(json->text, NUMERAL(value));
 }
 
 void ceduo_json_count(struct json *json, const char *key, uint64_t value)
@@ -74,11 +74,11 @@ void ceduo_json_string(struct json *json, const char *key, const char *value)
     if (value)
         append_string(json->text, value);
     else
-        ceduo_text_put(json->text, "null");
+        ceduo_text_append(json->text, "null");
 }
 
 void ceduo_json_flag(struct json *json, const char *key, bool value)
 {
     begin(json, key);
-    ceduo_text_put(json->text, value ? "true" : "false");
+    ceduo_text_append(json->text, value ? "true" : "false");
 }

@@ -12,7 +12,7 @@ void ceduo_no_memory(void)
         ceduo_memory_hook();
 }
 
-bool ceduo_memory_lost(void)
+bool ceduo_memory_failed(void)
 {
     bool was = lost;
     lost = false;

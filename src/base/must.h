@@ -15,10 +15,10 @@ extern void (*ceduo_memory_hook)(void);
 void ceduo_no_memory(void);
 
 /* True if memory ran out in this thread since the last call. Call it once after many small allocations. */
-bool ceduo_memory_lost(void);
+bool ceduo_memory_failed(void);
 
 /* Return the allocated memory, never NULL. */
-static inline void *ceduo_must(void *allocated)
+static inline void *ceduo_check_memory(void *allocated)
 {
     if (!allocated) {
         ceduo_no_memory();

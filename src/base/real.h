@@ -17,14 +17,14 @@
 #endif
 
 /* The walk is one body from contact to contact, so that a flight stays in registers; what happens seldom is called. */
-#define HOT    static inline __attribute__((always_inline))
-#define SELDOM static __attribute__((noinline))
+#define FORCE_INLINE  static inline __attribute__((always_inline))
+#define NOINLINE_COLD static __attribute__((noinline))
 
 #define SIGN_BIT 0x8000000000000000
 
 /* Defines a function of one expression. */
 #define OP(result, name, parameters, ...)                                                                                      \
-    HOT result name parameters                                                                                                 \
+    FORCE_INLINE result name parameters                                                                                        \
     {                                                                                                                          \
         return __VA_ARGS__;                                                                                                    \
     }
@@ -43,7 +43,7 @@ OP(mask, at_least, (real p, real q), p >= q)
 OP(mask, equal, (real p, real q), p == q)
 OP(mask, but, (mask p, mask q), p && !q)
 OP(bool, any, (mask p), p)
-HOT real pick(mask m, real p, real q) /* p where m holds, q elsewhere */
+FORCE_INLINE real pick(mask m, real p, real q) /* p where m holds, q elsewhere */
 {
     if (m) {
 #ifdef __x86_64__
@@ -79,23 +79,23 @@ typedef uint64_t ints __attribute__((vector_size(8 * REAL_LANES)));
 OP(ints, as_ints, (real p), (ints)p)
 OP(real, as_real, (ints p), (real)p)
 OP(ints, all_ints, (uint64_t s), (ints){0} + s)
-HOT real load(const double *from)
+FORCE_INLINE real load(const double *from)
 {
     real p;
     memcpy(&p, from, sizeof p);
     return p;
 }
-HOT ints load_ints(const uint64_t *from)
+FORCE_INLINE ints load_ints(const uint64_t *from)
 {
     ints p;
     memcpy(&p, from, sizeof p);
     return p;
 }
-HOT void store(double *to, real p)
+FORCE_INLINE void store(double *to, real p)
 {
     memcpy(to, &p, sizeof p);
 }
-HOT void store_ints(uint64_t *to, ints p)
+FORCE_INLINE void store_ints(uint64_t *to, ints p)
 {
     memcpy(to, &p, sizeof p);
 }
@@ -105,7 +105,7 @@ HOT void store_ints(uint64_t *to, ints p)
 #include <immintrin.h>
 
 /* The pairs at i and j, loaded by hand, which is faster than the machine's gathers. */
-HOT __m256d two_rows(const double (*pairs)[2], uint64_t i, uint64_t j)
+FORCE_INLINE __m256d two_rows(const double (*pairs)[2], uint64_t i, uint64_t j)
 {
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(pairs[i])), _mm_loadu_pd(pairs[j]), 1);
 }
@@ -132,7 +132,7 @@ OP(real, min, (real p, real q), _mm512_min_pd(p, q))
 OP(real, max, (real p, real q), _mm512_max_pd(p, q))
 OP(real, real_of, (ints p), _mm512_cvtepu64_pd((__m512i)p)) /* of integers below 2^53 */
 /* Puts those of p at *to without gaps; there is room for a register. */
-HOT void keep(mask which, ints p, void *to)
+FORCE_INLINE void keep(mask which, ints p, void *to)
 {
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi64(which, (__m512i)p));
 }
@@ -145,11 +145,11 @@ OP(real, look_up_16, (const double *table, ints i), _mm512_permutex2var_pd(load(
 #define ODD(p, q)  SHUFFLED(p, q, 1, 3, 5, 7, 9, 11, 13, 15)
 #define NEXT(p, q) SHUFFLED(p, q, 1, 2, 3, 4, 5, 6, 7, 8)
 /* The pairs at i[0], i[1] … */
-HOT real four_rows(const double (*pairs)[2], const uint64_t *i)
+FORCE_INLINE real four_rows(const double (*pairs)[2], const uint64_t *i)
 {
     return _mm512_insertf64x4(_mm512_castpd256_pd512(two_rows(pairs, i[0], i[2])), two_rows(pairs, i[4], i[6]), 1);
 }
-HOT void load_pairs_at(const double (*pairs)[2], const uint64_t *i, real *a, real *b)
+FORCE_INLINE void load_pairs_at(const double (*pairs)[2], const uint64_t *i, real *a, real *b)
 {
     real even = four_rows(pairs, i), odd = four_rows(pairs, i + 1);
     *a = _mm512_unpacklo_pd(even, odd);
@@ -172,7 +172,7 @@ OP(real, max, (real p, real q), _mm256_max_pd(p, q))
     {                                                                                                                          \
         HALVES(a), HALVES(b), HALVES(c), HALVES(d)                                                                             \
     }
-HOT void keep(mask which, ints p, void *to)
+FORCE_INLINE void keep(mask which, ints p, void *to)
 {
     static const ints kept[] = {KEPT(0, 0, 0, 0), KEPT(0, 0, 0, 0), KEPT(1, 0, 0, 0), KEPT(0, 1, 0, 0),
                                 KEPT(2, 0, 0, 0), KEPT(0, 2, 0, 0), KEPT(1, 2, 0, 0), KEPT(0, 1, 2, 0),
@@ -184,7 +184,7 @@ HOT void keep(mask which, ints p, void *to)
 #define EVEN(p, q) SHUFFLED(p, q, 0, 2, 4, 6)
 #define ODD(p, q)  SHUFFLED(p, q, 1, 3, 5, 7)
 #define NEXT(p, q) SHUFFLED(p, q, 1, 2, 3, 4)
-HOT void load_pairs_at(const double (*pairs)[2], const uint64_t *i, real *a, real *b)
+FORCE_INLINE void load_pairs_at(const double (*pairs)[2], const uint64_t *i, real *a, real *b)
 {
     real even = two_rows(pairs, i[0], i[2]), odd = two_rows(pairs, i[1], i[3]);
     *a = _mm256_unpacklo_pd(even, odd);
@@ -197,14 +197,14 @@ typedef int64_t mask __attribute__((vector_size(8 * REAL_LANES)));
 
 OP(real, all, (double s), (real){0} + s)
 OP(real, pick, (mask m, real p, real q), (real)(((ints)m & (ints)p) | (~(ints)m & (ints)q)))
-HOT unsigned lanes_of(mask p)
+FORCE_INLINE unsigned lanes_of(mask p)
 {
     unsigned lanes = 0;
     EACH_LANE(i)
         lanes |= (unsigned)(p[i] & 1) << i;
     return lanes;
 }
-HOT real root_of(real p)
+FORCE_INLINE real root_of(real p)
 {
     EACH_LANE(i)
         p[i] = sqrt(p[i]);
@@ -212,7 +212,7 @@ HOT real root_of(real p)
 }
 OP(real, min, (real p, real q), pick((mask)(p < q), p, q))
 OP(real, max, (real p, real q), pick((mask)(p > q), p, q))
-HOT void keep(mask which, ints p, void *to)
+FORCE_INLINE void keep(mask which, ints p, void *to)
 {
     char *at = to;
     EACH_LANE(i) {
@@ -239,7 +239,7 @@ OP(mask, same, (ints p, ints q), (mask)(p == q))
 OP(mask, more, (ints p, ints q), (mask)((mask)p > (mask)q))
 OP(mask, but, (mask p, mask q), p & ~q)
 OP(ints, pick_ints, (mask m, ints p, ints q), (ints)pick(m, (real)p, (real)q))
-HOT mask mask_of(unsigned lanes)
+FORCE_INLINE mask mask_of(unsigned lanes)
 {
     ints p, place;
     EACH_LANE(i)
@@ -248,7 +248,7 @@ HOT mask mask_of(unsigned lanes)
     return (mask)(p == place);
 }
 /* The two 32-bit parts are put into doubles as bits: exact below 2^53. */
-HOT real real_of(ints p)
+FORCE_INLINE real real_of(ints p)
 {
     real high = (real)(p >> 32 | 0x4530000000000000), low = (real)((p & 0xffffffff) | 0x4330000000000000);
     return (high - (0x1p84 + 0x1p52)) + low;
@@ -257,13 +257,13 @@ HOT real real_of(ints p)
 #endif
 
 /* Pairs and fours of numbers from an address on, by columns. */
-HOT void load_pairs(const double (*from)[2], real *a, real *b)
+FORCE_INLINE void load_pairs(const double (*from)[2], real *a, real *b)
 {
     real p = load(from[0]), q = load(from[REAL_LANES / 2]);
     *a = EVEN(p, q);
     *b = ODD(p, q);
 }
-HOT void load_fours(const double (*from)[2], real *a, real *b, real *c, real *d)
+FORCE_INLINE void load_fours(const double (*from)[2], real *a, real *b, real *c, real *d)
 {
     real ac, bd, ac2, bd2;
     load_pairs(from, &ac, &bd);
@@ -278,7 +278,7 @@ OP(real, shifted, (real p, double last), NEXT(p, all(last))) /* without its firs
 OP(bool, any, (mask p), lanes_of(p) != 0)
 OP(real, real_of_small, (ints p), as_real(p | 0x4330000000000000) - 0x1p52) /* of integers below 2^52 */
 /* n, n + step, n + 2 step … */
-HOT ints count_from(uint64_t n, uint64_t step)
+FORCE_INLINE ints count_from(uint64_t n, uint64_t step)
 {
     ints p;
     EACH_LANE(i)

@@ -46,7 +46,7 @@ void ceduo_text_add(struct text *text, const char *bytes, size_t n)
     text->bytes[text->length] = '\0';
 }
 
-void ceduo_text_put(struct text *text, const char *string)
+void ceduo_text_append(struct text *text, const char *string)
 {
     ceduo_text_add(text, string, strlen(string));
 }
@@ -182,16 +182,16 @@ void ceduo_text_format(struct text *text, const char *format, ...)
     va_end(args);
 }
 
-void ceduo_text_then(struct text *text, const char *between, const char *format, ...)
+void ceduo_text_append_joined(struct text *text, const char *between, const char *format, ...)
 {
     va_list args;
-    ceduo_text_put(text, between);
+    ceduo_text_append(text, between);
     va_start(args, format);
     ceduo_text_vformat(text, format, args);
     va_end(args);
 }
 
-void ceduo_text_words(struct text *text, const char *const *words, size_t n, const char *separator)
+void ceduo_text_join(struct text *text, const char *const *words, size_t n, const char *separator)
 {
     for (size_t i = 0; i < n; i++)
         ceduo_text_format(text, "%s%s", i > 0 ? separator : "", words[i]);
@@ -203,7 +203,7 @@ void ceduo_text_free(struct text *text)
     *text = (struct text){0};
 }
 
-void ceduo_text_safe_n(struct text *text, const char *string, size_t n)
+void ceduo_text_append_escaped_n(struct text *text, const char *string, size_t n)
 {
     for (size_t i = 0; i < n;) {
         uint32_t c = 0;
@@ -218,9 +218,9 @@ void ceduo_text_safe_n(struct text *text, const char *string, size_t n)
     }
 }
 
-void ceduo_text_safe(struct text *text, const char *string)
+void ceduo_text_append_escaped(struct text *text, const char *string)
 {
-    ceduo_text_safe_n(text, string, strlen(string));
+    ceduo_text_append_escaped_n(text, string, strlen(string));
 }
 
 char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
@@ -288,11 +288,11 @@ void ceduo_text_csv(struct text *text, const char *value)
     double number;
     bool negative = *value == '-' && value[1] && ceduo_number_read(value, &number) == CEDUO_NUMBER_NONE;
     bool formula = *value && (strchr("=+@\t", *value) || negative);
-    ceduo_text_put(&safe, formula ? "'" : ""); /* a spreadsheet computes what begins so; an apostrophe keeps it as it is */
-    ceduo_text_safe(&safe, value);
+    ceduo_text_append(&safe, formula ? "'" : ""); /* a spreadsheet computes what begins so; an apostrophe keeps it as it is */
+    ceduo_text_append_escaped(&safe, value);
     const char *bytes = ceduo_text_string(&safe);
     if (!strpbrk(bytes, ",\"")) {
-        ceduo_text_put(text, bytes);
+        ceduo_text_append(text, bytes);
     } else {
         ceduo_text_char(text, '"');
         for (; *bytes; bytes++)

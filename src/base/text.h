@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 /* A string that grows. Starts zeroed; `bytes` is NULL or ends in NUL. If memory runs out, `failed` stays set and nothing more is
- * added: check it once at the end, or call ceduo_memory_lost(). In the program memory never fails (must.h). */
+ * added: check it once at the end, or call ceduo_memory_failed(). In the program memory never fails (must.h). */
 struct text {
     char *bytes;
     size_t length, room;
@@ -16,7 +16,7 @@ struct text {
 };
 
 void ceduo_text_add(struct text *text, const char *bytes, size_t n);
-void ceduo_text_put(struct text *text, const char *string);
+void ceduo_text_append(struct text *text, const char *string);
 /* Remove all but the first `length` bytes. */
 void ceduo_text_cut(struct text *text, size_t length);
 /* Append a string in the quotes of a shell. */
@@ -26,14 +26,15 @@ void ceduo_text_format(struct text *text, const char *format, ...) __attribute__
 /* %'.1f and its like, in translations, print the decimal sign of the language. */
 void ceduo_text_vformat(struct text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 /* Append `between`, such as "; ", then a clause or sentence. */
-void ceduo_text_then(struct text *text, const char *between, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void ceduo_text_append_joined(struct text *text, const char *between, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 void ceduo_text_free(struct text *text);
 
 /* A text that is freed at the end of its block. */
 #define LOCAL_TEXT(name) __attribute__((cleanup(ceduo_text_free))) struct text name = {0}
 
 /* Append n words with a separator between them. */
-void ceduo_text_words(struct text *text, const char *const *words, size_t n, const char *separator);
+void ceduo_text_join(struct text *text, const char *const *words, size_t n, const char *separator);
 
 /* Return the string; "" if there is none. */
 static inline const char *ceduo_text_string(const struct text *text)
@@ -42,8 +43,8 @@ static inline const char *ceduo_text_string(const struct text *text)
 }
 
 /* Append a string that is safe to print: control characters and bytes that are no UTF-8 become \xHH. */
-void ceduo_text_safe(struct text *text, const char *string);
-void ceduo_text_safe_n(struct text *text, const char *string, size_t n);
+void ceduo_text_append_escaped(struct text *text, const char *string);
+void ceduo_text_append_escaped_n(struct text *text, const char *string, size_t n);
 
 /* Print the shortest decimal that reads back as the same number; "null" if it is not finite. Returns `room`. */
 #define CEDUO_NUMBER_ROOM 32

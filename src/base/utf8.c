@@ -101,7 +101,7 @@ size_t ceduo_utf8_columns(uint32_t code)
     return width < 0 ? 1 : (size_t)width;
 }
 
-size_t ceduo_utf8_width_of(const char *string, size_t n)
+size_t ceduo_utf8_char_width(const char *string, size_t n)
 {
     size_t width = 0, columns;
     for (const char *end = string + n; string < end; width += columns)
@@ -111,7 +111,7 @@ size_t ceduo_utf8_width_of(const char *string, size_t n)
 
 size_t ceduo_utf8_width(const char *string)
 {
-    return ceduo_utf8_width_of(string, strlen(string));
+    return ceduo_utf8_char_width(string, strlen(string));
 }
 
 int ceduo_utf8_field(const char *string, int columns)

@@ -45,7 +45,7 @@ size_t ceduo_utf8_columns(uint32_t code);
 
 /* Columns of a string, or of its first n bytes. Requires n bytes. */
 size_t ceduo_utf8_width(const char *string);
-size_t ceduo_utf8_width_of(const char *string, size_t n);
+size_t ceduo_utf8_char_width(const char *string, size_t n);
 
 /* Width for "%-*s", which counts bytes, so that this string fills `columns`. */
 int ceduo_utf8_field(const char *string, int columns);

@@ -25,14 +25,14 @@ enum exit_status ceduo_batch_option(const struct scene_file *file, const char *n
     for (size_t i = 0; i < scene->options_count; i++)
         ceduo_text_format(&names, "%s'%s'", i > 0 ? ", " : "", scene->options[i].name_given);
     ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: %s"), name, file->path, ceduo_text_string(&names));
-    ceduo_say_why("ceduo", ceduo_text_string(&message));
+    ceduo_print_error("ceduo", ceduo_text_string(&message));
     return EXIT_USAGE;
 }
 
 /* Keeps only the options that were asked for, in the scene's order. */
 static enum exit_status choose(const struct arguments *a, struct scene_file *file)
 {
-    bool *wanted = ceduo_arena_take(&file->arena, file->scene.options_count * sizeof *wanted);
+    bool *wanted = ceduo_arena_alloc(&file->arena, file->scene.options_count * sizeof *wanted);
     for (size_t i = 0, index; i < a->options.n; i++) {
         if (ceduo_batch_option(file, a->options.items[i], &index) != EXIT_DONE)
             return EXIT_USAGE;
@@ -41,7 +41,7 @@ static enum exit_status choose(const struct arguments *a, struct scene_file *fil
     const struct node *list = ceduo_node_get(file->root, "options");
     if (a->options.n == 0 || !list)
         return EXIT_DONE;
-    size_t *kept = ceduo_arena_take(&file->arena, list->n * sizeof *kept);
+    size_t *kept = ceduo_arena_alloc(&file->arena, list->n * sizeof *kept);
     for (size_t k = 0; kept && k < list->n; k++)
         if (wanted[k])
             kept[file->kept_count++] = k;
@@ -65,7 +65,7 @@ static void warn_once(struct text *text)
     if (text->length == 0 || hash == last)
         return;
     last = hash;
-    ceduo_say(text);
+    ceduo_print_message(text);
 }
 
 enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
@@ -73,13 +73,13 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
     LOCAL_PROBLEMS(problems);
     struct scene_sets sets = {a->sets.items, a->sets.n, a->cells, a->called};
     bool good = ceduo_scene_load_row(file, path, &sets, &problems);
-    ceduo_problems_close(&problems);
+    ceduo_problems_finish(&problems);
     if (!good && problems.text.length > 0 && a->called && strncmp(problems.text.bytes, a->called, strlen(a->called)) != 0)
-        ceduo_say_why(a->called, _("this scene cannot be computed:")); /* what follows names another file, or a change */
+        ceduo_print_error(a->called, _("this scene cannot be computed:")); /* what follows names another file, or a change */
     if (good)
         warn_once(&problems.text);
     else
-        ceduo_say(&problems.text);
+        ceduo_print_message(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage && !problems.cell ? EXIT_USAGE : EXIT_INPUT;
     for (const struct source *s = file->arena.sources; s && status != EXIT_OUTPUT; s = s->before)
         if (ceduo_output_is(a, s->path))
@@ -108,14 +108,14 @@ static void show_rocks(void *progress, uint64_t rocks)
 {
     double seconds;
     if (ceduo_progress_due(progress, &seconds))
-        ceduo_say_progress(_("%llu rocks, %.0f s"), (unsigned long long)rocks, seconds);
+        ceduo_print_progress(_("%llu rocks, %.0f s"), (unsigned long long)rocks, seconds);
 }
 
 static void show_steps(void *progress, uint64_t done, uint64_t all)
 {
     double seconds;
     if (ceduo_progress_due(progress, &seconds))
-        ceduo_say_progress(_("%llu of %llu, %.0f s"), (unsigned long long)done, (unsigned long long)all, seconds);
+        ceduo_print_progress(_("%llu of %llu, %.0f s"), (unsigned long long)done, (unsigned long long)all, seconds);
 }
 
 void ceduo_progress_scenes(struct progress *p, size_t computed, size_t done, size_t all)
@@ -126,7 +126,7 @@ void ceduo_progress_scenes(struct progress *p, size_t computed, size_t done, siz
     double left = seconds / (double)computed * (double)(all - done);
     LOCAL_TEXT(time);
     ceduo_text_format(&time, left < 120 ? "%.0f s" : "%.0f min", left < 120 ? left : left / 60);
-    ceduo_say_progress(_("%zu of %zu scenes, %s left"), done, all, ceduo_text_string(&time));
+    ceduo_print_progress(_("%zu of %zu scenes, %s left"), done, all, ceduo_text_string(&time));
 }
 
 /* ---- nothing to be said ---- */
@@ -144,7 +144,7 @@ static void warn(void *context, const char *sentence)
     struct warnings *warnings = context;
     if (strstr(ceduo_text_string(&warnings->printed), sentence))
         return;
-    ceduo_say_why(warnings->file->path, sentence);
+    ceduo_print_error(warnings->file->path, sentence);
     ceduo_text_format(&warnings->printed, "%s\n", sentence);
 }
 
@@ -161,25 +161,25 @@ void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file, 
     struct warnings warnings = {.file = file};
     struct ceduo_scene bare = file->scene;
     bare.simulation.contact_model = CEDUO_INDEX; /* nothing is flown through the forests */
-    struct ceduo_question question = ceduo_question_default(&bare);
-    struct ceduo_answer answer;
+    struct ceduo_request question = ceduo_request_default(&bare);
+    struct ceduo_results answer;
     question.rocks = bare.simulation.rocks < LOOK_ROCKS ? bare.simulation.rocks : LOOK_ROCKS;
     question.run.rocks_most = question.rocks;
     question.run.threads = (unsigned)a->threads;
     question.run.cancel = ceduo_interrupt_flag();
-    if (ceduo_ask(&question, NULL, &answer) == CEDUO_OK) {
-        ceduo_words_still(answer.result, warn, &warnings);
+    if (ceduo_simulate_request(&question, NULL, &answer) == CEDUO_OK) {
+        ceduo_words_still_moving(answer.result, warn, &warnings);
         if (stands)
             warn_stands(answer.result, &warnings);
     }
-    ceduo_answer_release(&answer);
+    ceduo_results_release(&answer);
     ceduo_text_free(&warnings.printed);
 }
 
 enum exit_status ceduo_batch_failed(const struct scene_file *file, enum ceduo_status status)
 {
     if (status != CEDUO_CANCELLED)
-        ceduo_say_why(file->path, status == CEDUO_NO_MEMORY ? _("out of memory") : _("cannot be computed"));
+        ceduo_print_error(file->path, status == CEDUO_NO_MEMORY ? _("out of memory") : _("cannot be computed"));
     return EXIT_RUN;
 }
 
@@ -187,8 +187,8 @@ enum exit_status ceduo_batch_failed(const struct scene_file *file, enum ceduo_st
 
 void ceduo_ask_begin(struct asked *asked, const struct arguments *a, const struct scene_file *file)
 {
-    *asked = (struct asked){.progress = ceduo_progress_begin(a), .question = ceduo_question_default(&file->scene)};
-    struct ceduo_question *q = &asked->question;
+    *asked = (struct asked){.progress = ceduo_progress_begin(a), .question = ceduo_request_default(&file->scene)};
+    struct ceduo_request *q = &asked->question;
     q->rocks = a->rocks > 0 ? a->rocks : a->tolerance > 0 ? CEDUO_ROCKS_MAX : file->scene.simulation.rocks;
     q->run.rocks_most = q->rocks;
     q->tolerance = a->tolerance;
@@ -204,7 +204,7 @@ void ceduo_ask_begin(struct asked *asked, const struct arguments *a, const struc
 #define YEAR_ROCKS 1000 /* of each year: they give a share near the limit to 14 of 1000 */
 #define YEARS_MAX  60   /* of a longer window some are simulated */
 
-void ceduo_ask_years(struct ceduo_question *q)
+void ceduo_ask_years(struct ceduo_request *q)
 {
     q->years = q->years_apart = true;
     q->year_rocks = YEAR_ROCKS;
@@ -214,7 +214,7 @@ void ceduo_ask_years(struct ceduo_question *q)
 enum ceduo_status ceduo_ask_runs(struct asked *c)
 {
     struct ceduo_pool *pool = NULL; /* for the pictures */
-    enum ceduo_status status = ceduo_ask(&c->question, c->pictures ? &pool : NULL, &c->answer);
+    enum ceduo_status status = ceduo_simulate_request(&c->question, c->pictures ? &pool : NULL, &c->answer);
     c->seconds = ceduo_clock() - c->progress.start;
     const struct ceduo_snapshot_def def = {.scene = c->question.run.scene,
                                            .runs = pool,
@@ -224,7 +224,7 @@ enum ceduo_status ceduo_ask_runs(struct asked *c)
     if (status == CEDUO_OK && c->pictures)
         status = ceduo_snapshot_create(&def, &c->snapshot);
     ceduo_pool_free(pool);
-    return status == CEDUO_OK ? ceduo_verdict_make(c->answer.result, c->answer.years, c->answer.rotations, &c->verdict)
+    return status == CEDUO_OK ? ceduo_compare_options(c->answer.result, c->answer.years, c->answer.rotations, &c->verdict)
                               : status;
 }
 
@@ -236,7 +236,7 @@ enum exit_status ceduo_ask_end(struct asked *c, const struct scene_file *file, e
         ceduo_uncertainty_free(&c->uncertainty_answer);
     ceduo_verdict_release(&c->verdict);
     ceduo_snapshot_free(c->snapshot);
-    ceduo_answer_release(&c->answer);
+    ceduo_results_release(&c->answer);
     return status != CEDUO_OK ? ceduo_batch_failed(file, status) : finished ? EXIT_DONE : EXIT_RUN;
 }
 
@@ -250,7 +250,7 @@ static enum ceduo_status ask_uncertainty(struct asked *c, struct scene_file *fil
         .file = file, .inputs = &c->inputs, .points = def->points, .rocks = def->rocks, .finer = finer};
     if (def->inputs_count == 0 || def->points == 0)
         return CEDUO_OK;
-    enum ceduo_status status = ceduo_uncertainty_ask(def, &c->uncertainty_answer);
+    enum ceduo_status status = ceduo_uncertainty_compute(def, &c->uncertainty_answer);
     c->uncertainty.answer = status == CEDUO_OK ? &c->uncertainty_answer : NULL;
     c->uncertainty.too_much = status == CEDUO_CANCELLED && !atomic_load(ceduo_interrupt_flag());
     return c->uncertainty.too_much ? CEDUO_OK : status;
@@ -260,7 +260,7 @@ static enum ceduo_status ask_uncertainty(struct asked *c, struct scene_file *fil
 static bool begin_uncertainty(struct asked *c, const struct arguments *a, struct scene_file *file, bool years,
                               struct ceduo_uncertainty_def *def)
 {
-    bool good = ceduo_inputs_of(file, &c->inputs);
+    bool good = ceduo_inputs_collect(file, &c->inputs);
     if (!years)
         ceduo_inputs_keep_today(&c->inputs);
     *def = (struct ceduo_uncertainty_def){.scene = &file->scene,
@@ -299,7 +299,7 @@ enum ceduo_status ceduo_ask_uncertainty_beside(struct asked *c, const struct arg
     def.own = &c->answer;
     def.rocks = rocks < CEDUO_UNCERTAINTY_ROCKS ? rocks : CEDUO_UNCERTAINTY_ROCKS;
     def.points_max = def.points;
-    if (rocks < 2 || !result->wooded || ceduo_page_says_nothing(result))
+    if (rocks < 2 || !result->wooded || ceduo_page_is_unassessable(result))
         def.points = 0;
     else if (def.inputs_count > 0 && !ceduo_arguments_given(a, "sensitivity"))
         status = ceduo_effort_bound(&def, &c->answer.work);

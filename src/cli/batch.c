@@ -41,8 +41,8 @@ static void add_answer(struct batch *b, const struct text *answer)
         struct json json = {.text = &b->out};
         ceduo_json_open(&json, NULL, '{');
         ceduo_each_json(&b->each, &json);
-        ceduo_text_put(&b->out, ", ");
-        ceduo_text_put(&b->out, ceduo_text_string(answer) + 1);
+        ceduo_text_append(&b->out, ", ");
+        ceduo_text_append(&b->out, ceduo_text_string(answer) + 1);
     } else {
         if (!b->first && a->format == CEDUO_TABLE && a->profiles->count == 0 && a->mode != MODE_CHECK)
             ceduo_text_char(&b->out, '\n');
@@ -66,19 +66,20 @@ static void put_verdicts(struct text *text, const struct arguments *a, const siz
     bool html = a->mode == MODE_REPORT;
     struct ceduo_html to = {.text = text};
     LOCAL_PAGE(verdicts, html ? CEDUO_PAGE_REPORT_WIDTH : CEDUO_PAGE_WIDTH);
-    size_t *order = ceduo_must(calloc(a->profiles->count + 1, sizeof *order)), n = ceduo_profiles_sort(a->profiles, order);
+    size_t *order = ceduo_check_memory(calloc(a->profiles->count + 1, sizeof *order)),
+           n = ceduo_profiles_sort(a->profiles, order);
     *text = (struct text){0};
     if (html)
         ceduo_page_html_begin(&to, ceduo_text_string(a->title));
     if (html && n > 1)
-        ceduo_page_say(&verdicts, CEDUO_PAGE_TITLE, _("%zu scenes, the worst first"), n);
+        ceduo_page_para(&verdicts, CEDUO_PAGE_TITLE, _("%zu scenes, the worst first"), n);
     if (n > 1)
         ceduo_profiles_page(&verdicts, a->profiles);
     if (html && n > 1) {
         ceduo_page_html(&to, &verdicts, n + 1);
     } else if (!html) {
-        ceduo_page_print(text, &verdicts, !ceduo_say_utf8());
-        ceduo_say_plainly(text);
+        ceduo_page_print(text, &verdicts, !ceduo_print_utf8());
+        ceduo_to_terminal_charset(text);
     }
     for (size_t i = 0; i < n; i++) {
         if (!html)
@@ -201,7 +202,7 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
     a->title = &title;
     enum exit_status status = open_batch(&b, a);
     bool opened = status == EXIT_DONE;
-    size_t *starts = ceduo_must(calloc(b.each.count + 2, sizeof *starts));
+    size_t *starts = ceduo_check_memory(calloc(b.each.count + 2, sizeof *starts));
     if (opened)
         status = compute_all(&b, given->plot != CEDUO_PLOT_NONE ? ceduo_print_plots : answers[given->mode], starts);
     if (profiles.count > (a->mode == MODE_REPORT ? 0u : 1u))

@@ -53,16 +53,16 @@ void ceduo_progress_scenes(struct progress *progress, size_t computed, size_t do
 
 /* A question about one scene, and the answer. */
 struct asked {
-    struct ceduo_question question;
+    struct ceduo_request question;
     bool pictures, envelopes; /* keep data of pictures, and of envelopes along the slope */
     size_t trajectories;      /* number of trajectories to keep */
     struct progress progress;
-    struct ceduo_answer answer;
+    struct ceduo_results answer;
     double seconds; /* of the runs */
     struct ceduo_snapshot *snapshot;
     struct ceduo_verdict verdict;
     struct scene_inputs inputs; /* that are uncertain */
-    struct ceduo_uncertainty_answer uncertainty_answer;
+    struct ceduo_uncertainty_result uncertainty_answer;
     struct ceduo_uncertainty_report uncertainty; /* answer NULL: nothing is uncertain; file NULL: not asked */
 };
 
@@ -70,7 +70,7 @@ struct asked {
 void ceduo_ask_begin(struct asked *asked, const struct arguments *arguments, const struct scene_file *file);
 
 /* Ask for one rotation of each option as well, with few rocks, if --years is not given. */
-void ceduo_ask_years(struct ceduo_question *question);
+void ceduo_ask_years(struct ceduo_request *question);
 
 /* Simulate the runs of the question. */
 enum ceduo_status ceduo_ask_runs(struct asked *asked);

@@ -36,7 +36,7 @@ static enum exit_status find_value(struct job *j, size_t i)
     for (size_t s = 0; s < j->scenes_count; s++) {
         struct ceduo_input *input = &j->inputs[s * j->parameters_count + i];
         field = ceduo_input_find(&j->files[s], path, input);
-        const char *instead = ceduo_gone(path);
+        const char *instead = ceduo_removed_hint(path);
         if (instead)
             return ceduo_usage("calibrate", "'%s': %s", path, _(instead));
         if (!field)
@@ -60,7 +60,7 @@ static enum exit_status find_value(struct job *j, size_t i)
     bool mu = strcmp(field->key, "mu") == 0; /* acts through the shape of the rock, in one law */
     if (mu && arms == 0)
         return ceduo_usage("calibrate", _("'%s' has no part in this law; only arm knows it"), path);
-    if (mu && !ceduo_calibration_tells_mu(j->scenes, j->scenes_count))
+    if (mu && !ceduo_calibration_identifies_mu(j->scenes, j->scenes_count))
         return ceduo_usage("calibrate",
                            _("'%s' cannot be told from rocks of one shape; observe rocks of two, or leave it as it is"), path);
     return EXIT_DONE;
@@ -109,7 +109,7 @@ static bool fill_scene(const struct job *j, const struct ceduo_calibration_repor
     const struct fit_values fit = {r->answer, r->inputs, ceduo_text_string(&source), draws->temporary};
     bool good = ceduo_document_open(&document, a->scenes[0], (const char *const *)a->sets.items, a->sets.n, &problems);
     ceduo_recovery_end(&document.recovery); /* a batch run keeps no copy of unsaved work */
-    good = good && ceduo_keep_fit(&document, &fit, &problems);
+    good = good && ceduo_apply_fit(&document, &fit, &problems);
     if (good) {
         const char *mark = draws->temporary + strlen(draws->target);
         ceduo_document_text(&document, a->output, scene);
@@ -119,7 +119,7 @@ static bool fill_scene(const struct job *j, const struct ceduo_calibration_repor
             memmove(at, at + strlen(mark), strlen(at + strlen(mark)) + 1);
         }
     }
-    ceduo_say_problems(&problems);
+    ceduo_print_problems(&problems);
     ceduo_document_close(&document);
     return good;
 }
@@ -152,15 +152,15 @@ static enum exit_status write_scene(const struct job *j, const struct ceduo_cali
         draws.wait = false; /* for their folder: the scene waits for it, and nothing comes between the two */
         if (!ceduo_file_prepare(&file)) {
             failed = output;
-        } else if (ceduo_file_place(&draws)) {
-            failed = ceduo_file_place(&file) ? NULL : output;
+        } else if (ceduo_file_commit(&draws)) {
+            failed = ceduo_file_commit(&file) ? NULL : output;
             status = failed ? EXIT_OUTPUT : EXIT_DONE;
         }
     }
     if (failed)
-        ceduo_say_why(failed, strerror(errno));
-    ceduo_file_drop(&draws);
-    ceduo_file_drop(&file);
+        ceduo_print_error(failed, strerror(errno));
+    ceduo_file_abort(&draws);
+    ceduo_file_abort(&file);
     return status;
 }
 
@@ -172,11 +172,11 @@ static void show(void *context, const struct ceduo_calibration_state *state)
     if (!ceduo_progress_due(context, &seconds))
         return;
     if (state->stage == CEDUO_CHAINS && isfinite(state->rhat))
-        ceduo_say_progress(_("%llu scenes; R-hat %.3f (1.05), effective size %.0f (200); %.0f s"),
-                           (unsigned long long)state->evaluations, state->rhat, state->effective_size, seconds);
+        ceduo_print_progress(_("%llu scenes; R-hat %.3f (1.05), effective size %.0f (200); %.0f s"),
+                             (unsigned long long)state->evaluations, state->rhat, state->effective_size, seconds);
     else
-        ceduo_say_progress(_("%llu scenes; log-likelihood %.2f; %.0f s"), (unsigned long long)state->evaluations,
-                           state->log_likelihood, seconds);
+        ceduo_print_progress(_("%llu scenes; log-likelihood %.2f; %.0f s"), (unsigned long long)state->evaluations,
+                             state->log_likelihood, seconds);
 }
 
 static enum exit_status compute(struct job *j)
@@ -206,9 +206,9 @@ static enum exit_status compute(struct job *j)
         ceduo_csv_head(&out, &ceduo_calibration_csv);
         ceduo_csv_rows(&out, &ceduo_calibration_csv, &place);
     } else {
-        ceduo_calibration_page(&out, &report, !ceduo_say_utf8());
+        ceduo_calibration_page(&out, &report, !ceduo_print_utf8());
     }
-    ceduo_say_plainly(&out);
+    ceduo_to_terminal_charset(&out);
     bool scene = writes_scene(&print), ended = atomic_load(ceduo_interrupt_flag()); /* from here on all is written */
     print.output = scene ? NULL : print.output;
     enum exit_status written = ended ? EXIT_RUN : ceduo_output_write(&print, &out);
@@ -221,9 +221,9 @@ static enum exit_status compute(struct job *j)
 enum exit_status ceduo_batch_calibrate(const struct arguments *a)
 {
     struct job j = {.arguments = a, .scenes_count = a->scenes_count, .parameters_count = a->calibrates_count};
-    j.files = ceduo_must(calloc(j.scenes_count, sizeof *j.files));
-    j.scenes = ceduo_must(calloc(j.scenes_count, sizeof *j.scenes));
-    j.inputs = ceduo_must(calloc(j.scenes_count * j.parameters_count, sizeof *j.inputs));
+    j.files = ceduo_check_memory(calloc(j.scenes_count, sizeof *j.files));
+    j.scenes = ceduo_check_memory(calloc(j.scenes_count, sizeof *j.scenes));
+    j.inputs = ceduo_check_memory(calloc(j.scenes_count * j.parameters_count, sizeof *j.inputs));
     enum exit_status status = open_job(&j);
     if (status == EXIT_DONE) {
         ceduo_interrupt_catch();

@@ -52,7 +52,7 @@ static void append_line(const struct columns *c, const struct text *line, struct
     } else {
         size_t n = split_line(line->bytes, line->length, c->cells, c->count);
         for (size_t k = 0; k < c->chosen_count; k++) {
-            ceduo_text_put(out, k > 0 ? "," : "");
+            ceduo_text_append(out, k > 0 ? "," : "");
             if (c->chosen[k] < n)
                 ceduo_text_add(out, c->cells[c->chosen[k]].p, c->cells[c->chosen[k]].n);
         }
@@ -65,7 +65,7 @@ static enum exit_status choose(struct columns *c, const struct named_column *nam
 {
     const char *list = c->each->given->columns;
     size_t length;
-    c->chosen = ceduo_arena_take(&c->each->arena, (strlen(list) + 1) * sizeof *c->chosen);
+    c->chosen = ceduo_arena_alloc(&c->each->arena, (strlen(list) + 1) * sizeof *c->chosen);
     for (const char *word = list; *word; word += length + (word[length] == ',')) {
         length = strcspn(word, ",");
         const struct named_column wanted = {ceduo_arena_copy(&c->each->arena, word, length), 0};
@@ -74,7 +74,7 @@ static enum exit_status choose(struct columns *c, const struct named_column *nam
             c->chosen[c->chosen_count++] = found->column;
             continue;
         }
-        const char **all = ceduo_arena_take(&c->each->arena, (n + 1) * sizeof *all);
+        const char **all = ceduo_arena_alloc(&c->each->arena, (n + 1) * sizeof *all);
         for (size_t i = 0; i < n; i++)
             all[i] = names[i].name;
         const char *near = ceduo_text_nearest(wanted.name, all, n);
@@ -90,9 +90,9 @@ enum exit_status ceduo_columns_open(struct columns *c, struct each *e, const str
     size_t most = 1, length = header->length > 0 ? header->length - 1 : 0; /* without its end */
     for (size_t i = 0; i < length; i++)
         most += header->bytes[i] == ',';
-    struct csv_span *own = ceduo_arena_take(&e->arena, most * sizeof *own);
+    struct csv_span *own = ceduo_arena_alloc(&e->arena, most * sizeof *own);
     size_t own_count = length > 0 ? split_line(header->bytes, length, own, most) : 0, n = 0;
-    struct named_column *names = ceduo_arena_take(&e->arena, (own_count + e->heads_count + 1) * sizeof *names);
+    struct named_column *names = ceduo_arena_alloc(&e->arena, (own_count + e->heads_count + 1) * sizeof *names);
     for (size_t i = 0; i < own_count; i++)
         names[i] = (struct named_column){ceduo_arena_copy(&e->arena, own[i].p, own[i].n), i};
     qsort(names, own_count, sizeof *names, compare_names);
@@ -109,7 +109,7 @@ enum exit_status ceduo_columns_open(struct columns *c, struct each *e, const str
         names[i].column += n;
     c->count = own_count + n;
     qsort(names, c->count, sizeof *names, compare_names);
-    c->cells = ceduo_arena_take(&e->arena, (c->count + 1) * sizeof *c->cells);
+    c->cells = ceduo_arena_alloc(&e->arena, (c->count + 1) * sizeof *c->cells);
     return e->given->columns ? choose(c, names, c->count) : EXIT_DONE;
 }
 

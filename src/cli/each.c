@@ -29,7 +29,7 @@ static void append_names(const struct each *e, bool set, struct text *text)
             ceduo_csv_list(text, &n, e->heads[i].name, strlen(e->heads[i].name));
     ceduo_csv_list_end(text, n);
     if (n == 0)
-        ceduo_text_put(text, _("none"));
+        ceduo_text_append(text, _("none"));
 }
 
 /* Print which columns are set and which are copied. */
@@ -42,15 +42,15 @@ static void announce(const struct each *e)
     append_names(e, false, &copied);
     ceduo_text_format(&line, _("columns that are set: %s; copied: %s"), ceduo_text_string(&set), ceduo_text_string(&copied));
     if (!e->given->quiet)
-        ceduo_say_why(e->table.source->name, ceduo_text_string(&line));
+        ceduo_print_error(e->table.source->name, ceduo_text_string(&line));
 }
 
 static bool read_heads(struct each *e)
 {
     const struct csv *t = &e->table;
     e->heads_count = t->heads_count;
-    e->heads = ceduo_arena_take(&e->arena, (t->heads_count + 1) * sizeof *e->heads);
-    e->cells = ceduo_arena_take(&e->arena, (t->heads_count + 1) * sizeof *e->cells);
+    e->heads = ceduo_arena_alloc(&e->arena, (t->heads_count + 1) * sizeof *e->heads);
+    e->cells = ceduo_arena_alloc(&e->arena, (t->heads_count + 1) * sizeof *e->cells);
     if (!ceduo_each_heads(t, &e->arena, e->heads))
         return false;
     size_t set = 0;
@@ -75,7 +75,7 @@ static bool check_numbers(const struct each *e)
     bool good = true;
     char number[CSV_NUMERAL_CAPACITY];
     for (size_t i = 0; i < e->heads_count; i++) {
-        struct csv_cell cell = ceduo_csv_cell(&e->table, i);
+        struct csv_cell cell = ceduo_csv_next_cell(&e->table, i);
         if (e->heads[i].sets != PATH_NUMBER || is_yaml(cell) || ceduo_csv_is_empty(cell))
             continue;
         enum csv_numeral how = ceduo_csv_numeral(&e->table, cell, number);
@@ -94,9 +94,9 @@ static bool read_rows(struct each *e)
     ceduo_csv_scan(t);
     if (t->rows == 0)
         return ceduo_problem(t->problems, t->source, 0, 0, _("no row below the head"));
-    e->rows = ceduo_arena_take(&e->arena, t->rows * sizeof *e->rows);
+    e->rows = ceduo_arena_alloc(&e->arena, t->rows * sizeof *e->rows);
     t->arena = &e->row_arena; /* the scan has made the list of cells long enough */
-    while (ceduo_csv_next(t)) {
+    while (ceduo_csv_next_row(t)) {
         bool bad = t->bad || !check_numbers(e);
         e->bad_rows |= bad;
         e->rows[e->rows_count++] = (struct each_row){t->place, bad};
@@ -116,7 +116,7 @@ static enum exit_status read_table(struct each *e)
     if (good)
         announce(e);
     good = good && read_rows(e);
-    ceduo_say_problems(&problems);
+    ceduo_print_problems(&problems);
     e->table.problems = NULL;
     return good ? EXIT_DONE : EXIT_INPUT;
 }
@@ -126,7 +126,7 @@ enum exit_status ceduo_each_open(struct each *e, const struct arguments *a)
     *e = (struct each){.arguments = *a, .given = a};
     enum exit_status status = a->each ? read_table(e) : EXIT_DONE;
     e->count = a->scenes_count * (a->each ? e->rows_count : 1);
-    e->arguments.sets.items = ceduo_arena_take(&e->arena, (a->sets.n + e->heads_count + 1) * sizeof *a->sets.items);
+    e->arguments.sets.items = ceduo_arena_alloc(&e->arena, (a->sets.n + e->heads_count + 1) * sizeof *a->sets.items);
     memcpy(e->arguments.sets.items, a->sets.items, a->sets.n * sizeof *a->sets.items);
     return status;
 }
@@ -138,7 +138,7 @@ static void append_quoted(struct text *change, const char *cell)
 {
     ceduo_text_char(change, '\'');
     for (const char *p = cell; *p; p++)
-        ceduo_text_put(change, *p == '\'' ? "''" : (char[]){*p, '\0'});
+        ceduo_text_append(change, *p == '\'' ? "''" : (char[]){*p, '\0'});
     ceduo_text_char(change, '\'');
 }
 
@@ -146,7 +146,7 @@ static void append_quoted(struct text *change, const char *cell)
 static const char *make_change(struct each *e, size_t column)
 {
     const struct each_head *head = &e->heads[column];
-    struct csv_cell cell = ceduo_csv_cell(&e->table, column);
+    struct csv_cell cell = ceduo_csv_next_cell(&e->table, column);
     char number[CSV_NUMERAL_CAPACITY];
     if (cell.n == 0 || (head->sets == PATH_NUMBER && ceduo_csv_is_empty(cell)))
         return NULL;
@@ -155,9 +155,9 @@ static const char *make_change(struct each *e, size_t column)
     if (head->sets == PATH_TEXT || (head->sets == PATH_FILE && !is_yaml(cell)))
         append_quoted(&change, e->cells[column]);
     else if (head->sets == PATH_NUMBER && !is_yaml(cell) && ceduo_csv_numeral(&e->table, cell, number) == CSV_NUMERAL_GOOD)
-        ceduo_text_put(&change, number);
+        ceduo_text_append(&change, number);
     else
-        ceduo_text_put(&change, e->cells[column]);
+        ceduo_text_append(&change, e->cells[column]);
     return ceduo_arena_string(&e->row_arena, ceduo_text_string(&change));
 }
 
@@ -168,7 +168,7 @@ static void read_row(struct each *e, const struct each_row *row)
     ceduo_csv_return(&e->table, row->place);
     e->arguments.label = e->name;
     for (size_t i = e->heads_count; i-- > 0;) {
-        struct csv_cell cell = ceduo_csv_cell(&e->table, i);
+        struct csv_cell cell = ceduo_csv_next_cell(&e->table, i);
         e->cells[i] = ceduo_arena_copy(&e->row_arena, cell.p, cell.n);
         if (ceduo_each_is_copied(&e->heads[i]) && cell.n > 0 && cell.n <= LABEL_MAX) /* the first short one: no geometry */
             e->arguments.label = e->cells[i];
@@ -233,11 +233,11 @@ void ceduo_each_json(const struct each *e, struct json *json)
 
 void ceduo_each_page(const struct each *e, struct text *page)
 {
-    ceduo_text_safe(page, e->name);
+    ceduo_text_append_escaped(page, e->name);
     for (size_t i = 0; i < e->heads_count; i++)
         if (ceduo_each_is_copied(&e->heads[i]) && e->cells[i][0]) {
-            ceduo_text_put(page, " \xc2\xb7 ");
-            ceduo_text_safe(page, e->cells[i]);
+            ceduo_text_append(page, " \xc2\xb7 ");
+            ceduo_text_append_escaped(page, e->cells[i]);
         }
     ceduo_text_char(page, '\n');
 }
@@ -250,7 +250,7 @@ void ceduo_each_note_failed(struct each *e)
         if (label && label != e->name)
             ceduo_text_format(&e->failed, " (%s)", label);
     } else if (e->failures == NAMES_MAX + 1) {
-        ceduo_text_put(&e->failed, ", \xe2\x80\xa6");
+        ceduo_text_append(&e->failed, ", \xe2\x80\xa6");
     }
 }
 
@@ -260,7 +260,7 @@ void ceduo_each_close(struct each *e)
         LOCAL_TEXT(line);
         ceduo_text_format(&line, ngettext("%zu of %zu failed: %s", "%zu of %zu failed: %s", e->failures), e->failures, e->count,
                           ceduo_text_string(&e->failed));
-        ceduo_say_why("ceduo", ceduo_text_string(&line));
+        ceduo_print_error("ceduo", ceduo_text_string(&line));
     }
     ceduo_text_free(&e->failed);
     ceduo_arena_free(&e->row_arena);

@@ -57,7 +57,7 @@ static void add_meant(struct meants *m, const char *pattern, size_t length, enum
         if (strcmp(m->items[i].pattern, copy) == 0)
             return;
     const char *dot = strrchr(copy, '.'), *key = dot ? dot + 1 : copy;
-    m->items = ceduo_arena_more(&m->arena, m->items, m->n, 1, &m->capacity, sizeof *m->items);
+    m->items = ceduo_arena_grow(&m->arena, m->items, m->n, 1, &m->capacity, sizeof *m->items);
     /* a mapping has no last key that a head could be: energy and height are columns of many tables */
     bool everyday = kind == PATH_OTHER || is_everyday(copy, key, kind);
     m->items[m->n++] = (struct meant){copy, key, everyday};
@@ -127,7 +127,7 @@ static const char *find_meant(const struct meants *m, struct arena *arena, const
 static const char *find_nearest(const struct meants *m, struct arena *arena, const char *head)
 {
     LOCAL_TEXT(pattern);
-    const char **patterns = ceduo_arena_take(arena, (m->n + 1) * sizeof *patterns);
+    const char **patterns = ceduo_arena_alloc(arena, (m->n + 1) * sizeof *patterns);
     for (size_t i = 0; i < m->n; i++)
         patterns[i] = m->items[i].pattern;
     for (const char *p = head; *p; p++) {
@@ -143,18 +143,18 @@ static const char *find_nearest(const struct meants *m, struct arena *arena, con
 static bool check_copied(const struct csv *table, size_t column, const struct meants *m, struct arena *arena, const char *head)
 {
     bool path = strpbrk(head, ".[");
-    const char *instead = path ? ceduo_gone(head) : NULL;
+    const char *instead = path ? ceduo_removed_hint(head) : NULL;
     if (instead)
-        return ceduo_csv_complain(table, table->heads[column], "'%s': %s", head, _(instead));
+        return ceduo_csv_report_error(table, table->heads[column], "'%s': %s", head, _(instead));
     const char *meant = path ? find_nearest(m, arena, head) : find_meant(m, arena, head);
     if (meant)
-        return ceduo_csv_complain(table, table->heads[column],
-                                  _("'%s' is no path of --set; write '%s' to set it, or rename the column to copy it"), head,
-                                  meant);
-    return !path || ceduo_csv_complain(table, table->heads[column],
-                                       _("'%s' is no path of --set (ceduo --list-parameters); the head of a column that is "
-                                         "copied has no '.' or '['"),
-                                       head);
+        return ceduo_csv_report_error(table, table->heads[column],
+                                      _("'%s' is no path of --set; write '%s' to set it, or rename the column to copy it"),
+                                      head, meant);
+    return !path || ceduo_csv_report_error(table, table->heads[column],
+                                           _("'%s' is no path of --set (ceduo --list-parameters); the head of a column that is "
+                                             "copied has no '.' or '['"),
+                                           head);
 }
 
 /* ---- all heads ---- */
@@ -173,7 +173,7 @@ static int compare_printed(const void *a, const void *b)
 
 static bool check_twice(const struct csv *table, struct arena *arena, const struct each_head *heads, size_t n)
 {
-    struct printed_head *sorted = ceduo_arena_take(arena, (n + 1) * sizeof *sorted);
+    struct printed_head *sorted = ceduo_arena_alloc(arena, (n + 1) * sizeof *sorted);
     size_t named = 0, twice = 0;
     for (size_t i = 0; i < n; i++) {
         LOCAL_TEXT(text);
@@ -185,7 +185,8 @@ static bool check_twice(const struct csv *table, struct arena *arena, const stru
     for (size_t i = 1; i < named && twice < CEDUO_PROBLEMS_MAX; i++)
         if (strcmp(sorted[i - 1].text, sorted[i].text) == 0) {
             twice++;
-            ceduo_csv_complain(table, table->heads[sorted[i].column], _("'%s' is given twice"), heads[sorted[i].column].name);
+            ceduo_csv_report_error(table, table->heads[sorted[i].column], _("'%s' is given twice"),
+                                   heads[sorted[i].column].name);
         }
     return twice == 0;
 }

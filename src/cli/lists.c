@@ -23,14 +23,14 @@ static void align(struct text *to, const char *rows)
     for (int puts = 0; puts < 2; puts++)
         for (const char *p = rows; *p; p += n + 1) {
             n = strcspn(p, "\t\n");
-            size_t width = ceduo_utf8_width_of(p, n);
+            size_t width = ceduo_utf8_char_width(p, n);
             bool last = p[n] == '\n';
             if (!puts && !last && width > widths[column])
                 widths[column] = width > WIDTH_MAX ? WIDTH_MAX : width;
             if (puts) {
                 ceduo_text_add(to, p, n);
                 ceduo_text_format(to, "%*s", last ? 0 : width > widths[column] ? 1 : (int)(widths[column] + 2 - width), "");
-                ceduo_text_put(to, last ? "\n" : "");
+                ceduo_text_append(to, last ? "\n" : "");
             }
             column = last ? 0 : column + 1;
         }
@@ -41,8 +41,8 @@ static enum exit_status print_table(const struct arguments *a, struct text *rows
 {
     LOCAL_TEXT(table);
     align(&table, ceduo_text_string(rows));
-    ceduo_text_put(&table, below);
-    ceduo_say_plainly(&table);
+    ceduo_text_append(&table, below);
+    ceduo_to_terminal_charset(&table);
     ceduo_text_free(rows);
     return ceduo_output_write(a, &table);
 }
@@ -61,7 +61,7 @@ static void put_parameter(void *context, const char *path, const struct field *f
     if (f->type == FIELD_TAG || strncmp(path, "options[].forest[].", 19) == 0)
         return; /* as forest[] */
     if (f->choices)
-        ceduo_text_words(&words, f->choices->names, f->choices->n, "|");
+        ceduo_text_join(&words, f->choices->names, f->choices->n, "|");
     else if (!ceduo_schema_range_text(f, &words))
         ceduo_text_char(&words, '-');
     ceduo_text_format(text, "%s\t%s\t%s\t%s\t%s\t%s\n", path, type_names[f->type], f->unit[0] ? f->unit : "-",
@@ -129,11 +129,11 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
             const char *const *names = ceduo_file_list(&arena, folders[f], kinds[k][0], &n);
             for (size_t i = 0; i < n; i++) { /* what is typed comes first: the file's name without its ending */
                 const char *path = ceduo_arena_format(&arena, "%s/%s/%s.yaml", folders[f], kinds[k][0], names[i]);
-                ceduo_text_safe(&rows, names[i]);
+                ceduo_text_append_escaped(&rows, names[i]);
                 ceduo_text_format(&rows, "\t%s\t", kinds[k][1]);
-                ceduo_text_safe(&rows, title_of(&arena, path));
+                ceduo_text_append_escaped(&rows, title_of(&arena, path));
                 ceduo_text_char(&rows, '\t');
-                ceduo_text_safe(&rows, path);
+                ceduo_text_append_escaped(&rows, path);
                 ceduo_text_char(&rows, '\n');
             }
         }
@@ -156,10 +156,10 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
         ceduo_survey_template(&yaml);
     bool good = sheet || (ceduo_survey_read(&file, &arena, found ? found : a->survey, NULL, &problems) &&
                           ceduo_survey_stand(&file, &yaml, &problems));
-    ceduo_say_problems(&problems);
+    ceduo_print_problems(&problems);
     if (good && !sheet && !a->quiet) {
         ceduo_text_format(&line, "%s\n", file.understood);
-        ceduo_say(&line);
+        ceduo_print_message(&line);
     }
     return good ? ceduo_output_write(a, &yaml) : EXIT_INPUT;
 }

@@ -41,7 +41,7 @@ static enum exit_status print(const struct arguments *a)
         ceduo_arguments_help(&text);
     else
         ceduo_text_format(&text, "ceduo %s\n", CEDUO_VERSION);
-    ceduo_say_plainly(&text);
+    ceduo_to_terminal_charset(&text);
     return ceduo_output_write(a, &text);
 }
 
@@ -49,7 +49,7 @@ static enum exit_status no_terminal(const char *why)
 {
     LOCAL_TEXT(text);
     ceduo_text_format(&text, _("ceduo: %s; use 'ceduo --batch SCENE.yaml', or try 'ceduo --help'\n"), why);
-    ceduo_say(&text);
+    ceduo_print_message(&text);
     return EXIT_USAGE;
 }
 
@@ -64,7 +64,7 @@ static enum exit_status interact(const struct arguments *a)
     struct problems problems = {0};
     bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, a->charset, (unsigned)a->threads,
                                      a->script != NULL, &problems);
-    ceduo_say_problems(&problems);
+    ceduo_print_problems(&problems);
     if (!good)
         return EXIT_INPUT;
     enum exit_status status;
@@ -111,7 +111,7 @@ int main(int argc, char **argv)
     enum exit_status status = ceduo_arguments_read(&arguments, argc, argv);
     if (status == EXIT_DONE) /* whether it can be written is told before anything is computed */
         status = ceduo_output_check(&arguments) ? commands[arguments.mode](&arguments) : EXIT_OUTPUT;
-    ceduo_say_no_progress();
+    ceduo_clear_progress();
     ceduo_arguments_free(&arguments);
     return (int)status;
 }

@@ -127,7 +127,7 @@ static enum exit_status set_plot(struct arguments *a, const struct option_row *r
     a->plot = ceduo_plot_find(value);
     if (a->plot != CEDUO_PLOT_NONE)
         return EXIT_DONE;
-    const char *remedy = ceduo_gone(value);
+    const char *remedy = ceduo_removed_hint(value);
     return remedy ? ceduo_usage(row->name, _("'%s' is gone: %s"), value, _(remedy))
                   : ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_plot_names);
 }
@@ -382,14 +382,14 @@ bool ceduo_arguments_given(const struct arguments *a, const char *name)
 
 void ceduo_arguments_help(struct text *text)
 {
-    ceduo_text_put(text, _("ceduo: does this coppice stop the rocks?\n\n"
-                           "usage: ceduo [SCENE.yaml]\n"
-                           "       ceduo --batch [OPTION...] SCENE.yaml...\n"
-                           "       ceduo --plot WHAT [OPTION...] SCENE.yaml...\n"
-                           "       ceduo --check SCENE.yaml...\n"
-                           "       ceduo --survey PLOTS.csv [-o STAND.yaml]\n"
-                           "       ceduo --list-parameters | --list-profiles\n\n"
-                           "SCENE is a file, - for standard input, or the name of a shipped scene.\n\n"));
+    ceduo_text_append(text, _("ceduo: does this coppice stop the rocks?\n\n"
+                              "usage: ceduo [SCENE.yaml]\n"
+                              "       ceduo --batch [OPTION...] SCENE.yaml...\n"
+                              "       ceduo --plot WHAT [OPTION...] SCENE.yaml...\n"
+                              "       ceduo --check SCENE.yaml...\n"
+                              "       ceduo --survey PLOTS.csv [-o STAND.yaml]\n"
+                              "       ceduo --list-parameters | --list-profiles\n\n"
+                              "SCENE is a file, - for standard input, or the name of a shipped scene.\n\n"));
     for (size_t i = 0; i < ROWS; i++) {
         const char *value = rows[i].value ? rows[i].value : "", *blank = rows[i].value ? " " : "";
         char head[64];
@@ -402,9 +402,9 @@ void ceduo_arguments_help(struct text *text)
             ceduo_text_format(text, "%.*s\n%*s", n, help, *next ? HELP_COLUMN : 0, "");
         }
     }
-    ceduo_text_put(text, _("\nexample: ceduo --batch -s 'forest[0].stand.stools.per_ha=2000' paper-site\n"
-                           "exit status: 0 done, 1 run failed, 2 usage, 3 bad input, 4 output failed;\n"
-                           "see man ceduo\n"));
+    ceduo_text_append(text, _("\nexample: ceduo --batch -s 'forest[0].stand.stools.per_ha=2000' paper-site\n"
+                              "exit status: 0 done, 1 run failed, 2 usage, 3 bad input, 4 output failed;\n"
+                              "see man ceduo\n"));
 }
 
 /* ---- what goes together ---- */
@@ -514,13 +514,13 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
     long cores = sched_getaffinity(0, sizeof given, &given) == 0 ? CPU_COUNT(&given) : sysconf(_SC_NPROCESSORS_ONLN);
     size_t most = (size_t)argc + 1;
     *a = (struct arguments){.threads = cores > 0 && cores <= THREADS_MAX ? (uint64_t)cores : 1,
-                            .charset = ceduo_say_utf8() ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII,
+                            .charset = ceduo_print_utf8() ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII,
                             .plot_width = 80,
                             .plot_height = 24,
                             .points = CEDUO_UNCERTAINTY_POINTS,
                             .goal_value = NAN,
-                            .sets.items = ceduo_must(calloc(most, sizeof *a->sets.items)),
-                            .options.items = ceduo_must(calloc(most, sizeof *a->options.items))};
+                            .sets.items = ceduo_check_memory(calloc(most, sizeof *a->sets.items)),
+                            .options.items = ceduo_check_memory(calloc(most, sizeof *a->options.items))};
     for (size_t i = 0; i < ROWS; i++) {
         int takes = !rows[i].value ? no_argument : rows[i].value[0] == '[' ? optional_argument : required_argument;
         longs[i] = (struct option){rows[i].name, takes, NULL, LONG + (int)i};
@@ -537,7 +537,7 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
             return ceduo_usage(NULL, _("'%s' needs a value"), word);
         if (letter == '?' && word[0] == '-' && word[1] == '-' && optopt)
             return ceduo_usage(NULL, _("'%s': this option takes no value"), word);
-        const char *remedy = letter == '?' ? ceduo_gone(word) : NULL;
+        const char *remedy = letter == '?' ? ceduo_removed_hint(word) : NULL;
         if (remedy)
             return ceduo_usage(NULL, _("'%s' is gone: %s"), word, _(remedy));
         if (letter == '?')

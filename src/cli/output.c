@@ -11,11 +11,11 @@
 enum exit_status ceduo_output_write(const struct arguments *a, const struct text *text)
 {
     const char *bytes = ceduo_text_string(text);
-    ceduo_say_no_progress();
+    ceduo_clear_progress();
     if (a->output ? ceduo_file_write(a->output, bytes, text->length)
-                  : ceduo_file_fill(STDOUT_FILENO, bytes, text->length, ceduo_interrupt_flag()))
+                  : ceduo_file_write_all(STDOUT_FILENO, bytes, text->length, ceduo_interrupt_flag()))
         return EXIT_DONE;
-    ceduo_say_why(a->output ? a->output : _("standard output"), strerror(errno));
+    ceduo_print_error(a->output ? a->output : _("standard output"), strerror(errno));
     return EXIT_OUTPUT;
 }
 
@@ -23,7 +23,7 @@ bool ceduo_output_is(const struct arguments *a, const char *path)
 {
     if (!a->output || !path || !ceduo_file_same(a->output, path))
         return false;
-    ceduo_say_why(a->output, _("it is read in this run; write elsewhere"));
+    ceduo_print_error(a->output, _("it is read in this run; write elsewhere"));
     return true;
 }
 
@@ -32,7 +32,7 @@ bool ceduo_output_check(const struct arguments *a)
     LOCAL_ARENA(arena);
     bool good = !a->output || ceduo_file_can_write(a->output);
     if (!good)
-        ceduo_say_why(*a->output ? a->output : "--output", *a->output ? strerror(errno) : _("name a file"));
+        ceduo_print_error(*a->output ? a->output : "--output", *a->output ? strerror(errno) : _("name a file"));
     for (size_t i = 0; a->output && good && i < a->scenes_count; i++) {
         const char *path = a->scenes[i];
         if (strcmp(path, "-") != 0)
@@ -48,7 +48,7 @@ bool ceduo_output_check(const struct arguments *a)
 
 static enum exit_status fail(const struct arguments *a)
 {
-    ceduo_say_why(a->output, strerror(errno));
+    ceduo_print_error(a->output, strerror(errno));
     return EXIT_OUTPUT;
 }
 
@@ -63,11 +63,11 @@ enum exit_status ceduo_output_next(struct output *o, const struct arguments *a, 
         o->begun = o->fd >= 0;
         if (!o->begun) {
             enum exit_status status = fail(a);
-            ceduo_file_drop(&o->file);
+            ceduo_file_abort(&o->file);
             return status;
         }
     }
-    bool good = !a->output || ceduo_file_fill(o->fd, text->bytes, text->length, ceduo_interrupt_flag());
+    bool good = !a->output || ceduo_file_write_all(o->fd, text->bytes, text->length, ceduo_interrupt_flag());
     enum exit_status status = a->output ? (good || errno == EINTR ? EXIT_DONE : fail(a)) : ceduo_output_write(a, text);
     ceduo_text_cut(text, 0);
     return status;
@@ -83,7 +83,7 @@ enum exit_status ceduo_output_end(struct output *o, const struct arguments *a, s
         close(o->fd);
     else if (!ceduo_file_finish(&o->file, o->fd))
         status = fail(a);
-    ceduo_file_drop(&o->file);
+    ceduo_file_abort(&o->file);
     ceduo_interrupt_release();
     return status;
 }

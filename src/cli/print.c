@@ -21,7 +21,7 @@ static bool print_figures(const struct arguments *a, const struct ceduo_figure *
     if (a->format == CEDUO_JSON) {
         ceduo_figures_json(out, figures, object, a->details);
     } else if (a->format == CEDUO_CSV) {
-        ceduo_text_put(out, ""); /* of what has no row the header is printed */
+        ceduo_text_append(out, ""); /* of what has no row the header is printed */
         ceduo_csv_rows(out, csv, object);
     }
     return a->format != CEDUO_TABLE;
@@ -67,8 +67,8 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
                                             .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed}};
         if (!print_figures(a, ceduo_result_figures, ceduo_result_csv(a->stands, a->years),
                            &(struct ceduo_place){.report = &report}, out)) {
-            ceduo_report_page(out, &report, a->details, !ceduo_say_utf8());
-            ceduo_say_plainly(out);
+            ceduo_report_page(out, &report, a->details, !ceduo_print_utf8());
+            ceduo_to_terminal_charset(out);
             ceduo_profiles_add(a->profiles, &report, a->label);
         }
     }
@@ -83,8 +83,8 @@ enum exit_status ceduo_print_uncertainty(const struct arguments *a, struct scene
     enum ceduo_status status = ceduo_ask_uncertainty(&c, a, file);
     const struct ceduo_place place = {.uncertainty = &c.uncertainty};
     if (status == CEDUO_OK && !print_figures(a, ceduo_uncertainty_figures, &ceduo_uncertainty_csv, &place, out)) {
-        ceduo_uncertainty_page(out, &c.uncertainty, !ceduo_say_utf8());
-        ceduo_say_plainly(out);
+        ceduo_uncertainty_page(out, &c.uncertainty, !ceduo_print_utf8());
+        ceduo_to_terminal_charset(out);
     }
     return ceduo_ask_end(&c, file, status);
 }
@@ -104,7 +104,7 @@ static enum exit_status choose_option(const struct arguments *a, const struct sc
         *option = k;
     }
     if (several)
-        ceduo_say_why("ceduo", _("--find: the scene has several options; name one with --option"));
+        ceduo_print_error("ceduo", _("--find: the scene has several options; name one with --option"));
     return several ? EXIT_USAGE : EXIT_DONE;
 }
 
@@ -125,15 +125,15 @@ enum exit_status ceduo_print_find(const struct arguments *a, struct scene_file *
     ceduo_batch_warn(a, file, false);
     enum ceduo_status status = ceduo_search(file, &search, (unsigned)a->threads, ceduo_interrupt_flag(), &answer);
     bool usage = answer.problems.count > 0;
-    ceduo_say_problems(&answer.problems);
+    ceduo_print_problems(&answer.problems);
     search.target = answer.target;
     search.rotation = answer.rotation;
     const struct ceduo_find_report report = {file, &search, &answer.found, &answer.yield, answer.yield_depends, &answer.sure};
     if (status == CEDUO_OK && !print_figures(a, ceduo_find_figures, &ceduo_find_csv, &report, out)) {
         if (a->scenes_count > 1)
-            ceduo_text_safe(out, file->path);
-        ceduo_text_put(out, a->scenes_count > 1 ? ":\n" : "");
-        ceduo_find_page(out, &report);
+            ceduo_text_append_escaped(out, file->path);
+        ceduo_text_append(out, a->scenes_count > 1 ? ":\n" : "");
+        ceduo_page_find(out, &report);
     }
     return status == CEDUO_OK ? EXIT_DONE : usage ? EXIT_USAGE : EXIT_RUN;
 }
@@ -152,7 +152,7 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
     char *rows = ceduo_cells_dump(cells);
     if (out->length > start)
         ceduo_text_char(out, '\n');
-    ceduo_text_put(out, rows);
+    ceduo_text_append(out, rows);
     free(rows);
     ceduo_cells_free(cells);
 }
@@ -208,9 +208,9 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
 static void append_word(struct text *text, const char *before, const char *word)
 {
     static const char *const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@";
-    ceduo_text_put(text, before);
+    ceduo_text_append(text, before);
     if (*word && strspn(word, plain) == strlen(word))
-        ceduo_text_put(text, word);
+        ceduo_text_append(text, word);
     else
         ceduo_text_quoted(text, word);
 }
@@ -218,7 +218,7 @@ static void append_word(struct text *text, const char *before, const char *word)
 /* All that decides about the page, and nothing else: not its own name, nor the threads. */
 static void append_command(struct text *text, const struct arguments *a)
 {
-    ceduo_text_put(text, "ceduo --report report.html");
+    ceduo_text_append(text, "ceduo --report report.html");
     if (strcmp(_("en"), "en") != 0)
         append_word(text, " --language ", _("en"));
     if (a->rocks > 0)
@@ -273,7 +273,7 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
         ceduo_page_chapter(&page, &report);
         ceduo_page_html(&(struct ceduo_html){.text = out}, &page, a->profiles->count + 1);
         if (a->profiles->count == 0)
-            ceduo_text_put(a->title, ceduo_in_language(file->scene.title, file->scene.title_it));
+            ceduo_text_append(a->title, ceduo_in_language(file->scene.title, file->scene.title_it));
         ceduo_profiles_add(a->profiles, &report, NULL);
     }
     return ceduo_ask_end(&c, file, status);

@@ -102,7 +102,7 @@ static void make_identity(struct resume *r, const struct each *e)
 
 static enum exit_status refuse(const char *path, const char *why)
 {
-    ceduo_say_why(path, why);
+    ceduo_print_error(path, why);
     return EXIT_OUTPUT;
 }
 
@@ -162,7 +162,7 @@ static void unmap_file(const char *bytes, size_t n)
 /* Write bytes at the end of a file that has `end` bytes, all or none of them. False with errno set. */
 static bool append(int fd, size_t end, const char *bytes, size_t n)
 {
-    if (lseek(fd, (off_t)end, SEEK_SET) >= 0 && ceduo_file_fill(fd, bytes, n, NULL))
+    if (lseek(fd, (off_t)end, SEEK_SET) >= 0 && ceduo_file_write_all(fd, bytes, n, NULL))
         return true;
     int why = errno;
     if (ftruncate(fd, (off_t)end) != 0)
@@ -183,7 +183,7 @@ static void append_differences(const char *a, const char *b, struct text *names)
         b += *b == '\n';
         size_t n = strcspn(a, "\n");
         if (n != strcspn(b, "\n") || strncmp(a, b, n) != 0)
-            ceduo_text_then(names, names->length > 0 ? ", " : "", "%s", _(identity_names[i]));
+            ceduo_text_append_joined(names, names->length > 0 ? ", " : "", "%s", _(identity_names[i]));
     }
 }
 
@@ -237,7 +237,7 @@ static bool find_parts(struct resume *r, const char *output, size_t output_n, co
 {
     size_t at = r->identity.length, side_end = at, from = r->head->length, most = (side_n - at) / PART_LENGTH;
     struct resume_part part;
-    r->known = ceduo_must(calloc(most + 1, sizeof *r->known));
+    r->known = ceduo_check_memory(calloc(most + 1, sizeof *r->known));
     r->end = from;
     for (; read_part(side + at, side_n - at, &part); at += PART_LENGTH) {
         bool whole;
@@ -274,7 +274,7 @@ static enum exit_status compare_run(const struct resume *r, const char *output, 
     ceduo_text_add(&found, side, side_n < 2 * r->identity.length ? side_n : 2 * r->identity.length);
     append_differences(ceduo_text_string(&r->identity), ceduo_text_string(&found), &names);
     if (names.length == 0 && !*again && (output_n < head || memcmp(output, r->head->bytes, head) != 0))
-        ceduo_text_put(&names, _("columns")); /* its head was changed */
+        ceduo_text_append(&names, _("columns")); /* its head was changed */
     *again |= side_n < r->identity.length;
     return names.length > 0 ? refuse_other(r, ceduo_text_string(&names)) : EXIT_DONE;
 }
@@ -302,7 +302,7 @@ enum exit_status ceduo_resume_open(struct resume *r, struct each *e, const struc
     LOCAL_TEXT(side);
     const char *why;
     ceduo_text_format(&side, "%s.resume", e->given->output);
-    r->side_path = ceduo_must(strdup(ceduo_text_string(&side)));
+    r->side_path = ceduo_check_memory(strdup(ceduo_text_string(&side)));
     enum exit_status status = open_locked(r);
     if (status != EXIT_DONE)
         return status;
@@ -317,7 +317,7 @@ enum exit_status ceduo_resume_open(struct resume *r, struct each *e, const struc
 
 static void add_to_order(struct resume *r, struct resume_part part)
 {
-    r->order = ceduo_must(ceduo_grow(r->order, r->order_count, &r->order_capacity, sizeof *r->order));
+    r->order = ceduo_check_memory(ceduo_grow(r->order, r->order_count, &r->order_capacity, sizeof *r->order));
     r->order[r->order_count++] = part;
 }
 
@@ -388,13 +388,13 @@ static bool is_in_order(const struct resume *r)
 /* Write the parts of the output in the order of the rows, neighbours at once. False with errno set. */
 static bool write_parts(const struct resume *r, const char *bytes, int fd)
 {
-    bool good = ceduo_file_fill(fd, r->head->bytes, r->head->length, NULL);
+    bool good = ceduo_file_write_all(fd, r->head->bytes, r->head->length, NULL);
     for (size_t i = 0, n; good && i < r->order_count; i += n) {
         const struct resume_part *part = &r->order[i];
         size_t length = part->n;
         for (n = 1; i + n < r->order_count && part[n].from == part->from + length; n++)
             length += part[n].n;
-        good = ceduo_file_fill(fd, bytes + part->from, length, NULL);
+        good = ceduo_file_write_all(fd, bytes + part->from, length, NULL);
     }
     return good;
 }
@@ -412,7 +412,7 @@ static bool replace_output(const struct resume *r)
         close(fd);
     good = good && ceduo_file_finish(&file, fd);
     unmap_file(bytes, n);
-    ceduo_file_drop(&file);
+    ceduo_file_abort(&file);
     return good;
 }
 

@@ -15,16 +15,16 @@
 #include "base/language.h"
 #include "view/cells.h"
 
-bool ceduo_say_utf8(void)
+bool ceduo_print_utf8(void)
 {
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 
 /* For a terminal that knows ASCII alone. */
-void ceduo_say_plainly(struct text *text)
+void ceduo_to_terminal_charset(struct text *text)
 {
     struct text plain = {0};
-    if (ceduo_say_utf8())
+    if (ceduo_print_utf8())
         return;
     for (const char *p = ceduo_text_string(text), *sign; *p; p = sign) {
         LOCAL_TEXT(others);
@@ -42,7 +42,7 @@ void ceduo_say_plainly(struct text *text)
 
 static bool line_open; /* of progress */
 
-void ceduo_say_progress(const char *format, ...)
+void ceduo_print_progress(const char *format, ...)
 {
     LOCAL_TEXT(line);
     va_list args;
@@ -53,37 +53,37 @@ void ceduo_say_progress(const char *format, ...)
     line_open = true;
 }
 
-void ceduo_say_no_progress(void)
+void ceduo_clear_progress(void)
 {
     if (line_open)
         fprintf(stderr, "\r%-78s\r", "");
     line_open = false;
 }
 
-void ceduo_say(struct text *text)
+void ceduo_print_message(struct text *text)
 {
     if (text->length == 0)
         return;
-    ceduo_say_no_progress();
-    ceduo_say_plainly(text);
+    ceduo_clear_progress();
+    ceduo_to_terminal_charset(text);
     fputs(ceduo_text_string(text), stderr);
 }
 
-void ceduo_say_problems(struct problems *problems)
+void ceduo_print_problems(struct problems *problems)
 {
-    ceduo_problems_close(problems);
-    ceduo_say(&problems->text);
+    ceduo_problems_finish(problems);
+    ceduo_print_message(&problems->text);
     ceduo_problems_free(problems);
 }
 
-void ceduo_say_why(const char *what, const char *why)
+void ceduo_print_error(const char *what, const char *why)
 {
     LOCAL_TEXT(line);
-    ceduo_text_safe(&line, what);
-    ceduo_text_put(&line, ": ");
-    ceduo_text_safe(&line, why);
+    ceduo_text_append_escaped(&line, what);
+    ceduo_text_append(&line, ": ");
+    ceduo_text_append_escaped(&line, why);
     ceduo_text_char(&line, '\n');
-    ceduo_say(&line);
+    ceduo_print_message(&line);
 }
 
 enum exit_status ceduo_usage(const char *option, const char *format, ...)
@@ -97,9 +97,9 @@ enum exit_status ceduo_usage(const char *option, const char *format, ...)
     va_start(args, format);
     ceduo_text_vformat(&message, format, args);
     va_end(args);
-    ceduo_text_safe(&safe, message.bytes);
+    ceduo_text_append_escaped(&safe, message.bytes);
     ceduo_text_format(&line, _("ceduo: %s\ntry 'ceduo --help'\n"), safe.bytes);
-    ceduo_say(&line);
+    ceduo_print_message(&line);
     return EXIT_USAGE;
 }
 
@@ -140,7 +140,7 @@ void ceduo_interrupt_release(void)
 {
     set_handlers(SIG_DFL);
     if (atomic_load(&raised)) {
-        ceduo_say_no_progress();
+        ceduo_clear_progress();
         raise(which);
     }
 }

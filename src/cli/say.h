@@ -9,23 +9,23 @@
 #include "io/file.h"
 
 /* Print to standard error, as ASCII if the locale is not UTF-8. */
-void ceduo_say(struct text *text);
+void ceduo_print_message(struct text *text);
 
 /* Print problems, and free them. */
-void ceduo_say_problems(struct problems *problems);
+void ceduo_print_problems(struct problems *problems);
 
 /* Show progress on one line of standard error, over the line before. Other output and the end of the program remove it. */
-void ceduo_say_progress(const char *format, ...) __attribute__((format(printf, 1, 2)));
-void ceduo_say_no_progress(void);
+void ceduo_print_progress(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void ceduo_clear_progress(void);
 
 /* Print a line "what: why" to standard error. */
-void ceduo_say_why(const char *what, const char *why);
+void ceduo_print_error(const char *what, const char *why);
 
 /* Make a text plain ASCII if the locale is not UTF-8. */
-void ceduo_say_plainly(struct text *text);
+void ceduo_to_terminal_charset(struct text *text);
 
 /* True if the locale is UTF-8. */
-bool ceduo_say_utf8(void);
+bool ceduo_print_utf8(void);
 
 /* Report an error of the command line. `option` may be NULL. Returns EXIT_USAGE. */
 enum exit_status ceduo_usage(const char *option, const char *format, ...) __attribute__((format(printf, 2, 3)));

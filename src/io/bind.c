@@ -62,7 +62,7 @@ static size_t enter(struct binder *b, const char *key)
     size_t before = b->path.length;
     if (before > 0)
         ceduo_text_char(&b->path, '.');
-    ceduo_text_put(&b->path, key);
+    ceduo_text_append(&b->path, key);
     return before;
 }
 
@@ -90,7 +90,7 @@ const char *ceduo_bind_unknown_key(const struct object *object, const char *key,
         words[n++] = "source";
     const char *near = ceduo_text_nearest(key, words, n);
     LOCAL_TEXT(list);
-    ceduo_text_words(&list, words, n, ", ");
+    ceduo_text_join(&list, words, n, ", ");
     if (near && n <= KEYS_ALL_TOLD && near[0] != key[0])
         near = NULL;
     ceduo_text_format(said, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"),
@@ -101,7 +101,7 @@ const char *ceduo_bind_unknown_key(const struct object *object, const char *key,
 static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
 {
     LOCAL_TEXT(said);
-    const char *instead = ceduo_gone(entry->key), *near = ceduo_bind_unknown_key(object, entry->key, &said);
+    const char *instead = ceduo_removed_hint(entry->key), *near = ceduo_bind_unknown_key(object, entry->key, &said);
     struct problem_place place = ceduo_node_place(entry, NULL);
     if (entry->key_line) {
         place.line = entry->key_line;
@@ -247,13 +247,13 @@ static void bind_choice(struct binder *b, const struct choices *choices, const s
         memcpy(to, &found, sizeof found);
         return;
     }
-    const char *instead = ceduo_gone(node->text);
+    const char *instead = ceduo_removed_hint(node->text);
     if (instead) {
         report(b, node, "%s", _(instead));
         return;
     }
     struct text list = {0};
-    ceduo_text_words(&list, choices->names, choices->n, ", ");
+    ceduo_text_join(&list, choices->names, choices->n, ", ");
     const char *near = ceduo_text_nearest(node->text, choices->names, choices->n);
     if (near)
         report(b, node, _("'%s' is unknown; did you mean '%s'? (%s)"), node->text, near, ceduo_text_string(&list));
@@ -307,8 +307,8 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
         return;
     if (!one && !want(b, node, NODE_LIST, _("a list")))
         return;
-    void *items[2] = {ceduo_arena_take(b->to->arena, (n + 1) * size),
-                      points ? ceduo_arena_take(b->to->arena, (n + 1) * size) : NULL}; /* x and z of points */
+    void *items[2] = {ceduo_arena_alloc(b->to->arena, (n + 1) * size),
+                      points ? ceduo_arena_alloc(b->to->arena, (n + 1) * size) : NULL}; /* x and z of points */
     if (!items[0] || (points && !items[1]))
         return;
     if (!(f->flags & FIELD_NOWHERE)) {
@@ -403,7 +403,7 @@ static void add_note(struct binder *b, const char *kind, const char *text, const
     bool of_range = ceduo_path_leads_to("uncertainty", path) || strstr(path, ".stand.uncertainty[");
     if (of_range || ceduo_path_leads_to("observed", path)) /* not of a value that is computed with */
         return;
-    struct source_note *note = ceduo_arena_take(b->to->arena, sizeof *note);
+    struct source_note *note = ceduo_arena_alloc(b->to->arena, sizeof *note);
     if (!note)
         return;
     *note = (struct source_note){.path = ceduo_arena_string(b->to->arena, path),
@@ -454,9 +454,9 @@ static void bind_source(struct binder *b, const struct node *node)
     const char *const texts[2] = {said.text, said.text_it};
     struct text whole[2] = {{0}, {0}};
     for (int i = 0; i < 2; i++) {
-        ceduo_text_put(&whole[i], texts[i] ? texts[i] : "");
+        ceduo_text_append(&whole[i], texts[i] ? texts[i] : "");
         if (changed.length > 0)
-            ceduo_text_then(&whole[i], "; ", "%s", ceduo_text_string(&changed));
+            ceduo_text_append_joined(&whole[i], "; ", "%s", ceduo_text_string(&changed));
     }
     add_note(b, source_kinds[said.kind], ceduo_text_string(&whole[0]), texts[1] ? ceduo_text_string(&whole[1]) : NULL);
     ceduo_text_free(&whole[0]);
@@ -568,14 +568,14 @@ bool ceduo_path_leads_to(const char *outer, const char *path)
     return n == 0 || (strncmp(path, outer, n) == 0 && (path[n] == '\0' || path[n] == '.' || path[n] == '['));
 }
 
-bool ceduo_note_of_years(const struct source_note *note)
+bool ceduo_note_years(const struct source_note *note)
 {
     return strstr(note->path, ".growth") != NULL || strstr(note->path, ".cutting") != NULL;
 }
 
-bool ceduo_notes_say(const struct source_note *notes, const char *kind, const char *path)
+bool ceduo_notes_print(const struct source_note *notes, const char *kind, const char *path)
 {
-    while (notes && !(strcmp(notes->kind, kind) == 0 && ceduo_path_leads_to(path, notes->path) && !ceduo_note_of_years(notes)))
+    while (notes && !(strcmp(notes->kind, kind) == 0 && ceduo_path_leads_to(path, notes->path) && !ceduo_note_years(notes)))
         notes = notes->before;
     return notes != NULL;
 }

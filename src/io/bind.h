@@ -26,10 +26,10 @@ void ceduo_notes_each(const struct source_note *notes, const char *kind, void (*
 bool ceduo_path_leads_to(const char *outer, const char *path);
 
 /* Whether a note is of growth or cutting: it matters to the years to come, not to the stand as it is. */
-bool ceduo_note_of_years(const struct source_note *note);
+bool ceduo_note_years(const struct source_note *note);
 
 /* True where some value below `path` is "assumed", "calibrated", …, but for growth and cutting. */
-bool ceduo_notes_say(const struct source_note *notes, const char *kind, const char *path);
+bool ceduo_notes_print(const struct source_note *notes, const char *kind, const char *path);
 
 /* The note of the innermost mapping around a value; NULL where nothing is said. */
 const struct source_note *ceduo_notes_find(const struct source_note *notes, const char *path);

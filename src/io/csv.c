@@ -46,7 +46,7 @@ static bool is_separator(const struct csv *csv, const char *p)
 static void mark_bad(struct csv *csv, const char *at, const char *why)
 {
     if (!csv->bad)
-        ceduo_csv_complain(csv, (struct csv_cell){.at = at}, "%s", why);
+        ceduo_csv_report_error(csv, (struct csv_cell){.at = at}, "%s", why);
     csv->bad = true;
 }
 
@@ -112,7 +112,7 @@ static bool read_record(struct csv *csv)
     csv->cells_count = 0;
     csv->bad = false;
     for (p += blanks ? strspn(p, BLANKS) : 0; more;) {
-        csv->cells = ceduo_arena_more(csv->arena, csv->cells, csv->cells_count, 1, &csv->cells_capacity, sizeof *csv->cells);
+        csv->cells = ceduo_arena_grow(csv->arena, csv->cells, csv->cells_count, 1, &csv->cells_capacity, sizeof *csv->cells);
         if (!csv->cells) {
             csv->cells_count = csv->cells_capacity = 0;
             return false;
@@ -198,18 +198,18 @@ static bool is_head(struct csv_cell head, const char *name, size_t length, const
 static size_t find_name(const struct csv *csv, const char *name, size_t n, const char *units)
 {
     char wanted[FOLDED_MAX];
-    size_t found = CEDUO_CSV_NONE;
+    size_t found = CEDUO_CSV_NOT_FOUND;
     ceduo_utf8_fold(name, n, wanted, sizeof wanted);
     for (size_t i = 0; i < csv->heads_count; i++)
         if (is_head(csv->heads[i], name, n, wanted, units))
-            found = found == CEDUO_CSV_NONE ? i : CEDUO_CSV_TWICE;
+            found = found == CEDUO_CSV_NOT_FOUND ? i : CEDUO_CSV_DUPLICATE;
     return found;
 }
 
 size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, const char *units)
 {
-    size_t found = head->name ? find_name(csv, head->name, strlen(head->name), units) : CEDUO_CSV_NONE;
-    for (const char *also = head->also ? head->also : ""; *also && found == CEDUO_CSV_NONE; also += *also == '|') {
+    size_t found = head->name ? find_name(csv, head->name, strlen(head->name), units) : CEDUO_CSV_NOT_FOUND;
+    for (const char *also = head->also ? head->also : ""; *also && found == CEDUO_CSV_NOT_FOUND; also += *also == '|') {
         size_t n = strcspn(also, "|");
         found = find_name(csv, also, n, units);
         also += n;
@@ -222,7 +222,7 @@ static void take_heads(struct csv *csv)
 {
     csv->head_place = csv->place;
     csv->heads_count = csv->cells_count;
-    csv->heads = ceduo_arena_take(csv->arena, (csv->cells_count + 1) * sizeof *csv->heads);
+    csv->heads = ceduo_arena_alloc(csv->arena, (csv->cells_count + 1) * sizeof *csv->heads);
     if (csv->heads)
         memcpy(csv->heads, csv->cells, csv->cells_count * sizeof *csv->heads);
     else
@@ -244,7 +244,7 @@ static size_t count_known(const struct csv *csv, const struct csv_head *heads, s
 {
     size_t known = 0;
     for (size_t i = 0; i < n; i++)
-        known += ceduo_csv_column(csv, &heads[i], heads[i].units) != CEDUO_CSV_NONE;
+        known += ceduo_csv_column(csv, &heads[i], heads[i].units) != CEDUO_CSV_NOT_FOUND;
     return known;
 }
 
@@ -323,7 +323,7 @@ static void take_units(struct csv *csv)
     }
 }
 
-void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns)
+void ceduo_csv_find_head(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns)
 {
     find_head(csv, heads, n);
     if (read_record(csv))
@@ -331,10 +331,10 @@ void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, siz
     take_units(csv);
     for (size_t i = 0; i < n; i++) {
         columns[i] = ceduo_csv_column(csv, &heads[i], heads[i].units);
-        csv->source->foreign &= columns[i] == CEDUO_CSV_NONE;
+        csv->source->foreign &= columns[i] == CEDUO_CSV_NOT_FOUND;
     }
     for (size_t i = 0; i < n; i++)
-        if (columns[i] == CEDUO_CSV_TWICE)
+        if (columns[i] == CEDUO_CSV_DUPLICATE)
             ceduo_problem(csv->problems, csv->source, csv->head_place.line, 1,
                           _("the column '%s' is there twice; rename all but one"), _(heads[i].name));
 }
@@ -364,7 +364,7 @@ void ceduo_csv_headless(struct csv *csv, char separator)
     csv->headless = true;
     if (!read_filled(csv))
         return;
-    csv->heads = ceduo_arena_take(csv->arena, (csv->cells_count + 1) * sizeof *csv->heads);
+    csv->heads = ceduo_arena_alloc(csv->arena, (csv->cells_count + 1) * sizeof *csv->heads);
     csv->heads_count = csv->heads ? csv->cells_count : 0;
     csv->head_place = csv->place;
     csv->next = begin;
@@ -374,15 +374,15 @@ void ceduo_csv_names(const struct csv *csv, struct text *names)
 {
     size_t begin = names->length;
     for (size_t i = 0; i < csv->heads_count; i++) {
-        ceduo_text_put(names, i > 0 ? ", " : "");
-        ceduo_text_safe_n(names, csv->heads[i].p, csv->heads[i].n);
+        ceduo_text_append(names, i > 0 ? ", " : "");
+        ceduo_text_append_escaped_n(names, csv->heads[i].p, csv->heads[i].n);
     }
     if (!csv->source->foreign)
         return;
     size_t shown = begin + ceduo_utf8_cut(ceduo_text_string(names) + begin, CEDUO_FOREIGN_MAX);
     if (shown < names->length) {
         ceduo_text_cut(names, shown);
-        ceduo_text_put(names, "\xe2\x80\xa6");
+        ceduo_text_append(names, "\xe2\x80\xa6");
     }
 }
 
@@ -390,8 +390,8 @@ void ceduo_csv_list(struct text *names, size_t *n, const char *name, size_t leng
 {
     if (++*n > NAMES_MAX)
         return;
-    ceduo_text_put(names, *n > 1 ? ", " : "");
-    ceduo_text_safe_n(names, name, length);
+    ceduo_text_append(names, *n > 1 ? ", " : "");
+    ceduo_text_append_escaped_n(names, name, length);
 }
 
 void ceduo_csv_list_end(struct text *names, size_t n)
@@ -413,8 +413,8 @@ void ceduo_csv_describe(const struct csv *csv, const size_t *used, size_t n, con
     }
     ceduo_csv_list_end(&names, unused);
     if (csv->decimal == ',')
-        ceduo_text_put(line, _("; decimal commas"));
-    ceduo_text_put(line, notes);
+        ceduo_text_append(line, _("; decimal commas"));
+    ceduo_text_append(line, notes);
     if (unused > 0)
         ceduo_text_format(line, _("; not used: %s"), ceduo_text_string(&names));
 }
@@ -467,17 +467,18 @@ static void check_width(struct csv *csv)
     csv->bad = true;
     struct csv_cell at = csv->cells[n > width ? width : n - 1];
     if (n < width)
-        ceduo_csv_complain(csv, at, _("too few columns: %zu, the head has %zu"), n, width);
+        ceduo_csv_report_error(csv, at, _("too few columns: %zu, the head has %zu"), n, width);
     else if (csv->separator == ',')
-        ceduo_csv_complain(csv, at,
-                           _("more columns than the first line has: %zu instead of %zu; if commas stand for decimals, separate "
-                             "the columns by semicolons"),
-                           n, width);
+        ceduo_csv_report_error(
+            csv, at,
+            _("more columns than the first line has: %zu instead of %zu; if commas stand for decimals, separate "
+              "the columns by semicolons"),
+            n, width);
     else
-        ceduo_csv_complain(csv, at, _("more columns than the first line has: %zu instead of %zu"), n, width);
+        ceduo_csv_report_error(csv, at, _("more columns than the first line has: %zu instead of %zu"), n, width);
 }
 
-bool ceduo_csv_next(struct csv *csv)
+bool ceduo_csv_next_row(struct csv *csv)
 {
     if (!read_filled(csv))
         return false;
@@ -493,7 +494,7 @@ void ceduo_csv_return(struct csv *csv, struct csv_place place)
 
 /* ---- cells ---- */
 
-struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column)
+struct csv_cell ceduo_csv_next_cell(const struct csv *csv, size_t column)
 {
     if (column < csv->cells_count)
         return csv->cells[column];
@@ -501,7 +502,7 @@ struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column)
     return (struct csv_cell){.p = "", .at = at};
 }
 
-bool ceduo_csv_is(struct csv_cell cell, const char *word)
+bool ceduo_csv_cell_equals(struct csv_cell cell, const char *word)
 {
     return strlen(word) == cell.n && strncasecmp(cell.p, word, cell.n) == 0;
 }
@@ -519,7 +520,7 @@ bool ceduo_csv_is_empty(struct csv_cell cell)
         "",   "-",  ".",    "NA",   "N/A", "NaN",          "NULL",         "n.d.",        "n.r.",
         "nd", "nr", "#N/A", "#N/D", "#NV", "\xe2\x80\x93", "\xe2\x80\x94", "\xe2\x88\x92"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-        if (ceduo_csv_is(cell, words[i]))
+        if (ceduo_csv_cell_equals(cell, words[i]))
             return true;
     return false;
 }
@@ -538,7 +539,7 @@ size_t ceduo_csv_line(const struct csv *csv, struct csv_cell cell)
     return from.line;
 }
 
-bool ceduo_csv_complain(const struct csv *csv, struct csv_cell cell, const char *format, ...)
+bool ceduo_csv_report_error(const struct csv *csv, struct csv_cell cell, const char *format, ...)
 {
     if (!csv->problems)
         return false;

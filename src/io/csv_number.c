@@ -190,23 +190,24 @@ bool ceduo_csv_no_number(const struct csv *csv, struct csv_cell cell, enum csv_n
     bool fits = cell.n < sizeof word;
     snprintf(word, sizeof word, "%.*s", fits ? (int)cell.n : 0, cell.p);
     if (!fits)
-        ceduo_csv_complain(csv, cell, _("'%s' is not a number"), "\xe2\x80\xa6");
+        ceduo_csv_report_error(csv, cell, _("'%s' is not a number"), "\xe2\x80\xa6");
     else if (hidden && why != CSV_NUMERAL_TWO_WAYS && why != CSV_NUMERAL_OTHER_SIGN)
-        ceduo_csv_complain(csv, cell, _("the character U+%04X cannot be meant in a number; remove it"), (unsigned)hidden);
+        ceduo_csv_report_error(csv, cell, _("the character U+%04X cannot be meant in a number; remove it"), (unsigned)hidden);
     else if (why == CSV_NUMERAL_TWO_WAYS && take_apart(cell, &n) == CSV_NUMERAL_GOOD)
-        ceduo_csv_complain(csv, cell, _("'%s' can be read in two ways: write '%.*s%s' or '%.*s%c%s'"), word,
-                           (int)strcspn(n.text, ".,"), n.text, strpbrk(n.text, ".,") + 1, (int)strcspn(n.text, ".,"), n.text,
-                           csv->decimal    ? csv->decimal
-                           : n.sign == '.' ? ','
-                                           : '.',
-                           strpbrk(n.text, ".,") + 1);
+        ceduo_csv_report_error(csv, cell, _("'%s' can be read in two ways: write '%.*s%s' or '%.*s%c%s'"), word,
+                               (int)strcspn(n.text, ".,"), n.text, strpbrk(n.text, ".,") + 1, (int)strcspn(n.text, ".,"),
+                               n.text,
+                               csv->decimal    ? csv->decimal
+                               : n.sign == '.' ? ','
+                                               : '.',
+                               strpbrk(n.text, ".,") + 1);
     else if (why == CSV_NUMERAL_TWO_NUMBERS)
-        ceduo_csv_complain(csv, cell, _("'%s': two numbers in one cell; keep one"), word);
+        ceduo_csv_report_error(csv, cell, _("'%s': two numbers in one cell; keep one"), word);
     else if (why == CSV_NUMERAL_OTHER_SIGN)
-        ceduo_csv_complain(csv, cell, _("'%s': decimals stand after a %s on line %zu; write all numbers in the same way"), word,
-                           csv->decimal == ',' ? _("comma") : _("dot"), csv->decimal_line);
+        ceduo_csv_report_error(csv, cell, _("'%s': decimals stand after a %s on line %zu; write all numbers in the same way"),
+                               word, csv->decimal == ',' ? _("comma") : _("dot"), csv->decimal_line);
     else
-        ceduo_csv_complain(csv, cell, _("'%s' is not a number"), word);
+        ceduo_csv_report_error(csv, cell, _("'%s' is not a number"), word);
     return false;
 }
 
@@ -220,7 +221,7 @@ bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, do
 {
     char text[CSV_NUMERAL_CAPACITY];
     if (cell.n == 0)
-        return ceduo_csv_complain(csv, cell, _("a value is missing; remove the line"));
+        return ceduo_csv_report_error(csv, cell, _("a value is missing; remove the line"));
     struct csv_cell bare = cell;
     ceduo_csv_split_unit(&bare, unit);
     enum csv_numeral how = ceduo_csv_numeral(csv, bare, text);
@@ -230,8 +231,8 @@ bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, do
     if (!large && *value >= lo && *value <= hi)
         return true;
     if (!large && *value < lo && lo > -hi)
-        return ceduo_csv_complain(csv, cell, _("'%s' is below %g %s"), text, lo, unit);
-    return ceduo_csv_complain(csv, cell, _("beyond %g %s"), hi, unit);
+        return ceduo_csv_report_error(csv, cell, _("'%s' is below %g %s"), text, lo, unit);
+    return ceduo_csv_report_error(csv, cell, _("beyond %g %s"), hi, unit);
 }
 
 void ceduo_csv_note(struct csv *csv)

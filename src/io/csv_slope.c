@@ -89,7 +89,7 @@ static size_t layer_of(struct reader *r, const char *name, size_t n)
 
 static void add_point(struct reader *r, struct raw raw)
 {
-    r->raw = ceduo_arena_more(r->arena, r->raw, r->n, 1, &r->capacity, sizeof *r->raw);
+    r->raw = ceduo_arena_grow(r->arena, r->raw, r->n, 1, &r->capacity, sizeof *r->raw);
     if (r->raw)
         r->raw[r->n++] = raw;
     else
@@ -109,23 +109,23 @@ static bool is_no_data(double z)
 static bool read_coordinate(struct reader *r, enum column c, double *value)
 {
     const struct field *vertex = ceduo_schema_field(ceduo_schema_slope(), "vertices_m");
-    struct csv_cell cell = ceduo_csv_cell(&r->csv, r->columns[c]);
+    struct csv_cell cell = ceduo_csv_next_cell(&r->csv, r->columns[c]);
     bool none = ceduo_csv_is_empty(cell);
     if (c == ELEVATION && cell.n > 0 && none)
-        return ceduo_csv_complain(&r->csv, cell, _("'%.*s' is no height; remove the row, or fill the gap in the terrain model"),
-                                  (int)cell.n, cell.p);
+        return ceduo_csv_report_error(
+            &r->csv, cell, _("'%.*s' is no height; remove the row, or fill the gap in the terrain model"), (int)cell.n, cell.p);
     char text[CSV_NUMERAL_CAPACITY];
     if (c == ELEVATION && ceduo_csv_numeral(&r->csv, cell, text) == CSV_NUMERAL_GOOD &&
         (ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE || is_no_data(*value)))
-        return ceduo_csv_complain(&r->csv, cell,
-                                  _("'%s' stands for no data; remove the row, or fill the gap in the terrain model"), text);
+        return ceduo_csv_report_error(&r->csv, cell,
+                                      _("'%s' stands for no data; remove the row, or fill the gap in the terrain model"), text);
     return ceduo_csv_number(&r->csv, cell, vertex->lo, vertex->hi, "m", value);
 }
 
 /* True if rows hold places on the map, beside distances or instead of them. */
 static bool has_places(const struct reader *r)
 {
-    return r->map || (r->csv.headless && r->columns[EAST] != CEDUO_CSV_NONE);
+    return r->map || (r->csv.headless && r->columns[EAST] != CEDUO_CSV_NOT_FOUND);
 }
 
 static void read_row(struct reader *r, size_t layer)
@@ -138,7 +138,7 @@ static void read_row(struct reader *r, size_t layer)
         good = read_coordinate(r, NORTH, &raw.y) && good;
     }
     good = read_coordinate(r, ELEVATION, &raw.z) && good;
-    raw.line = ceduo_csv_line(csv, ceduo_csv_cell(csv, r->columns[r->map ? EAST : DISTANCE]));
+    raw.line = ceduo_csv_line(csv, ceduo_csv_next_cell(csv, r->columns[r->map ? EAST : DISTANCE]));
     if (good)
         add_point(r, raw);
 }
@@ -257,7 +257,7 @@ static bool take_headless(struct reader *r, struct csv_place begin)
         csv->problems = NULL;
         ceduo_csv_headless(csv, *s);
         ceduo_csv_scan(csv);
-        bool good = ceduo_csv_next(csv) && csv->cells_count >= 2 && are_numbers(csv);
+        bool good = ceduo_csv_next_row(csv) && csv->cells_count >= 2 && are_numbers(csv);
         csv->problems = problems;
         csv->next = begin;
         if (!good)
@@ -266,8 +266,8 @@ static bool take_headless(struct reader *r, struct csv_place begin)
         if (csv->cells_count == 2 || csv->cells_count == 4) {
             r->columns[DISTANCE] = csv->cells_count - 2;
             r->columns[ELEVATION] = csv->cells_count - 1;
-            r->columns[EAST] = csv->cells_count == 4 ? 0 : CEDUO_CSV_NONE;
-            r->columns[NORTH] = csv->cells_count == 4 ? 1 : CEDUO_CSV_NONE;
+            r->columns[EAST] = csv->cells_count == 4 ? 0 : CEDUO_CSV_NOT_FOUND;
+            r->columns[NORTH] = csv->cells_count == 4 ? 1 : CEDUO_CSV_NOT_FOUND;
             return true;
         }
         return ceduo_problem(r->problems, csv->source, csv->place.line, 1,
@@ -284,14 +284,14 @@ static bool check_units(struct reader *r)
 {
     bool good = true;
     for (enum column c = DISTANCE; c <= ELEVATION; c++) {
-        size_t column = r->columns[c] == CEDUO_CSV_NONE ? ceduo_csv_column(&r->csv, &heads[c], NULL) : CEDUO_CSV_NONE;
-        if (column >= CEDUO_CSV_TWICE || (c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NONE))
+        size_t column = r->columns[c] == CEDUO_CSV_NOT_FOUND ? ceduo_csv_column(&r->csv, &heads[c], NULL) : CEDUO_CSV_NOT_FOUND;
+        if (column >= CEDUO_CSV_DUPLICATE || (c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NOT_FOUND))
             continue;
         r->csv.source->foreign = false;
-        good = ceduo_csv_complain(&r->csv, r->csv.heads[column],
-                                  _("its values must be in m; convert them and name the "
-                                    "column '%s'"),
-                                  heads[c].name);
+        good = ceduo_csv_report_error(&r->csv, r->csv.heads[column],
+                                      _("its values must be in m; convert them and name the "
+                                        "column '%s'"),
+                                      heads[c].name);
     }
     return good;
 }
@@ -302,20 +302,21 @@ static bool find_columns(struct reader *r)
     const struct csv_place begin = csv->next;
     size_t before = r->problems->met, *columns = r->columns;
     csv->blanks = csv->comments = true;
-    ceduo_csv_find(csv, heads, COLUMNS, columns);
+    ceduo_csv_find_head(csv, heads, COLUMNS, columns);
     if (r->problems->met > before)
         return false;
-    if (columns[WKT] != CEDUO_CSV_NONE)
+    if (columns[WKT] != CEDUO_CSV_NOT_FOUND)
         return true;
-    r->map = columns[DISTANCE] == CEDUO_CSV_NONE && columns[EAST] != CEDUO_CSV_NONE && columns[NORTH] != CEDUO_CSV_NONE;
-    bool none = columns[ELEVATION] == CEDUO_CSV_NONE && columns[DISTANCE] == CEDUO_CSV_NONE;
+    r->map = columns[DISTANCE] == CEDUO_CSV_NOT_FOUND && columns[EAST] != CEDUO_CSV_NOT_FOUND &&
+             columns[NORTH] != CEDUO_CSV_NOT_FOUND;
+    bool none = columns[ELEVATION] == CEDUO_CSV_NOT_FOUND && columns[DISTANCE] == CEDUO_CSV_NOT_FOUND;
     if (!check_units(r))
         return false;
     if (none)
         return take_headless(r, begin);
-    if (columns[DISTANCE] == CEDUO_CSV_NONE && !r->map) /* x may be along the slope */
+    if (columns[DISTANCE] == CEDUO_CSV_NOT_FOUND && !r->map) /* x may be along the slope */
         columns[DISTANCE] = columns[EAST];
-    if ((!r->map && columns[DISTANCE] == CEDUO_CSV_NONE) || columns[ELEVATION] == CEDUO_CSV_NONE)
+    if ((!r->map && columns[DISTANCE] == CEDUO_CSV_NOT_FOUND) || columns[ELEVATION] == CEDUO_CSV_NOT_FOUND)
         return ceduo_problem(r->problems, csv->source, csv->head_place.line, 1,
                              _("the first line must name the columns 'distance' and 'elevation'"));
     return true;
@@ -340,7 +341,7 @@ static const char *gmt_line(const struct csv *csv, size_t from, size_t *n)
 static bool begins_again(const struct reader *r)
 {
     double x;
-    return !r->map && r->n > 1 && ceduo_csv_value(&r->csv, ceduo_csv_cell(&r->csv, r->columns[DISTANCE]), &x) &&
+    return !r->map && r->n > 1 && ceduo_csv_value(&r->csv, ceduo_csv_next_cell(&r->csv, r->columns[DISTANCE]), &x) &&
            x == r->raw[0].along && r->raw[r->n - 1].along > x && r->raw[1].along > x;
 }
 
@@ -352,21 +353,22 @@ static bool read_rows(struct reader *r)
         if (c == ELEVATION || (c == DISTANCE ? !r->map : has_places(r)))
             ceduo_csv_has_numbers(csv, r->columns[c]);
     ceduo_csv_scan(csv);
-    for (size_t from = csv->next.at; ceduo_csv_next(csv); from = csv->next.at) {
-        const struct csv_cell name = ceduo_csv_cell(csv, r->columns[LAYER]);
+    for (size_t from = csv->next.at; ceduo_csv_next_row(csv); from = csv->next.at) {
+        const struct csv_cell name = ceduo_csv_next_cell(csv, r->columns[LAYER]);
         const char *gmt = gmt_line(csv, from, &length);
         if (csv->bad)
             continue;
-        if (r->columns[WKT] != CEDUO_CSV_NONE) {
-            const struct csv_cell wkt = ceduo_csv_cell(csv, r->columns[WKT]), label = ceduo_csv_cell(csv, r->columns[LABEL]);
+        if (r->columns[WKT] != CEDUO_CSV_NOT_FOUND) {
+            const struct csv_cell wkt = ceduo_csv_next_cell(csv, r->columns[WKT]),
+                                  label = ceduo_csv_next_cell(csv, r->columns[LABEL]);
             r->map = true;
             if (is_wkt(wkt.p, wkt.n))
                 read_wkt(r, wkt.p, wkt.p + wkt.n, ceduo_csv_line(csv, wkt), name.n > 0 ? name : label);
             else if (!csv->headless)
-                ceduo_csv_complain(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
+                ceduo_csv_report_error(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
             continue;
         }
-        if (r->columns[LAYER] != CEDUO_CSV_NONE)
+        if (r->columns[LAYER] != CEDUO_CSV_NOT_FOUND)
             layer = layer_of(r, name.p, name.n);
         else if (gmt || begins_again(r) || r->layers_count == 0)
             layer = layer_of(r, gmt, gmt ? length : 0);
@@ -385,7 +387,7 @@ static bool choose_layer(struct reader *r, const char *wanted)
     for (size_t i = 0; i < r->layers_count && i < 10; i++)
         ceduo_text_format(&names, "%s%.100s", i > 0 ? ", " : "", r->layers[i]);
     if (r->layers_count > 10)
-        ceduo_text_put(&names, ", \xe2\x80\xa6");
+        ceduo_text_append(&names, ", \xe2\x80\xa6");
     while (wanted && found < r->layers_count && strcmp(r->layers[found], wanted) != 0)
         found++;
     if (wanted && found == r->layers_count)
@@ -449,7 +451,7 @@ static bool check_coordinates(struct reader *r, double length)
                              _("the coordinates look like EPSG:3857 (Web Mercator), whose lengths are too long by a third; set "
                                "the project to UTM and export the line again"));
     if (mercator && boaga)
-        ceduo_text_put(&r->notes, _("; x and y taken as metres on the ground, not as EPSG:3857"));
+        ceduo_text_append(&r->notes, _("; x and y taken as metres on the ground, not as EPSG:3857"));
     return true;
 }
 
@@ -601,8 +603,8 @@ static bool make_rising(struct reader *r, struct points *p, double sign)
 
 static bool make_points(struct reader *r, struct points *p)
 {
-    p->x = ceduo_arena_take(r->arena, (2 * r->n + 1) * sizeof *p->x);
-    p->z = ceduo_arena_take(r->arena, (2 * r->n + 1) * sizeof *p->z);
+    p->x = ceduo_arena_alloc(r->arena, (2 * r->n + 1) * sizeof *p->x);
+    p->z = ceduo_arena_alloc(r->arena, (2 * r->n + 1) * sizeof *p->z);
     if (!p->x || !p->z)
         return false;
     bool upward = r->n > 1 && r->raw[r->n - 1].z > r->raw[0].z;
@@ -632,24 +634,24 @@ static void understand(struct reader *r, struct points *p, const char *path)
 {
     LOCAL_TEXT(line);
     const struct csv *csv = &r->csv;
-    const bool wkt = r->columns[WKT] != CEDUO_CSV_NONE, table = csv->heads_count > 0 && !csv->headless;
+    const bool wkt = r->columns[WKT] != CEDUO_CSV_NOT_FOUND, table = csv->heads_count > 0 && !csv->headless;
     size_t used[5] = {r->columns[wkt ? WKT : r->map ? EAST : DISTANCE]}, n = 1;
     double rise = p->z[p->n - 1] - p->z[0];
     if (!wkt && r->map)
         used[n++] = r->columns[NORTH];
     if (!wkt)
         used[n++] = r->columns[ELEVATION];
-    ceduo_text_safe(&line, ceduo_file_name(path));
+    ceduo_text_append_escaped(&line, ceduo_file_name(path));
     ceduo_text_format(&line,
                       rise > 0 ? _(": %zu points, %.4g m long, rises %.4g m") : _(": %zu points, %.4g m long, falls %.4g m"),
                       p->n, p->x[p->n - 1] - p->x[0], fabs(rise));
     if (r->layers_count > 1)
         ceduo_text_format(&line, _("; line '%.100s' of %zu"), r->layers[r->raw[0].layer], r->layers_count);
     if (csv->headless && !wkt)
-        ceduo_text_put(&line, _("; no head: taken as distance and elevation"));
+        ceduo_text_append(&line, _("; no head: taken as distance and elevation"));
     for (size_t i = 0; table && i < n; i++) {
-        ceduo_text_put(&line, i > 0 ? ", " : n > 1 ? _("; columns ") : _("; column "));
-        ceduo_text_safe_n(&line, csv->heads[used[i]].p, csv->heads[used[i]].n);
+        ceduo_text_append(&line, i > 0 ? ", " : n > 1 ? _("; columns ") : _("; column "));
+        ceduo_text_append_escaped_n(&line, csv->heads[used[i]].p, csv->heads[used[i]].n);
     }
     used[n++] = r->columns[LAYER];
     if (wkt)
@@ -668,7 +670,7 @@ static bool read_points(struct reader *r)
     if (!is_wkt(begin, (size_t)(end - begin)))
         return find_columns(r) && read_rows(r);
     for (size_t c = 0; c < COLUMNS; c++)
-        r->columns[c] = c == WKT ? 0 : CEDUO_CSV_NONE;
+        r->columns[c] = c == WKT ? 0 : CEDUO_CSV_NOT_FOUND;
     r->csv.source->foreign = false;
     ceduo_csv_headless(&r->csv, '\n'); /* each line is one cell */
     return read_rows(r);
@@ -678,7 +680,7 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *lay
                           struct problems *problems)
 {
     size_t before = problems->met;
-    struct reader *r = ceduo_arena_take(arena, sizeof *r);
+    struct reader *r = ceduo_arena_alloc(arena, sizeof *r);
     *points = (struct points){0};
     if (!r)
         return false;

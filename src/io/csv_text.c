@@ -59,7 +59,7 @@ static bool decode_utf16(struct csv *csv)
     size_t n = csv->source->length / 2, length;
     bool big = p[0] == 0 || p[0] == 0xfe;
     size_t mark = (p[0] | p[1]) >= 0xfe;
-    uint16_t *units = ceduo_arena_take(csv->arena, (n + 1) * sizeof *units);
+    uint16_t *units = ceduo_arena_alloc(csv->arena, (n + 1) * sizeof *units);
     if (!units)
         return false;
     for (size_t i = 0; i < n; i++)

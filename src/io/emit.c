@@ -45,7 +45,7 @@ static void print_quoted(struct text *text, const char *s)
         if (c == '"' || c == '\\')
             ceduo_text_format(text, "\\%c", (int)c);
         else if (c == '\n')
-            ceduo_text_put(text, "\\n");
+            ceduo_text_append(text, "\\n");
         /* untaken: table */
         else if (known && (!ceduo_utf8_printable(c) || c == 0xfeff)) /* a mark of byte order, which no YAML holds */
             ceduo_text_format(text, c < 0x100 ? "\\x%02x" : c <= 0xffff ? "\\u%04x" : "\\U%08x", c);
@@ -61,7 +61,7 @@ void ceduo_emit_scalar(struct text *text, const char *value, bool quoted)
     bool typed = !quoted && (ceduo_number_read(value, &number) == CEDUO_NUMBER_GOOD || strcmp(value, "true") == 0 ||
                              strcmp(value, "false") == 0);
     if (typed || is_plain(value))
-        ceduo_text_put(text, value);
+        ceduo_text_append(text, value);
     else
         print_quoted(text, value);
 }
@@ -77,7 +77,7 @@ void ceduo_emit_flow(struct text *text, const struct node *node)
     ceduo_text_char(text, node->kind == NODE_MAP ? '{' : '[');
     for (size_t i = 0; i < node->n; i++) {
         if (i > 0)
-            ceduo_text_put(text, ", ");
+            ceduo_text_append(text, ", ");
         if (node->kind == NODE_MAP)
             ceduo_text_format(text, "%s: ", node->items[i]->key);
         ceduo_emit_flow(text, node->items[i]);
@@ -137,7 +137,7 @@ static const struct node *difference(struct arena *arena, const struct node *bas
     return out;
 }
 
-const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *node)
+const struct node *ceduo_emit_restore_references(struct arena *arena, const struct node *node)
 {
     if (node->written) {
         const struct node *was = node->followed;
@@ -160,7 +160,7 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
         return node;
     const struct node *out = node;
     for (size_t i = 0; i < node->n; i++) {
-        const struct node *item = ceduo_emit_unresolve(arena, node->items[i]);
+        const struct node *item = ceduo_emit_restore_references(arena, node->items[i]);
         if (item != node->items[i])
             out = ceduo_node_replaced(arena, out, i, item);
     }

@@ -48,7 +48,7 @@ static bool read_file(struct arena *arena, const char *path, size_t max, struct 
     size_t room = sized ? (size_t)st.st_size + 1 : ROOM_FIRST, n = 0; /* one more, to see the end */
     if (why == 0 && sized && (uintmax_t)st.st_size > max)
         why = EFBIG;
-    char *bytes = why == 0 ? ceduo_arena_take(arena, room + 1) : NULL;
+    char *bytes = why == 0 ? ceduo_arena_alloc(arena, room + 1) : NULL;
     for (ssize_t got = sized ? st.st_size : 1; bytes && why == 0 && got > 0;) {
         got = read(fd, bytes + n, room - n);
         if (got < 0)
@@ -59,7 +59,7 @@ static bool read_file(struct arena *arena, const char *path, size_t max, struct 
             why = EFBIG;
         if (n < room || why != 0)
             continue;
-        char *more = ceduo_arena_take(arena, 2 * room + 1);
+        char *more = ceduo_arena_alloc(arena, 2 * room + 1);
         if (more) /* untaken: memory */
             memcpy(more, bytes, n);
         bytes = more;
@@ -75,7 +75,7 @@ static bool read_file(struct arena *arena, const char *path, size_t max, struct 
 
 const struct source *ceduo_source_keep(struct arena *arena, struct source source)
 {
-    struct source *kept = ceduo_arena_take(arena, sizeof *kept);
+    struct source *kept = ceduo_arena_alloc(arena, sizeof *kept);
     source.name = ceduo_arena_string(arena, source.name);
     source.length = strlen(source.bytes);
     source.bytes = ceduo_arena_copy(arena, source.bytes, source.length);
@@ -104,7 +104,7 @@ static bool says_kind(const char *bytes, size_t length)
 
 const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t max, struct problems *problems)
 {
-    struct source *source = ceduo_arena_take(arena, sizeof *source);
+    struct source *source = ceduo_arena_alloc(arena, sizeof *source);
     char *name = ceduo_arena_string(arena, is_standard(path) ? _("standard input") : path);
     if (!source || !name)
         return NULL;
@@ -141,7 +141,7 @@ static bool is_file(const char *path)
 const char *const *ceduo_file_folders(struct arena *arena)
 {
     static const char *const near[] = {"profiles", "../../profiles", "../share/ceduo"};
-    const char **folders = ceduo_arena_take(arena, 8 * sizeof *folders);
+    const char **folders = ceduo_arena_alloc(arena, 8 * sizeof *folders);
     if (!folders)
         return NULL;
     size_t n = 0;
@@ -215,7 +215,7 @@ const char *const *ceduo_file_list(struct arena *arena, const char *folder, cons
     while (readdir(dir))
         room++;
     rewinddir(dir);
-    const char **names = ceduo_arena_take(arena, room * sizeof *names);
+    const char **names = ceduo_arena_alloc(arena, room * sizeof *names);
     for (struct dirent *e; names && *n < room && (e = readdir(dir));) { /* untaken: race */
         if (e->d_name[0] == '.' || (length = strlen(e->d_name)) <= 5 || strcmp(e->d_name + length - 5, ".yaml") != 0)
             continue;
@@ -231,7 +231,7 @@ const char *const *ceduo_file_list(struct arena *arena, const char *folder, cons
 
 /* ---- writing ---- */
 
-bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *cancel)
+bool ceduo_file_write_all(int fd, const char *bytes, size_t n, const atomic_bool *cancel)
 {
     while (n > 0) {
         ssize_t done = write(fd, bytes, n);
@@ -248,7 +248,7 @@ bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *can
 /* Closes `fd`, too: some file systems say only then that there is no room. */
 static bool write_and_close(int fd, const struct pending_file *file)
 {
-    bool good = ceduo_file_fill(fd, file->bytes, file->n, NULL) && (!file->wait || !file->target || fsync(fd) == 0);
+    bool good = ceduo_file_write_all(fd, file->bytes, file->n, NULL) && (!file->wait || !file->target || fsync(fd) == 0);
     int why = errno;
     if (close(fd) != 0 && good)
         return false;
@@ -330,10 +330,10 @@ int ceduo_file_begin(struct pending_file *file)
 bool ceduo_file_finish(struct pending_file *file, int fd)
 {
     file->n = 0;
-    return write_and_close(fd, file) && (!file->target || ceduo_file_place(file));
+    return write_and_close(fd, file) && (!file->target || ceduo_file_commit(file));
 }
 
-bool ceduo_file_place(struct pending_file *file)
+bool ceduo_file_commit(struct pending_file *file)
 {
     if (!file->target) {
         int fd = open_straight(file->path);
@@ -357,7 +357,7 @@ bool ceduo_file_place(struct pending_file *file)
     return true;
 }
 
-void ceduo_file_drop(struct pending_file *file)
+void ceduo_file_abort(struct pending_file *file)
 {
     int why = errno;
     if (file->temporary)
@@ -370,8 +370,8 @@ void ceduo_file_drop(struct pending_file *file)
 bool ceduo_file_write(const char *path, const char *bytes, size_t n)
 {
     struct pending_file file = {.path = path, .bytes = bytes, .n = n, .wait = true};
-    bool good = ceduo_file_prepare(&file) && ceduo_file_place(&file);
-    ceduo_file_drop(&file);
+    bool good = ceduo_file_prepare(&file) && ceduo_file_commit(&file);
+    ceduo_file_abort(&file);
     return good;
 }
 
@@ -393,6 +393,6 @@ bool ceduo_file_can_write(const char *path)
             slash[slash == file.target] = '\0';
         good = access(slash ? file.target : ".", W_OK | X_OK) == 0;
     }
-    ceduo_file_drop(&file);
+    ceduo_file_abort(&file);
     return good;
 }

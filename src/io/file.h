@@ -32,7 +32,7 @@ const char *const *ceduo_file_folders(struct arena *arena);
 const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *shelf, size_t *n);
 
 /* Writes all bytes to an open file; `cancel` (may be NULL) ends it at the next signal. False with errno set. */
-bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *cancel);
+bool ceduo_file_write_all(int fd, const char *bytes, size_t n, const atomic_bool *cancel);
 
 /* Writes a regular file whole or not at all (a temporary file beside it, then a rename); anything else, and through a link
  * that leads to nothing yet, straight.
@@ -54,13 +54,13 @@ struct pending_file {
  * then. */
 bool ceduo_file_prepare(struct pending_file *file);
 /* False with errno set. */
-bool ceduo_file_place(struct pending_file *file);
+bool ceduo_file_commit(struct pending_file *file);
 /* Begin a file that is written piece by piece to the descriptor that is returned; -1 with errno set. To be dropped even then. */
 int ceduo_file_begin(struct pending_file *file);
 /* Close it, and put it in its place. False with errno set. */
 bool ceduo_file_finish(struct pending_file *file, int fd);
 /* Takes away what has not taken its place. */
-void ceduo_file_drop(struct pending_file *file);
+void ceduo_file_abort(struct pending_file *file);
 
 /* Whether two paths lead to one regular file; `b` may be "-", standard input. */
 bool ceduo_file_same(const char *a, const char *b);

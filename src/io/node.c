@@ -43,8 +43,8 @@ double ceduo_node_item_number(const struct node *list, size_t i)
 static const struct node *splice(struct arena *arena, const struct node *node, size_t i, size_t taken, const struct node *put)
 {
     size_t n = node->n - taken + (put != NULL), behind = node->n - i - taken;
-    struct node *copy = ceduo_arena_take(arena, sizeof *copy);
-    const struct node **items = ceduo_arena_take(arena, (n + 1) * sizeof *items);
+    struct node *copy = ceduo_arena_alloc(arena, sizeof *copy);
+    const struct node **items = ceduo_arena_alloc(arena, (n + 1) * sizeof *items);
     if (!copy || !items)
         return NULL;
     *copy = *node;
@@ -60,7 +60,7 @@ static const struct node *splice(struct arena *arena, const struct node *node, s
     return copy;
 }
 
-void ceduo_node_keep_written(const struct node *made, const struct node *from)
+void ceduo_node_keep_text(const struct node *made, const struct node *from)
 {
     struct node *node = (struct node *)(uintptr_t)made; /* nobody else has seen it yet */
     node->written = from->written;
@@ -84,7 +84,7 @@ const struct node *ceduo_node_removed(struct arena *arena, const struct node *no
 
 const struct node *ceduo_node_renamed(struct arena *arena, const struct node *value, const char *key)
 {
-    struct node *copy = ceduo_arena_take(arena, sizeof *copy);
+    struct node *copy = ceduo_arena_alloc(arena, sizeof *copy);
     if (!copy || !value)
         return NULL;
     *copy = *value;
@@ -113,7 +113,7 @@ const struct node *ceduo_node_without(struct arena *arena, const struct node *ma
 
 const struct node *ceduo_node_empty(struct arena *arena, enum node_kind kind, const struct source *source)
 {
-    struct node *node = ceduo_arena_take(arena, sizeof *node);
+    struct node *node = ceduo_arena_alloc(arena, sizeof *node);
     if (node)
         *node = (struct node){.kind = kind, .flow = kind == NODE_LIST, .source = source, .line = 1, .column = 1};
     return node;
@@ -121,7 +121,7 @@ const struct node *ceduo_node_empty(struct arena *arena, enum node_kind kind, co
 
 const struct node *ceduo_node_scalar(struct arena *arena, const struct source *source, const char *text, bool quoted)
 {
-    struct node *node = ceduo_arena_take(arena, sizeof *node);
+    struct node *node = ceduo_arena_alloc(arena, sizeof *node);
     if (!node)
         return NULL;
     *node = (struct node){.kind = NODE_SCALAR, .quoted = quoted, .source = source, .text = ceduo_arena_string(arena, text)};

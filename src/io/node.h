@@ -61,7 +61,7 @@ const struct node *ceduo_node_removed(struct arena *arena, const struct node *no
 const struct node *ceduo_node_renamed(struct arena *arena, const struct node *value, const char *key);
 
 /* Notes that a node made just now is an edit of `from`, which may have been followed from a file. */
-void ceduo_node_keep_written(const struct node *made, const struct node *from);
+void ceduo_node_keep_text(const struct node *made, const struct node *from);
 
 /* A mapping or list without items, and a scalar, that stand nowhere yet. NULL without memory. */
 const struct node *ceduo_node_empty(struct arena *arena, enum node_kind kind, const struct source *source);
@@ -107,7 +107,7 @@ void ceduo_emit(struct text *text, const struct node *root);
 /* The tree as it is to be written to the scene's own file: what came from another file and is unchanged is its path
  * again, a changed stand starts from its file by `base`, a changed slope is written out. For the
  * program, where no arena fails. */
-const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *root);
+const struct node *ceduo_emit_restore_references(struct arena *arena, const struct node *root);
 
 /* Writes `root` (unresolved) as the text of `source`, whose tree is `old`, with the changed values alone put in place, so
  * that comments and layout stay. False where more than values has changed: then nothing is added. For the program, where no text

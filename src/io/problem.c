@@ -61,15 +61,15 @@ static void print_line(struct text *out, const struct source *s, size_t line, si
     for (; c < first && at < to; c++)
         at += ceduo_utf8_step(s->bytes + at);
     LOCAL_TEXT(caret);
-    ceduo_text_put(out, "  ");
-    ceduo_text_safe_n(out, s->bytes, first == 1 ? mark : 0);
-    ceduo_text_put(&caret, "  ");
+    ceduo_text_append(out, "  ");
+    ceduo_text_append_escaped_n(out, s->bytes, first == 1 ? mark : 0);
+    ceduo_text_append(&caret, "  ");
     for (; at < to && c < first + max; c++) {
         size_t before = out->length, n = ceduo_utf8_step(s->bytes + at);
         if (s->bytes[at] == '\t')
             ceduo_text_char(out, ' ');
         else
-            ceduo_text_safe_n(out, s->bytes + at, n);
+            ceduo_text_append_escaped_n(out, s->bytes + at, n);
         for (size_t w = c < column && out->bytes ? ceduo_utf8_width(out->bytes + before) : 0; w > 0; w--)
             ceduo_text_char(&caret, ' ');
         at += n;
@@ -77,16 +77,16 @@ static void print_line(struct text *out, const struct source *s, size_t line, si
     if (s->foreign && at < to)
         ceduo_text_format(out, "\xe2\x80\xa6 %s", _("(nothing says that this file is one of ceduo's: no more of it is shown)"));
     ceduo_text_char(out, '\n');
-    ceduo_text_put(&caret, "^\n");
+    ceduo_text_append(&caret, "^\n");
     if (!s->foreign || (line == 1 && column <= c))
-        ceduo_text_put(out, ceduo_text_string(&caret));
+        ceduo_text_append(out, ceduo_text_string(&caret));
 }
 
 /* The words of a format, which has no %%, with dots in place of the values. */
 static void print_words(struct text *out, const char *format)
 {
     for (; *format; format++) {
-        ceduo_text_put(out, *format == '%' ? "\xe2\x80\xa6" : (char[2]){*format});
+        ceduo_text_append(out, *format == '%' ? "\xe2\x80\xa6" : (char[2]){*format});
         format += *format == '%' ? strcspn(format, "cdefgsuxX") : 0;
     }
 }
@@ -96,16 +96,16 @@ static void print_message(struct text *out, const char *message)
 {
     size_t n = strlen(message), head = MESSAGE_MAX - TAIL, tail = n - TAIL;
     if (n <= MESSAGE_MAX) {
-        ceduo_text_safe_n(out, message, n);
+        ceduo_text_append_escaped_n(out, message, n);
         return;
     }
     while (head > 0 && ceduo_utf8_inside(message[head]))
         head--;
     while (ceduo_utf8_inside(message[tail]))
         tail++;
-    ceduo_text_safe_n(out, message, head);
-    ceduo_text_put(out, "\xe2\x80\xa6");
-    ceduo_text_safe_n(out, message + tail, n - tail);
+    ceduo_text_append_escaped_n(out, message, head);
+    ceduo_text_append(out, "\xe2\x80\xa6");
+    ceduo_text_append_escaped_n(out, message + tail, n - tail);
 }
 
 /* The same for all items of a list and whatever numbers the words hold. */
@@ -146,10 +146,10 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
         ceduo_text_vformat(&message, format, args);
     ceduo_text_format(&whole, "%s%s%s", path, path[0] ? ": " : "", ceduo_text_string(&message));
     if (source) {
-        ceduo_text_safe(&one, source->name);
+        ceduo_text_append_escaped(&one, source->name);
         if (place.line > 0 && !source->is_cell)
             ceduo_text_format(&one, ":%zu:%zu", place.line, place.column);
-        ceduo_text_put(&one, ": ");
+        ceduo_text_append(&one, ": ");
     }
     print_message(&one, ceduo_text_string(&whole));
     ceduo_text_char(&one, '\n');
@@ -172,7 +172,7 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
     } else if (!known && k < CEDUO_PROBLEMS_MAX) { /* of a million only these look for their line */
         if (source && place.line > 0)
             print_line(&one, source, place.line, place.column);
-        ceduo_text_put(&problems->text, ceduo_text_string(&one));
+        ceduo_text_append(&problems->text, ceduo_text_string(&one));
         *kind = (struct problem_kind){.hash = hash, .end = problems->text.length};
         problems->kinds_count++;
     }
@@ -196,7 +196,7 @@ bool ceduo_problem(struct problems *problems, const struct source *source, size_
     return false;
 }
 
-void ceduo_problems_follow(struct problems *problems, struct problems *head)
+void ceduo_problems_prepend(struct problems *problems, struct problems *head)
 {
     for (size_t k = 0; k < problems->kinds_count; k++)
         problems->kinds[k].end += head->text.length;
@@ -209,13 +209,13 @@ void ceduo_problems_follow(struct problems *problems, struct problems *head)
     ceduo_problems_free(head);
 }
 
-bool ceduo_problems_settle(struct problems *problems)
+bool ceduo_problems_check_memory(struct problems *problems)
 {
-    problems->memory |= ceduo_memory_lost();
+    problems->memory |= ceduo_memory_failed();
     return !problems->memory;
 }
 
-void ceduo_problems_close(struct problems *problems)
+void ceduo_problems_finish(struct problems *problems)
 {
     struct text all = {0};
     size_t from = 0, rest = problems->kinds_count > 0 ? problems->count : 0;
@@ -224,12 +224,12 @@ void ceduo_problems_close(struct problems *problems)
         rest -= 1 + kind->more;
         ceduo_text_add(&all, problems->text.bytes + from, kind->end - from);
         if (kind->more > 0) { /* how many others there are, and where */
-            ceduo_text_put(&all, "  ");
+            ceduo_text_append(&all, "  ");
             ceduo_text_format(&all, ngettext("and %zu more of this kind", "and %zu more of this kind", kind->more), kind->more);
             for (size_t i = 0; i < kind->more && i < CEDUO_PROBLEMS_LINES; i++)
                 if (kind->lines[i] > 0 && (i == 0 || kind->lines[i] != kind->lines[i - 1]))
                     ceduo_text_format(&all, i == 0 ? _(", on line %zu") : ", %zu", kind->lines[i]);
-            ceduo_text_put(&all, kind->more > CEDUO_PROBLEMS_LINES && kind->lines[0] > 0 ? " \xe2\x80\xa6\n" : "\n");
+            ceduo_text_append(&all, kind->more > CEDUO_PROBLEMS_LINES && kind->lines[0] > 0 ? " \xe2\x80\xa6\n" : "\n");
         }
         from = kind->end;
     }
@@ -242,9 +242,9 @@ void ceduo_problems_close(struct problems *problems)
     problems->kinds_count = 0;
     problems->count = problems->count > 0;
     if (problems->count == 0)
-        ceduo_text_put(&problems->text, ceduo_text_string(&problems->warnings));
+        ceduo_text_append(&problems->text, ceduo_text_string(&problems->warnings));
     ceduo_text_free(&problems->warnings);
-    if (!ceduo_problems_settle(problems))
+    if (!ceduo_problems_check_memory(problems))
         ceduo_text_format(&problems->text, "%s\n", _("out of memory"));
 }
 

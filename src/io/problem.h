@@ -76,14 +76,14 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
     __attribute__((format(printf, 3, 0)));
 
 /* Puts them after the words of `head`, which is none of them, and frees it. */
-void ceduo_problems_follow(struct problems *problems, struct problems *head);
+void ceduo_problems_prepend(struct problems *problems, struct problems *head);
 
 /* Notes whether memory ran out while the input was read; false then. Asked where the reading ends well, and by
- * ceduo_problems_close(). */
-bool ceduo_problems_settle(struct problems *problems);
+ * ceduo_problems_finish(). */
+bool ceduo_problems_check_memory(struct problems *problems);
 
 /* Ends the list: how many others there are of a kind, and the number of those that were not printed; the warnings if there is none. */
-void ceduo_problems_close(struct problems *problems);
+void ceduo_problems_finish(struct problems *problems);
 void ceduo_problems_free(struct problems *problems);
 
 /* Problems that are freed where their block ends. */

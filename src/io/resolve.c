@@ -43,7 +43,7 @@ struct resolver {
 /* A copy of `found` that stands where `place` stood. */
 static struct node *in_place_of(struct arena *arena, const struct node *found, const struct node *place)
 {
-    struct node *copy = ceduo_arena_take(arena, sizeof *copy);
+    struct node *copy = ceduo_arena_alloc(arena, sizeof *copy);
     if (!copy)
         return NULL;
     *copy = *found;
@@ -69,7 +69,7 @@ static const struct node *follow(struct resolver *r, const struct object *object
 /* A node whose reference leads nowhere, marked so that the rest is still read. NULL without memory. */
 static const struct node *broken(struct resolver *r, const struct node *node)
 {
-    struct node *copy = ceduo_arena_take(r->arena, sizeof *copy);
+    struct node *copy = ceduo_arena_alloc(r->arena, sizeof *copy);
     if (copy) {
         *copy = *node;
         copy->broken = true;
@@ -140,7 +140,7 @@ static const struct node *read_file(struct resolver *r, const struct node *node,
         ceduo_problem_at(r->problems, ceduo_node_place(node, node->key), _("more than %d files in one scene"), FILES_MAX);
         return NULL;
     }
-    struct known_file *file = ceduo_arena_take(r->arena, sizeof *file);
+    struct known_file *file = ceduo_arena_alloc(r->arena, sizeof *file);
     if (!file)
         return NULL;
     const struct source *source = ceduo_file_read(r->arena, path, YAML_BYTES_MAX, r->problems);
@@ -218,7 +218,7 @@ static const struct node *resolve_map(struct resolver *r, const struct object *o
             continue;
         const struct node *replaced = ceduo_node_replaced(r->arena, map, i, found);
         if (replaced)
-            ceduo_node_keep_written(replaced, map); /* the same thing, only followed further */
+            ceduo_node_keep_text(replaced, map); /* the same thing, only followed further */
         map = replaced;
     }
     return map;
@@ -374,7 +374,7 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
     key[step->n] = '\0';
     const struct field *f = object ? ceduo_schema_field(object, key) : NULL;
     bool free_form = !object || strcmp(key, "source") == 0;
-    const char *instead = object ? ceduo_gone(key) : NULL;
+    const char *instead = object ? ceduo_removed_hint(key) : NULL;
     if (instead)
         return fail_at(s, step, _(instead));
     LOCAL_TEXT(said);
@@ -447,7 +447,7 @@ static const struct node *set_item(struct resolver *s, const struct field *f, co
             const char *name = name_of(list->items[i]);
             ceduo_text_format(&items, "%s[%zu]%s%s", i > 0 ? ", " : "", i, name ? " " : "", name ? name : "");
         }
-        ceduo_text_put(&items, list->n > ITEMS_SHOWN ? ", \xe2\x80\xa6" : "");
+        ceduo_text_append(&items, list->n > ITEMS_SHOWN ? ", \xe2\x80\xa6" : "");
         ceduo_text_format(&what, _("no such item; there are: %s"), ceduo_text_string(&items));
         return fail_at(s, step, list->n > 0 ? ceduo_text_string(&what) : _("the list is empty"));
     }
@@ -479,7 +479,7 @@ static const struct node *set_in(struct resolver *s, const struct field *f, cons
     const struct node *changed = step.bracket ? set_item(s, f, node, &step, at) : set_entry(s, object, node, &step, at);
     if (!changed)
         return NULL;
-    ceduo_node_keep_written(changed, node);
+    ceduo_node_keep_text(changed, node);
     return changed;
 }
 

@@ -37,10 +37,10 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
         return false;
     file->scene = v.draft.scene;
     file->scene.title = file->scene.title ? file->scene.title : (char *)(uintptr_t)ceduo_file_name(file->path);
-    bool good = ceduo_problems_settle(problems) && problems->count == before;
-    ceduo_problems_close(&unusual);
+    bool good = ceduo_problems_check_memory(problems) && problems->count == before;
+    ceduo_problems_finish(&unusual);
     if (good)
-        ceduo_text_put(&problems->warnings, ceduo_text_string(&unusual.text));
+        ceduo_text_append(&problems->warnings, ceduo_text_string(&unusual.text));
     file->slope_node = good ? ceduo_node_get(file->root, "slope") : NULL;
     return good;
 }
@@ -120,16 +120,16 @@ static void complain_no_scene(struct scene_file *file, const char *path, const c
         size_t n;
         const char *const *list = ceduo_file_list(&file->arena, all[i], "scenes", &n);
         for (size_t k = 0; k < n; k++)
-            ceduo_text_then(&known, k > 0 || i > 0 ? ", " : "", "%s", list[k]);
+            ceduo_text_append_joined(&known, k > 0 || i > 0 ? ", " : "", "%s", list[k]);
         near = near ? near : ceduo_text_nearest(plain, list, n);
         ceduo_text_format(&folders, "%s%s/scenes", i > 0 ? ", " : "", all[i]);
     }
     if (near)
-        ceduo_text_then(&names, "; ", _("did you mean '%s'?"), near);
+        ceduo_text_append_joined(&names, "; ", _("did you mean '%s'?"), near);
     else if (known.bytes)
-        ceduo_text_then(&names, "; ", _("scenes that come with it: %s"), known.bytes);
+        ceduo_text_append_joined(&names, "; ", _("scenes that come with it: %s"), known.bytes);
     if (folders.bytes)
-        ceduo_text_then(&names, " ", _("(looked for here and in %s)"), folders.bytes);
+        ceduo_text_append_joined(&names, " ", _("(looked for here and in %s)"), folders.bytes);
     ceduo_problem(problems, &(struct source){.name = path}, 0, 0, _("cannot read it: %s%s"), strerror(ENOENT),
                   ceduo_text_string(&names));
 }
@@ -176,7 +176,7 @@ static bool read_source(struct scene_file *file, const struct source *source, co
 {
     if (make_scene(file, source, sets, sets->n, problems))
         return true;
-    if (sets->n == 0 || problems->usage || !ceduo_problems_settle(problems) || !is_good_with(source, sets, 0, problems))
+    if (sets->n == 0 || problems->usage || !ceduo_problems_check_memory(problems) || !is_good_with(source, sets, 0, problems))
         return false;
     size_t last = sets->n - 1;
     while (last > 0 && !problems->memory && !is_good_with(source, sets, last, problems))
@@ -185,7 +185,7 @@ static bool read_source(struct scene_file *file, const struct source *source, co
     struct problems head = {0};
     ceduo_problem(&head, &set, 1, (size_t)(equals_of(set.bytes) - set.bytes) + 2,
                   _("the scene is valid without this change, but not with it:"));
-    ceduo_problems_follow(problems, &head);
+    ceduo_problems_prepend(problems, &head);
     problems->usage = true;
     problems->cell = set.is_cell;
     return false;
@@ -199,7 +199,7 @@ bool ceduo_scene_load(struct scene_file *file, const char *path, const char *con
 bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struct scene_sets *sets, struct problems *problems)
 {
     *file = (struct scene_file){.path = path};
-    ceduo_memory_lost(); /* what was lost before is of others */
+    ceduo_memory_failed(); /* what was lost before is of others */
     size_t length = strlen(path);
     length -= length > 5 && strcmp(path + length - 5, ".yaml") == 0 ? 5 : 0;
     const char *plain = ceduo_arena_copy(&file->arena, path, length);
@@ -217,7 +217,7 @@ bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struc
 bool ceduo_scene_load_text(struct scene_file *file, const char *name, const char *text, struct problems *problems)
 {
     *file = (struct scene_file){.path = name};
-    ceduo_memory_lost();
+    ceduo_memory_failed();
     const struct source *source = ceduo_source_keep(&file->arena, (struct source){.name = name, .bytes = text});
     return source && read_source(file, source, &(struct scene_sets){0}, problems);
 }

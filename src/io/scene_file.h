@@ -60,7 +60,7 @@ struct scene_inputs {
 };
 
 /* False without memory. `uncertainty: none`: there are none. */
-bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs);
+bool ceduo_inputs_collect(struct scene_file *file, struct scene_inputs *inputs);
 
 /* Removes the inputs that change years to come alone. */
 void ceduo_inputs_keep_today(struct scene_inputs *inputs);

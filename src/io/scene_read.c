@@ -13,9 +13,10 @@ struct memory {
 };
 
 /* `text`: NULL where the name is that of a file. */
-static enum ceduo_status read_scene(const char *name, const char *text, const char *const *sets, struct ceduo_reading *reading)
+static enum ceduo_status read_scene(const char *name, const char *text, const char *const *sets,
+                                    struct ceduo_scene_file *reading)
 {
-    *reading = (struct ceduo_reading){.messages = ""};
+    *reading = (struct ceduo_scene_file){.messages = ""};
     struct memory *m = calloc(1, sizeof *m);
     if (!m)
         return CEDUO_NO_MEMORY;
@@ -27,32 +28,32 @@ static enum ceduo_status read_scene(const char *name, const char *text, const ch
     bool good = text ? ceduo_scene_load_text(&m->file, name, text, &m->problems)
                      : ceduo_scene_load(&m->file, name, sets, n, &m->problems);
     struct scene_inputs inputs = {0};
-    good = good && ceduo_inputs_of(&m->file, &inputs) && ceduo_problems_settle(&m->problems);
-    ceduo_problems_close(&m->problems);
+    good = good && ceduo_inputs_collect(&m->file, &inputs) && ceduo_problems_check_memory(&m->problems);
+    ceduo_problems_finish(&m->problems);
     ceduo_language_of_data(false);
     reading->messages = ceduo_text_string(&m->problems.text);
     if (good)
-        *reading = (struct ceduo_reading){.scene = m->file.scene,
-                                          .inputs_count = inputs.n,
-                                          .inputs = inputs.items,
-                                          .observations_count = m->file.observations_count,
-                                          .observations = m->file.observations,
-                                          .messages = reading->messages,
-                                          .memory = m};
+        *reading = (struct ceduo_scene_file){.scene = m->file.scene,
+                                             .inputs_count = inputs.n,
+                                             .inputs = inputs.items,
+                                             .observations_count = m->file.observations_count,
+                                             .observations = m->file.observations,
+                                             .messages = reading->messages,
+                                             .memory = m};
     return good ? CEDUO_OK : m->problems.memory ? CEDUO_NO_MEMORY : CEDUO_BAD_FILE;
 }
 
-enum ceduo_status ceduo_scene_read(const char *path, const char *const *sets, struct ceduo_reading *reading)
+enum ceduo_status ceduo_scene_read(const char *path, const char *const *sets, struct ceduo_scene_file *reading)
 {
     return read_scene(path, NULL, sets, reading);
 }
 
-enum ceduo_status ceduo_scene_read_text(const char *name, const char *text, struct ceduo_reading *reading)
+enum ceduo_status ceduo_scene_read_text(const char *name, const char *text, struct ceduo_scene_file *reading)
 {
     return read_scene(name, text, NULL, reading);
 }
 
-void ceduo_reading_release(struct ceduo_reading *reading)
+void ceduo_scene_file_release(struct ceduo_scene_file *reading)
 {
     struct memory *m = reading->memory;
     if (m) {
@@ -60,5 +61,5 @@ void ceduo_reading_release(struct ceduo_reading *reading)
         ceduo_problems_free(&m->problems);
         free(m);
     }
-    *reading = (struct ceduo_reading){.messages = ""};
+    *reading = (struct ceduo_scene_file){.messages = ""};
 }

@@ -47,12 +47,12 @@ static struct sizes measure_sizes(const struct ceduo_survey *survey)
 /* Mean basal area over the plots, m2/ha. */
 static double mean_basal_area(const struct ceduo_survey *survey)
 {
-    return ceduo_survey_basal(survey, CEDUO_SURVEY_ALL) * (M_PI / 4) * 10000 / (double)survey->plots_count;
+    return ceduo_survey_basal_area(survey, CEDUO_SURVEY_ALL) * (M_PI / 4) * 10000 / (double)survey->plots_count;
 }
 
 static bool has_column(const struct survey_reader *r, enum column c)
 {
-    return r->columns[c] < CEDUO_CSV_TWICE;
+    return r->columns[c] < CEDUO_CSV_DUPLICATE;
 }
 
 /* True if the heads of these columns name their units, as far as they are there. */
@@ -85,7 +85,7 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
     bool *asked = r->answers->asked;
     if (may_be_altitude && s.height > HEIGHT_BARE && !r->answers->given[SURVEY_HEIGHTS]) {
         asked[SURVEY_HEIGHTS] = true;
-        return ceduo_csv_complain(
+        return ceduo_csv_report_error(
             &r->csv, head_of(r, HEIGHT),
             _("a mean height of %.0f m: name the column 'height_m' if it holds heights in metres, 'altitude' if it holds "
               "altitudes"),
@@ -93,7 +93,7 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
     }
     if (!sized && s.dbh > DBH_BARE && s.height < SLENDERNESS_MIN * s.height_of_dbh) {
         asked[SURVEY_DIAMETERS] = true;
-        return ceduo_csv_complain(
+        return ceduo_csv_report_error(
             &r->csv, head,
             size == DBH ? _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column 'dbh_mm' if it is "
                             "in millimetres, 'dbh_cm' if it is in centimetres")
@@ -102,14 +102,14 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
             s.dbh * 100, s.height);
     }
     if (basal > BASAL_MAX)
-        return ceduo_csv_complain(
+        return ceduo_csv_report_error(
             &r->csv, head_of(r, area),
             _("a basal area of %.0f m2/ha is more than any forest has; are the areas in m2 and the diameters in cm?"), basal);
     if (basal <= BASAL_BARE || (sized && laid))
         return true;
     asked[SURVEY_AREAS] = !laid;
     asked[SURVEY_DIAMETERS] = !sized;
-    return ceduo_csv_complain(
+    return ceduo_csv_report_error(
         &r->csv, sized ? head_of(r, area) : head,
         size == DBH ? _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'dbh_cm' if it is right, "
                         "'dbh_mm' if the diameters are in millimetres")
@@ -137,7 +137,7 @@ static bool check_sites(const struct survey_reader *r, const struct survey_plot 
         site++;
     LOCAL_TEXT(name);
     const struct csv_cell head = r->csv.heads[r->columns[SITE + site]];
-    ceduo_text_safe_n(&name, head.p, head.n);
+    ceduo_text_append_escaped_n(&name, head.p, head.n);
     return ceduo_problem(
         r->problems, r->csv.source, line, 1,
         _("the rows of plot '%.*s' change the column '%s' in turns: sort the rows by it if it is where the plot "
@@ -191,7 +191,7 @@ static void describe_plots(const struct survey_reader *r, struct text *line)
         if (has_column(r, (enum column)c)) {
             const struct csv_cell head = r->csv.heads[r->columns[c]];
             LOCAL_TEXT(name);
-            ceduo_text_safe_n(&name, head.p, head.n);
+            ceduo_text_append_escaped_n(&name, head.p, head.n);
             ceduo_text_format(line, _(", told apart by %s"), ceduo_text_string(&name));
         }
 }
@@ -209,7 +209,7 @@ static void describe_slopes(const struct survey_reader *r, struct text *line)
     else if (lo == hi)
         ceduo_text_format(line, _("; slope %.0f degrees"), lo);
     if (lo <= hi && r->units[SLOPE] == CSV_UNIT_OTHER)
-        ceduo_text_put(line, _(", given in percent"));
+        ceduo_text_append(line, _(", given in percent"));
 }
 
 static void describe_stems(const struct survey_reader *r, const struct ceduo_survey *survey, struct text *line)
@@ -222,7 +222,7 @@ static void describe_stems(const struct survey_reader *r, const struct ceduo_sur
         all += n;
         if (n == 0)
             continue;
-        ceduo_text_put(line, ", ");
+        ceduo_text_append(line, ", ");
         if (k == CEDUO_SURVEY_SHOOT) {
             ceduo_text_format(line, ngettext("%zu shoot", "%zu shoots", n), n);
             ceduo_text_format(line, ngettext(" on %zu stool", " on %zu stools", stools), stools);
@@ -234,15 +234,15 @@ static void describe_stems(const struct survey_reader *r, const struct ceduo_sur
             ceduo_text_format(line, ngettext("%zu stump", "%zu stumps", n), n);
     }
     if (all == 0)
-        ceduo_text_put(line, _(", no stems"));
+        ceduo_text_append(line, _(", no stems"));
     if (all == counts[CEDUO_SURVEY_STUMP])
         return;
     const struct sizes s = measure_sizes(survey);
     ceduo_text_format(line, s.lo < s.hi ? _("; dbh %.3g to %.3g cm") : _("; dbh %.3g cm"), s.lo * 100, s.hi * 100);
     if (r->units[size_column(r)] == CSV_UNIT_OTHER)
-        ceduo_text_put(line, _(", given in mm"));
+        ceduo_text_append(line, _(", given in mm"));
     if (!has_column(r, DBH))
-        ceduo_text_put(line, _(", from circumferences"));
+        ceduo_text_append(line, _(", from circumferences"));
     ceduo_text_format(line, _("; basal area %.3g m2/ha"), mean_basal_area(survey));
 }
 
@@ -283,18 +283,18 @@ static void describe_heads(const struct survey_reader *r, struct text *line)
         if (!has_column(r, c) || !ceduo_survey_is_vague(&r->csv, r->columns[c]))
             continue;
         const struct csv_cell head = r->csv.heads[r->columns[c]];
-        ceduo_text_put(line, n++ == 0 ? _("; read as: ") : ", ");
-        ceduo_text_safe_n(line, head.p, head.n);
+        ceduo_text_append(line, n++ == 0 ? _("; read as: ") : ", ");
+        ceduo_text_append_escaped_n(line, head.p, head.n);
         ceduo_text_format(line, " = %s", HEAD(c));
     }
 }
 
-const char *ceduo_survey_understand(const struct survey_reader *r, const struct ceduo_survey *survey, const char *name)
+const char *ceduo_survey_note_understanding(const struct survey_reader *r, const struct ceduo_survey *survey, const char *name)
 {
     LOCAL_TEXT(line);
     LOCAL_TEXT(read_as);
-    ceduo_text_safe(&line, name);
-    ceduo_text_put(&line, ": ");
+    ceduo_text_append_escaped(&line, name);
+    ceduo_text_append(&line, ": ");
     describe_plots(r, &line);
     describe_stems(r, survey, &line);
     describe_slopes(r, &line);

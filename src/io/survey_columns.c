@@ -211,8 +211,8 @@ static bool check_foreign_unit(const struct csv *csv, enum column c)
 {
     const struct csv_head *head = &ceduo_survey_heads[c];
     size_t found = ceduo_csv_column(csv, head, NULL);
-    found = found == CEDUO_CSV_NONE ? ceduo_csv_column(csv, head, FOREIGN_UNITS) : found;
-    if (found >= CEDUO_CSV_TWICE)
+    found = found == CEDUO_CSV_NOT_FOUND ? ceduo_csv_column(csv, head, FOREIGN_UNITS) : found;
+    if (found >= CEDUO_CSV_DUPLICATE)
         return true;
     const struct csv_cell cell = csv->heads[found];
     size_t n = 0;
@@ -221,9 +221,9 @@ static bool check_foreign_unit(const struct csv *csv, enum column c)
     if (ceduo_csv_among(cell.p, n, VAGUE))
         return true; /* h (hours) */
     LOCAL_TEXT(name);
-    ceduo_text_safe_n(&name, cell.p, cell.n);
-    return ceduo_csv_complain(csv, cell, _("'%s': its values must be in %s; convert them and name the column '%s'"),
-                              ceduo_text_string(&name), _(head->unit), _(head->name));
+    ceduo_text_append_escaped_n(&name, cell.p, cell.n);
+    return ceduo_csv_report_error(csv, cell, _("'%s': its values must be in %s; convert them and name the column '%s'"),
+                                  ceduo_text_string(&name), _(head->unit), _(head->name));
 }
 
 /* Refuse a table without a column, with the names of the columns that it has unless it is foreign. */
@@ -241,10 +241,10 @@ static bool refuse_head(const struct csv *csv, const char *missing)
 bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum csv_unit units[COLUMNS])
 {
     size_t before = csv->problems->met;
-    ceduo_csv_find(csv, ceduo_survey_heads, COLUMNS, columns);
+    ceduo_csv_find_head(csv, ceduo_survey_heads, COLUMNS, columns);
     bool none[COLUMNS];
     for (int c = 0; c < COLUMNS; c++)
-        none[c] = columns[c] == CEDUO_CSV_NONE;
+        none[c] = columns[c] == CEDUO_CSV_NOT_FOUND;
     bool sized = !none[DBH] || !none[CIRCUMFERENCE], laid = !none[AREA] || !none[RADIUS];
     for (int c = 0; c < COLUMNS; c++) {
         const char *usual = ceduo_survey_heads[c].units, *other = ceduo_survey_heads[c].other;
@@ -252,7 +252,7 @@ bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum cs
         bool needed = c == DBH || c == CIRCUMFERENCE ? !sized : c == AREA || c == RADIUS ? !laid : true;
         if (usual && none[c] && needed)
             check_foreign_unit(csv, (enum column)c);
-        if (!usual || columns[c] >= CEDUO_CSV_TWICE)
+        if (!usual || columns[c] >= CEDUO_CSV_DUPLICATE)
             continue;
         const struct csv_cell head = csv->heads[columns[c]];
         units[c] = other && has_unit(head, other) ? CSV_UNIT_OTHER : has_unit(head, usual) ? CSV_UNIT_USUAL : CSV_UNIT_NONE;

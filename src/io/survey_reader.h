@@ -120,6 +120,6 @@ double ceduo_survey_area(const struct survey_plot *plot);
 bool ceduo_survey_check(struct survey_reader *r, const struct ceduo_survey *survey);
 
 /* Describe in one line how the table was understood. `name`: of the file. */
-const char *ceduo_survey_understand(const struct survey_reader *r, const struct ceduo_survey *survey, const char *name);
+const char *ceduo_survey_note_understanding(const struct survey_reader *r, const struct ceduo_survey *survey, const char *name);
 
 #endif

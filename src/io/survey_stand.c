@@ -14,7 +14,7 @@
 
 struct writer {
     const struct survey_file *file;
-    const struct ceduo_survey_answer *answer;
+    const struct ceduo_survey_result *answer;
     struct text *out;
     double area;   /* m2 of the map */
     bool one_plot; /* which has no standard error */
@@ -78,7 +78,7 @@ static void remark_heights(struct text *out, const char *name, const struct cedu
 
 static void remark(const struct writer *w)
 {
-    const struct ceduo_survey_answer *a = w->answer;
+    const struct ceduo_survey_result *a = w->answer;
     struct text *out = w->out;
     ceduo_text_format(out, "# %s\n", w->file->understood ? w->file->understood : w->file->name);
     ceduo_text_format(out, "# %-10s %8s %8s    %s\n", "", _("per ha"), w->one_plot ? "" : _("s.e."),
@@ -89,7 +89,7 @@ static void remark(const struct writer *w)
     if (a->stools.mean > 0)
         ceduo_text_format(out, _("# shoots on a stool: %.2f\n"), a->per_ha[CEDUO_SURVEY_SHOOT].mean / a->stools.mean);
     if (w->one_plot)
-        ceduo_text_put(out, _("# One plot has no standard error: the densities are marked as assumed.\n"));
+        ceduo_text_append(out, _("# One plot has no standard error: the densities are marked as assumed.\n"));
     remark_heights(out, _("shoots"), &a->shoots);
     remark_heights(out, _("standards and trees"), &a->trees);
     for (size_t i = 0; i < a->classes_count; i++) {
@@ -104,17 +104,18 @@ static void remark(const struct writer *w)
     const struct ceduo_survey *s = &w->file->survey; /* the share of each species of the basal area */
     size_t n, said = 0;
     const struct ceduo_species *list = ceduo_species_list(&n);
-    double all = ceduo_survey_basal(s, CEDUO_SURVEY_ALL), own;
+    double all = ceduo_survey_basal_area(s, CEDUO_SURVEY_ALL), own;
     for (int k = -1; k < (int)n; k++)
-        if ((own = ceduo_survey_basal(s, k)) > 0)
+        if ((own = ceduo_survey_basal_area(s, k)) > 0)
             ceduo_text_format(out, "%s%s %.0f %%", said++ ? ", " : _("# basal area: "),
                               k < 0 ? _("not said") : _(list[k].common), 100 * own / all);
-    ceduo_text_put(out, said ? "\n" : "");
+    ceduo_text_append(out, said ? "\n" : "");
     if (!(a->per_ha[CEDUO_SURVEY_STUMP].mean > 0) || w->stumps)
         return;
-    ceduo_text_put(out, /* what a stump takes from a rock has no default: it is asked for, not made up */
-                   _("# The stumps are not in the stand: they need a height_m, and the energy_kJ that one takes from a rock,\n"
-                     "# in at least one row of the survey, or here:\n"));
+    ceduo_text_append(
+        out, /* what a stump takes from a rock has no default: it is asked for, not made up */
+        _("# The stumps are not in the stand: they need a height_m, and the energy_kJ that one takes from a rock,\n"
+          "# in at least one row of the survey, or here:\n"));
     ceduo_text_format(out, "# stumps: {per_ha: %s, diameter_m: %s, height_m: %s, energy_kJ: ?}\n",
                       ROUNDED(a->per_ha[CEDUO_SURVEY_STUMP].mean), ROUNDED(a->stump_diameter),
                       isnan(a->stump_height) ? "?" : ROUNDED(a->stump_height));
@@ -157,12 +158,12 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
         ceduo_text_format(&what, _("%s of %.0f to %.0f cm, n = %zu"), _(kinds[c->kind]), c->from * 100,
                           (c->from + CEDUO_SURVEY_CLASS) * 100, c->stems);
         if (w->one_plot)
-            ceduo_text_put(&what, _("; one plot, no standard error"));
+            ceduo_text_append(&what, _("; one plot, no standard error"));
         if (h->missing > 0) /* how these are known stands above */
             ceduo_text_format(&what, _("; heights measured: %zu of %zu"), h->given, h->given + h->missing);
         if (c->form_factor > 0)
             ceduo_text_format(&what, _("; volume of %zu by form factor"), c->form_factor);
-        ceduo_text_put(w->out, ",\n     ");
+        ceduo_text_append(w->out, ",\n     ");
         print_source(w->out, w->one_plot || h->from >= CEDUO_HEIGHTS_MEAN || (given && c->form_factor > 0),
                      ceduo_text_string(&what), "}\n");
     }
@@ -198,7 +199,7 @@ struct standards {
     double per_ha, area; /* 1/ha, m2/ha */
 };
 
-static struct standards count_standards(const struct ceduo_survey_answer *a)
+static struct standards count_standards(const struct ceduo_survey_result *a)
 {
     struct standards sum = {0};
     for (size_t i = 0; i < a->classes_count; i++)
@@ -219,7 +220,7 @@ static const char *system_of(struct standards standards)
 
 /* The stand that comes with the program for this species and system, resolved in the arena; NULL if there is none. Its name goes to
  * `name`. */
-static const struct node *find_shipped(struct arena *arena, const struct ceduo_survey_answer *a, struct text *name)
+static const struct node *find_shipped(struct arena *arena, const struct ceduo_survey_result *a, struct text *name)
 {
     LOCAL_PROBLEMS(problems);
     LOCAL_TEXT(yaml);
@@ -244,7 +245,7 @@ static void print_scaled(struct text *out, const struct node *list, double sum)
         double number = ceduo_node_item_number(list, i);
         ceduo_text_format(out, "%s%s", i > 0 ? ", " : "[", ROUNDED(sum > 0 ? round(number * sum / all) : number));
     }
-    ceduo_text_put(out, "]\n");
+    ceduo_text_append(out, "]\n");
 }
 
 /* A mapping with a source of its own. A cut leaves as many standards as were counted. */
@@ -263,7 +264,7 @@ static void print_assumed(const struct writer *w, const char *key, const struct 
         ceduo_emit_flow(w->out, item);
         ceduo_text_char(w->out, '\n');
     }
-    ceduo_text_put(w->out, "  ");
+    ceduo_text_append(w->out, "  ");
     print_source(w->out, true, what, "\n");
 }
 
@@ -276,8 +277,8 @@ static void print_future(const struct writer *w)
     const struct node *stand = find_shipped(&arena, w->answer, &name);
     const struct node *growth = ceduo_node_get(stand, "growth"), *cutting = ceduo_node_get(stand, "cutting");
     if (!growth || !cutting) {
-        ceduo_text_put(w->out,
-                       _("# No stand of this species comes with ceduo: write its growth and cutting for the years to come.\n"));
+        ceduo_text_append(
+            w->out, _("# No stand of this species comes with ceduo: write its growth and cutting for the years to come.\n"));
         return;
     }
     ceduo_text_format(
@@ -296,7 +297,7 @@ static void print_future(const struct writer *w)
 /* Two numbers of what may be true. */
 static void print_row(const struct writer *w, size_t *n, const char *path, const char *keys[2], double a, double b)
 {
-    ceduo_text_put(w->out, (*n)++ == 0 ? "uncertainty:\n  - {path: " : "  - {path: ");
+    ceduo_text_append(w->out, (*n)++ == 0 ? "uncertainty:\n  - {path: " : "  - {path: ");
     ceduo_emit_scalar(w->out, path, true);
     ceduo_text_format(w->out, ", %s: %s, %s: %s}\n", keys[0], ROUNDED(a), keys[1], ROUNDED(b));
 }
@@ -310,7 +311,7 @@ static void print_uncertainty(const struct writer *w, size_t *n, const char *pat
 
 static void print_uncertainties(const struct writer *w)
 {
-    const struct ceduo_survey_answer *a = w->answer;
+    const struct ceduo_survey_result *a = w->answer;
     size_t n = 0, at[2] = {0};
     print_uncertainty(w, &n, "stools.per_ha", &a->stools, stools_of(w));
     print_uncertainty(w, &n, "stools.spacing_m", &a->spacing, a->spacing.mean);
@@ -338,13 +339,13 @@ static void print_uncertainties(const struct writer *w)
 
 static void print_stand(const struct writer *w)
 {
-    const struct ceduo_survey_answer *a = w->answer;
+    const struct ceduo_survey_result *a = w->answer;
     LOCAL_TEXT(what);
     remark(w);
     bool stems = a->stools.mean > 0 || a->per_ha[CEDUO_SURVEY_STANDARD].mean + a->per_ha[CEDUO_SURVEY_TREE].mean > 0;
-    ceduo_text_put(w->out, "ceduo: stand/1\nname: ");
+    ceduo_text_append(w->out, "ceduo: stand/1\nname: ");
     ceduo_emit_scalar(w->out, w->file->name, true);
-    ceduo_text_put(w->out, stems || w->stumps ? "\n" : "\nsystem: bare\n");
+    ceduo_text_append(w->out, stems || w->stumps ? "\n" : "\nsystem: bare\n");
     if (a->species >= 0)
         ceduo_text_format(w->out, "species: %s\n", ceduo_species_words.names[a->species]);
     if (a->stools.mean > 0) {
@@ -356,9 +357,9 @@ static void print_stand(const struct writer *w)
         if (measured)
             ceduo_text_format(&of_stools, _("; spacing on %zu of them"), a->stools_measured);
         else
-            ceduo_text_put(&of_stools, _("; the spacing of the shoots was not measured"));
+            ceduo_text_append(&of_stools, _("; the spacing of the shoots was not measured"));
         if (w->one_plot)
-            ceduo_text_put(&of_stools, _("; one plot, no standard error"));
+            ceduo_text_append(&of_stools, _("; one plot, no standard error"));
         print_source(w->out, w->one_plot || !measured, ceduo_text_string(&of_stools), "}\n");
     }
     print_classes(w, "shoots:\n", false);
@@ -380,7 +381,7 @@ static void print_stand(const struct writer *w)
  * the sky beyond. */
 static bool check(const struct writer *w, struct problems *problems)
 {
-    const struct ceduo_survey_answer *a = w->answer;
+    const struct ceduo_survey_result *a = w->answer;
     const struct ceduo_survey_heights *const heights[] = {&a->shoots, &a->trees};
     const struct source source = {.name = w->file->name};
     double densest = ceduo_schema_at("forest[0].stand.trees[0].per_ha")->hi;
@@ -407,9 +408,9 @@ static bool check(const struct writer *w, struct problems *problems)
 
 bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struct problems *problems)
 {
-    struct ceduo_survey_answer answer;
+    struct ceduo_survey_result answer;
     struct writer w = {.file = file, .answer = &answer, .out = yaml, .one_plot = file->survey.plots_count == 1};
-    if (ceduo_survey_ask(&file->survey, &answer) != CEDUO_OK) {
+    if (ceduo_survey_compute(&file->survey, &answer) != CEDUO_OK) {
         problems->memory = true;
         return false;
     }
@@ -420,5 +421,5 @@ bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struc
     if (good)
         print_stand(&w);
     ceduo_survey_free(&answer);
-    return good && ceduo_problems_settle(problems);
+    return good && ceduo_problems_check_memory(problems);
 }

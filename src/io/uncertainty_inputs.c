@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which values of a scene are in uncertainty. The table of keys and the scene's document are followed together; a value that is
+/* Which values of a scene are uncertain. The table of keys and the scene's document are followed together; a value that is
  * marked as assumed and has a range becomes a place of an input. Places with the same origin are one input. */
 #include "scene_file.h"
 
@@ -65,7 +65,7 @@ static struct ceduo_input make_input(struct finder *f, const char *path, const s
     struct ceduo_input input = {.kind = range->kind, .lo = range->lo, .hi = range->hi, .source = range->source};
     if (range->kind != CEDUO_INPUT_WORDS)
         return input;
-    int *words = ceduo_arena_take(f->arena, sizeof range->words / sizeof range->words[0] * sizeof *words);
+    int *words = ceduo_arena_alloc(f->arena, sizeof range->words / sizeof range->words[0] * sizeof *words);
     for (size_t i = 0; words && range->words[i]; i++)
         words[input.words_count++] = ceduo_choice_find(ceduo_schema_at(path)->choices, range->words[i]);
     input.words = words;
@@ -81,7 +81,7 @@ static void add(struct finder *f, const char *path, const char *origin, struct r
     while (i < f->n && strcmp(f->found[i].origin, origin) != 0)
         i++;
     if (i == f->n) {
-        struct found *all = ceduo_arena_more(f->arena, f->found, f->n, 1, &f->room, sizeof *all);
+        struct found *all = ceduo_arena_grow(f->arena, f->found, f->n, 1, &f->room, sizeof *all);
         if (!all)
             return;
         f->found = all;
@@ -89,7 +89,7 @@ static void add(struct finder *f, const char *path, const char *origin, struct r
     }
     struct found *to = &f->found[i];
     size_t n = to->input.places_count;
-    const char **places = ceduo_arena_more(f->arena, to->places, n, 1, &to->room, sizeof *places);
+    const char **places = ceduo_arena_grow(f->arena, to->places, n, 1, &to->room, sizeof *places);
     if (!places)
         return;
     to->input.places = to->places = places;
@@ -121,7 +121,7 @@ static void consider(struct finder *f, const struct field *field, const struct n
 {
     const char *key = field->key;
     bool instead = !node && field->flags & FIELD_ONE_OF && !field->value; /* another key says it */
-    const struct range *range = instead ? NULL : ceduo_range_of(field);
+    const struct range *range = instead ? NULL : ceduo_range_find(field);
     const char *path = range ? ceduo_arena_string(f->arena, ceduo_text_string(&f->path)) : NULL, *origin = path;
     struct value v;
     if (!path || !law_knows(f, key) || !ceduo_value_find(&f->file->scene, path, &v) || isnan(ceduo_value_get(&v)))
@@ -205,14 +205,14 @@ static void add_ground(struct finder *f, const struct ceduo_material *m)
 {
     static const char *const keys[] = {"rn", "rt", "roughness_m", "friction", "mu"};
     const struct scene_file *file = f->file;
-    const char **places = ceduo_arena_take(f->arena, file->scene.slope.vertices * sizeof *places);
+    const char **places = ceduo_arena_alloc(f->arena, file->scene.slope.vertices * sizeof *places);
     for (size_t k = 0; places && k < sizeof keys / sizeof keys[0]; k++) {
         size_t n = law_knows(f, keys[k]) ? ceduo_input_ground(f->arena, file->ground_assumed ? NULL : file->root, &file->scene,
                                                               m->name, keys[k], true, places)
                                          : 0;
         for (size_t i = 0; i < n; i++)
             add(f, places[i], ceduo_arena_format(f->arena, "slope.materials[%s].%s", m->name, keys[k]),
-                ceduo_range_of_material(m, keys[k]));
+                ceduo_range_find_material(m, keys[k]));
     }
 }
 
@@ -253,13 +253,13 @@ static const char *common_path(struct scene_file *file, const struct ceduo_input
             ceduo_text_char(&path, '*');
         from = strchr(item, ']');
     }
-    ceduo_text_put(&path, from);
+    ceduo_text_append(&path, from);
     bool all = input->places_count > 1 && path.bytes && ceduo_input_count(file, path.bytes) == input->places_count;
     return all ? ceduo_input_path(file, ceduo_arena_string(&file->arena, path.bytes))
                : ceduo_input_path(file, input->places[0]);
 }
 
-bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
+bool ceduo_inputs_collect(struct scene_file *file, struct scene_inputs *inputs)
 {
     struct finder f = {.file = file, .arena = &file->arena};
     size_t count;
@@ -271,7 +271,7 @@ bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
     for (size_t i = 0; file->scene.slope.segments_given == 0 && i < count; i++)
         add_ground(&f, &library[i]);
     ceduo_text_free(&f.path);
-    inputs->items = ceduo_arena_take(f.arena, (file->inputs_count + f.n + 1) * sizeof *inputs->items);
+    inputs->items = ceduo_arena_alloc(f.arena, (file->inputs_count + f.n + 1) * sizeof *inputs->items);
     for (size_t i = 0; inputs->items && i < file->inputs_count; i++)
         if (file->inputs[i].places_count > 0) /* otherwise it is of a stand, and the scene says otherwise */
             inputs->items[inputs->n++] = file->inputs[i];

@@ -20,7 +20,7 @@ static void check_rock(struct validator *v, const char *path, const struct ceduo
 {
     struct ceduo_rock rock;
     if (ceduo_rock_of_means(def, &rock) != CEDUO_OK)
-        ceduo_complain(v, path, "", _("the rock is too small or too large to compute"));
+        ceduo_report_error(v, path, "", _("the rock is too small or too large to compute"));
 }
 
 void ceduo_validate_rock(struct validator *v, const char *path, const struct ceduo_rock_def *def)
@@ -42,27 +42,27 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct ced
         if (belongs || !ceduo_node_get(node, sizes[i]))
             continue;
         if (said && said->source->is_option) /* nothing of the file can be taken out there */
-            ceduo_complain(v, path, sizes[i],
-                           _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), name, name,
-                           shapes[shape].example);
+            ceduo_report_error(v, path, sizes[i],
+                               _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), name,
+                               name, shapes[shape].example);
         else
-            ceduo_complain(v, path, sizes[i], _("does not belong to the shape '%s'; remove it"), name);
+            ceduo_report_error(v, path, sizes[i], _("does not belong to the shape '%s'; remove it"), name);
     }
     for (size_t i = 0; keys[i]; i++)
         n += ceduo_is_given(v, path, keys[i]);
     bool by_blocks = blocks && !by_mass && n == 0;
     for (size_t i = 0; keys[i] && shape != CEDUO_SPHERE && !by_blocks; i++)
         if (!ceduo_is_given(v, path, keys[i]))
-            ceduo_complain(v, path, "", _("'%s' is missing: the shape '%s' needs it"), keys[i], name);
+            ceduo_report_error(v, path, "", _("'%s' is missing: the shape '%s' needs it"), keys[i], name);
     if (shape == CEDUO_SPHERE && n != 1 && !by_blocks)
-        ceduo_complain(
+        ceduo_report_error(
             v, path, "",
             blocks ? _("blocks say how large the rocks are: a sphere needs none of diameter_m, volume_m3 and mass_kg, or "
                        "one, here %d are given")
                    : _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"),
             n);
     if (shape != CEDUO_SPHERE && ceduo_node_get(node, "mass_kg") && ceduo_node_get(node, "density_kg_m3"))
-        ceduo_complain(v, path, "density_kg_m3", _("%s already says this; keep one of the two"), "mass_kg");
+        ceduo_report_error(v, path, "density_kg_m3", _("%s already says this; keep one of the two"), "mass_kg");
     if (of_scene && !ceduo_is_given(v, path, "density_kg_m3") && !by_mass)
         ceduo_assume(v, "rock.density_kg_m3",
                      ceduo_format(v, _("density of limestone, %g kg/m3"), ceduo_scene_default().rock.density.mean));
@@ -82,8 +82,8 @@ void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_
         return;
     double end = slope->x[slope->vertices - 1], first = ceduo_number_lowest(*x), last = ceduo_number_highest(*x);
     if (!(first >= 0) || !(last < end))
-        ceduo_complain(v, path, "", _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
-                       NUMERAL((first >= 0 ? last : first) + v->origin), NUMERAL(v->origin), NUMERAL(end + v->origin));
+        ceduo_report_error(v, path, "", _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
+                           NUMERAL((first >= 0 ? last : first) + v->origin), NUMERAL(v->origin), NUMERAL(end + v->origin));
 }
 
 /* ---- the blocks that come down ---- */
@@ -99,7 +99,7 @@ static double mean_volume(const struct ceduo_scene *scene)
 {
     double volume = 0, per_year = 0;
     for (size_t i = 0; i < scene->blocks_count; i++) {
-        const struct ceduo_block_class *b = &scene->blocks[i];
+        const struct ceduo_size_class *b = &scene->blocks[i];
         double length = ceduo_log(b->volumes[1] / b->volumes[0]); /* number of ln(v) goes with e^(-exponent ln v) */
         volume += b->per_year * b->volumes[0] * integral(1 - b->exponent, length) / integral(-b->exponent, length);
         per_year += b->per_year;
@@ -134,41 +134,42 @@ void ceduo_validate_blocks(struct validator *v)
     if (!blocks)
         return;
     if (n == 0 && ceduo_is_known(v, "blocks"))
-        ceduo_complain(v, "blocks", "", _("the list is empty"));
+        ceduo_report_error(v, "blocks", "", _("the list is empty"));
     const struct ceduo_rock_def *r = &scene->rock;
     bool spreads = r->diameter.spread > 0 || r->volume.spread > 0 || r->mass.spread > 0;
     if (ceduo_node_get(v->root, "rocks_per_year"))
-        ceduo_complain(v, "rocks_per_year", "", _("%s already says this; keep one of the two"), "blocks");
+        ceduo_report_error(v, "rocks_per_year", "", _("%s already says this; keep one of the two"), "blocks");
     if (blocks->kind == NODE_MAP && !ceduo_is_given(v, "blocks", "exponent"))
-        ceduo_complain(v, "blocks", "",
-                       _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
+        ceduo_report_error(v, "blocks", "",
+                           _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
     if (r->shape == CEDUO_SPHERE && spreads && ceduo_is_sound(v, "rock")) /* whose proportions are always the same */
-        ceduo_complain(v, "rock", "", _("blocks say how large the rocks are; remove the size, or give it without a spread"));
+        ceduo_report_error(v, "rock", "",
+                           _("blocks say how large the rocks are; remove the size, or give it without a spread"));
     if (ceduo_is_too_long(v, "blocks", n) || !ceduo_is_sound(v, "blocks"))
         return;
     bool good = true, single = blocks->kind == NODE_MAP;
     scene->rocks_per_year = n > 0 ? 0 : NAN;
     for (size_t i = 0; i < n; i++) {
-        const struct ceduo_block_class *b = &scene->blocks[i];
+        const struct ceduo_size_class *b = &scene->blocks[i];
         const char *path = single ? "blocks.volume_m3" : ceduo_format(v, "blocks[%zu].volume_m3", i);
         bool two = b->volumes_count == 2, rise = two && b->volumes[0] < b->volumes[1];
         scene->rocks_per_year += b->per_year;
         if (!two)
-            ceduo_complain(v, path, "", _("expected %s"), "[lo, hi]");
+            ceduo_report_error(v, path, "", _("expected %s"), "[lo, hi]");
         else if (!rise)
-            ceduo_complain(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"), NUMERAL(b->volumes[0]),
-                           NUMERAL(b->volumes[1]));
+            ceduo_report_error(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"),
+                               NUMERAL(b->volumes[0]), NUMERAL(b->volumes[1]));
         good &= rise;
     }
     for (size_t i = 0; i < n && good; i++) { /* of those before it none may hold the same sizes */
-        const struct ceduo_block_class *b = scene->blocks;
+        const struct ceduo_size_class *b = scene->blocks;
         size_t k = 0;
         while (k < i && !(b[i].volumes[0] < b[k].volumes[1] && b[k].volumes[0] < b[i].volumes[1]))
             k++;
         if (k < i)
-            ceduo_complain(v, ceduo_format(v, "blocks[%zu].volume_m3", i), "",
-                           _("the class overlaps one before it, from %s to %s m3; let them touch at most"),
-                           NUMERAL(b[k].volumes[0]), NUMERAL(b[k].volumes[1]));
+            ceduo_report_error(v, ceduo_format(v, "blocks[%zu].volume_m3", i), "",
+                               _("the class overlaps one before it, from %s to %s m3; let them touch at most"),
+                               NUMERAL(b[k].volumes[0]), NUMERAL(b[k].volumes[1]));
     }
     if (v->sized_by_blocks && good && n > 0)
         size_by_blocks(v);
@@ -182,7 +183,7 @@ static void check_return(struct validator *v, size_t i, const struct ceduo_contr
     const char *path = ceduo_format(v, "controls[%zu].accepted_return_y", i);
     bool given = ceduo_resolve_at(v->root, path), blocks = ceduo_node_get(v->root, "blocks");
     if (given && !blocks && ceduo_is_known(v, "%s", path))
-        ceduo_complain(v, path, "", _("nothing says how often rocks come down; add 'blocks', or remove this"));
+        ceduo_report_error(v, path, "", _("nothing says how often rocks come down; add 'blocks', or remove this"));
     else if (!given && blocks && !isnan(c->accepted))
         ceduo_assume(v, path,
                      ceduo_format(v,
@@ -201,10 +202,10 @@ void ceduo_validate_controls(struct validator *v)
     if (!ceduo_is_known(v, "controls") || !ceduo_is_known(v, "controls_m"))
         return;
     if (n == 0) {
-        ceduo_complain(v, "", "", _("'controls' is missing: name at least one place where passing rocks are counted"));
+        ceduo_report_error(v, "", "", _("'controls' is missing: name at least one place where passing rocks are counted"));
         return;
     }
-    if (ceduo_is_too_long(v, path, n) || (!listed && !(scene->controls = ceduo_room(v, n, sizeof *scene->controls))))
+    if (ceduo_is_too_long(v, path, n) || (!listed && !(scene->controls = ceduo_alloc_array(v, n, sizeof *scene->controls))))
         return;
     bool starts = v->profile && ceduo_is_sound(v, "release.x_m");
     double last = starts ? ceduo_number_highest(scene->release.x) : -INFINITY;
@@ -225,9 +226,9 @@ void ceduo_validate_controls(struct validator *v)
         if (!ceduo_check_on_slope(v, at, "", c->x_given))
             continue;
         if (c->x <= last)
-            ceduo_complain(v, at, "", _("%s does not lie beyond the release, %s m"), here, NUMERAL(last + v->origin));
+            ceduo_report_error(v, at, "", _("%s does not lie beyond the release, %s m"), here, NUMERAL(last + v->origin));
         else if (k < i)
-            ceduo_complain(v, at, "", _("'%s' is given twice"), here);
+            ceduo_report_error(v, at, "", _("'%s' is given twice"), here);
     }
     scene->controls_count = n;
 }

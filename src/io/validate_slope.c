@@ -27,18 +27,18 @@ static bool read_vertices(struct validator *v, struct points *p)
     const struct ceduo_slope *s = &v->draft.scene.slope;
     bool csv = ceduo_is_given(v, "slope", "csv"), list = ceduo_is_given(v, "slope", "vertices_m");
     if (!csv && !list)
-        return ceduo_complain(v, "slope", "", _("'vertices_m' is missing: the profile"));
+        return ceduo_report_error(v, "slope", "", _("'vertices_m' is missing: the profile"));
     *p = (struct points){.x = s->x, .z = s->z, .n = s->vertices};
     if (list || !ceduo_is_known(v, "slope.csv"))
         return list && ceduo_is_known(v, "slope.vertices_m");
     const struct node *node = ceduo_node_get(ceduo_node_get(v->root, "slope"), "csv");
     const char *path = ceduo_resolve_path(v->arena, node, "slopes");
     if (!path)
-        ceduo_complain(v, "slope.csv", "", _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
-                       node->text);
+        ceduo_report_error(v, "slope.csv", "",
+                           _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), node->text);
     bool good = read_table(v, path, p, v->problems);
     if (good && p->understood)
-        ceduo_understand(v, "slope.csv", p->understood);
+        ceduo_note_understanding(v, "slope.csv", p->understood);
     return good;
 }
 
@@ -48,25 +48,25 @@ static bool check_vertices(struct validator *v, const struct points *p)
     bool csv = !ceduo_is_given(v, "slope", "vertices_m"), reversed = v->draft.scene.slope.reversed, rising = true;
     const char *path = csv ? "slope.csv" : "slope.vertices_m";
     if (p->n < 2)
-        return ceduo_complain(v, path, "", _("a profile needs two points or more"));
+        return ceduo_report_error(v, path, "", _("a profile needs two points or more"));
     for (size_t i = 1; i < p->n; i++)
         if (p->x[i] <= p->x[i - 1]) {
-            ceduo_complain(v, ceduo_format(v, "slope.vertices_m[%zu]", i), "",
-                           _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"),
-                           NUMERAL(p->x[i]), NUMERAL(p->x[i - 1]));
+            ceduo_report_error(v, ceduo_format(v, "slope.vertices_m[%zu]", i), "",
+                               _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"),
+                               NUMERAL(p->x[i]), NUMERAL(p->x[i - 1]));
             rising = false;
         }
     if (!rising || (!csv && !ceduo_is_sound(v, "slope.vertices_m")))
         return false;
     double first = p->z[0], last = p->z[p->n - 1];
     if (last > first && !reversed)
-        ceduo_complain(v, path, "",
-                       _("the profile rises, from %s to %s m, and rocks go along x: if it was drawn upward, write "
-                         "'reversed: true' in slope, which mirrors it with its ground"),
-                       NUMERAL(first), NUMERAL(last));
+        ceduo_report_error(v, path, "",
+                           _("the profile rises, from %s to %s m, and rocks go along x: if it was drawn upward, write "
+                             "'reversed: true' in slope, which mirrors it with its ground"),
+                           NUMERAL(first), NUMERAL(last));
     else if (last < first && reversed)
-        ceduo_complain(v, "slope.reversed", "", _("the profile falls already, from %s to %s m; leave 'reversed' out"),
-                       NUMERAL(first), NUMERAL(last));
+        ceduo_report_error(v, "slope.reversed", "", _("the profile falls already, from %s to %s m; leave 'reversed' out"),
+                           NUMERAL(first), NUMERAL(last));
     return reversed ? last >= first : last <= first;
 }
 
@@ -75,8 +75,8 @@ static bool make_vertices(struct validator *v, const struct points *p, size_t ex
 {
     struct ceduo_slope *s = &v->draft.scene.slope;
     size_t last = p->n - 1;
-    s->x = ceduo_room(v, p->n + extra, sizeof(double));
-    s->z = ceduo_room(v, p->n + extra, sizeof(double));
+    s->x = ceduo_alloc_array(v, p->n + extra, sizeof(double));
+    s->z = ceduo_alloc_array(v, p->n + extra, sizeof(double));
     if (!s->x || !s->z)
         return false;
     s->vertices = s->points = p->n;
@@ -101,18 +101,18 @@ static void check_materials(struct validator *v, const struct points *p)
     const struct material_belt *rows = v->draft.materials;
     size_t n = v->draft.materials_count, before = v->problems->met;
     if (n == 0)
-        ceduo_complain(v, "slope.materials", "", _("the list is empty"));
+        ceduo_report_error(v, "slope.materials", "", _("the list is empty"));
     for (size_t i = 0; i < n; i++) {
         double wanted = i > 0 ? rows[i - 1].to : p->n > 0 ? p->x[0] : NAN;
         const char *path = ceduo_format(v, "slope.materials[%zu]", i);
         if (ceduo_check_ends_behind(v, path, rows[i].from, rows[i].to) &&
             (rows[i].from > wanted || (i > 0 && rows[i].from < wanted)))
-            ceduo_complain(v, path, "from_m", _("%s leaves a gap or overlaps; it must begin at %s"), NUMERAL(rows[i].from),
-                           NUMERAL(wanted));
+            ceduo_report_error(v, path, "from_m", _("%s leaves a gap or overlaps; it must begin at %s"), NUMERAL(rows[i].from),
+                               NUMERAL(wanted));
     }
     if (v->problems->met == before && p->n > 0 && rows[n - 1].to < p->x[p->n - 1])
-        ceduo_complain(v, ceduo_format(v, "slope.materials[%zu]", n - 1), "to_m", _("%s ends before the profile, at %s"),
-                       NUMERAL(rows[n - 1].to), NUMERAL(p->x[p->n - 1]));
+        ceduo_report_error(v, ceduo_format(v, "slope.materials[%zu]", n - 1), "to_m", _("%s ends before the profile, at %s"),
+                           NUMERAL(rows[n - 1].to), NUMERAL(p->x[p->n - 1]));
 }
 
 /* What no file says: only the law arm has a mu. */
@@ -148,7 +148,7 @@ static void make_segments(struct validator *v)
     if (s->segments_given != 1)
         return;
     const struct ceduo_segment all = s->segments[0];
-    s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);
+    s->segments = ceduo_alloc_array(v, s->vertices - 1, sizeof *s->segments);
     for (size_t i = 0; s->segments && i + 1 < s->vertices; i++)
         s->segments[i] = all;
 }
@@ -186,7 +186,7 @@ static void make_materials(struct validator *v)
     size_t n = v->draft.materials_count, count;
     const struct ceduo_material *library = ceduo_materials(&count);
     struct material_belt *rows = v->draft.materials;
-    if (s->reversed && (rows = ceduo_room(v, n, sizeof *rows))) /* as they lie on a profile that was mirrored */
+    if (s->reversed && (rows = ceduo_alloc_array(v, n, sizeof *rows))) /* as they lie on a profile that was mirrored */
         for (size_t i = 0; i < n; i++) {
             const struct material_belt *row = &v->draft.materials[n - 1 - i];
             rows[i] = *row;
@@ -194,8 +194,8 @@ static void make_materials(struct validator *v)
             rows[i].to = ceduo_slope_mirrored(s, row->from);
         }
     if (n > 1) { /* the points of the file stay beside the borders of the grounds */
-        s->points_x = ceduo_room(v, s->points, sizeof(double));
-        s->points_z = ceduo_room(v, s->points, sizeof(double));
+        s->points_x = ceduo_alloc_array(v, s->points, sizeof(double));
+        s->points_z = ceduo_alloc_array(v, s->points, sizeof(double));
         if (!s->points_x || !s->points_z)
             return;
         memcpy(s->points_x, s->x, s->points * sizeof(double));
@@ -203,7 +203,7 @@ static void make_materials(struct validator *v)
     }
     for (size_t i = 1; rows && i < n; i++)
         split_at(s, rows[i].from - v->origin);
-    s->segments = rows ? ceduo_room(v, s->vertices - 1, sizeof *s->segments) : NULL;
+    s->segments = rows ? ceduo_alloc_array(v, s->vertices - 1, sizeof *s->segments) : NULL;
     if (!s->segments)
         return;
     ceduo_assume(v, "slope.materials", _("roughness and friction of the library's grounds, and all of its rows -v4"));
@@ -234,7 +234,7 @@ static bool reuse_slope(struct validator *v)
         else if (strcmp(n->kind, "assumed") == 0)
             ceduo_assume(v, n->path, n->text);
         else if (strcmp(n->kind, CEDUO_NOTE_TABLE) == 0)
-            ceduo_understand(v, n->path, n->text);
+            ceduo_note_understanding(v, n->path, n->text);
     return true;
 }
 
@@ -271,13 +271,13 @@ void ceduo_validate_slope(struct validator *v)
         return;
     size_t before = v->problems->met;
     if (!segments && !materials && !ceduo_is_given(v, "slope", "csv"))
-        ceduo_complain(v, "slope", "", _("'segments' or 'materials' is missing: the ground"));
+        ceduo_report_error(v, "slope", "", _("'segments' or 'materials' is missing: the ground"));
     const double smooth = ceduo_schema_default(ceduo_schema_field(ceduo_schema_segment(), "roughness_rad"));
     bool known = segments && ceduo_is_known(v, "slope.segments");
     if (known && p.n > 1 && s->segments_given != 1 && s->segments_given != p.n - 1)
-        ceduo_complain(v, "slope.segments", "",
-                       _("%zu segments for %zu stretches between vertices; give one for each, or one for all"),
-                       s->segments_given, p.n - 1);
+        ceduo_report_error(v, "slope.segments", "",
+                           _("%zu segments for %zu stretches between vertices; give one for each, or one for all"),
+                           s->segments_given, p.n - 1);
     for (size_t i = 0; known && i < s->segments_given; i++)
         if (isnan(s->segments[i].roughness_m) && isnan(s->segments[i].roughness_rad))
             s->segments[i].roughness_rad = smooth;
@@ -293,16 +293,16 @@ void ceduo_validate_slope(struct validator *v)
         v->file->ground_assumed = true;
         ceduo_assume(v, "slope", _("talus everywhere, its roughness and friction too"));
         assume_mu(v, "slope");
-        s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);
+        s->segments = ceduo_alloc_array(v, s->vertices - 1, sizeof *s->segments);
         const struct material_belt all = {.rn = NAN, .rt = NAN, .roughness = NAN, .friction = NAN, .mu = NAN};
         for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
             s->segments[j] = segment_of(ceduo_material_talus(), &all);
     }
     if (s->segments && ceduo_slope_check(s) != CEDUO_OK)
-        ceduo_complain(v, "slope", "", _("two vertices lie too close together for their distance from the first"));
+        ceduo_report_error(v, "slope", "", _("two vertices lie too close together for their distance from the first"));
     bool given = ceduo_is_given(v, "slope", "tolerance_m");
     if (given && s->tolerance > 0 && s->segments_given > 1)
-        ceduo_complain(
+        ceduo_report_error(
             v, TOLERANCE, "",
             _("each stretch between two points has a ground of its own here; remove 'tolerance_m', or give one ground "
               "for all, or 'materials'"));
@@ -327,11 +327,11 @@ static size_t points_left(const struct ceduo_slope *slope, double tolerance, dou
 static void assume_tolerance(struct validator *v, double release_x)
 {
     const struct ceduo_slope *s = &v->draft.scene.slope;
-    const struct range *range = ceduo_range_of(ceduo_schema_at(TOLERANCE));
+    const struct range *range = ceduo_range_find(ceduo_schema_at(TOLERANCE));
     if (!(s->tolerance > 0) || ceduo_is_given(v, "slope", "tolerance_m"))
         return;
     bool taken_over = s->simplified_to == s->tolerance && s->simplified_at == release_x;
-    if (taken_over ? ceduo_notes_say(v->previous->notes, "assumed", TOLERANCE)
+    if (taken_over ? ceduo_notes_print(v->previous->notes, "assumed", TOLERANCE)
                    : points_left(s, range->lo, release_x) != points_left(s, range->hi, release_x))
         ceduo_assume(v, TOLERANCE, ceduo_format(v, _("profile simplified to %g m"), s->tolerance));
 }
@@ -346,8 +346,8 @@ void ceduo_simplify_slope(struct validator *v)
         ceduo_no_memory();
     if (!to.x)
         return;
-    double *x = ceduo_room(v, to.vertices, sizeof *x), *z = ceduo_room(v, to.vertices, sizeof *z);
-    struct ceduo_segment *segments = ceduo_room(v, to.vertices - 1, sizeof *segments);
+    double *x = ceduo_alloc_array(v, to.vertices, sizeof *x), *z = ceduo_alloc_array(v, to.vertices, sizeof *z);
+    struct ceduo_segment *segments = ceduo_alloc_array(v, to.vertices - 1, sizeof *segments);
     if (x && z && segments) {
         memcpy(x, to.x, to.vertices * sizeof *x);
         memcpy(z, to.z, to.vertices * sizeof *z);

@@ -14,9 +14,9 @@ static void check_spreads(struct validator *v, const char *path, const char *lis
 {
     for (size_t i = 0; i < n; i++)
         if (stems[i].dbh_sd > stems[i].dbh) /* not where one of them could not be read: NaN, and 0 */
-            ceduo_complain(v, ceduo_format(v, "%s.%s[%zu]", path, list, i), "dbh_sd_m",
-                           _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
-                           NUMERAL(stems[i].dbh_sd), NUMERAL(stems[i].dbh));
+            ceduo_report_error(v, ceduo_format(v, "%s.%s[%zu]", path, list, i), "dbh_sd_m",
+                               _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
+                               NUMERAL(stems[i].dbh_sd), NUMERAL(stems[i].dbh));
 }
 
 /* Whether a value that is needed is not there; one that could not be read is reported already. */
@@ -32,7 +32,7 @@ static void check_given(struct validator *v, const char *path, const struct fiel
     for (const struct field *f = object->fields; f < object->fields + object->n; f++)
         if (f->type == FIELD_NUMBER && lacks(v, *(const double *)(const void *)((const char *)item + f->offset), path,
                                              ceduo_format(v, ".%s.%s", group->key, f->key)))
-            ceduo_complain(v, path, group->key, _("'%s' is missing: nothing is assumed here"), f->key);
+            ceduo_report_error(v, path, group->key, _("'%s' is missing: nothing is assumed here"), f->key);
 }
 
 /* Whether something is written at a key of a mapping. */
@@ -56,7 +56,7 @@ static void check_low(struct validator *v, const char *path, const struct ceduo_
 
 static void check_stand(struct validator *v, const char *path, struct ceduo_stand *s)
 {
-    ceduo_stand_count_shoots(s);
+    ceduo_stand_update_shoot_density(s);
     if ((int)s->system < 0)
         s->system = ceduo_stand_has_shoots(s)  ? CEDUO_SIMPLE_COPPICE
                     : ceduo_stand_has_stems(s) ? CEDUO_HIGH_FOREST
@@ -64,17 +64,17 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
     if (!ceduo_is_known(v, "%s", path)) /* what it starts from is not there */
         return;
     if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_known(v, "%s.growth.shoots_young", path))
-        ceduo_complain(v, path, "growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
-                       NUMERAL(s->growth.shoots_young), NUMERAL(s->growth.shoots_old));
+        ceduo_report_error(v, path, "growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
+                           NUMERAL(s->growth.shoots_young), NUMERAL(s->growth.shoots_old));
     if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
-        ceduo_complain(v, path, "system", _("'bare', but there are stems; name the system or remove them"));
+        ceduo_report_error(v, path, "system", _("'bare', but there are stems; name the system or remove them"));
     for (size_t i = 0; i < s->shoots_count; i++) { /* they are given per hectare or per stool */
         const char *here = ceduo_format(v, "%s.shoots[%zu]", path, i);
         bool each = is_written(v, here, "per_stool");
         if (!each && lacks(v, s->shoots[i].per_ha, here, ".per_ha") && ceduo_is_known(v, "%s.per_stool", here))
-            ceduo_complain(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
+            ceduo_report_error(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
         else if (each && !is_written(v, path, "stools.per_ha") && ceduo_is_known(v, "%s.stools.per_ha", path))
-            ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
+            ceduo_report_error(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
     }
     check_spreads(v, path, "shoots", s->shoots, s->shoots_count);
     check_spreads(v, path, "trees", s->trees, s->trees_count);
@@ -82,17 +82,17 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
     if (!ceduo_is_known(v, "%s.stools.per_ha", path) || !ceduo_is_known(v, "%s.shoots", path))
         return;
     if (s->stools_per_ha > 0 && ceduo_stand_shoots(s) / s->stools_per_ha > SHOOTS_MAX)
-        ceduo_complain(v, path, "shoots", _("%s shoots on each stool are more than the %s that can be drawn"),
-                       NUMERAL(ceduo_stand_shoots(s) / s->stools_per_ha), NUMERAL(SHOOTS_MAX));
+        ceduo_report_error(v, path, "shoots", _("%s shoots on each stool are more than the %s that can be drawn"),
+                           NUMERAL(ceduo_stand_shoots(s) / s->stools_per_ha), NUMERAL(SHOOTS_MAX));
     if (ceduo_stand_has_shoots(s) && !(s->stools_per_ha > 0))
-        ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
+        ceduo_report_error(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
     else if (s->shoots_count == 0 && s->stools_per_ha > 0 && !ceduo_stand_sprouts(s))
-        ceduo_complain(v, path, "stools",
-                       _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the "
-                         "stools"));
+        ceduo_report_error(v, path, "stools",
+                           _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the "
+                             "stools"));
     else if (ceduo_stand_has_shoots(s) && ceduo_stand_shoots(s) < s->stools_per_ha * (1 - 1e-12)) /* .4 and .6 per stool */
-        ceduo_complain(v, path, "stools.per_ha", _("%.6g shoots on %.6g stools: a stool has one shoot at least"),
-                       ceduo_stand_shoots(s), s->stools_per_ha);
+        ceduo_report_error(v, path, "stools.per_ha", _("%.6g shoots on %.6g stools: a stool has one shoot at least"),
+                           ceduo_stand_shoots(s), s->stools_per_ha);
 }
 
 /* The stand that a name is about: that of today, without source, growth and cutting. */
@@ -127,8 +127,8 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
         const char *here = ceduo_format(v, "%s[%zu]", path, i), *stand = ceduo_format(v, "%s.stand", here);
         const double from = belt->from_given, to = belt->to_given, before = i > 0 ? belt[-1].to_given : -INFINITY;
         if (ceduo_check_stretch(v, here, from, to) && from < before)
-            ceduo_complain(v, here, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
-                           NUMERAL(from), NUMERAL(before));
+            ceduo_report_error(v, here, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
+                               NUMERAL(from), NUMERAL(before));
         belt->from = belt->from_given - v->origin;
         belt->to = belt->to_given - v->origin;
         const struct node *node = ceduo_resolve_at(v->root, stand);
@@ -141,7 +141,7 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
             shown = _(name = ceduo_stand_is_bare(&belt->stand) ? N_("bare") : plain);
         belt->name_given = (char *)(uintptr_t)(belt->changed ? ceduo_format(v, "%s (changed)", name) : name);
         belt->name = (char *)(uintptr_t)(belt->changed ? ceduo_format(v, _("%s (changed)"), shown) : shown);
-        belt->assumed = ceduo_notes_say(*v->notes, "assumed", stand);
+        belt->assumed = ceduo_notes_print(*v->notes, "assumed", stand);
         check_stand(v, stand, &belt->stand);
     }
 }
@@ -155,8 +155,8 @@ void ceduo_validate_options(struct validator *v)
     if (!ceduo_is_known(v, "options"))
         return;
     if (many && n == 0)
-        ceduo_complain(v, "options", "", _("the list is empty"));
-    if (!many && (scene->options = ceduo_room(v, 1, sizeof *scene->options))) { /* it has one, its forest */
+        ceduo_report_error(v, "options", "", _("the list is empty"));
+    if (!many && (scene->options = ceduo_alloc_array(v, 1, sizeof *scene->options))) { /* it has one, its forest */
         scene->options[0] = (struct ceduo_option){
             .name_given = (char *)(uintptr_t)N_("current"), .belts_count = v->draft.belts_count, .belts = v->draft.belts};
         scene->options[0].name = (char *)(uintptr_t)_(scene->options[0].name_given);

@@ -64,7 +64,7 @@ static const char *with_numbers(struct validator *v, const char *path)
 
 static void add_place(struct places *p, const char *path)
 {
-    const char **items = ceduo_arena_more(p->v->arena, p->items, p->n, 1, &p->room, sizeof *items);
+    const char **items = ceduo_arena_grow(p->v->arena, p->items, p->n, 1, &p->room, sizeof *items);
     if (!items)
         return;
     p->items = items;
@@ -124,7 +124,7 @@ static void find_places(struct places *p, const char *path)
     const char *key, *name = ground_of(v, path, &key);
     struct value value;
     size_t n = p->n, stretches = scene->slope.vertices - 1;
-    if (name && (p->items = ceduo_room(v, stretches, sizeof *p->items))) /* such a path has no other places */
+    if (name && (p->items = ceduo_alloc_array(v, stretches, sizeof *p->items))) /* such a path has no other places */
         p->n = ceduo_input_ground(v->arena, v->file->ground_assumed ? NULL : v->root, scene, name, key, false, p->items);
     else if (!name && scene->slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
         for (size_t j = 0; j < stretches; j++)
@@ -138,7 +138,7 @@ static void find_places(struct places *p, const char *path)
 }
 
 /* The row of the table of keys that a path means, whether the scene has such an item or not; NULL: it is of no number and no
- * word, or no answer is in uncertainty because of it. */
+ * word, or no answer is uncertain because of it. */
 static const struct field *field_of(struct validator *v, const char *path)
 {
     const char *key, *ground = ground_of(v, path, &key);
@@ -161,40 +161,40 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
     input->mean = mean;
     input->sd = sd;
     if (gamma && sd > CEDUO_GAMMA_MAX * mean)
-        return ceduo_complain(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MAX);
+        return ceduo_report_error(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MAX);
     input->lo = gamma ? ceduo_input_quantile(input, 0) : normal ? mean - 3 * sd : row->uncertainty.lo;
     input->hi = gamma ? ceduo_input_quantile(input, 1) : normal ? mean + 3 * sd : row->uncertainty.hi;
     if (!(input->lo < input->hi))
-        return ceduo_complain(v, row->at, normal ? "sd" : "hi", _("the range is empty; make it larger"));
+        return ceduo_report_error(v, row->at, normal ? "sd" : "hi", _("the range is empty; make it larger"));
     const double ends[] = {input->lo, input->hi};
     const char *const keys[] = {normal ? "mean" : "lo", normal ? "sd" : "hi"};
     for (int i = 0; i < 2; i++)
         if (!ceduo_schema_in_range(field, ends[i]))
-            return ceduo_complain(v, row->at, keys[i], _("%s is outside the range of %s: %s"), NUMERAL(ends[i]), field->key,
-                                  ceduo_range(v, field));
+            return ceduo_report_error(v, row->at, keys[i], _("%s is outside the range of %s: %s"), NUMERAL(ends[i]), field->key,
+                                      ceduo_range(v, field));
     return true;
 }
 
 static bool read_words(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
 {
     size_t n = row->uncertainty.one_of_count;
-    int *words = ceduo_room(v, n, sizeof *words);
+    int *words = ceduo_alloc_array(v, n, sizeof *words);
     input->kind = CEDUO_INPUT_WORDS;
     input->words = words;
     input->words_count = n;
     if (n < 2)
-        ceduo_complain(v, row->at, "one_of", _("name at least two words"));
+        ceduo_report_error(v, row->at, "one_of", _("name at least two words"));
     for (size_t i = 0; words && i < n; i++) {
-        const char *word = row->uncertainty.one_of[i], *instead = ceduo_gone(word);
+        const char *word = row->uncertainty.one_of[i], *instead = ceduo_removed_hint(word);
         const char *at = ceduo_format(v, "%s.one_of[%zu]", row->at, i);
         words[i] = ceduo_choice_find(field->choices, word);
         if (instead)
-            return ceduo_complain(v, at, "", "%s", _(instead));
+            return ceduo_report_error(v, at, "", "%s", _(instead));
         if (words[i] < 0)
-            return ceduo_complain(v, at, "", _("'%s' is unknown; one of: %s"), word, ceduo_words(v, field->choices));
+            return ceduo_report_error(v, at, "", _("'%s' is unknown; one of: %s"), word, ceduo_words(v, field->choices));
         for (size_t k = 0; k < i; k++)
             if (words[k] == words[i])
-                return ceduo_complain(v, at, "", _("'%s' is given twice"), word);
+                return ceduo_report_error(v, at, "", _("'%s' is given twice"), word);
     }
     return words && n >= 2;
 }
@@ -209,15 +209,15 @@ static bool make_input(struct validator *v, const struct row *row, struct places
     if (!path)
         return false;
     const struct field *field = field_of(v, path);
-    const char *instead = ceduo_gone(path);
+    const char *instead = ceduo_removed_hint(path);
     *places = (struct places){.v = v};
     if (instead)
-        return ceduo_complain(v, row->at, "path", "%s", _(instead));
+        return ceduo_report_error(v, row->at, "path", "%s", _(instead));
     if (!field)
-        return ceduo_complain(v, row->at, "path",
-                              _("'%s' does not affect the result; name a number or a word of the rock, its release, the "
-                                "slope, a stand or the law"),
-                              d->path);
+        return ceduo_report_error(v, row->at, "path",
+                                  _("'%s' does not affect the result; name a number or a word of the rock, its release, the "
+                                    "slope, a stand or the law"),
+                                  d->path);
     find_places(places, path);
     if (places->n == 0)
         return false;
@@ -226,9 +226,9 @@ static bool make_input(struct validator *v, const struct row *row, struct places
     bool words = d->one_of != NULL, choice = field->type == FIELD_CHOICE;
     bool given = range == 2 ? normal == 0 && !words : normal == 2 ? range == 0 && !words : words && range + normal == 0;
     if (!given || words != choice)
-        return ceduo_complain(v, row->at, "",
-                              choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
-                              field->key);
+        return ceduo_report_error(
+            v, row->at, "", choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
+            field->key);
     *input = (struct ceduo_input){.path = of_stand ? ceduo_input_path(v->file, places->items[0]) : d->path,
                                   .places = places->items,
                                   .places_count = places->n,
@@ -239,8 +239,8 @@ static bool make_input(struct validator *v, const struct row *row, struct places
 static void add_input(struct validator *v, struct ceduo_input input, const char *at)
 {
     size_t n = v->file->inputs_count;
-    struct ceduo_input *inputs = ceduo_arena_more(v->arena, v->file->inputs, n, 1, &v->inputs_room, sizeof *inputs);
-    const char **rows = ceduo_arena_more(v->arena, v->rows, n, 1, &v->rows_room, sizeof *rows);
+    struct ceduo_input *inputs = ceduo_arena_grow(v->arena, v->file->inputs, n, 1, &v->inputs_room, sizeof *inputs);
+    const char **rows = ceduo_arena_grow(v->arena, v->rows, n, 1, &v->rows_room, sizeof *rows);
     if (!inputs || !rows)
         return;
     v->file->inputs = inputs;
@@ -267,7 +267,7 @@ static struct row *list_rows(struct validator *v, size_t *n)
                 const char *at = ceduo_format(v, "%suncertainty[%zu]", within, i);
                 if (!ceduo_is_sound(v, at))
                     continue;
-                struct row *rows = ceduo_arena_more(v->arena, all, *n, 1, &room, sizeof *all);
+                struct row *rows = ceduo_arena_grow(v->arena, all, *n, 1, &room, sizeof *all);
                 if (!rows)
                     return NULL;
                 all = rows;
@@ -300,7 +300,7 @@ static void take_stands(struct validator *v)
             twice |= other && ceduo_schema_same(other, r->uncertainty.path);
         }
         if (twice)
-            ceduo_complain(v, r->at, "path", _("'%s' is given twice"), r->uncertainty.path);
+            ceduo_report_error(v, r->at, "path", _("'%s' is given twice"), r->uncertainty.path);
         bool good = !twice && make_input(v, r, &places, &input);
         for (struct row *same = r + 1; same < rows + n; same++)
             if (same->list->items[same->i] == node) {
@@ -373,7 +373,7 @@ static bool take_header(struct draws *t)
                                         _("the table has a column '%s', which is no value of this scene"), path);
             }
             t->places =
-                ceduo_arena_more(v->arena, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places);
+                ceduo_arena_grow(v->arena, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places);
             if (!t->places)
                 return false;
             for (size_t i = 0; i < found.places_count; i++)
@@ -391,25 +391,25 @@ static bool read_table(struct draws *t, const char *path)
     if (!ceduo_csv_open(csv, t->v->arena, path, problems) || !ceduo_csv_first(csv))
         return false;
     t->columns = csv->heads_count;
-    t->values = ceduo_room(t->v, t->columns, sizeof *t->values);
+    t->values = ceduo_alloc_array(t->v, t->columns, sizeof *t->values);
     bool good = t->values != NULL;
     for (size_t c = 0; c < t->columns; c++)
         csv->heads[c].numeric = true;
     ceduo_csv_scan(csv);
     for (size_t c = 0; good && c < t->columns; c++)
-        good = (t->values[c] = ceduo_room(t->v, csv->rows, sizeof **t->values)) != NULL;
+        good = (t->values[c] = ceduo_alloc_array(t->v, csv->rows, sizeof **t->values)) != NULL;
     if (!good || !take_header(t))
         return false;
-    for (; ceduo_csv_next(csv); t->rows++) {
+    for (; ceduo_csv_next_row(csv); t->rows++) {
         for (size_t c = 0, h = 0; c < t->columns && !csv->bad; c++) {
-            struct csv_cell cell = ceduo_csv_cell(csv, c);
+            struct csv_cell cell = ceduo_csv_next_cell(csv, c);
             double *to = &t->values[c][t->rows];
             bool number = ceduo_csv_number(csv, cell, -1e12, 1e12, "", to);
             for (; h < t->places_count && t->places[h].column == c; h++) { /* one range is reported once */
                 const struct field *f = t->places[h].field;
                 if (number && !ceduo_schema_in_range(f, *to))
-                    ceduo_csv_complain(csv, cell, _("%s is outside the range of %s: %s"), NUMERAL(*to), f->key,
-                                       ceduo_range(t->v, f));
+                    ceduo_csv_report_error(csv, cell, _("%s is outside the range of %s: %s"), NUMERAL(*to), f->key,
+                                           ceduo_range(t->v, f));
             }
         }
     }
@@ -436,8 +436,8 @@ static void add_draws(struct validator *v)
                          _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), v->draws->text);
     if (!path || !read_table(&t, path))
         return;
-    const char **places = ceduo_room(v, t.places_count, sizeof *places);
-    const double **draws = ceduo_room(v, t.places_count, sizeof *draws);
+    const char **places = ceduo_alloc_array(v, t.places_count, sizeof *places);
+    const double **draws = ceduo_alloc_array(v, t.places_count, sizeof *draws);
     for (size_t i = 0; places && draws && i < t.places_count; i++) {
         places[i] = t.places[i].place;
         draws[i] = t.values[t.places[i].column];
@@ -455,9 +455,9 @@ static void add_draws(struct validator *v)
         return;
     add_input(v, input, NULL);
     LOCAL_TEXT(line);
-    ceduo_text_safe(&line, ceduo_file_name(path));
+    ceduo_text_append_escaped(&line, ceduo_file_name(path));
     ceduo_text_format(&line, _(": %zu draws of %zu values that belong together"), t.rows, t.columns);
-    ceduo_understand(v, "uncertainty.draws", ceduo_text_string(&line));
+    ceduo_note_understanding(v, "uncertainty.draws", ceduo_text_string(&line));
 }
 
 /* ---- all ---- */
@@ -483,7 +483,7 @@ void ceduo_validate_uncertainty(struct validator *v)
             twice |= b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(with_numbers(v, b->path), with_numbers(v, input.path));
         }
         if (twice)
-            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.uncertainty.path);
+            ceduo_report_error(v, row.at, "path", _("'%s' is given twice"), row.uncertainty.path);
         else if (good)
             add_input(v, input, row.at);
     }
@@ -562,21 +562,23 @@ static void check_end(struct ends *e, size_t i, size_t k, size_t j, size_t m)
                       : k == 0                           ? "lo"
                                                          : "hi";
     if (i != j)
-        ceduo_complain(v, v->rows[i], key, _("%s and %s of %s cannot be computed together: %s; make one of the ranges smaller"),
-                       value_text(v, i, k), value_text(v, j, m), v->file->inputs[j].path, reason(status));
+        ceduo_report_error(v, v->rows[i], key,
+                           _("%s and %s of %s cannot be computed together: %s; make one of the ranges smaller"),
+                           value_text(v, i, k), value_text(v, j, m), v->file->inputs[j].path, reason(status));
     else if (input->kind == CEDUO_INPUT_WORDS)
-        ceduo_complain(v, v->rows[i], key, _("%s cannot be computed: %s; leave it out"), value_text(v, i, k), reason(status));
+        ceduo_report_error(v, v->rows[i], key, _("%s cannot be computed: %s; leave it out"), value_text(v, i, k),
+                           reason(status));
     else
-        ceduo_complain(v, v->rows[i], key, _("%s cannot be computed: %s; make the range smaller"), value_text(v, i, k),
-                       reason(status));
+        ceduo_report_error(v, v->rows[i], key, _("%s cannot be computed: %s; make the range smaller"), value_text(v, i, k),
+                           reason(status));
 }
 
 /* Refuses ranges with an end where the scene cannot be computed: of each input by itself, then of any two places along the slope. */
 void ceduo_validate_ends(struct validator *v)
 {
     size_t n = v->file->inputs_count, places_count = 0, before = v->problems->met;
-    struct ends e = {.v = v, .u = ceduo_room(v, n, sizeof *e.u)};
-    size_t *places = ceduo_room(v, n, sizeof *places);
+    struct ends e = {.v = v, .u = ceduo_alloc_array(v, n, sizeof *e.u)};
+    size_t *places = ceduo_alloc_array(v, n, sizeof *places);
     bool good = n > 0 && e.u && places && ceduo_scene_check(&v->draft.scene, NULL) == CEDUO_OK &&
                 ceduo_inputs_open(&e.copy, &v->draft.scene, v->file->inputs, n) == CEDUO_OK;
     for (size_t i = 0; good && i < n; i++) {

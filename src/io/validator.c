@@ -6,7 +6,7 @@
 
 #include "base/language.h"
 
-bool ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
+bool ceduo_report_error(struct validator *v, const char *path, const char *key, const char *format, ...)
 {
     const char *within;
     size_t used;
@@ -30,7 +30,7 @@ const char *ceduo_format(struct validator *v, const char *format, ...)
 const char *ceduo_words(struct validator *v, const struct choices *choices)
 {
     LOCAL_TEXT(words);
-    ceduo_text_words(&words, choices->names, choices->n, ", ");
+    ceduo_text_join(&words, choices->names, choices->n, ", ");
     return ceduo_format(v, "%s", ceduo_text_string(&words));
 }
 
@@ -41,9 +41,9 @@ const char *ceduo_range(struct validator *v, const struct field *field)
     return ceduo_format(v, "%s", ceduo_text_string(&range));
 }
 
-void *ceduo_room(struct validator *v, size_t n, size_t size)
+void *ceduo_alloc_array(struct validator *v, size_t n, size_t size)
 {
-    return ceduo_arena_take(v->arena, (n + 1) * size);
+    return ceduo_arena_alloc(v->arena, (n + 1) * size);
 }
 
 bool ceduo_is_known(struct validator *v, const char *format, ...)
@@ -76,7 +76,7 @@ bool ceduo_is_given(struct validator *v, const char *path, const char *key)
 
 static void note(struct validator *v, const char *path, const char *kind, const char *text)
 {
-    struct source_note *made = ceduo_room(v, 0, sizeof *made);
+    struct source_note *made = ceduo_alloc_array(v, 0, sizeof *made);
     if (!made)
         return;
     *made = (struct source_note){.path = path, .kind = kind, .text = text, .before = *v->notes, .made = true};
@@ -88,7 +88,7 @@ void ceduo_assume(struct validator *v, const char *path, const char *text)
     note(v, path, "assumed", text);
 }
 
-void ceduo_understand(struct validator *v, const char *path, const char *line)
+void ceduo_note_understanding(struct validator *v, const char *path, const char *line)
 {
     note(v, path, CEDUO_NOTE_TABLE, ceduo_format(v, "%s", line));
 }
@@ -96,14 +96,14 @@ void ceduo_understand(struct validator *v, const char *path, const char *line)
 bool ceduo_is_too_long(struct validator *v, const char *path, size_t n)
 {
     if (n > CEDUO_ITEMS_MAX)
-        ceduo_complain(v, path, "", _("%zu items; at most %d can be computed"), n, CEDUO_ITEMS_MAX);
+        ceduo_report_error(v, path, "", _("%zu items; at most %d can be computed"), n, CEDUO_ITEMS_MAX);
     return n > CEDUO_ITEMS_MAX;
 }
 
 void ceduo_check_name(struct validator *v, const char *list, size_t i, const char *name, const char *other)
 {
     if (name && other && strcmp(name, other) == 0)
-        ceduo_complain(v, ceduo_format(v, "%s[%zu]", list, i), "name", _("'%s' is given twice"), name);
+        ceduo_report_error(v, ceduo_format(v, "%s[%zu]", list, i), "name", _("'%s' is given twice"), name);
 }
 
 bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key, double x)
@@ -112,14 +112,15 @@ bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key
     double end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
     return !v->profile || !(x < v->origin || x > end) ||
            /* untaken: complaint */
-           ceduo_complain(v, path, key, _("%s lies beyond the slope, which goes from %s to %s m"), NUMERAL(x),
-                          NUMERAL(v->origin), NUMERAL(end));
+           ceduo_report_error(v, path, key, _("%s lies beyond the slope, which goes from %s to %s m"), NUMERAL(x),
+                              NUMERAL(v->origin), NUMERAL(end));
 }
 
 bool ceduo_check_ends_behind(struct validator *v, const char *path, double from, double to)
 {
     /* untaken: complaint */
-    return !(to <= from) || ceduo_complain(v, path, "to_m", _("%s does not lie beyond from_m, %s"), NUMERAL(to), NUMERAL(from));
+    return !(to <= from) ||
+           ceduo_report_error(v, path, "to_m", _("%s does not lie beyond from_m, %s"), NUMERAL(to), NUMERAL(from));
 }
 
 bool ceduo_check_stretch(struct validator *v, const char *path, double from, double to)
@@ -139,11 +140,11 @@ static void check_rules(struct validator *v, const char *list, const struct cedu
         if (!ceduo_is_sound(v, path))
             continue;
         if (items[i].most < items[i].least)
-            ceduo_complain(v, path, "", _("what is asked for at most is less than what is asked for at least"));
+            ceduo_report_error(v, path, "", _("what is asked for at most is less than what is asked for at least"));
         for (size_t k = 0; k < items[i].species_count; k++)
             if (ceduo_species_find(items[i].species[k]) < 0)
-                ceduo_complain(v, ceduo_format(v, "%s.species[%zu]", path, k), "", _("'%s' is unknown; one of: %s"),
-                               items[i].species[k], ceduo_words(v, &ceduo_species_words));
+                ceduo_report_error(v, ceduo_format(v, "%s.species[%zu]", path, k), "", _("'%s' is unknown; one of: %s"),
+                                   items[i].species[k], ceduo_words(v, &ceduo_species_words));
     }
 }
 

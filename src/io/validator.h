@@ -53,7 +53,7 @@ void ceduo_arrange_observed(struct validator *v);
 
 /* Reports a problem at a path, or at a key ("": none) of the mapping there, with the line and column of the deepest node. Of a
  * file that may be none of ceduo's, the message is without its values. False, so that a check can end with it. */
-bool ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
+bool ceduo_report_error(struct validator *v, const char *path, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 /* A string in the arena as printf() makes it, such as the path of an item; "" without memory. */
@@ -64,7 +64,7 @@ const char *ceduo_words(struct validator *v, const struct choices *choices);
 const char *ceduo_range(struct validator *v, const struct field *field);
 
 /* Room for n + 1 items in the arena. NULL without memory. */
-void *ceduo_room(struct validator *v, size_t n, size_t size);
+void *ceduo_alloc_array(struct validator *v, size_t n, size_t size);
 
 /* Whether nothing is wrong with a value or what it stands in; what is wrong within it does not count. */
 bool ceduo_is_known(struct validator *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -79,7 +79,7 @@ bool ceduo_is_given(struct validator *v, const char *path, const char *key);
 void ceduo_assume(struct validator *v, const char *path, const char *text);
 
 /* Note what was understood of a table, in one line. */
-void ceduo_understand(struct validator *v, const char *path, const char *line);
+void ceduo_note_understanding(struct validator *v, const char *path, const char *line);
 
 /* Reports a list that is longer than anybody reads. */
 bool ceduo_is_too_long(struct validator *v, const char *path, size_t n);

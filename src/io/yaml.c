@@ -124,7 +124,7 @@ static bool next_event(struct reader *r, yaml_event_t *event)
 
 static struct node *new_node(struct reader *r, enum node_kind kind, yaml_mark_t mark)
 {
-    struct node *node = ceduo_arena_take(r->arena, sizeof *node);
+    struct node *node = ceduo_arena_alloc(r->arena, sizeof *node);
     if (!node)
         return stop(r);
     *node = (struct node){
@@ -208,7 +208,7 @@ static struct node *read_entries(struct reader *r, const yaml_event_t *start, in
         yaml_event_delete(&event);
         if (!item)
             continue;
-        node->items = items = ceduo_arena_more(r->arena, items, node->n, 1, &room, sizeof *items);
+        node->items = items = ceduo_arena_grow(r->arena, items, node->n, 1, &room, sizeof *items);
         if (!items)
             return stop(r);
         items[node->n++] = item;
@@ -242,7 +242,7 @@ static unsigned half_at(const char *p, size_t n, unsigned lo)
 
 static void note_joined(struct reader *r, size_t line, size_t column)
 {
-    struct joined *all = ceduo_arena_more(r->arena, r->joined, r->joined_count, 1, &r->joined_capacity, sizeof *all);
+    struct joined *all = ceduo_arena_grow(r->arena, r->joined, r->joined_count, 1, &r->joined_capacity, sizeof *all);
     if (!all) {
         stop(r);
         return;
@@ -265,7 +265,7 @@ static void join_halves(struct reader *r)
         char c = from[i], escape[16];
         used = low ? 12 : quote == '"' && c == '\\' && i + 1 < n && from[i + 1] != '\n' ? 2 : 1;
         if (low && !to) {
-            to = ceduo_arena_take(r->arena, n + 1);
+            to = ceduo_arena_alloc(r->arena, n + 1);
             if (!to) {
                 stop(r);
                 return;

@@ -116,7 +116,7 @@ bool ceduo_document_open(struct document *d, const char *path, const char *const
     if (!ceduo_scene_load(&d->file, path, sets, n, problems))
         return first_state(d, false);
     d->raw = d->file.raw;
-    d->path = strcmp(path, "-") == 0 ? NULL : ceduo_must(strdup(d->file.path));
+    d->path = strcmp(path, "-") == 0 ? NULL : ceduo_check_memory(strdup(d->file.path));
     d->shipped = d->path && ceduo_document_is_shipped(d->path);
     ceduo_document_note_disk(d);
     d->recovery = ceduo_recovery_begin(d->path);

@@ -119,7 +119,7 @@ static void shift_uncertainties(struct edit *e, const char *list, size_t from, s
         return;
     if (!ceduo_node_get(now, "uncertainty"))
         now = ceduo_node_with(e->arena, now, "uncertainty", ceduo_node_scalar(e->arena, stand->source, "none", false));
-    ceduo_node_keep_written(now, stand);
+    ceduo_node_keep_text(now, stand);
     put(e, path, now);
 }
 
@@ -158,7 +158,7 @@ static void take_out(struct edit *e, const char **path)
         return;
     }
     if (less)
-        ceduo_node_keep_written(less, holder);
+        ceduo_node_keep_text(less, holder);
     if (parent[0])
         put(e, parent, less);
     else
@@ -202,7 +202,7 @@ static void change(struct edit *e, const char *prefix, const struct changes *cha
 void ceduo_changes_add(struct changes *c, enum change_kind kind, const char *path, const char *value)
 {
     struct arena *arena = &c->document->file.arena;
-    c->items = ceduo_must(ceduo_arena_more(arena, c->items, c->n, 1, &c->capacity, sizeof *c->items));
+    c->items = ceduo_check_memory(ceduo_arena_grow(arena, c->items, c->n, 1, &c->capacity, sizeof *c->items));
     c->items[c->n++] = (struct change){kind, ceduo_arena_string(arena, path), value ? ceduo_arena_string(arena, value) : NULL};
 }
 
@@ -321,9 +321,9 @@ static const struct node *need_options(struct edit *e)
         return options;
     const char *name = _("current");
     LOCAL_TEXT(yaml);
-    ceduo_text_put(&yaml, "[{name: ");
+    ceduo_text_append(&yaml, "[{name: ");
     ceduo_emit_scalar(&yaml, name, true);
-    ceduo_text_put(&yaml, "}]");
+    ceduo_text_append(&yaml, "}]");
     options = ceduo_document_parse(e->d, "options", yaml.bytes, e->problems);
     if (forest)
         options = ceduo_node_replaced(e->arena, options, 0, ceduo_node_with(e->arena, options->items[0], "forest", forest));
@@ -345,7 +345,7 @@ void ceduo_document_belts(const struct document *d, const char *stand, struct te
         ceduo_text_format(yaml, "%s{from_m: %.10g, to_m: %.10g, ", i ? ", " : "[", belts[i].from_given, belts[i].to_given);
         if (!isnan(belts[i].cut_year))
             ceduo_text_format(yaml, "cut_year: %.10g, ", belts[i].cut_year);
-        ceduo_text_put(yaml, "stand: ");
+        ceduo_text_append(yaml, "stand: ");
         ceduo_emit_scalar(yaml, stand, true);
         ceduo_text_char(yaml, '}');
     }
@@ -356,9 +356,9 @@ bool ceduo_document_add_option(struct document *d, const char *stand, const char
 {
     struct edit e = begin(d, problems);
     LOCAL_TEXT(yaml);
-    ceduo_text_put(&yaml, "{name: ");
+    ceduo_text_append(&yaml, "{name: ");
     ceduo_emit_scalar(&yaml, name, true);
-    ceduo_text_put(&yaml, ", forest: ");
+    ceduo_text_append(&yaml, ", forest: ");
     ceduo_document_belts(d, stand, &yaml);
     ceduo_text_char(&yaml, '}');
     const struct node *item = ceduo_document_parse(d, "options", yaml.bytes, problems), *list = need_options(&e);

@@ -75,7 +75,7 @@ static const struct node *reference_from(struct document *d, const struct node *
     }
     if (!now || written == node->text)
         return node;
-    char *whole = ceduo_must(realpath(now, NULL));
+    char *whole = ceduo_check_memory(realpath(now, NULL));
     node =
         ceduo_node_renamed(&d->file.arena, ceduo_node_scalar(&d->file.arena, s, written ? written : whole, false), node->key);
     free(whole);
@@ -105,7 +105,7 @@ static const struct node *references_from(struct document *d, const struct node 
 /* The text for a scene that lies at `to` (NULL: nowhere yet). True where it is laid out anew. */
 static bool fill_text(struct document *d, const char *to, struct text *text)
 {
-    const struct node *root = ceduo_emit_unresolve(&d->file.arena, d->file.root);
+    const struct node *root = ceduo_emit_restore_references(&d->file.arena, d->file.root);
     root = to ? references_from(d, root, to) : root;
     if (d->raw && ceduo_emit_patched(text, d->raw->source, d->raw, root))
         return false;
@@ -134,8 +134,8 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
         return false;
     if (!ceduo_file_write(path, text.bytes, text.length))
         return false;
-    LOCAL_PROBLEMS(problems);              /* from now on this text is what lies on disk */
-    char *copy = ceduo_must(strdup(path)); /* it may be the document's own */
+    LOCAL_PROBLEMS(problems);                      /* from now on this text is what lies on disk */
+    char *copy = ceduo_check_memory(strdup(path)); /* it may be the document's own */
     free(d->path);
     d->path = copy;
     d->raw = ceduo_document_parse(d, copy, text.bytes, &problems);

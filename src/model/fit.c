@@ -23,7 +23,7 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
         .observations_count = file->observations_count, .observations = file->observations, .scene = &file->scene};
     if (there &&
         strcmp(field->key, "mu") == 0) /* it acts through the shape of the rock: only rocks of two shapes determine it */
-        there = ceduo_calibration_tells_mu(&scene, 1);
+        there = ceduo_calibration_identifies_mu(&scene, 1);
     ceduo_arena_free(&own.arena);
     if (!there || to->n == CEDUO_CALIBRATION_MAX || strlen(path) >= FIT_PATH_ROOM || !(lo < hi))
         return;
@@ -39,7 +39,7 @@ static const char *const keys[] = {"rn", "rt", "roughness_m", "friction"};
 static struct range range_around(const struct scene_file *file, const char *key)
 {
     const struct field *field = ceduo_schema_field(ceduo_schema_segment(), key);
-    struct range range = *ceduo_range_of(field);
+    struct range range = *ceduo_range_find(field);
     double lo = INFINITY, hi = -INFINITY;
     for (size_t i = 0; i + 1 < file->scene.slope.vertices; i++) {
         struct ceduo_segment one = file->scene.slope.segments[i];
@@ -70,11 +70,11 @@ static void offer_ground(const struct scene_file *file, const struct node *rows,
         for (size_t k = 0; there && k < KEYS; k++) {
             const char *key = k == 2 && angle ? "roughness_rad" : keys[k];
             char path[FIT_PATH_ROOM];
-            struct range range = rows                   ? ceduo_range_of_material(&library[m], key)
-                                 : file->ground_assumed ? ceduo_range_of_material(ceduo_material_talus(), key)
+            struct range range = rows                   ? ceduo_range_find_material(&library[m], key)
+                                 : file->ground_assumed ? ceduo_range_find_material(ceduo_material_talus(), key)
                                                         : range_around(file, key);
             for (size_t i = 0; i < n && !rows && !file->ground_assumed && key == keys[k]; i++) {
-                struct range other = ceduo_range_of_material(&library[i], key);
+                struct range other = ceduo_range_find_material(&library[i], key);
                 range.lo = fmin(range.lo, other.lo);
                 range.hi = fmax(range.hi, other.hi);
             }
@@ -139,7 +139,7 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
         enum ceduo_status status = ceduo_calibrate(&first, &f->answer);
         if (status != CEDUO_OK)
             return status;
-        f->loose.n = ceduo_calibration_loose(&f->answer, f->loose.loose);
+        f->loose.n = ceduo_calibration_unidentified(&f->answer, f->loose.loose);
         ceduo_calibration_free(&f->answer);
     }
     *loose = f->loose;
@@ -199,9 +199,9 @@ static void add_ground(struct changes *c, const struct document *d)
     for (size_t i = 0; i < s->vertices; i++) {
         put_number(&vertices, i == 0 ? "[[" : ", [", s->x[i] + s->origin_x);
         put_number(&vertices, ", ", s->z[i] + s->origin_z);
-        ceduo_text_put(&vertices, "]");
+        ceduo_text_append(&vertices, "]");
     }
-    ceduo_text_put(&vertices, "]");
+    ceduo_text_append(&vertices, "]");
     ceduo_changes_add(c, CHANGE_SET, "slope.vertices_m", vertices.bytes);
     for (size_t i = 0; i + 1 < s->vertices; i++) {
         const struct ceduo_segment *g = &s->segments[i];
@@ -210,9 +210,9 @@ static void add_ground(struct changes *c, const struct document *d)
         put_number(&segments, ", rt: ", g->rt.mean);
         put_number(&segments, angle ? ", roughness_rad: " : ", roughness_m: ", angle ? g->roughness_rad : g->roughness_m);
         put_number(&segments, ", friction: ", g->friction);
-        ceduo_text_put(&segments, "}");
+        ceduo_text_append(&segments, "}");
     }
-    ceduo_text_put(&segments, "]");
+    ceduo_text_append(&segments, "]");
     ceduo_changes_add(c, CHANGE_SET, "slope.segments", segments.bytes);
 }
 
@@ -229,9 +229,9 @@ static void add_source(struct changes *c, const char *place, const char *source)
         if (strcmp(c->items[i].path, path) == 0)
             return;
     LOCAL_TEXT(t);
-    ceduo_text_put(&t, "{kind: calibrated, text: ");
+    ceduo_text_append(&t, "{kind: calibrated, text: ");
     ceduo_emit_scalar(&t, source, true);
-    ceduo_text_put(&t, "}");
+    ceduo_text_append(&t, "}");
     ceduo_changes_add(c, CHANGE_SET, path, t.bytes);
 }
 
@@ -253,20 +253,20 @@ static void add_draws(struct changes *c, const struct document *d, const struct 
     const struct node *rows = uncertainty_rows(d, &list);
     LOCAL_TEXT(t);
     bool some = false;
-    ceduo_text_put(&t, "{draws: ");
+    ceduo_text_append(&t, "{draws: ");
     ceduo_emit_scalar(&t, fit->draws, true);
     for (size_t i = 0; rows && i < rows->n; i++) {
         if (is_fitted(d, fit, rows->items[i]) || (of_library && is_of_library(rows->items[i])))
             continue;
-        ceduo_text_put(&t, some ? ", " : ", rows: [");
+        ceduo_text_append(&t, some ? ", " : ", rows: [");
         ceduo_emit_flow(&t, rows->items[i]);
         some = true;
     }
-    ceduo_text_put(&t, some ? "]}" : "}");
+    ceduo_text_append(&t, some ? "]}" : "}");
     ceduo_changes_add(c, CHANGE_SET, "uncertainty", t.bytes);
 }
 
-bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct problems *problems)
+bool ceduo_apply_fit(struct document *d, const struct fit_values *fit, struct problems *problems)
 {
     struct changes c = {.document = d};
     bool of_segments = false;

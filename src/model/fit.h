@@ -56,6 +56,6 @@ struct fit_values {
 };
 
 /* One edit, which undo takes back. A ground from materials is written out as segments. False with the reason in `problems`. */
-bool ceduo_keep_fit(struct document *document, const struct fit_values *fit, struct problems *problems);
+bool ceduo_apply_fit(struct document *document, const struct fit_values *fit, struct problems *problems);
 
 #endif

@@ -138,7 +138,7 @@ static void follow_design(struct follow *f)
     for (int i = 0; i < 2; i++)
         if (strcmp(f->path, both[i]) == 0 && !ceduo_document_node(f->d, "design")) {
             ceduo_changes_set(&f->changes, both[1 - i], "poor");
-            ceduo_text_put(&f->followed, _("the other survey is taken as poor"));
+            ceduo_text_append(&f->followed, _("the other survey is taken as poor"));
         }
 }
 
@@ -149,7 +149,7 @@ static const struct field *put_name(struct text *text, const char *path)
 {
     const struct field *field = ceduo_schema_at(path);
     const char *label = field ? _(field->shown.label) : strrchr(path, '.') + 1;
-    ceduo_text_put(text, text->length ? ", " : "");
+    ceduo_text_append(text, text->length ? ", " : "");
     ceduo_text_add(text, label, strcspn(label, ","));
     return field;
 }
@@ -225,7 +225,7 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
     for (int i = 0; i < 3; i++)
         spread |= def->axes[i].spread > 0;
     if (spread)
-        ceduo_text_then(&f->filled, " ", _("(means, without spread)"));
+        ceduo_text_append_joined(&f->filled, " ", _("(means, without spread)"));
 }
 
 /* The first dimension of a cylinder, whose size blocks said before, brings the other along: both are given or none. */
@@ -235,7 +235,7 @@ static void follow_cylinder(struct follow *f)
     for (int i = 0; f->d->file.scene.rock.shape == CEDUO_CYLINDER && i < 2; i++)
         if (strcmp(f->path, keys[i]) == 0 && !ceduo_document_node(f->d, keys[1 - i])) {
             ceduo_changes_set(&f->changes, keys[1 - i], "%s", f->value);
-            ceduo_text_put(&f->followed, _("diameter and height are equal now"));
+            ceduo_text_append(&f->followed, _("diameter and height are equal now"));
         }
 }
 

@@ -120,16 +120,16 @@ static void put_result(union results *results, enum job_kind kind, void *fresh)
     results->slots[kind] = fresh;
 }
 
-void ceduo_results_drop(union results *results, enum job_kind kind)
+void ceduo_result_list_drop(union results *results, enum job_kind kind)
 {
     free_result(kind, results->slots[kind]);
     results->slots[kind] = NULL;
 }
 
-void ceduo_results_free(union results *results)
+void ceduo_result_list_free(union results *results)
 {
     for (enum job_kind k = 0; k < JOB_KINDS; k++)
-        ceduo_results_drop(results, k);
+        ceduo_result_list_drop(results, k);
 }
 
 static void tell(struct jobs *q)
@@ -164,7 +164,7 @@ static uint64_t rocks_of(const struct jobs *q, size_t level)
 
 static enum ceduo_status step_search(struct jobs *q, struct job *job, void **result)
 {
-    struct search_answer *answer = *result = ceduo_must(calloc(1, sizeof *answer));
+    struct search_answer *answer = *result = ceduo_check_memory(calloc(1, sizeof *answer));
     job->search.path = job->path;
     enum ceduo_status status = ceduo_search(&job->file, &job->search, q->threads, &q->cancel, answer);
     ceduo_arena_free(&job->file.arena);
@@ -174,7 +174,7 @@ static enum ceduo_status step_search(struct jobs *q, struct job *job, void **res
 
 static enum ceduo_status step_preview(struct jobs *q, struct job *job, void **result)
 {
-    struct preview *preview = *result = ceduo_must(calloc(1, sizeof *preview));
+    struct preview *preview = *result = ceduo_check_memory(calloc(1, sizeof *preview));
     return ceduo_preview(&job->file, job->path, job->value, job->option, q->threads, &q->cancel, preview);
 }
 
@@ -188,7 +188,7 @@ struct publisher {
 static void publish_snapshot(void *context, struct ceduo_snapshot *snapshot)
 {
     const struct publisher *p = context;
-    struct snapshot *s = ceduo_must(calloc(1, sizeof *s));
+    struct snapshot *s = ceduo_check_memory(calloc(1, sizeof *s));
     *s = (struct snapshot){snapshot, p->job->key, ceduo_clock() - p->job->asked};
     publish(p->queue, p->job, s);
 }
@@ -210,7 +210,8 @@ static enum ceduo_status step_snapshot(struct jobs *q, struct job *job, void **r
 static enum ceduo_status step_others(struct jobs *q, struct job *job, void **result)
 {
     size_t options = job->file.scene.options_count, controls = job->file.scene.controls_count;
-    struct others *others = *result = ceduo_must(calloc(1, sizeof *others + options * controls * sizeof others->items[0]));
+    struct others *others = *result =
+        ceduo_check_memory(calloc(1, sizeof *others + options * controls * sizeof others->items[0]));
     others->options = options;
     others->controls = controls;
     return ceduo_runs_others(q->runs, &job->file.scene, rocks_of(q, job->level), others->items);
@@ -222,7 +223,7 @@ static enum ceduo_status step_years(struct jobs *q, struct job *job, void **resu
     size_t n = scene->options_count;
     enum ceduo_status status = CEDUO_OK;
     for (size_t k = 0; k < n && status == CEDUO_OK; k++) {
-        struct years_known *years = *result = ceduo_must(calloc(1, sizeof *years + n * sizeof years->items[0]));
+        struct years_known *years = *result = ceduo_check_memory(calloc(1, sizeof *years + n * sizeof years->items[0]));
         size_t option = (job->option + k) % n;
         *years = (struct years_known){.n = n, .done = k + 1, .rocks = rocks_of(q, job->level)};
         status = ceduo_runs_years(q->runs, scene, option, years->rocks, &years->items[option]);
@@ -236,7 +237,7 @@ const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
 {
     if (scene->simulation.contact_model == CEDUO_INDEX)
         return N_("not computed: years by the index have no uncertainty");
-    return ceduo_window_in(scene).kind == CEDUO_WINDOW_ALIKE ? N_("not computed: all years are alike") : NULL;
+    return ceduo_window_in(scene).kind == CEDUO_WINDOW_CONSTANT ? N_("not computed: all years are alike") : NULL;
 }
 
 #define PROGRESS_STEP 0.01 /* a smaller part is no news */
@@ -256,10 +257,10 @@ static void note_progress(void *context, uint64_t done, uint64_t all)
 
 static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void **result)
 {
-    struct uncertainty *u = *result = ceduo_must(calloc(1, sizeof *u));
+    struct uncertainty *u = *result = ceduo_check_memory(calloc(1, sizeof *u));
     struct ceduo_scene *scene = &u->file.scene;
     *u = (struct uncertainty){.file = job->file, .level = job->level, .option = job->option};
-    if (!ceduo_inputs_of(&u->file, &u->inputs))
+    if (!ceduo_inputs_collect(&u->file, &u->inputs))
         return CEDUO_NO_MEMORY;
     if (ceduo_uncertainty_no_rotation(scene))
         ceduo_inputs_keep_today(&u->inputs);
@@ -290,21 +291,21 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
         def.points = def.points_max = CEDUO_UNCERTAINTY_MIN;
     def.effort_max = 0;
     def.alone = u->level == 0;
-    return ceduo_uncertainty_ask(&def, &u->answer);
+    return ceduo_uncertainty_compute(&def, &u->answer);
 }
 
 static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void **result)
 {
     static const uint64_t rocks_of_levels[COMPARISON_LEVELS] = {200, 2000};
-    struct comparison *c = *result = ceduo_must(calloc(1, sizeof *c));
+    struct comparison *c = *result = ceduo_check_memory(calloc(1, sizeof *c));
     *c = (struct comparison){.file = job->file, .rocks = rocks_of_levels[job->level]};
     size_t count = c->file.observations_count;
     const struct ceduo_observation *o = c->file.observations;
-    c->predicted = ceduo_must(calloc(count + 1, sizeof *c->predicted));
-    c->stops = ceduo_must(calloc(count + 1, sizeof *c->stops));
+    c->predicted = ceduo_check_memory(calloc(count + 1, sizeof *c->predicted));
+    c->stops = ceduo_check_memory(calloc(count + 1, sizeof *c->stops));
     const struct ceduo_calibration_scene scene = {.scene = &c->file.scene, .observations_count = count, .observations = o};
     struct ceduo_observer *observer = NULL;
-    enum ceduo_status status = ceduo_calibration_as_it_is(&scene, c->rocks, &q->cancel, c->predicted);
+    enum ceduo_status status = ceduo_compare_with_observations(&scene, c->rocks, &q->cancel, c->predicted);
     if (status == CEDUO_OK)
         status = ceduo_observer_create(o, count, &observer);
     for (size_t i = 0; i < count && status == CEDUO_OK; i++) {
@@ -321,7 +322,7 @@ static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void *
                 values[n++] = values[k];
         gsl_sort(values, 1, n);
         if (n > 0)
-            ceduo_seen_stops_of(&o[i], values, n, rocks, &c->stops[i]);
+            ceduo_observed_stops_find(&o[i], values, n, rocks, &c->stops[i]);
         free(values);
     }
     ceduo_observer_free(observer);
@@ -336,7 +337,7 @@ static void publish_progress(void *context, const struct ceduo_calibration_state
     if (now - p->last < 0.1)
         return;
     p->last = now;
-    struct fit *fit = ceduo_must(calloc(1, sizeof *fit));
+    struct fit *fit = ceduo_check_memory(calloc(1, sizeof *fit));
     *fit = (struct fit){.request = p->job->fit, .state = *state, .loose = p->loose};
     publish(p->queue, p->job, fit);
 }
@@ -346,7 +347,7 @@ static enum ceduo_status step_fit(struct jobs *q, struct job *job, void **result
     struct publisher publisher = {.queue = q, .job = job};
     const struct ceduo_calibration_def how = {
         .threads = q->threads, .cancel = &q->cancel, .progress = publish_progress, .context = &publisher};
-    struct fit *fit = *result = ceduo_must(calloc(1, sizeof *fit));
+    struct fit *fit = *result = ceduo_check_memory(calloc(1, sizeof *fit));
     return ceduo_fit_make(&job->file, &job->fit, &how, &publisher.loose, fit);
 }
 
@@ -419,7 +420,7 @@ static void *work(void *argument)
 static void release(struct jobs *q)
 {
     ceduo_runs_free(q->runs);
-    ceduo_results_free(&q->fresh);
+    ceduo_result_list_free(&q->fresh);
     if (q->pipe[0] >= 0) {
         close(q->pipe[0]);
         close(q->pipe[1]);
@@ -429,7 +430,7 @@ static void release(struct jobs *q)
 
 struct jobs *ceduo_jobs_create(unsigned threads)
 {
-    struct jobs *q = ceduo_must(calloc(1, sizeof *q));
+    struct jobs *q = ceduo_check_memory(calloc(1, sizeof *q));
     q->threads = threads;
     q->working = JOB_KINDS;
     const char *rocks = getenv("CEDUO_ROCKS");
@@ -483,7 +484,7 @@ static struct job job_of(enum job_kind kind, const struct scene_file *file, size
 /* Forgets a job and its result; under the lock. */
 static void forget(struct jobs *q, enum job_kind kind)
 {
-    ceduo_results_drop(&q->fresh, kind);
+    ceduo_result_list_drop(&q->fresh, kind);
     q->jobs[kind] = (struct job){.kind = kind};
     if (q->working == kind)
         atomic_store(&q->cancel, true);
@@ -505,7 +506,7 @@ static bool ask(struct jobs *q, const struct job *job)
         if (q->working == job->kind && !is_wanted(now))
             atomic_store(&q->cancel, true);
     } else {
-        ceduo_results_drop(&q->fresh, job->kind);
+        ceduo_result_list_drop(&q->fresh, job->kind);
         *now = *job;
         now->number = ++q->requests;
         now->asked = ceduo_clock();
@@ -526,12 +527,12 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
     struct ceduo_scene other;
     figures.key = coming.key = ceduo_jobs_key(&file->scene);
     if (!index) {
-        if (!ceduo_other_scene(&file->scene, &other))
+        if (!ceduo_alternative_scene(&file->scene, &other))
             ceduo_no_memory();
         others.key = figures.key;
         hash_count(&others.key, JOB_OTHERS); /* without it two laws have the same key as when they change places */
         hash_count(&others.key, ceduo_jobs_key(&other));
-        ceduo_other_scene_release(&other);
+        ceduo_alternative_scene_release(&other);
     }
     for (size_t i = 0; i < file->scene.options_count; i++)
         hash_count(&coming.key, ceduo_runs_years_key(&file->scene, i));

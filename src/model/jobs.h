@@ -51,7 +51,7 @@ struct snapshot {
 /* The figures under the other energy law, one for each option and control, in rows by option. */
 struct others {
     size_t options, controls;
-    struct ceduo_other_energy items[];
+    struct ceduo_alternative_energy items[];
 };
 
 /* The years of each option. */
@@ -65,10 +65,10 @@ struct years_known {
 #define COMPARISON_LEVELS 2
 
 struct comparison {
-    struct scene_file file;            /* as it was; its nodes are the document's */
-    uint64_t rocks;                    /* of each setting */
-    struct ceduo_predicted *predicted; /* one for each observation */
-    struct ceduo_seen_stops *stops;    /* likewise: empty for all that is no list of stops */
+    struct scene_file file;             /* as it was; its nodes are the document's */
+    uint64_t rocks;                     /* of each setting */
+    struct ceduo_predicted *predicted;  /* one for each observation */
+    struct ceduo_observed_stops *stops; /* likewise: empty for all that is no list of stops */
 };
 
 /* Uncertainty of the scene, of today and of the years ahead. Levels: one option alone, at full precision; then all options. */
@@ -77,7 +77,7 @@ struct comparison {
 struct uncertainty {
     struct scene_file file; /* as it was; its nodes are the document's */
     struct scene_inputs inputs;
-    struct ceduo_uncertainty_answer answer; /* without inputs: empty */
+    struct ceduo_uncertainty_result answer; /* without inputs: empty */
     size_t level;                           /* that it has come to: of one option alone the first is the second */
     size_t option;                          /* that level 0 is of */
     bool last;                              /* there is nothing more */
@@ -133,8 +133,8 @@ struct jobs_state {
 /* Puts the new results in the place of the older ones; of years the newest of each option stay. */
 struct jobs_state ceduo_jobs_take(struct jobs *jobs, union results *results);
 
-void ceduo_results_drop(union results *results, enum job_kind kind);
-void ceduo_results_free(union results *results);
+void ceduo_result_list_drop(union results *results, enum job_kind kind);
+void ceduo_result_list_free(union results *results);
 
 /* Waits until no job is left. */
 void ceduo_jobs_wait(struct jobs *jobs);

@@ -16,7 +16,7 @@ void ceduo_live_free(struct live *l)
     ceduo_jobs_free(l->jobs);
     ceduo_result_free(l->result);
     ceduo_verdict_release(&l->verdict);
-    ceduo_results_free(&l->results);
+    ceduo_result_list_free(&l->results);
     *l = (struct live){0};
 }
 
@@ -68,13 +68,13 @@ const struct fit *ceduo_live_fitted(const struct live *l)
 /* ---- the scene as it is, by what is known ---- */
 
 /* The other energy law if it fits: figures from before an edit stay until better ones come, unless they are of another law. */
-static const struct ceduo_other_energy *fitting_others(struct live *l, const struct ceduo_scene *scene)
+static const struct ceduo_alternative_energy *fitting_others(struct live *l, const struct ceduo_scene *scene)
 {
     struct others *o = l->results.others;
     if (!o || o->options != scene->options_count || o->controls != scene->controls_count)
         return NULL;
     for (size_t i = 0; i < o->options * o->controls; i++)
-        o->items[i].known &= o->items[i].model == ceduo_other_law(&scene->options[i / o->controls]);
+        o->items[i].known &= o->items[i].model == ceduo_alternative_law(&scene->options[i / o->controls]);
     return o->items;
 }
 
@@ -89,12 +89,12 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
     ceduo_verdict_release(&l->verdict);
     if (!o || !o->bare)
         return;
-    const struct ceduo_simulated **wooded = ceduo_must(calloc(n + 1, sizeof *wooded));
-    struct ceduo_difference *differences = ceduo_must(calloc(n * controls + 1, sizeof *differences));
-    struct ceduo_years **known = ceduo_must(calloc(n + 1, sizeof *known));
+    const struct ceduo_simulated **wooded = ceduo_check_memory(calloc(n + 1, sizeof *wooded));
+    struct ceduo_difference *differences = ceduo_check_memory(calloc(n * controls + 1, sizeof *differences));
+    struct ceduo_years **known = ceduo_check_memory(calloc(n + 1, sizeof *known));
     bool in_order = o->options == n;
     for (size_t i = 0; i < n; i++) {
-        const struct ceduo_run_snapshot *run = ceduo_snapshot_of(o, scene, i);
+        const struct ceduo_run_snapshot *run = ceduo_snapshot_find(o, scene, i);
         struct ceduo_years *years = ceduo_live_years(l, scene, i);
         wooded[i] = run ? &run->flown : NULL;
         in_order = in_order && run == o->wooded[i];
@@ -107,7 +107,7 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
             in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
     if (ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(l, scene), &l->result) != CEDUO_OK)
         l->result = NULL;
-    if (l->result && ceduo_verdict_make(l->result, known, NULL, &l->verdict) != CEDUO_OK) {
+    if (l->result && ceduo_compare_options(l->result, known, NULL, &l->verdict) != CEDUO_OK) {
         ceduo_result_free(l->result);
         l->result = NULL;
     }
@@ -153,11 +153,11 @@ void ceduo_live_fit(struct live *l, const struct scene_file *file, const struct 
 void ceduo_live_drop_fit(struct live *l)
 {
     ceduo_jobs_stop(l->jobs, JOB_FIT);
-    ceduo_results_drop(&l->results, JOB_FIT);
+    ceduo_result_list_drop(&l->results, JOB_FIT);
     l->fitting = false;
 }
 
-bool ceduo_live_news(struct live *l, const struct ceduo_scene *scene)
+bool ceduo_live_poll(struct live *l, const struct ceduo_scene *scene)
 {
     struct jobs_state state = ceduo_jobs_take(l->jobs, &l->results);
     bool computes = !isnan(state.uncertainty), computed = !isnan(l->uncertainty);

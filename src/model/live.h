@@ -33,7 +33,7 @@ void ceduo_live_fit(struct live *live, const struct scene_file *file, const stru
 void ceduo_live_drop_fit(struct live *live);
 
 /* Takes the new results of the jobs; true where something has changed. */
-bool ceduo_live_news(struct live *live, const struct ceduo_scene *scene);
+bool ceduo_live_poll(struct live *live, const struct ceduo_scene *scene);
 
 /* What fits a scene: an edit may have added a control since it was asked for. NULL: none does. */
 const struct ceduo_snapshot *ceduo_live_snapshot(const struct live *live, const struct ceduo_scene *scene);

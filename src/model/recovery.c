@@ -83,7 +83,7 @@ static int replace_copy(const char *path, const struct text *text)
     if (file < 0)
         return -1;
     bool locked = flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; /* some file systems have no locks */
-    if (locked && ceduo_file_fill(file, text->bytes, text->length, NULL) && rename(temporary.bytes, path) == 0)
+    if (locked && ceduo_file_write_all(file, text->bytes, text->length, NULL) && rename(temporary.bytes, path) == 0)
         return file;
     unlink(temporary.bytes);
     close(file);
@@ -96,7 +96,7 @@ bool ceduo_recovery_write(struct recovery_copy *copy, const char *path, const ch
 {
     LOCAL_TEXT(text);
     char *real = path ? realpath(path, NULL) : NULL;
-    ceduo_text_put(&text, UNSAVED);
+    ceduo_text_append(&text, UNSAVED);
     ceduo_emit_scalar(&text, real ? real : "a new scene", true);
     ceduo_text_char(&text, '\n');
     ceduo_text_add(&text, bytes, n);
@@ -139,7 +139,7 @@ char *ceduo_recovery_text(const char *path)
     LOCAL_ARENA(arena);
     LOCAL_PROBLEMS(problems);
     const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MAX, &problems);
-    return source ? ceduo_must(strdup(source->bytes)) : NULL;
+    return source ? ceduo_check_memory(strdup(source->bytes)) : NULL;
 }
 
 /* True if no program locks the file, and it still has this name: its owner may have put a newer one in its place. */
@@ -205,7 +205,7 @@ struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
 {
     LOCAL_TEXT(folder);
     LOCAL_TEXT(name);
-    struct recovery *list = ceduo_arena_take(arena, LISTED_MAX * sizeof *list);
+    struct recovery *list = ceduo_arena_alloc(arena, LISTED_MAX * sizeof *list);
     DIR *dir = state_folder(&folder) ? opendir(folder.bytes) : NULL;
     *n = 0;
     while (dir && *n < LISTED_MAX && next_left(dir, &folder, &name)) {

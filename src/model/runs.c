@@ -18,7 +18,7 @@ struct runs {
 
 struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel)
 {
-    struct runs *r = ceduo_must(calloc(1, sizeof *r));
+    struct runs *r = ceduo_check_memory(calloc(1, sizeof *r));
     *r = (struct runs){.threads = threads, .cancel = cancel};
     return r;
 }
@@ -31,7 +31,7 @@ void ceduo_runs_free(struct runs *r)
     ceduo_pool_free(r->figures);
     ceduo_pool_free(r->years);
     ceduo_pool_free(r->others);
-    ceduo_other_scene_release(&r->other);
+    ceduo_alternative_scene_release(&r->other);
     free(r);
 }
 
@@ -43,7 +43,7 @@ static enum ceduo_status turn_pool(struct runs *r, const struct ceduo_scene *sce
     def.rocks_most = RUNS_MAX;
     def.cancel = r->cancel;
     def.arrivals_only = arrivals_only;
-    return ceduo_pool_for(&def, pool);
+    return ceduo_pool_reuse_or_create(&def, pool);
 }
 
 /* Turns all to a scene. What was made of the runs of another one is of no use. */
@@ -121,22 +121,22 @@ enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
 /* ---- the other energy law ---- */
 
 enum ceduo_status ceduo_runs_others(struct runs *r, const struct ceduo_scene *scene, uint64_t rocks,
-                                    struct ceduo_other_energy *others)
+                                    struct ceduo_alternative_energy *others)
 {
     struct ceduo_scene other, before = r->other;
     size_t n = scene->options_count, controls = scene->controls_count;
     struct ceduo_run *first = NULL;
-    if (!ceduo_other_scene(scene, &other))
+    if (!ceduo_alternative_scene(scene, &other))
         ceduo_no_memory();
     enum ceduo_status status = turn_pool(r, &other, true, &r->others);
     r->other = status == CEDUO_OK ? other : before; /* that the pool is turned to */
-    ceduo_other_scene_release(status == CEDUO_OK ? &before : &other);
+    ceduo_alternative_scene_release(status == CEDUO_OK ? &before : &other);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         struct ceduo_run *run;
         status = ceduo_pool_simulate(r->others, &r->other.options[i], rocks, &run);
         first = i == 0 ? run : first;
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
-            status = ceduo_other_read(&scene->options[i], run, first, c, &others[i * controls + c]);
+            status = ceduo_alternative_read(&scene->options[i], run, first, c, &others[i * controls + c]);
     }
     return status;
 }

@@ -37,7 +37,7 @@ enum ceduo_status ceduo_runs_figures(struct runs *runs, struct runs_step *step);
 /* One step of the other energy law: n rocks through every option. Sets `others`, one for each option and control, in rows by
  * option. */
 enum ceduo_status ceduo_runs_others(struct runs *runs, const struct ceduo_scene *scene, uint64_t rocks,
-                                    struct ceduo_other_energy *others);
+                                    struct ceduo_alternative_energy *others);
 
 /* A number for all that decides about the years of an option. */
 uint64_t ceduo_runs_years_key(const struct ceduo_scene *scene, size_t option);

@@ -32,7 +32,7 @@ struct search {
     size_t known_count;        /* what was asked under uncertainty */
     struct known_sure {
         double value;
-        struct sure_answer answer;
+        struct reliability_result answer;
     } known[SURE_MAX];
 };
 
@@ -46,7 +46,7 @@ const struct field *ceduo_search_field(struct arena *arena, const char *path)
         list = ceduo_schema_at(ceduo_arena_copy(arena, path, (size_t)(bracket - path)));
     if (!list || list->type != FIELD_NUMBERS)
         return field;
-    struct field *one = ceduo_arena_take(arena, sizeof *one);
+    struct field *one = ceduo_arena_alloc(arena, sizeof *one);
     *one = *list;
     one->type = FIELD_NUMBER;
     return one;
@@ -68,8 +68,8 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     struct search *s = context;
     if (!set_value(s, value))
         return CEDUO_BAD_SLOPE; /* reported in problems */
-    struct ceduo_question q = ceduo_question_default(&s->file->scene);
-    struct ceduo_answer answer;
+    struct ceduo_request q = ceduo_request_default(&s->file->scene);
+    struct ceduo_results answer;
     q.rocks = ceduo_goals[s->def.goal].flies ? s->def.rocks : 0;
     q.only = s->def.option;
     q.run.rocks_most = s->def.rocks;
@@ -77,11 +77,11 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     q.run.cancel = s->cancel;
     q.run.arrivals_only = true;
     q.years = s->def.rotation;
-    enum ceduo_status status = ceduo_ask(&q, &s->pool, &answer);
+    enum ceduo_status status = ceduo_simulate_request(&q, &s->pool, &answer);
     if (status == CEDUO_OK)
         *goal =
             ceduo_goal_reached(s->def.goal, answer.result, s->def.option, s->def.rotation ? answer.years[s->def.option] : NULL);
-    ceduo_answer_release(&answer);
+    ceduo_results_release(&answer);
     return status;
 }
 
@@ -91,8 +91,8 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
 static bool leave_input(struct search *s, const struct value *searched, struct ceduo_input *input)
 {
     struct arena *arena = &s->file->arena;
-    const char **places = ceduo_arena_take(arena, input->places_count * sizeof *places);
-    const double **draws = ceduo_arena_take(arena, input->places_count * sizeof *draws);
+    const char **places = ceduo_arena_alloc(arena, input->places_count * sizeof *places);
+    const double **draws = ceduo_arena_alloc(arena, input->places_count * sizeof *draws);
     size_t n = 0;
     for (size_t i = 0; i < input->places_count; i++) {
         struct value place;
@@ -109,7 +109,7 @@ static bool leave_input(struct search *s, const struct value *searched, struct c
 }
 
 /* What is known under uncertainty of the scene at a value; it is asked once. */
-static enum ceduo_status ask_once(struct search *s, double value, struct sure_answer *answer)
+static enum ceduo_status ask_once(struct search *s, double value, struct reliability_result *answer)
 {
     struct scene_inputs inputs;
     struct value searched;
@@ -121,7 +121,7 @@ static enum ceduo_status ask_once(struct search *s, double value, struct sure_an
         }
     if (!set_value(s, value))
         return CEDUO_BAD_SLOPE; /* reported in problems */
-    if (!ceduo_inputs_of(s->file, &inputs))
+    if (!ceduo_inputs_collect(s->file, &inputs))
         return CEDUO_NO_MEMORY;
     if (!ceduo_value_find(&s->file->scene, s->def.path, &searched))
         searched.at = NULL;
@@ -129,19 +129,20 @@ static enum ceduo_status ask_once(struct search *s, double value, struct sure_an
         if (leave_input(s, &searched, &inputs.items[i]))
             inputs.items[n++] = inputs.items[i];
     s->answer->sure.inputs = n;
-    enum ceduo_status status = ceduo_sure_ask(&(const struct sure_def){.of = {.scene = &s->file->scene,
-                                                                              .inputs_count = n,
-                                                                              .inputs = inputs.items,
-                                                                              .option = s->def.option,
-                                                                              .rotation = s->def.rotation,
-                                                                              .points = s->answer->sure.points,
-                                                                              .rocks = s->answer->sure.rocks,
-                                                                              .threads = s->threads,
-                                                                              .cancel = s->cancel},
-                                                                       .goal = s->def.goal,
-                                                                       .target = s->passes,
-                                                                       .sure = s->def.sure},
-                                              answer);
+    enum ceduo_status status =
+        ceduo_reliability_compute(&(const struct reliability_def){.of = {.scene = &s->file->scene,
+                                                                         .inputs_count = n,
+                                                                         .inputs = inputs.items,
+                                                                         .option = s->def.option,
+                                                                         .rotation = s->def.rotation,
+                                                                         .points = s->answer->sure.points,
+                                                                         .rocks = s->answer->sure.rocks,
+                                                                         .threads = s->threads,
+                                                                         .cancel = s->cancel},
+                                                                  .goal = s->def.goal,
+                                                                  .target = s->passes,
+                                                                  .sure = s->def.sure},
+                                  answer);
     if (status == CEDUO_OK && s->known_count < SURE_MAX)
         s->known[s->known_count++] = (struct known_sure){value, *answer};
     return status;
@@ -151,7 +152,7 @@ static enum ceduo_status ask_once(struct search *s, double value, struct sure_an
 static enum ceduo_status above_at(void *context, double value, double *above)
 {
     struct search *s = context;
-    struct sure_answer answer;
+    struct reliability_result answer;
     enum ceduo_status status = ask_once(s, s->whole ? round(value) : value, &answer);
     *above = status == CEDUO_OK ? answer.above : NAN;
     return status;
@@ -159,10 +160,10 @@ static enum ceduo_status above_at(void *context, double value, double *above)
 
 /* Sampling error of the value found: what other points and rocks leave open of the goal, over the goal's slope, which is taken
  * across about that distance. NaN if the slope has the wrong sign. */
-static enum ceduo_status read_error(struct search *s, const struct ceduo_find_def *def, struct ceduo_sure *sure)
+static enum ceduo_status read_error(struct search *s, const struct ceduo_find_def *def, struct ceduo_reliability *sure)
 {
     const struct ceduo_found *f = &sure->found;
-    struct sure_answer at, lo, hi;
+    struct reliability_result at, lo, hi;
     double sign = f->side == CEDUO_SMALLEST ? -1 : 1, width = def->hi - def->lo, half = ERROR_STEP * width;
     enum ceduo_status status = ask_once(s, f->value, &at);
     for (int i = 0; i < ERROR_STEPS && status == CEDUO_OK; i++) {
@@ -190,13 +191,13 @@ static enum ceduo_status read_error(struct search *s, const struct ceduo_find_de
 static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_def *plain, const struct ceduo_found *found)
 {
     struct ceduo_find_def def = *plain;
-    struct sure_answer answer;
+    struct reliability_result answer;
     struct ceduo_found *to = &s->answer->sure.found;
-    s->answer->sure = (struct ceduo_sure){.sure = s->def.sure,
-                                          .points = CEDUO_UNCERTAINTY_POINTS,
-                                          .rocks = s->def.sure_rocks > 0 ? s->def.sure_rocks : CEDUO_UNCERTAINTY_ROCKS,
-                                          .lo = NAN,
-                                          .hi = NAN};
+    s->answer->sure = (struct ceduo_reliability){.sure = s->def.sure,
+                                                 .points = CEDUO_UNCERTAINTY_POINTS,
+                                                 .rocks = s->def.sure_rocks > 0 ? s->def.sure_rocks : CEDUO_UNCERTAINTY_ROCKS,
+                                                 .lo = NAN,
+                                                 .hi = NAN};
     double value = found->found ? found->value : isnan(found->nearest) ? plain->hi : found->nearest;
     enum ceduo_status status = ask_once(s, value, &answer);
     if (status != CEDUO_OK || s->answer->sure.inputs == 0)
@@ -226,8 +227,8 @@ static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_d
 static struct ceduo_yield yield_at(struct search *s, double value)
 {
     struct ceduo_yield yield = {0};
-    bool known =
-        !isnan(value) && set_value(s, value) && ceduo_yield_of(&s->file->scene.options[s->def.option], 0, &yield) == CEDUO_OK;
+    bool known = !isnan(value) && set_value(s, value) &&
+                 ceduo_yield_compute(&s->file->scene.options[s->def.option], 0, &yield) == CEDUO_OK;
     free(yield.fellings);
     yield.fellings = NULL;
     return known ? yield
@@ -352,14 +353,14 @@ enum ceduo_status ceduo_preview(const struct scene_file *from, const char *path,
     enum ceduo_status status = CEDUO_OK;
     *preview = (struct preview){.known = false};
     if (change_scene(from, path, value, &file) && option < file.scene.options_count) {
-        struct ceduo_question q = ceduo_question_default(&file.scene);
-        struct ceduo_answer answer;
+        struct ceduo_request q = ceduo_request_default(&file.scene);
+        struct ceduo_results answer;
         q.rocks = q.run.rocks_most = PREVIEW_ROCKS;
         q.only = option;
         q.run.threads = threads;
         q.run.arrivals_only = true;
         q.run.cancel = cancel;
-        status = ceduo_ask(&q, NULL, &answer);
+        status = ceduo_simulate_request(&q, NULL, &answer);
         if (status == CEDUO_OK) {
             const struct ceduo_result *r = answer.result;
             const struct ceduo_arrivals *a = ceduo_result_wooded(r, option, r->last_control);
@@ -368,7 +369,7 @@ enum ceduo_status ceduo_preview(const struct scene_file *from, const char *path,
                                         .reach = a ? a->reach.mean : NAN,
                                         .exceed = a ? a->exceed.mean : NAN};
         }
-        ceduo_answer_release(&answer);
+        ceduo_results_release(&answer);
     }
     ceduo_arena_free(&file.arena);
     return status == CEDUO_CANCELLED || status == CEDUO_NO_MEMORY ? status : CEDUO_OK;

@@ -17,10 +17,10 @@ struct search_answer {
     double target;            /* the one looked for */
     bool rotation;            /* over one whole rotation */
     struct ceduo_found found;
-    struct ceduo_sure sure;   /* and under uncertainty */
-    struct ceduo_yield yield; /* of the option at the value that was found, or else comes nearest: without fellings; NaN
+    struct ceduo_reliability sure; /* and under uncertainty */
+    struct ceduo_yield yield;      /* of the option at the value that was found, or else comes nearest: without fellings; NaN
                                 * where it is not known */
-    bool yield_depends;       /* on the value: otherwise it is the same at both ends of the range */
+    bool yield_depends;            /* on the value: otherwise it is the same at both ends of the range */
     struct problems problems;
 };
 

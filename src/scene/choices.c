@@ -59,7 +59,7 @@ int ceduo_choice_find(const struct choices *choices, const char *word)
     return -1;
 }
 
-const char *ceduo_gone(const char *name)
+const char *ceduo_removed_hint(const char *name)
 {
     static const struct {
         const char *old, *remedy;

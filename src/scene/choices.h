@@ -30,6 +30,6 @@ int ceduo_choice_find(const struct choices *choices, const char *word);
 
 /* Remedy for an option, a key (alone or at the end of a path) or a word that only earlier versions had. Marked for translation; NULL:
  * no version had it. */
-const char *ceduo_gone(const char *name);
+const char *ceduo_removed_hint(const char *name);
 
 #endif

@@ -31,16 +31,16 @@ const struct object ceduo_rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL
 /* ---- blocks ---- */
 
 static const struct field block_fields[] = {
-    NUMBER("per_year", SHOWN(N_("blocks per year"), N_("per year"), 0.0001, 1000), AT(ceduo_block_class, per_year), "1/y", 0,
+    NUMBER("per_year", SHOWN(N_("blocks per year"), N_("per year"), 0.0001, 1000), AT(ceduo_size_class, per_year), "1/y", 0,
            1e6, REQUIRED | ABOVE, NULL, N_("blocks of these sizes that come down in a year")),
     NUM(FIELD_NUMBERS, "volume_m3", SHOWN(N_("volumes, m3"), N_("m3"), 0.0001, 2000),
-        LIST(ceduo_block_class, volumes, volumes_count), "m3", 1, 0, 1e6, REQUIRED | ABOVE, NULL,
+        LIST(ceduo_size_class, volumes, volumes_count), "m3", 1, 0, 1e6, REQUIRED | ABOVE, NULL,
         N_("the smallest and the largest: [lo, hi]")),
-    NUMBER("exponent", USUAL(N_("exponent"), 0.2, 2), AT(ceduo_block_class, exponent), "", 0, 10, FIELD_ZERO, NULL,
+    NUMBER("exponent", USUAL(N_("exponent"), 0.2, 2), AT(ceduo_size_class, exponent), "", 0, 10, FIELD_ZERO, NULL,
            N_("the number of blocks above a volume v goes with v^-exponent; 0, in a list of classes also the default: as "
               "many in every range of equal ratio")),
 };
-static const struct object block_object = OBJECT(ceduo_block_class, block_fields, NULL);
+static const struct object block_object = OBJECT(ceduo_size_class, block_fields, NULL);
 ASKED_AT_ONCE(block_fields);
 
 /* ---- release ---- */

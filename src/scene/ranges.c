@@ -69,7 +69,7 @@ const struct range *ceduo_ranges(size_t *n)
     return ranges;
 }
 
-const struct range *ceduo_range_of(const struct field *field)
+const struct range *ceduo_range_find(const struct field *field)
 {
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
         const struct field *row = ceduo_schema_at(ranges[i].path); /* rows of shoots and trees are the same twice */
@@ -79,7 +79,7 @@ const struct range *ceduo_range_of(const struct field *field)
     return NULL;
 }
 
-struct range ceduo_range_of_material(const struct ceduo_material *m, const char *key)
+struct range ceduo_range_find_material(const struct ceduo_material *m, const char *key)
 {
     const struct {
         const char *key, *source;
@@ -88,7 +88,7 @@ struct range ceduo_range_of_material(const struct ceduo_material *m, const char 
                      {"rt", m->source, m->rt_lo, m->rt_hi},
                      {"roughness_m", ASSUMED, m->roughness_lo, m->roughness_hi},
                      {"friction", ASSUMED, m->friction_lo, m->friction_hi}};
-    const struct range *r = ceduo_range_of(ceduo_schema_field(ceduo_schema_segment(), key));
+    const struct range *r = ceduo_range_find(ceduo_schema_field(ceduo_schema_segment(), key));
     for (size_t i = 0; i < sizeof of_ground / sizeof of_ground[0]; i++)
         if (strcmp(key, of_ground[i].key) == 0)
             return (struct range){.kind = CEDUO_INPUT_RANGE,

@@ -20,9 +20,9 @@ struct range {
 const struct range *ceduo_ranges(size_t *n);
 
 /* The range of a row of the table of keys; NULL: none, the value is not varied. */
-const struct range *ceduo_range_of(const struct field *field);
+const struct range *ceduo_range_find(const struct field *field);
 
 /* The range of rn, rt, roughness_m, friction or mu of a ground of the library. */
-struct range ceduo_range_of_material(const struct ceduo_material *material, const char *key);
+struct range ceduo_range_find_material(const struct ceduo_material *material, const char *key);
 
 #endif

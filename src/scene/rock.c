@@ -38,8 +38,8 @@ double ceduo_number_draw(struct ceduo_number n, double u, double lo, double hi)
     hi = fmin(hi, highest);
     if (n.kind == CEDUO_UNIFORM)
         return lo + u * (hi - lo);
-    double p_lo = lo == lowest ? BELOW_CUT : ceduo_normal_chance((lo - n.mean) / n.spread);
-    double p_hi = hi == highest ? 1 - BELOW_CUT : ceduo_normal_chance((hi - n.mean) / n.spread);
+    double p_lo = lo == lowest ? BELOW_CUT : ceduo_normal_cdf((lo - n.mean) / n.spread);
+    double p_hi = hi == highest ? 1 - BELOW_CUT : ceduo_normal_cdf((hi - n.mean) / n.spread);
     double x = n.mean + n.spread * ceduo_normal_quantile(p_lo + u * (p_hi - p_lo));
     return fmin(fmax(x, lo), hi);
 }

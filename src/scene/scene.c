@@ -76,7 +76,7 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
     if (status == CEDUO_OK && !lists)
         status = CEDUO_BAD_NUMBER;
     for (size_t i = 0; i < scene->blocks_count && status == CEDUO_OK; i++) {
-        const struct ceduo_block_class *b = &scene->blocks[i];
+        const struct ceduo_size_class *b = &scene->blocks[i];
         bool volumes = b->volumes_count == 2 && b->volumes && b->volumes[0] > 0 && b->volumes[1] > b->volumes[0];
         status = volumes && b->per_year > 0 && b->exponent >= 0 ? CEDUO_OK : CEDUO_BAD_ROCK;
     }

@@ -352,9 +352,9 @@ bool ceduo_schema_range_text(const struct field *f, struct text *text)
 {
     bool low = isfinite(f->lo), high = isfinite(f->hi);
     if (low && !high)
-        ceduo_text_put(text, f->flags & FIELD_ABOVE ? "> " : ">= ");
+        ceduo_text_append(text, f->flags & FIELD_ABOVE ? "> " : ">= ");
     else if (low && f->flags & FIELD_ABOVE)
-        ceduo_text_put(text, ">");
+        ceduo_text_append(text, ">");
     if (low)
         ceduo_text_format(text, "%.5g", f->lo);
     if (high)

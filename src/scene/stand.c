@@ -5,7 +5,7 @@
 
 #include "volume.h"
 
-void ceduo_stand_count_shoots(struct ceduo_stand *stand)
+void ceduo_stand_update_shoot_density(struct ceduo_stand *stand)
 {
     for (size_t i = 0; i < stand->shoots_count; i++)
         if (stand->shoots[i].per_stool > 0)
@@ -30,7 +30,7 @@ double ceduo_stand_trees(const struct ceduo_stand *stand)
     return sum_per_ha(stand->trees, stand->trees_count);
 }
 
-double ceduo_stand_stay(const struct ceduo_stand *stand)
+double ceduo_stand_retained_per_ha(const struct ceduo_stand *stand)
 {
     double sum = 0;
     for (size_t i = 0; i < stand->cutting.stay_count; i++)

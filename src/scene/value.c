@@ -178,7 +178,7 @@ double ceduo_value_get(const struct value *v)
     return (v->relative ? si : si + v->origin) / f->scale;
 }
 
-bool ceduo_value_put(const struct value *v, double number)
+bool ceduo_value_set(const struct value *v, double number)
 {
     const struct field *f = v->field;
     bool spread = v->part == VALUE_SPREAD, whole = number == floor(number);

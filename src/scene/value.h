@@ -29,7 +29,7 @@ double ceduo_value_get(const struct value *value);
 
 /* Set the number, in the file's unit. False if it lies outside its range: nothing changes. ceduo_scene_check() checks the rest of the
  * scene. No other thread may read the scene meanwhile. */
-bool ceduo_value_put(const struct value *value, double number);
+bool ceduo_value_set(const struct value *value, double number);
 
 /* Make an optional number one that is not given. */
 void ceduo_value_forget(const struct value *value);

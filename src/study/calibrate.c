@@ -80,14 +80,15 @@ static void tell(struct fitting *f, enum ceduo_calibration_stage stage, double r
 
 /* ---- one evaluation ---- */
 
-enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all, struct ceduo_counterpart *to)
+enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all,
+                                     struct ceduo_observation_fit *to)
 {
     enum ceduo_status status = CEDUO_OK;
     for (size_t s = 0; s < f->def->scenes_count && status == CEDUO_OK; s++) {
         struct input_scene *copy = &f->workers[worker].copies[s];
         const struct ceduo_observer *observer = all ? f->scenes[s].all : f->scenes[s].fit;
         ceduo_inputs_set(copy, u);
-        status = ceduo_observer_look(observer, &copy->scene, f->def->rocks, f->def->cancel, to);
+        status = ceduo_observer_simulate(observer, &copy->scene, f->def->rocks, f->def->cancel, to);
         to += all ? f->def->scenes[s].observations_count : f->scenes[s].fit_count;
     }
     return status;
@@ -96,7 +97,7 @@ enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const dou
 /* The likelihood of a place; a scene that does not fit together cannot be what was. */
 static enum ceduo_status evaluate(struct fitting *f, size_t worker, const double *u, double *log_likelihood)
 {
-    struct ceduo_counterpart *to = f->workers[worker].counterparts;
+    struct ceduo_observation_fit *to = f->workers[worker].counterparts;
     enum ceduo_status status = ceduo_fitting_look(f, worker, u, false, to);
     *log_likelihood = status == CEDUO_OK ? 0 : -INFINITY;
     if (status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED)
@@ -224,8 +225,8 @@ static enum ceduo_status learn(void *context, const double *y, const double *log
 {
     struct fitting *f = context;
     size_t d = f->def->parameters_count, known = f->known_count, more = POINTS + n - known, room = f->known_room;
-    f->known = ceduo_arena_more(&f->memory, f->known, known, more, &room, d * sizeof *f->known);
-    f->known_values = ceduo_arena_more(&f->memory, f->known_values, known, more, &f->known_room, sizeof *f->known_values);
+    f->known = ceduo_arena_grow(&f->memory, f->known, known, more, &room, d * sizeof *f->known);
+    f->known_values = ceduo_arena_grow(&f->memory, f->known_values, known, more, &f->known_room, sizeof *f->known_values);
     if (f->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t i = known - POINTS; i < n; i++) {
@@ -327,7 +328,7 @@ static size_t worse_of_a_pair(const struct ceduo_calibration *a, const bool *loo
     return worse;
 }
 
-size_t ceduo_calibration_loose(const struct ceduo_calibration *a, bool loose[CEDUO_CALIBRATION_MAX])
+size_t ceduo_calibration_unidentified(const struct ceduo_calibration *a, bool loose[CEDUO_CALIBRATION_MAX])
 {
     size_t most = a->parameters_count - 1, n = 0;
     for (size_t i = 0; i <= most; i++) {
@@ -342,7 +343,7 @@ size_t ceduo_calibration_loose(const struct ceduo_calibration *a, bool loose[CED
 #define SHAPES_ALIKE 0.1 /* of the mean axis: rocks whose axes differ by no more are of one shape; assumed */
 
 /* A shape is the rock's axes over their mean, the shortest first. */
-bool ceduo_calibration_tells_mu(const struct ceduo_calibration_scene *scenes, size_t n)
+bool ceduo_calibration_identifies_mu(const struct ceduo_calibration_scene *scenes, size_t n)
 {
     double first[3];
     bool known = false;
@@ -374,15 +375,15 @@ static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_cali
     *f = (struct fitting){.def = def, .most = -INFINITY, .guess = ceduo_guess_begin(n)};
     f->workers_count = def->threads > CHAINS ? def->threads : CHAINS;
     pthread_mutex_init(&f->lock, NULL);
-    f->known = ceduo_arena_take(&f->memory, POINTS * n * sizeof *f->known);
-    f->known_values = ceduo_arena_take(&f->memory, POINTS * sizeof *f->known_values);
+    f->known = ceduo_arena_alloc(&f->memory, POINTS * n * sizeof *f->known);
+    f->known_values = ceduo_arena_alloc(&f->memory, POINTS * sizeof *f->known_values);
     f->known_count = f->known_room = POINTS;
-    f->scenes = ceduo_arena_take(&f->memory, def->scenes_count * sizeof *f->scenes);
-    f->workers = ceduo_arena_take(&f->memory, f->workers_count * sizeof *f->workers);
+    f->scenes = ceduo_arena_alloc(&f->memory, def->scenes_count * sizeof *f->scenes);
+    f->workers = ceduo_arena_alloc(&f->memory, f->workers_count * sizeof *f->workers);
     for (size_t s = 0; s < def->scenes_count && !f->memory.failed && status == CEDUO_OK; s++) {
         const struct ceduo_calibration_scene *from = &def->scenes[s];
         struct fitting_scene *to = &f->scenes[s];
-        struct ceduo_observation *fitted = ceduo_arena_take(&f->memory, (from->observations_count + 1) * sizeof *fitted);
+        struct ceduo_observation *fitted = ceduo_arena_alloc(&f->memory, (from->observations_count + 1) * sizeof *fitted);
         for (size_t i = 0; fitted && i < from->observations_count; i++)
             if (from->observations[i].use == CEDUO_OBSERVED_FIT)
                 fitted[to->fit_count++] = from->observations[i];
@@ -394,8 +395,8 @@ static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_cali
     }
     for (size_t w = 0; w < f->workers_count && !f->memory.failed && status == CEDUO_OK; w++) {
         struct fitting_worker *to = &f->workers[w];
-        to->copies = ceduo_arena_take(&f->memory, def->scenes_count * sizeof *to->copies);
-        to->counterparts = ceduo_arena_take(&f->memory, (f->all_count + 1) * sizeof *to->counterparts);
+        to->copies = ceduo_arena_alloc(&f->memory, def->scenes_count * sizeof *to->copies);
+        to->counterparts = ceduo_arena_alloc(&f->memory, (f->all_count + 1) * sizeof *to->counterparts);
         for (size_t s = 0; s < def->scenes_count && !f->memory.failed && status == CEDUO_OK; s++)
             status = ceduo_inputs_open(&to->copies[s], def->scenes[s].scene, def->scenes[s].inputs, n);
     }

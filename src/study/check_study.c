@@ -49,7 +49,7 @@ enum ceduo_status ceduo_check_inputs(const struct ceduo_input *inputs, size_t n,
 /* True if an answer computed before is of the same scene, with the years that are asked for. */
 static bool is_own_good(const struct ceduo_uncertainty_def *def)
 {
-    const struct ceduo_answer *own = def->own;
+    const struct ceduo_results *own = def->own;
     size_t options = def->scene->options_count;
     bool good = !own || (def->brief && own->result && own->result->options_count == options);
     bool years = own && def->rotation && def->scene->simulation.contact_model != CEDUO_INDEX;

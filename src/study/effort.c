@@ -23,7 +23,7 @@
 #define ROCKS_MIN   100      /* of a point, if there are more at first */
 #define YEARS_MIN   8
 
-double ceduo_effort_of(const struct ceduo_scene *scene, const struct ceduo_work *work)
+double ceduo_effort_compute(const struct ceduo_scene *scene, const struct ceduo_work *work)
 {
     double vertices = (double)scene->slope.vertices, rocks = (double)work->rocks, runs = (double)work->runs;
     return (double)ceduo_points_met(work->contacts, work->stems) + rocks * (PER_ROCK + PER_PASS * vertices) +
@@ -44,7 +44,7 @@ static double effort_of(const struct plan *plan, double met)
     struct ceduo_work work = {.rocks = (uint64_t)(points * rocks), .runs = (uint64_t)(points * (options + years))};
     double fits =
         options * FITS + (def->rotation ? options * FITS_YEARS + years / 2 : 0) + (def->rotation ? 2 : 1) * (options - 1);
-    return points * rocks * met / options + ceduo_effort_of(def->scene, &work) +
+    return points * rocks * met / options + ceduo_effort_compute(def->scene, &work) +
            fits * PER_FIT * pow(points / CEDUO_UNCERTAINTY_POINTS, 2);
 }
 
@@ -73,7 +73,7 @@ static bool reduce(const struct plan *plan, struct ceduo_uncertainty_def *def, s
     return def->points >= CEDUO_UNCERTAINTY_MIN;
 }
 
-static void read_nothing(void *context, const struct point *point, const struct brought *at)
+static void read_nothing(void *context, const struct point *point, const struct control_means *at)
 {
     (void)context;
     (void)point;
@@ -106,7 +106,7 @@ enum ceduo_status ceduo_effort_bound(struct ceduo_uncertainty_def *def, const st
 {
     size_t points = def->points;
     uint64_t rocks = def->rocks > CEDUO_SURFACE_GROUPS ? def->rocks : CEDUO_SURFACE_GROUPS;
-    double own_effort = own ? ceduo_effort_of(def->scene, own) : INFINITY;
+    double own_effort = own ? ceduo_effort_compute(def->scene, own) : INFINITY;
     struct plan plan = {.def = def, .most = fmin(CEDUO_EFFORT_MAX, fmax(CEDUO_EFFORT_MIN, CEDUO_EFFORT_TIMES * own_effort))};
     enum ceduo_status status = run_pilot(def, &plan);
     bool too_much = status == CEDUO_CANCELLED && !ceduo_cancelled(def->cancel);

@@ -12,7 +12,7 @@
 #define CEDUO_EFFORT_MAX   1.8e8 /* three seconds */
 
 /* Effort of runs of a scene. */
-double ceduo_effort_of(const struct ceduo_scene *scene, const struct ceduo_work *work);
+double ceduo_effort_compute(const struct ceduo_scene *scene, const struct ceduo_work *work);
 
 /* Reduces points, rocks and years of the definition until its effort keeps within the bound, and sets effort_max. A rotation
  * that cannot have CEDUO_UNCERTAINTY_MIN points is left out. Sets `points` to 0 if today cannot have them either. `own`: runs of the

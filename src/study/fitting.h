@@ -19,7 +19,7 @@ struct fitting_scene {
 /* What a worker needs for itself. */
 struct fitting_worker {
     struct input_scene *copies; /* [scene] */
-    struct ceduo_counterpart *counterparts;
+    struct ceduo_observation_fit *counterparts;
 };
 
 struct fitting {
@@ -37,12 +37,13 @@ struct fitting {
     struct talk talk;
     double best[CEDUO_CALIBRATION_MAX], most; /* under `lock`, as are: */
     uint64_t evaluations;
-    const double *draws;             /* that predictions are made from: [draw][parameter] in 0…1; the last is the best */
-    struct ceduo_counterpart *drawn; /* [draw][observation] */
+    const double *draws;                 /* that predictions are made from: [draw][parameter] in 0…1; the last is the best */
+    struct ceduo_observation_fit *drawn; /* [draw][observation] */
 };
 
 /* What rocks do at a place: one counterpart for each observation, of all, or of those that are fitted. */
-enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all, struct ceduo_counterpart *to);
+enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all,
+                                     struct ceduo_observation_fit *to);
 
 /* Fills what a calibration says of its observations, from its draws. */
 enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibration *answer);

@@ -73,9 +73,9 @@ struct ceduo_search {
 };
 
 /* What a search under uncertainty came to. */
-struct ceduo_sure {
-    double sure;   /* what was asked for; 0: nothing */
-    size_t inputs; /* what is in uncertainty of the option, but for the value itself; 0: nothing, nothing was computed */
+struct ceduo_reliability {
+    double sure;              /* what was asked for; 0: nothing */
+    size_t inputs;            /* what is uncertain of the option, but for the value itself; 0: nothing, nothing was computed */
     struct ceduo_found found; /* its goals are those of no one */
     double lo, hi;            /* 95 % interval of the value found, by the points and by the rocks; NaN: not known */
     struct ceduo_share share; /* the share in which it is, at the value found or else comes nearest */

@@ -26,7 +26,7 @@ struct ceduo_input ceduo_input_default(void)
 /* Replaces *items by a copy of n of them. */
 static void copy_items(struct arena *arena, void *items, size_t n, size_t size)
 {
-    void *from, *to = ceduo_arena_take(arena, n * size + 1);
+    void *from, *to = ceduo_arena_alloc(arena, n * size + 1);
     memcpy(&from, items, sizeof from);
     if (to && n > 0)
         memcpy(to, from, n * size);
@@ -82,7 +82,7 @@ enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo
     *copy = (struct input_scene){.scene = *scene, .given = scene, .inputs = inputs, .inputs_count = n};
     for (size_t i = 0; i < n; i++)
         places += inputs[i].places_count;
-    copy->places = ceduo_arena_take(&copy->arena, (places + 1) * sizeof *copy->places);
+    copy->places = ceduo_arena_alloc(&copy->arena, (places + 1) * sizeof *copy->places);
     if (!copy_scene(&copy->arena, &copy->scene))
         return CEDUO_NO_MEMORY;
     struct input_place *p = copy->places;
@@ -156,8 +156,8 @@ static void put(const struct value *value, double number)
         number = round(number);
     if (isnan(number))
         ceduo_value_forget(value);
-    else if (!ceduo_value_put(value, number))
-        ceduo_value_put(value, fmin(fmax(number, nextafter(f->lo, INFINITY)), nextafter(f->hi, -INFINITY)));
+    else if (!ceduo_value_set(value, number))
+        ceduo_value_set(value, fmin(fmax(number, nextafter(f->lo, INFINITY)), nextafter(f->hi, -INFINITY)));
 }
 
 static void mend_stools(struct ceduo_scene *scene)
@@ -165,7 +165,7 @@ static void mend_stools(struct ceduo_scene *scene)
     for (size_t i = 0; i < scene->options_count; i++)
         for (size_t k = 0; k < scene->options[i].belts_count; k++) {
             struct ceduo_stand *stand = &scene->options[i].belts[k].stand;
-            ceduo_stand_count_shoots(stand);
+            ceduo_stand_update_shoot_density(stand);
             if (stand->shoots_count > 0) /* just cut they have none, and live on */
                 stand->stools_per_ha = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
         }

@@ -80,8 +80,8 @@ static struct setting *setting_of(struct ceduo_observer *o, const struct ceduo_o
     }
     struct setting *s = &o->settings[o->settings_count++];
     *s = (struct setting){.rock = seen->rock, .release = seen->release, .option = seen->option};
-    s->controls = ceduo_arena_take(&o->arena, (o->n + 1) * sizeof *s->controls);
-    s->stretches = ceduo_arena_take(&o->arena, (o->n + 1) * sizeof *s->stretches);
+    s->controls = ceduo_arena_alloc(&o->arena, (o->n + 1) * sizeof *s->controls);
+    s->stretches = ceduo_arena_alloc(&o->arena, (o->n + 1) * sizeof *s->stretches);
     return o->arena.failed ? NULL : s;
 }
 
@@ -163,8 +163,8 @@ enum ceduo_status ceduo_observer_create(const struct ceduo_observation *observat
     if (!o)
         return CEDUO_NO_MEMORY;
     o->n = n;
-    o->plans = ceduo_arena_take(&o->arena, (n + 1) * sizeof *o->plans);
-    o->settings = ceduo_arena_take(&o->arena, (n + 1) * sizeof *o->settings);
+    o->plans = ceduo_arena_alloc(&o->arena, (n + 1) * sizeof *o->plans);
+    o->settings = ceduo_arena_alloc(&o->arena, (n + 1) * sizeof *o->settings);
     bool good = o->plans && o->settings;
     for (size_t i = 0; good && i < n; i++)
         good = make_plan(o, &observations[i], &o->plans[i]);
@@ -251,7 +251,7 @@ static double of_record(const struct flown *f, uint64_t rock, const struct plan 
     return quantity == CEDUO_QUANTITY_ENERGY ? (r->mass * speed2 + r->moment * (c->spin * c->spin)) / 2 : sqrt(speed2);
 }
 
-static bool on_stretch(const struct ceduo_blow *b, const struct plan *p)
+static bool on_stretch(const struct ceduo_stem_impact *b, const struct plan *p)
 {
     return b->x >= p->seen->from && b->x <= p->seen->to;
 }
@@ -290,7 +290,7 @@ static double rocks_of_classes(const double *simulated, size_t classes)
     double rocks = 0;
     for (size_t i = 0; i < classes; i++)
         rocks += simulated[i];
-    return fmax(rocks, CEDUO_CLASSES_FEW * (double)classes) + (double)classes / 2;
+    return fmax(rocks, CEDUO_CLASS_ROCKS_MIN * (double)classes) + (double)classes / 2;
 }
 
 double ceduo_classes_deviance(const double *seen, const double *simulated, size_t classes)
@@ -305,7 +305,7 @@ double ceduo_classes_deviance(const double *seen, const double *simulated, size_
 }
 
 /* A normal law of a difference. */
-static void compare_normal(struct ceduo_counterpart *c, double difference, double variance)
+static void compare_normal(struct ceduo_observation_fit *c, double difference, double variance)
 {
     double z2 = difference * difference / variance;
     bool known = isfinite(z2);
@@ -313,7 +313,7 @@ static void compare_normal(struct ceduo_counterpart *c, double difference, doubl
     c->deviance += known ? z2 : -2 * IMPOSSIBLE;
 }
 
-static void sum_values(const struct plan *p, const double *values, size_t n, struct ceduo_counterpart *c)
+static void sum_values(const struct plan *p, const double *values, size_t n, struct ceduo_observation_fit *c)
 {
     struct ceduo_moments m = {0};
     bool rest = p->classes > p->bounds_count + 1; /* of a list that has no class for it none */
@@ -333,7 +333,7 @@ static void sum_values(const struct plan *p, const double *values, size_t n, str
 }
 
 /* How many scars the rocks released leave: their number differs from rock to rock, and the survey finds a share. */
-static bool compare_scars(const struct plan *p, const struct flown *f, struct ceduo_counterpart *c)
+static bool compare_scars(const struct plan *p, const struct flown *f, struct ceduo_observation_fit *c)
 {
     const struct ceduo_observation *seen = p->seen;
     double share = isnan(seen->share_seen) ? 1 : seen->share_seen, of = (double)seen->of, n = (double)f->rocks;
@@ -354,16 +354,17 @@ static bool compare_scars(const struct plan *p, const struct flown *f, struct ce
 }
 
 /* False without memory. */
-static bool compare(const struct plan *p, const struct flown *f, const double *values, size_t n, struct ceduo_counterpart *c)
+static bool compare(const struct plan *p, const struct flown *f, const double *values, size_t n,
+                    struct ceduo_observation_fit *c)
 {
     const struct ceduo_observation *seen = p->seen;
     double sum = 0;
     for (size_t i = 0; seen->values && i < seen->n; i++)
         sum += seen->values[i];
-    *c = (struct ceduo_counterpart){.classes = p->classes,
-                                    .seen_mean = seen->values ? sum / (double)seen->n : seen->mean,
-                                    .scars = NAN,
-                                    .scars_variance = NAN};
+    *c = (struct ceduo_observation_fit){.classes = p->classes,
+                                        .seen_mean = seen->values ? sum / (double)seen->n : seen->mean,
+                                        .scars = NAN,
+                                        .scars_variance = NAN};
     memcpy(c->seen, p->counts, sizeof c->seen);
     sum_values(p, values, n, c);
     c->variance = seen->sd * seen->sd / (double)seen->n + c->sd * c->sd / (double)c->rocks;
@@ -381,8 +382,8 @@ static bool compare(const struct plan *p, const struct flown *f, const double *v
     return seen->kind != CEDUO_OBSERVED_SCARS || seen->of == 0 || compare_scars(p, f, c);
 }
 
-enum ceduo_status ceduo_observer_look(const struct ceduo_observer *o, const struct ceduo_scene *scene, uint64_t rocks,
-                                      const atomic_bool *cancel, struct ceduo_counterpart *to)
+enum ceduo_status ceduo_observer_simulate(const struct ceduo_observer *o, const struct ceduo_scene *scene, uint64_t rocks,
+                                          const atomic_bool *cancel, struct ceduo_observation_fit *to)
 {
     enum ceduo_status status = CEDUO_OK;
     for (size_t s = 0; s < o->settings_count && status == CEDUO_OK; s++) {

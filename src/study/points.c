@@ -23,7 +23,7 @@ struct work {
 
 struct item {
     struct work *work;
-    struct brought *brought; /* of each variant and control: equal ones are not simulated again */
+    struct control_means *control_means; /* of each variant and control: equal ones are not simulated again */
     struct input_scene *copy;
     size_t row, each;          /* the first; variants of each */
     struct point point;        /* the one at hand */
@@ -50,16 +50,16 @@ static enum ceduo_status grow(struct item *item, struct point *point)
             return status;
     }
     item->scene = *scene;
-    if (item->years->window.kind != CEDUO_WINDOW_ALIKE) /* otherwise the year is today: it has today's rocks */
+    if (item->years->window.kind != CEDUO_WINDOW_CONSTANT) /* otherwise the year is today: it has today's rocks */
         item->scene.simulation.seed = random_seed(scene->simulation.seed, VARIANT_POINT_YEAR, year);
     point->scene = &item->scene;
     point->forest = &item->years->years[(2 * year + 1) * item->years->count / (2 * years)].option; /* the middle of each part */
     return CEDUO_OK;
 }
 
-static struct brought *brought_by(const struct item *item, size_t i)
+static struct control_means *brought_by(const struct item *item, size_t i)
 {
-    return item->brought + i * item->work->points->def->scene->controls_count;
+    return item->control_means + i * item->work->points->def->scene->controls_count;
 }
 
 static void tell_variant(const struct item *item, size_t i, bool simulated)
@@ -100,7 +100,7 @@ static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run 
     (void)rocks;
     const struct item *item = context;
     for (size_t c = 0; c < item->work->points->def->scene->controls_count; c++)
-        ceduo_run_briefs(run, c, CEDUO_SURFACE_GROUPS, brought_by(item, i)[c].of);
+        ceduo_run_group_means(run, c, CEDUO_SURFACE_GROUPS, brought_by(item, i)[c].of);
     tell_variant(item, i, true);
     uint64_t effort = ceduo_points_met(ceduo_run_contacts(run), ceduo_run_stems(run));
     uint64_t most = item->work->points->def->effort_max;
@@ -112,7 +112,7 @@ static void same_variant(void *context, size_t i, size_t first)
 {
     const struct item *item = context;
     memcpy(brought_by(item, i), brought_by(item, first),
-           item->work->points->def->scene->controls_count * sizeof *item->brought);
+           item->work->points->def->scene->controls_count * sizeof *item->control_means);
     tell_variant(item, i, true);
 }
 
@@ -126,11 +126,11 @@ static int run_item(void *context, size_t i, size_t thread)
                         .row = w->from + i + (!together && w->together > 0 ? w->together - 1 : 0),
                         .each = each};
     size_t n = (together ? w->together : 1) * each;
-    item.brought = malloc((n * w->points->def->scene->controls_count + 1) * sizeof *item.brought);
+    item.control_means = malloc((n * w->points->def->scene->controls_count + 1) * sizeof *item.control_means);
     struct ceduo_variants list = {.n = n, .make = make_variant, .read = read_variant, .same = same_variant, .context = &item};
-    enum ceduo_status status = item.brought ? ceduo_variants_run(&list) : CEDUO_NO_MEMORY;
+    enum ceduo_status status = item.control_means ? ceduo_variants_run(&list) : CEDUO_NO_MEMORY;
     ceduo_years_free(item.years);
-    free(item.brought);
+    free(item.control_means);
     /* of threads that end because another one failed, none says so */
     return status == CEDUO_OK || atomic_exchange(&w->failed, true) ? CEDUO_OK : (int)status;
 }
@@ -183,7 +183,7 @@ size_t ceduo_points_years(const struct ceduo_uncertainty_def *def)
     return count < max ? count : max;
 }
 
-double ceduo_groups_mean(const struct ceduo_groups *y, uint64_t rocks)
+double ceduo_groups_mean(const struct ceduo_replicates *y, uint64_t rocks)
 {
     double sum = 0;
     for (uint64_t g = 0, groups = CEDUO_SURFACE_GROUPS; g < groups; g++)

@@ -19,19 +19,19 @@ struct point {
 };
 
 /* What each group of the rocks brings to a control. */
-struct brought {
-    struct ceduo_brief of[CEDUO_SURFACE_GROUPS];
+struct control_means {
+    struct ceduo_group_means of[CEDUO_SURFACE_GROUPS];
 };
 
 struct points {
     /* The scene, its inputs, which options and years are asked for, and how many rocks; 0: none is simulated, and nothing is
-     * brought. Slots 1… are there where a rotation is asked for, at most ceduo_points_years() of each option. */
+     * control_means. Slots 1… are there where a rotation is asked for, at most ceduo_points_years() of each option. */
     const struct ceduo_uncertainty_def *def;
     const double *u; /* rows of inputs */
     bool today;      /* slot 0 is asked for */
     /* Called by several threads at once, each with points of its own rows: at each control, NULL where no rocks are
      * simulated. */
-    void (*read)(void *context, const struct point *point, const struct brought *at);
+    void (*read)(void *context, const struct point *point, const struct control_means *at);
     void (*done)(void *context); /* a row is done; may be NULL; by several threads at once */
     void *context;
     uint64_t *effort; /* set to ceduo_points_met() of all rows; may be NULL */
@@ -54,6 +54,6 @@ size_t ceduo_points_years(const struct ceduo_uncertainty_def *def);
 size_t ceduo_points_window(const struct ceduo_uncertainty_def *def);
 
 /* Of groups that may differ by a rock. */
-double ceduo_groups_mean(const struct ceduo_groups *groups, uint64_t rocks);
+double ceduo_groups_mean(const struct ceduo_replicates *groups, uint64_t rocks);
 
 #endif

@@ -22,7 +22,7 @@
 static int look_at_draw(void *context, size_t i, size_t worker)
 {
     struct fitting *f = context;
-    struct ceduo_counterpart *to = f->drawn + i * f->all_count;
+    struct ceduo_observation_fit *to = f->drawn + i * f->all_count;
     enum ceduo_status status = ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, to);
     return (int)(status == CEDUO_OK || status == CEDUO_CANCELLED ? status : CEDUO_NO_MEMORY);
 }
@@ -30,7 +30,7 @@ static int look_at_draw(void *context, size_t i, size_t worker)
 /* ---- samples ---- */
 
 /* A new count: the share as the simulated rocks leave it open (a beta law), then as many as were released. Returns its deviance. */
-static double sample_count(const struct ceduo_counterpart *c, gsl_rng *random, double *value)
+static double sample_count(const struct ceduo_observation_fit *c, gsl_rng *random, double *value)
 {
     double share = gsl_ran_beta(random, c->count[0] + 0.5, c->count[1] + 0.5), n = c->seen[0] + c->seen[1];
     double passed = gsl_ran_binomial(random, share, (unsigned)n), seen[2] = {passed, n - passed};
@@ -58,7 +58,7 @@ static void share_by_gaps(const double *n, size_t classes, gsl_rng *random, doub
 /* The deviance of a new list, as those who saw it compare it: its classes are between its own quantiles, and as many simulated
  * rocks fall into them. Its values are so many as those seen; where it is known how many were released, the simulated rocks say
  * how many of them have one. Bounds that follow from the sample make its deviance smaller than that of fixed classes. */
-static double sample_list(const struct ceduo_counterpart *c, bool rest, gsl_rng *random)
+static double sample_list(const struct ceduo_observation_fit *c, bool rest, gsl_rng *random)
 {
     size_t lists = c->classes - rest;
     double seen[CEDUO_CLASSES_MAX], share[CEDUO_CLASSES_MAX], simulated[CEDUO_CLASSES_MAX], rocks = 0, n = 0, have = 1;
@@ -82,7 +82,7 @@ static double sample_list(const struct ceduo_counterpart *c, bool rest, gsl_rng 
     share_by_gaps(seen, lists, random, share);
     for (size_t i = 0; i < lists; i++)
         share[i] *= have;
-    gsl_ran_multinomial(random, c->classes, (unsigned)fmax(rocks, CEDUO_CLASSES_FEW * (double)c->classes), share, count);
+    gsl_ran_multinomial(random, c->classes, (unsigned)fmax(rocks, CEDUO_CLASS_ROCKS_MIN * (double)c->classes), share, count);
     for (size_t i = 0; i < c->classes; i++)
         simulated[i] = count[i];
     return ceduo_classes_deviance(seen, simulated, c->classes);
@@ -96,7 +96,7 @@ static double sample_normal(double mean, double variance, gsl_rng *random, doubl
 }
 
 /* A new sample; its deviance, and what its mean or count would be. */
-static double sample(const struct ceduo_observation *o, const struct ceduo_counterpart *c, gsl_rng *random, double *value)
+static double sample(const struct ceduo_observation *o, const struct ceduo_observation_fit *c, gsl_rng *random, double *value)
 {
     double ignored, deviance;
     bool rest = o->kind == CEDUO_OBSERVED_STOPS && o->of > 0;
@@ -116,7 +116,7 @@ static double sample(const struct ceduo_observation *o, const struct ceduo_count
 
 /* What simulated rocks say of one observation, draw by draw. */
 struct drawn {
-    const struct ceduo_counterpart *first;
+    const struct ceduo_observation_fit *first;
     size_t stride, draws, samples; /* samples: of each draw */
 };
 
@@ -129,7 +129,7 @@ static void read_one(const struct drawn *d, const struct ceduo_observation *o, g
     to->seen = o->kind == CEDUO_OBSERVED_PASSED ? (double)o->count : to->at_best.seen_mean;
     to->p_value = to->lo = to->hi = NAN;
     for (size_t i = 0; i < d->draws; i++) {
-        const struct ceduo_counterpart *c = &d->first[i * d->stride];
+        const struct ceduo_observation_fit *c = &d->first[i * d->stride];
         for (size_t k = 0; k < d->samples; k++) {
             double value, deviance = sample(o, c, random, &value);
             farther += deviance >= c->deviance;
@@ -154,7 +154,7 @@ static void read_single(const struct drawn *d, const struct ceduo_observation *o
     to->one_lo = to->one_hi = NAN;
     to->one_inside = 0;
     for (size_t i = 0; i < d->draws && o->kind != CEDUO_OBSERVED_PASSED; i++) {
-        const struct ceduo_counterpart *c = &d->first[i * d->stride];
+        const struct ceduo_observation_fit *c = &d->first[i * d->stride];
         for (size_t k = 0; k < c->some_count; k++)
             values[n++] = c->some[k];
     }
@@ -222,8 +222,8 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
 
 /* ---- without a fit ---- */
 
-enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scene *scene, uint64_t rocks,
-                                             const atomic_bool *cancel, struct ceduo_predicted *to)
+enum ceduo_status ceduo_compare_with_observations(const struct ceduo_calibration_scene *scene, uint64_t rocks,
+                                                  const atomic_bool *cancel, struct ceduo_predicted *to)
 {
     GSL_RETURNS_ERRORS;
     size_t n = scene->observations_count;
@@ -235,7 +235,7 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
     if (status != CEDUO_OK)
         return status;
     struct ceduo_observer *observer = NULL;
-    struct ceduo_counterpart *found = calloc(n + 1, sizeof *found);
+    struct ceduo_observation_fit *found = calloc(n + 1, sizeof *found);
     double *values = calloc(SAMPLES_ONE, sizeof *values);
     struct sequence sequence;
     gsl_rng random = ceduo_sequence(&sequence, scene->scene->simulation.seed, CEDUO_CALIBRATION_CHAINS);
@@ -243,7 +243,7 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
     if (status == CEDUO_OK)
         status = ceduo_observer_create(scene->observations, n, &observer);
     if (status == CEDUO_OK)
-        status = ceduo_observer_look(observer, scene->scene, rocks, cancel, found);
+        status = ceduo_observer_simulate(observer, scene->scene, rocks, cancel, found);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         to[i] = (struct ceduo_predicted){.observation = i, .at_best = found[i], .one_lo = NAN, .one_hi = NAN};
         read_one(&(struct drawn){&found[i], 0, 1, SAMPLES_ONE}, &scene->observations[i], &random, values, &to[i]);

@@ -14,8 +14,8 @@ static size_t beyond(const double *values, size_t n, double x)
     return n - k;
 }
 
-void ceduo_seen_stops_of(const struct ceduo_observation *o, const double *values, size_t n, size_t rocks,
-                         struct ceduo_seen_stops *to)
+void ceduo_observed_stops_find(const struct ceduo_observation *o, const double *values, size_t n, size_t rocks,
+                               struct ceduo_observed_stops *to)
 {
     double first = fmin(values[0], o->values[0]), last = fmax(values[n - 1], o->values[o->n - 1]);
     size_t of = o->of > 0 ? (size_t)o->of : o->n, all = o->of > 0 ? rocks : n;

@@ -8,7 +8,7 @@
  * farther, as it was seen, and the middle 95 % of samples as large from the simulated rocks. */
 #define CEDUO_SEEN_PLACES 160
 
-struct ceduo_seen_stops {
+struct ceduo_observed_stops {
     bool known;
     double x[CEDUO_SEEN_PLACES]; /* m, relative, evenly apart */
     double seen[CEDUO_SEEN_PLACES], lo[CEDUO_SEEN_PLACES], hi[CEDUO_SEEN_PLACES];
@@ -16,7 +16,7 @@ struct ceduo_seen_stops {
 
 /* `values`: sorted, of the n simulated rocks, of so many, that stopped where rocks were looked for. The others count
  * as farther where it is known how many rocks were released, and otherwise nowhere. */
-void ceduo_seen_stops_of(const struct ceduo_observation *seen, const double *values, size_t n, size_t rocks,
-                         struct ceduo_seen_stops *stops);
+void ceduo_observed_stops_find(const struct ceduo_observation *seen, const double *values, size_t n, size_t rocks,
+                               struct ceduo_observed_stops *stops);
 
 #endif

@@ -42,7 +42,7 @@ static void add_point(struct tracer *t, double x, double z, bool always)
 }
 
 /* A flight in chords from which the parabola departs by less than a step: it departs by g t2/8 from one over t. */
-static void trace_piece(void *context, const struct ceduo_piece *p)
+static void trace_piece(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct tracer *t = context;
     if (t->n == 0)
@@ -56,17 +56,17 @@ static void trace_piece(void *context, const struct ceduo_piece *p)
     add_point(t, p->x1, p->z1, false);
 }
 
-static enum ceduo_status trace(struct ceduo_follower *follower, uint64_t rock, struct tracer *t, struct arena *memory,
+static enum ceduo_status trace(struct ceduo_tracer *follower, uint64_t rock, struct tracer *t, struct arena *memory,
                                struct ceduo_polyline *line)
 {
     struct ceduo_trajectory way;
-    const struct ceduo_watch watch = {.enough = is_cancelled, .piece = trace_piece, .context = t};
+    const struct ceduo_trajectory_callbacks watch = {.enough = is_cancelled, .piece = trace_piece, .context = t};
     t->n = 0;
-    enum ceduo_status status = ceduo_follower_follow(follower, rock, &watch, &way, NULL);
+    enum ceduo_status status = ceduo_tracer_run(follower, rock, &watch, &way, NULL);
     if (status != CEDUO_OK)
         return status;
     add_point(t, way.x, way.z, true);
-    double *x = ceduo_arena_take(memory, 2 * t->n * sizeof *x);
+    double *x = ceduo_arena_alloc(memory, 2 * t->n * sizeof *x);
     if (!x)
         return CEDUO_NO_MEMORY;
     *line = (struct ceduo_polyline){t->n, x, x + t->n};
@@ -95,7 +95,7 @@ static enum ceduo_status read_energies(const struct ceduo_run *run, struct ceduo
         struct ceduo_energies *e = &s->energies[c];
         uint64_t reached = s->flown.arrivals[c].reached;
         size_t max = reached < CEDUO_SNAPSHOT_SAMPLE ? (size_t)reached : CEDUO_SNAPSHOT_SAMPLE;
-        e->values = ceduo_arena_take(&s->memory, (max + 1) * sizeof *e->values);
+        e->values = ceduo_arena_alloc(&s->memory, (max + 1) * sizeof *e->values);
         if (!e->values)
             return CEDUO_NO_MEMORY;
         e->n = ceduo_run_energies(run, c, e->values, max);
@@ -153,10 +153,10 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
     if (status != CEDUO_OK)
         return status;
     size_t trajectories = def->trajectories < s->flown.rocks ? def->trajectories : (size_t)s->flown.rocks;
-    s->energies = ceduo_arena_take(&s->memory, (controls + 1) * sizeof *s->energies);
-    s->envelopes = ceduo_arena_take(&s->memory, (o->cells + 1) * sizeof *s->envelopes);
-    s->trajectories = ceduo_arena_take(&s->memory, (trajectories + 1) * sizeof *s->trajectories);
-    struct ceduo_follower *follower = ceduo_follower_create(def->scene, option);
+    s->energies = ceduo_arena_alloc(&s->memory, (controls + 1) * sizeof *s->energies);
+    s->envelopes = ceduo_arena_alloc(&s->memory, (o->cells + 1) * sizeof *s->envelopes);
+    s->trajectories = ceduo_arena_alloc(&s->memory, (trajectories + 1) * sizeof *s->trajectories);
+    struct ceduo_tracer *follower = ceduo_tracer_create(def->scene, option);
     struct tracer *tracer = malloc(sizeof *tracer);
     status = !s->memory.failed && follower && tracer ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (tracer) {
@@ -171,7 +171,7 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
     for (size_t i = 0; i < trajectories && status == CEDUO_OK; i++)
         status = trace(follower, i, tracer, &s->memory, &s->trajectories[s->trajectories_count++]);
     free(tracer);
-    ceduo_follower_free(follower);
+    ceduo_tracer_free(follower);
     return status;
 }
 
@@ -220,9 +220,9 @@ enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, st
     if (!o)
         return CEDUO_NO_MEMORY;
     o->controls = scene->controls_count;
-    o->cell_x = ceduo_arena_take(&o->memory, CEDUO_SNAPSHOT_CELLS * sizeof *o->cell_x);
-    o->wooded = ceduo_arena_take(&o->memory, (scene->options_count + 1) * sizeof *o->wooded);
-    o->differences = ceduo_arena_take(&o->memory, (scene->options_count * o->controls + 1) * sizeof *o->differences);
+    o->cell_x = ceduo_arena_alloc(&o->memory, CEDUO_SNAPSHOT_CELLS * sizeof *o->cell_x);
+    o->wooded = ceduo_arena_alloc(&o->memory, (scene->options_count + 1) * sizeof *o->wooded);
+    o->differences = ceduo_arena_alloc(&o->memory, (scene->options_count * o->controls + 1) * sizeof *o->differences);
     enum ceduo_status status = o->memory.failed ? CEDUO_NO_MEMORY : CEDUO_OK;
     if (status == CEDUO_OK) {
         o->cells = def->envelope_rocks > 0 ? place_cells(scene, o->cell_x) : 0;
@@ -254,8 +254,8 @@ void ceduo_snapshot_free(struct ceduo_snapshot *o)
     free(o);
 }
 
-const struct ceduo_run_snapshot *ceduo_snapshot_of(const struct ceduo_snapshot *o, const struct ceduo_scene *scene,
-                                                   size_t option)
+const struct ceduo_run_snapshot *ceduo_snapshot_find(const struct ceduo_snapshot *o, const struct ceduo_scene *scene,
+                                                     size_t option)
 {
     if (!o || scene->simulation.contact_model == CEDUO_INDEX)
         return o ? o->bare : NULL;

@@ -73,7 +73,7 @@ void ceduo_snapshot_free(struct ceduo_snapshot *snapshot); /* NULL is allowed */
 /* What is to be seen of an option of the scene as it is now: through its forest, with the contact model index without
  * forest; where its forest was just changed, what was seen of it before, unless that is another option's. NULL: not known
  * yet. */
-const struct ceduo_run_snapshot *ceduo_snapshot_of(const struct ceduo_snapshot *snapshot, const struct ceduo_scene *scene,
-                                                   size_t option);
+const struct ceduo_run_snapshot *ceduo_snapshot_find(const struct ceduo_snapshot *snapshot, const struct ceduo_scene *scene,
+                                                     size_t option);
 
 #endif

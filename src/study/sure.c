@@ -14,12 +14,12 @@
 #define GROUPS CEDUO_SURFACE_GROUPS
 
 struct sure {
-    const struct sure_def *def;
+    const struct reliability_def *def;
     size_t slots; /* of each point and control: today, or years */
-    struct ceduo_groups *values;
+    struct ceduo_replicates *values;
 };
 
-static struct ceduo_groups *values_of(const struct sure *s, size_t row, size_t control)
+static struct ceduo_replicates *values_of(const struct sure *s, size_t row, size_t control)
 {
     return s->values + (row * s->def->of.scene->controls_count + control) * s->slots;
 }
@@ -32,10 +32,10 @@ static double scaled(enum ceduo_goal goal, double value)
 
 /* The mean energy of what arrives, in kJ, of all the groups' rocks; groups differ by what they bring to that mean. By the index it is
  * what this leaves of the mean. */
-static struct ceduo_groups energy_of(const struct point *point, const struct ceduo_control *control,
-                                     const struct ceduo_brief *briefs)
+static struct ceduo_replicates energy_of(const struct point *point, const struct ceduo_control *control,
+                                         const struct ceduo_group_means *briefs)
 {
-    struct ceduo_groups y = {{0}};
+    struct ceduo_replicates y = {{0}};
     double reach = 0, energy = 0;
     for (size_t g = 0; g < GROUPS; g++) {
         reach += briefs[g].reach_probability / GROUPS;
@@ -50,10 +50,10 @@ static struct ceduo_groups energy_of(const struct point *point, const struct ced
 }
 
 /* The goal at a control. */
-static struct ceduo_groups value_of(enum ceduo_goal goal, const struct point *point, const struct ceduo_control *at,
-                                    const struct ceduo_brief *briefs)
+static struct ceduo_replicates value_of(enum ceduo_goal goal, const struct point *point, const struct ceduo_control *at,
+                                        const struct ceduo_group_means *briefs)
 {
-    struct ceduo_groups y;
+    struct ceduo_replicates y;
     if (goal == CEDUO_GOAL_ENERGY)
         return energy_of(point, at, briefs);
     struct ceduo_index index = {0};
@@ -67,7 +67,7 @@ static struct ceduo_groups value_of(enum ceduo_goal goal, const struct point *po
     return y;
 }
 
-static void read_point(void *context, const struct point *point, const struct brought *at)
+static void read_point(void *context, const struct point *point, const struct control_means *at)
 {
     const struct sure *s = context;
     for (size_t c = 0; c < s->def->of.scene->controls_count; c++)
@@ -75,7 +75,7 @@ static void read_point(void *context, const struct point *point, const struct br
             value_of(s->def->goal, point, &point->scene->controls[c], at ? at[c].of : NULL);
 }
 
-static double mean_of(const struct ceduo_groups *y)
+static double mean_of(const struct ceduo_replicates *y)
 {
     double mean = 0;
     for (size_t g = 0; g < GROUPS; g++)
@@ -84,9 +84,9 @@ static double mean_of(const struct ceduo_groups *y)
 }
 
 /* The mean of the years, or the worst of them, for a goal without noise of the rocks. */
-static struct ceduo_groups over_years(const struct sure *s, const struct ceduo_groups *years)
+static struct ceduo_replicates over_years(const struct sure *s, const struct ceduo_replicates *years)
 {
-    struct ceduo_groups y = years[0];
+    struct ceduo_replicates y = years[0];
     for (size_t k = 1; k < s->slots && !ceduo_goal_is_mean(s->def->goal); k++)
         y = mean_of(&years[k]) > mean_of(&y) ? years[k] : y;
     for (size_t g = 0; g < GROUPS && ceduo_goal_is_mean(s->def->goal); g++) {
@@ -100,10 +100,10 @@ static struct ceduo_groups over_years(const struct sure *s, const struct ceduo_g
 /* Shares of few rocks in the worst year. The largest of many noisy shares is too large, so that each year is read from its
  * surface, as far as there is one. `y`: the control at all points. */
 static enum ceduo_status read_worst(const struct sure *s, struct ceduo_surface *surface, size_t points, size_t control,
-                                    struct ceduo_groups *y)
+                                    struct ceduo_replicates *y)
 {
     size_t n = s->slots * points;
-    struct ceduo_groups *years = malloc(2 * n * sizeof *years), *changes = years + n;
+    struct ceduo_replicates *years = malloc(2 * n * sizeof *years), *changes = years + n;
     double *values = malloc(n * sizeof *values);
     enum ceduo_status status = years && values ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; status == CEDUO_OK && i < n; i++)
@@ -115,7 +115,7 @@ static enum ceduo_status read_worst(const struct sure *s, struct ceduo_surface *
         size_t worst = p;
         for (size_t i = p; i < n; i += points)
             worst = values[i] > values[worst] ? i : worst;
-        ceduo_groups_set(&y[p], values[worst], changes[worst].of);
+        ceduo_replicates_from_half_samples(&y[p], values[worst], changes[worst].of);
     }
     free(years);
     free(values);
@@ -124,10 +124,10 @@ static enum ceduo_status read_worst(const struct sure *s, struct ceduo_surface *
 
 /* Sets the goal at the worst control of each point. `surface` NULL: there is one point. */
 static enum ceduo_status fill_column(const struct sure *s, struct ceduo_surface *surface, size_t points,
-                                     struct ceduo_groups *column)
+                                     struct ceduo_replicates *column)
 {
     bool worst = surface && s->slots > 1 && ceduo_goal_is_worst(s->def->goal);
-    struct ceduo_groups *y = malloc(points * sizeof *y);
+    struct ceduo_replicates *y = malloc(points * sizeof *y);
     enum ceduo_status status = y ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t c = 0; c < s->def->of.scene->controls_count && status == CEDUO_OK; c++) {
         for (size_t p = 0; p < points && !worst; p++)
@@ -148,8 +148,8 @@ static double quantile_above(const struct ceduo_surface_fit *fit, size_t points,
 }
 
 /* What the values of a surface say. */
-static enum ceduo_status read_surface(const struct sure_def *def, struct ceduo_surface *surface, size_t points,
-                                      const struct ceduo_groups *column, struct sure_answer *answer)
+static enum ceduo_status read_surface(const struct reliability_def *def, struct ceduo_surface *surface, size_t points,
+                                      const struct ceduo_replicates *column, struct reliability_result *answer)
 {
     struct ceduo_surface_fit fit = {0};
     bool inverse = def->goal == CEDUO_GOAL_ADC; /* below 0, as nothing else is */
@@ -163,15 +163,15 @@ static enum ceduo_status read_surface(const struct sure_def *def, struct ceduo_s
     if (status == CEDUO_OK) {
         double half = fmax(CEDUO_Z95 * fit.below.se, 2 / (double)points); /* a share and its quantile have steps of a point */
         gsl_sort(fit.values, 1, points);
-        *answer = (struct sure_answer){fit.below, quantile_above(&fit, points, def->sure, figure.limit),
-                                       quantile_above(&fit, points, def->sure - half, figure.limit),
-                                       quantile_above(&fit, points, def->sure + half, figure.limit)};
+        *answer = (struct reliability_result){fit.below, quantile_above(&fit, points, def->sure, figure.limit),
+                                              quantile_above(&fit, points, def->sure - half, figure.limit),
+                                              quantile_above(&fit, points, def->sure + half, figure.limit)};
     }
     ceduo_surface_release(&fit);
     return status;
 }
 
-enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer *answer)
+enum ceduo_status ceduo_reliability_compute(const struct reliability_def *def, struct reliability_result *answer)
 {
     GSL_RETURNS_ERRORS;
     struct ceduo_uncertainty_def of = def->of;
@@ -183,7 +183,7 @@ enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer 
     of.alone = true;
     of.rocks = !ceduo_goals[def->goal].flies ? 0 : of.rocks > GROUPS ? of.rocks : GROUPS;
     double *u = malloc((points * n + 1) * sizeof *u);
-    struct ceduo_groups *column = malloc(points * sizeof *column);
+    struct ceduo_replicates *column = malloc(points * sizeof *column);
     struct ceduo_surface *surface = NULL;
     s.values = malloc(points * scene->controls_count * s.slots * sizeof *s.values + 1);
     enum ceduo_status status = u && column && s.values ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -200,7 +200,7 @@ enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer 
         status = read_surface(def, surface, points, column, answer);
     } else if (status == CEDUO_OK) {
         double above = mean_of(column) - scaled(def->goal, def->target);
-        *answer = (struct sure_answer){{above <= 0, 0}, above, above, above};
+        *answer = (struct reliability_result){{above <= 0, 0}, above, above, above};
     }
     ceduo_surface_free(surface);
     free(u);

@@ -209,7 +209,7 @@ static void make_functions(struct ceduo_surface *s, size_t i)
     *of = (struct inputs_functions){.first = s->functions_count};
     if (table) {
         of->levels = words ? input->words_count : input->draws_count;
-        if (!(of->table = ceduo_arena_take(&s->memory, of->levels * TABLE_MAX * sizeof *of->table)))
+        if (!(of->table = ceduo_arena_alloc(&s->memory, of->levels * TABLE_MAX * sizeof *of->table)))
             return;
     }
     for (size_t c = 0; c < columns && c < TABLE_MAX; c++) {
@@ -226,7 +226,7 @@ static void make_functions(struct ceduo_surface *s, size_t i)
 static void take_parts(struct ceduo_surface *s, struct parts *parts)
 {
     parts->n = 2 * s->inputs_count + 1;
-    parts->of = ceduo_arena_take(&s->memory, parts->n * sizeof *parts->of);
+    parts->of = ceduo_arena_alloc(&s->memory, parts->n * sizeof *parts->of);
     parts->spare = parts->of ? parts->of + parts->n - 1 : NULL;
 }
 
@@ -241,12 +241,12 @@ enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n,
     if (!s)
         return CEDUO_NO_MEMORY;
     *s = (struct ceduo_surface){.inputs = inputs, .u = u, .points = points, .inputs_count = n, .c.points = points};
-    s->of = ceduo_arena_take(&s->memory, (n + 1) * sizeof *s->of);
-    s->input = ceduo_arena_take(&s->memory, (n * TABLE_MAX + 1) * sizeof *s->input);
-    s->multipliers = ceduo_arena_take(&s->memory, SAMPLES * points * sizeof *s->multipliers);
-    s->c.y = ceduo_arena_take(&s->memory, (GROUPS + 1) * points * sizeof *s->c.y);
-    s->used = ceduo_arena_take(&s->memory, (n + 1) * sizeof *s->used);
-    s->values = ceduo_arena_take(&s->memory, points * sizeof *s->values);
+    s->of = ceduo_arena_alloc(&s->memory, (n + 1) * sizeof *s->of);
+    s->input = ceduo_arena_alloc(&s->memory, (n * TABLE_MAX + 1) * sizeof *s->input);
+    s->multipliers = ceduo_arena_alloc(&s->memory, SAMPLES * points * sizeof *s->multipliers);
+    s->c.y = ceduo_arena_alloc(&s->memory, (GROUPS + 1) * points * sizeof *s->c.y);
+    s->used = ceduo_arena_alloc(&s->memory, (n + 1) * sizeof *s->used);
+    s->values = ceduo_arena_alloc(&s->memory, points * sizeof *s->values);
     take_parts(s, &s->found);
     take_parts(s, &s->other);
     for (size_t b = 0; !s->memory.failed && b < SAMPLES; b++)
@@ -254,8 +254,8 @@ enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n,
             s->multipliers[b * points + p] = gsl_cdf_ugaussian_Pinv(random_open(b, p, 0, RANDOM_SAMPLE));
     for (size_t i = 0; i < n && !s->memory.failed; i++)
         make_functions(s, i);
-    s->at = ceduo_arena_take(&s->memory, (s->functions_count + 1) * points * sizeof *s->at);
-    s->room = ceduo_arena_take(&s->memory, (s->functions_count + TABLE_MAX + 3) * points * sizeof *s->room);
+    s->at = ceduo_arena_alloc(&s->memory, (s->functions_count + 1) * points * sizeof *s->at);
+    s->room = ceduo_arena_alloc(&s->memory, (s->functions_count + TABLE_MAX + 3) * points * sizeof *s->room);
     for (size_t i = 0; i < n && !s->memory.failed; i++)
         fill_functions(s, i, 0, s->at);
     return s->memory.failed ? CEDUO_NO_MEMORY : CEDUO_OK;
@@ -363,20 +363,20 @@ static struct solution *solution_of(struct ceduo_surface *s, const struct chosen
         f->chosen.linear == chosen->linear && memcmp(f->chosen.used, chosen->used, bytes) == 0)
         return f;
     close_solution(f);
-    size_t *used = ceduo_arena_take(&f->memory, bytes + 1);
+    size_t *used = ceduo_arena_alloc(&f->memory, bytes + 1);
     f->s = s;
-    f->terms.items = ceduo_arena_take(&f->memory, points * sizeof *f->terms.items);
+    f->terms.items = ceduo_arena_alloc(&f->memory, points * sizeof *f->terms.items);
     if (f->memory.failed)
         return NULL;
     size_t n = list_terms(s, chosen, &f->terms);
-    f->x = ceduo_arena_take(&f->memory, points * n * sizeof *f->x);
-    f->means = ceduo_arena_take(&f->memory, n * sizeof *f->means);
-    f->coefficient = ceduo_arena_take(&f->memory, (GROUPS + 1) * n * sizeof *f->coefficient);
-    f->change = ceduo_arena_take(&f->memory, n * sizeof *f->change);
-    f->spread = ceduo_arena_take(&f->memory, n * sizeof *f->spread);
-    f->room = ceduo_arena_take(&f->memory, n * sizeof *f->room);
-    f->remains = ceduo_arena_take(&f->memory, (GROUPS + 1) * points * sizeof *f->remains);
-    f->leverage = ceduo_arena_take(&f->memory, points * sizeof *f->leverage);
+    f->x = ceduo_arena_alloc(&f->memory, points * n * sizeof *f->x);
+    f->means = ceduo_arena_alloc(&f->memory, n * sizeof *f->means);
+    f->coefficient = ceduo_arena_alloc(&f->memory, (GROUPS + 1) * n * sizeof *f->coefficient);
+    f->change = ceduo_arena_alloc(&f->memory, n * sizeof *f->change);
+    f->spread = ceduo_arena_alloc(&f->memory, n * sizeof *f->spread);
+    f->room = ceduo_arena_alloc(&f->memory, n * sizeof *f->room);
+    f->remains = ceduo_arena_alloc(&f->memory, (GROUPS + 1) * points * sizeof *f->remains);
+    f->leverage = ceduo_arena_alloc(&f->memory, points * sizeof *f->leverage);
     f->work = gsl_multifit_linear_alloc(points, n);
     for (size_t j = 0; j < n && !f->memory.failed; j++) {
         for (size_t p = 0; p < points; p++) {
@@ -493,7 +493,7 @@ static struct solution *fit_terms(struct ceduo_surface *s, const struct chosen *
 /* ---- values ---- */
 
 /* Makes a figure the one at hand: `groups` of each point, of n figures their sum. */
-static void fill_column(struct column *c, const struct ceduo_groups *groups, size_t n)
+static void fill_column(struct column *c, const struct ceduo_replicates *groups, size_t n)
 {
     double points = (double)c->points, squares = 0, common = 0, *mean = c->y + GROUPS * c->points;
     memset(c->y, 0, (GROUPS + 1) * c->points * sizeof *c->y);
@@ -920,7 +920,7 @@ void ceduo_surface_release(struct ceduo_surface_fit *fit)
 /* ---- values alone ---- */
 
 enum ceduo_status ceduo_surface_values(struct ceduo_surface *s, const struct ceduo_surface_figure *figure, size_t n,
-                                       double *values, struct ceduo_groups *changes)
+                                       double *values, struct ceduo_replicates *changes)
 {
     GSL_RETURNS_ERRORS;
     struct chosen chosen;
@@ -947,7 +947,8 @@ enum ceduo_status ceduo_surface_values(struct ceduo_surface *s, const struct ced
 }
 
 /* Sums over the halves are sums over the groups again. */
-void ceduo_groups_set(struct ceduo_groups *groups, double value, const double changes[CEDUO_SURFACE_GROUPS])
+void ceduo_replicates_from_half_samples(struct ceduo_replicates *groups, double value,
+                                        const double changes[CEDUO_SURFACE_GROUPS])
 {
     for (size_t g = 0; g < GROUPS; g++) {
         groups->of[g] = value;

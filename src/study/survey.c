@@ -17,7 +17,7 @@
 
 struct surveyor {
     const struct ceduo_survey *survey;
-    struct ceduo_survey_answer *answer;
+    struct ceduo_survey_result *answer;
     struct arena memory;
     double *counts;     /* of each plot */
     double *heights;    /* of each stem, m: measured or made */
@@ -59,8 +59,8 @@ static bool count_stools(struct surveyor *s)
         double spacing;
         size_t measured;
         bool counted;
-    } *stools = ceduo_arena_take(&s->memory, (survey->stools_count + 1) * sizeof *stools);
-    double *spacings = ceduo_arena_take(&s->memory, (survey->stools_count + 1) * sizeof *spacings);
+    } *stools = ceduo_arena_alloc(&s->memory, (survey->stools_count + 1) * sizeof *stools);
+    double *spacings = ceduo_arena_alloc(&s->memory, (survey->stools_count + 1) * sizeof *spacings);
     size_t n = 0;
     if (!stools || !spacings)
         return false;
@@ -84,7 +84,7 @@ static bool count_stools(struct surveyor *s)
 
 /* ---- species ---- */
 
-double ceduo_survey_basal(const struct ceduo_survey *survey, int species)
+double ceduo_survey_basal_area(const struct ceduo_survey *survey, int species)
 {
     double sum = 0;
     for (size_t i = 0; i < survey->stems_count; i++) {
@@ -102,7 +102,7 @@ static int main_species(const struct ceduo_survey *survey)
     int best = -1;
     double most = 0;
     for (int k = 0; k < (int)count; k++) {
-        double area = ceduo_survey_basal(survey, k);
+        double area = ceduo_survey_basal_area(survey, k);
         best = area > most ? k : best;
         most = fmax(area, most);
     }
@@ -228,7 +228,7 @@ static void fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ce
 static bool make_classes(struct surveyor *s)
 {
     const struct ceduo_survey *survey = s->survey;
-    bool *present = ceduo_arena_take(&s->memory, CEDUO_SURVEY_KINDS_COUNT * CLASSES_MAX * sizeof *present);
+    bool *present = ceduo_arena_alloc(&s->memory, CEDUO_SURVEY_KINDS_COUNT * CLASSES_MAX * sizeof *present);
     size_t n = 0;
     for (size_t i = 0; present && i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
@@ -245,16 +245,16 @@ static bool make_classes(struct surveyor *s)
 
 /* ---- the whole ---- */
 
-enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ceduo_survey_answer *a)
+enum ceduo_status ceduo_survey_compute(const struct ceduo_survey *survey, struct ceduo_survey_result *a)
 {
     GSL_RETURNS_ERRORS;
     struct surveyor s = {.survey = survey, .answer = a};
-    *a = (struct ceduo_survey_answer){0};
+    *a = (struct ceduo_survey_result){0};
     if (ceduo_check_survey(survey) != CEDUO_OK)
         return CEDUO_BAD_ARGUMENT;
-    s.counts = ceduo_arena_take(&s.memory, (survey->plots_count + 1) * sizeof *s.counts);
-    s.heights = ceduo_arena_take(&s.memory, (survey->stems_count + 1) * sizeof *s.heights);
-    s.pairs = ceduo_arena_take(&s.memory, (2 * survey->stems_count + 1) * sizeof *s.pairs);
+    s.counts = ceduo_arena_alloc(&s.memory, (survey->plots_count + 1) * sizeof *s.counts);
+    s.heights = ceduo_arena_alloc(&s.memory, (survey->stems_count + 1) * sizeof *s.heights);
+    s.pairs = ceduo_arena_alloc(&s.memory, (2 * survey->stems_count + 1) * sizeof *s.pairs);
     bool good = !s.memory.failed;
     for (int kind = 0; good && kind < CEDUO_SURVEY_KINDS_COUNT; kind++) {
         for (size_t i = 0; i < survey->stems_count; i++)
@@ -273,8 +273,8 @@ enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ced
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
-void ceduo_survey_free(struct ceduo_survey_answer *answer)
+void ceduo_survey_free(struct ceduo_survey_result *answer)
 {
     free(answer->classes);
-    *answer = (struct ceduo_survey_answer){0};
+    *answer = (struct ceduo_survey_result){0};
 }

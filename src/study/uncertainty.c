@@ -24,16 +24,16 @@
 /* Rows of inputs: two for each input, with it at its ends and all others NaN, then the points. */
 struct rows {
     const struct ceduo_uncertainty_def *def;
-    struct ceduo_uncertainty_answer *answer;
+    struct ceduo_uncertainty_result *answer;
     struct arena memory;
     size_t ends, points, options, most; /* most: points */
     double *u;
-    struct ceduo_groups *values; /* of each row, option and kind */
+    struct ceduo_replicates *values; /* of each row, option and kind */
     enum ceduo_uncertainty_kind judged;
-    double released;             /* J: mean energy per released rock without forest */
-    size_t *years, *first_year;  /* of each option how many, and where they begin; NULL: not asked for */
-    double *year_counts;         /* of each option how many years these stand for */
-    struct ceduo_groups *shares; /* of each year and point */
+    double released;                 /* J: mean energy per released rock without forest */
+    size_t *years, *first_year;      /* of each option how many, and where they begin; NULL: not asked for */
+    double *year_counts;             /* of each option how many years these stand for */
+    struct ceduo_replicates *shares; /* of each year and point */
     bool deciding; /* only figures that decide whether there are points enough are read; otherwise only the others */
     struct ceduo_uncertainty_ranking *ranking; /* that is made */
     size_t all;                                /* evaluations, for the progress */
@@ -46,7 +46,7 @@ static bool is_asked(const struct rows *r, size_t option)
     return !r->def->alone || option == r->def->option;
 }
 
-static struct ceduo_groups *values_of(const struct rows *r, size_t row, size_t option)
+static struct ceduo_replicates *values_of(const struct rows *r, size_t row, size_t option)
 {
     return r->values + (row * r->options + option) * CEDUO_UNCERTAINTY_KINDS;
 }
@@ -70,15 +70,15 @@ static double limit_of(const struct ceduo_scene *scene)
     return ceduo_exceed_limit(scene, &scene->controls[ceduo_scene_last_control(scene)]);
 }
 
-static void read_point(void *context, const struct point *point, const struct brought *at)
+static void read_point(void *context, const struct point *point, const struct control_means *at)
 {
     const struct rows *r = context;
     size_t last = ceduo_scene_last_control(point->scene);
-    struct ceduo_groups *values = values_of(r, point->row, point->option);
+    struct ceduo_replicates *values = values_of(r, point->row, point->option);
     /* With blocks a share means a rate: if more come down, as large a share is more. */
     double weight = limit_of(r->def->scene) / limit_of(point->scene);
     for (size_t g = 0; g < GROUPS && point->slot > 0; g++) {
-        const struct ceduo_brief *b = &at[last].of[g];
+        const struct ceduo_group_means *b = &at[last].of[g];
         double share = r->judged == CEDUO_UNCERTAINTY_EXCEED ? weight * b->exceed_probability : b->reach_probability;
         double *mean = &values[CEDUO_UNCERTAINTY_MEAN].of[g]; /* of the years, added up as they come */
         r->shares[(r->first_year[point->option] + point->slot - 1) * r->most + point->row - r->ends].of[g] = share;
@@ -98,18 +98,18 @@ static void read_point(void *context, const struct point *point, const struct br
 
 /* Room for all rows, and for the years of a rotation. */
 static enum ceduo_status open_rows(struct rows *r, const struct ceduo_uncertainty_def *def,
-                                   struct ceduo_uncertainty_answer *answer)
+                                   struct ceduo_uncertainty_result *answer)
 {
     size_t n = def->inputs_count, years = 0;
     *r = (struct rows){.def = def, .answer = answer, .ends = def->brief ? 0 : 2 * n, .options = def->scene->options_count};
     r->most = def->points_max > 0 ? def->points_max : CEDUO_UNCERTAINTY_POINTS_MAX;
     r->most = def->points > r->most ? def->points : r->most;
-    r->u = ceduo_arena_take(&r->memory, (r->ends + r->most) * n * sizeof *r->u);
-    r->values = ceduo_arena_take(&r->memory, (r->ends + r->most) * r->options * CEDUO_UNCERTAINTY_KINDS * sizeof *r->values);
+    r->u = ceduo_arena_alloc(&r->memory, (r->ends + r->most) * n * sizeof *r->u);
+    r->values = ceduo_arena_alloc(&r->memory, (r->ends + r->most) * r->options * CEDUO_UNCERTAINTY_KINDS * sizeof *r->values);
     if (def->rotation) {
-        r->years = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->years);
-        r->first_year = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->first_year);
-        r->year_counts = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->year_counts);
+        r->years = ceduo_arena_alloc(&r->memory, (r->options + 1) * sizeof *r->years);
+        r->first_year = ceduo_arena_alloc(&r->memory, (r->options + 1) * sizeof *r->first_year);
+        r->year_counts = ceduo_arena_alloc(&r->memory, (r->options + 1) * sizeof *r->year_counts);
     }
     for (size_t i = 0; r->years && !r->memory.failed && i < r->options; i++) {
         r->years[i] = ceduo_points_years(def);
@@ -117,7 +117,7 @@ static enum ceduo_status open_rows(struct rows *r, const struct ceduo_uncertaint
         r->first_year[i] = years;
         years += r->years[i];
     }
-    r->shares = ceduo_arena_take(&r->memory, years * r->most * sizeof *r->shares);
+    r->shares = ceduo_arena_alloc(&r->memory, years * r->most * sizeof *r->shares);
     if (r->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t row = 0; row < r->ends; row++)
@@ -145,8 +145,9 @@ static size_t figure_at(size_t options, size_t option, enum ceduo_uncertainty_ki
     return (difference ? options + option - 1 : option) * CEDUO_UNCERTAINTY_KINDS + kind;
 }
 
-const struct ceduo_uncertainty_figure *ceduo_uncertainty_figure_of(const struct ceduo_uncertainty_answer *answer, size_t option,
-                                                                   enum ceduo_uncertainty_kind kind, bool difference)
+const struct ceduo_uncertainty_figure *ceduo_uncertainty_find_figure(const struct ceduo_uncertainty_result *answer,
+                                                                     size_t option, enum ceduo_uncertainty_kind kind,
+                                                                     bool difference)
 {
     size_t options = (answer->figures_count / CEDUO_UNCERTAINTY_KINDS + 1) / 2;
     if (option >= options || kind >= CEDUO_UNCERTAINTY_KINDS || (difference && option == 0))
@@ -171,17 +172,17 @@ struct subject {
     struct ceduo_surface *surface;
     bool *has, *uses; /* inputs of the options; those that the figure at hand may depend on */
     double *left;     /* of each input */
-    struct ceduo_groups *column;
+    struct ceduo_replicates *column;
 };
 
 static enum ceduo_status open_subject(const struct rows *r, size_t option, size_t against, struct subject *s)
 {
     size_t n = r->def->inputs_count;
     *s = (struct subject){.option = option, .against = against};
-    s->has = ceduo_arena_take(&s->memory, n * sizeof *s->has);
-    s->uses = ceduo_arena_take(&s->memory, n * sizeof *s->uses);
-    s->left = ceduo_arena_take(&s->memory, n * sizeof *s->left);
-    s->column = ceduo_arena_take(&s->memory, r->points * sizeof *s->column);
+    s->has = ceduo_arena_alloc(&s->memory, n * sizeof *s->has);
+    s->uses = ceduo_arena_alloc(&s->memory, n * sizeof *s->uses);
+    s->left = ceduo_arena_alloc(&s->memory, n * sizeof *s->left);
+    s->column = ceduo_arena_alloc(&s->memory, r->points * sizeof *s->column);
     enum ceduo_status status = ceduo_surface_open(r->def->inputs, n, r->u + r->ends * n, r->points, &s->surface);
     if (s->memory.failed)
         return CEDUO_NO_MEMORY;
@@ -197,9 +198,10 @@ static void close_subject(struct subject *s)
 }
 
 /* What a row has of a subject: of a difference that of its option less that of the other. */
-static struct ceduo_groups value_at(const struct rows *r, const struct subject *s, size_t row, enum ceduo_uncertainty_kind kind)
+static struct ceduo_replicates value_at(const struct rows *r, const struct subject *s, size_t row,
+                                        enum ceduo_uncertainty_kind kind)
 {
-    struct ceduo_groups y = values_of(r, row, s->option)[kind];
+    struct ceduo_replicates y = values_of(r, row, s->option)[kind];
     for (size_t g = 0; s->option != s->against && g < GROUPS; g++)
         y.of[g] -= values_of(r, row, s->against)[kind].of[g];
     return y;
@@ -251,7 +253,7 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
     if (f->kind == CEDUO_UNCERTAINTY_FAILING)
         max = fmax(r->year_counts[s->option], r->year_counts[s->against]);
     for (size_t row = 0; row < r->ends; row++) {
-        const struct ceduo_groups y = value_at(r, s, row, f->kind);
+        const struct ceduo_replicates y = value_at(r, s, row, f->kind);
         f->at[row / 2][row % 2] = is_rotation(f->kind) ? NAN : ceduo_groups_mean(&y, def->rocks);
     }
     ceduo_surface_release(&f->fit);
@@ -325,10 +327,10 @@ static int count_years(void *context, size_t option, size_t worker)
     double limit = limit_of(r->def->scene);
     struct subject s;
     enum ceduo_status status = open_subject(r, option, option, &s);
-    double *values = ceduo_arena_take(&s.memory, years * points * sizeof *values),
+    double *values = ceduo_arena_alloc(&s.memory, years * points * sizeof *values),
            each = r->year_counts[option] / (double)years;
-    struct ceduo_groups *y = ceduo_arena_take(&s.memory, years * points * sizeof *y);
-    struct ceduo_groups *changes = ceduo_arena_take(&s.memory, years * points * sizeof *changes);
+    struct ceduo_replicates *y = ceduo_arena_alloc(&s.memory, years * points * sizeof *y);
+    struct ceduo_replicates *changes = ceduo_arena_alloc(&s.memory, years * points * sizeof *changes);
     status = s.memory.failed ? CEDUO_NO_MEMORY : status;
     if (status == CEDUO_OK) {
         choose_inputs(r, &s, CEDUO_UNCERTAINTY_FAILING);
@@ -338,7 +340,7 @@ static int count_years(void *context, size_t option, size_t worker)
         status = ceduo_surface_values(s.surface, &figure, years, values, changes);
     }
     for (size_t p = 0; p < points && status == CEDUO_OK; p++) {
-        struct ceduo_groups *failing = &values_of(r, r->ends + p, option)[CEDUO_UNCERTAINTY_FAILING];
+        struct ceduo_replicates *failing = &values_of(r, r->ends + p, option)[CEDUO_UNCERTAINTY_FAILING];
         double all = 0, halves[GROUPS] = {0};
         for (size_t k = p; k < years * points; k += points) {
             all += each * (values[k] > limit);
@@ -346,7 +348,7 @@ static int count_years(void *context, size_t option, size_t worker)
                 halves[half] +=
                     each / 2 * ((values[k] + changes[k].of[half] > limit) - (values[k] - changes[k].of[half] > limit));
         }
-        ceduo_groups_set(failing, all, halves);
+        ceduo_replicates_from_half_samples(failing, all, halves);
     }
     close_subject(&s);
     return (int)status;
@@ -355,11 +357,11 @@ static int count_years(void *context, size_t option, size_t worker)
 /* Whether more points would tell more: a surface of an option explains too little. */
 static bool wants_more(const struct rows *r)
 {
-    const struct ceduo_uncertainty_answer *a = r->answer;
+    const struct ceduo_uncertainty_result *a = r->answer;
     for (size_t i = 0; i < r->options; i++)
         for (size_t over = is_asked(r, i) ? 0 : 2; over < (r->years ? 2 : 1); over++) {
             const struct ceduo_surface_fit *fit =
-                &ceduo_uncertainty_figure_of(a, i, over ? CEDUO_UNCERTAINTY_MEAN : a->main, false)->fit;
+                &ceduo_uncertainty_find_figure(a, i, over ? CEDUO_UNCERTAINTY_MEAN : a->main, false)->fit;
             if (fit->enough && !fit->linear ? fit->explained < CEDUO_UNCERTAINTY_EXPLAINED
                                             : fit->variance > 0 && r->points >= CEDUO_UNCERTAINTY_POINTS)
                 return true;
@@ -378,7 +380,7 @@ static void set_sampling(struct ceduo_uncertainty_figure *f, struct ceduo_estima
 
 static void set_years(const struct rows *r, struct ceduo_years *const *years, bool judges)
 {
-    struct ceduo_uncertainty_answer *answer = r->answer;
+    struct ceduo_uncertainty_result *answer = r->answer;
     double first[3] = {0};
     for (size_t i = 0, options = r->options; i < options; i++) {
         size_t control = years[i]->last_control;
@@ -414,10 +416,10 @@ static void set_years(const struct rows *r, struct ceduo_years *const *years, bo
 static enum ceduo_status read_sampling(struct rows *rows)
 {
     const struct ceduo_uncertainty_def *def = rows->def;
-    struct ceduo_uncertainty_answer *answer = rows->answer;
-    struct ceduo_question q = ceduo_question_default(def->scene);
-    struct ceduo_answer asked = {0};
-    const struct ceduo_answer *is = def->own ? def->own : &asked;
+    struct ceduo_uncertainty_result *answer = rows->answer;
+    struct ceduo_request q = ceduo_request_default(def->scene);
+    struct ceduo_results asked = {0};
+    const struct ceduo_results *is = def->own ? def->own : &asked;
     size_t options = def->scene->options_count;
     q.rocks = q.run.rocks_most = def->own_rocks > 0 ? def->own_rocks : def->rocks;
     q.run.threads = def->threads;
@@ -426,7 +428,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
     q.years = rows->years;
     q.window = def->window;
     q.year_rocks = CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS;
-    enum ceduo_status status = def->own ? CEDUO_OK : ceduo_ask(&q, NULL, &asked);
+    enum ceduo_status status = def->own ? CEDUO_OK : ceduo_simulate_request(&q, NULL, &asked);
     answer->own_rocks = status == CEDUO_OK ? ceduo_result_rocks(is->result) : 0;
     for (size_t i = 0; status == CEDUO_OK && i < options; i++) {
         const struct ceduo_result *r = is->result;
@@ -455,7 +457,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
         if (rows->years)
             set_years(rows, is->years, judges);
     }
-    ceduo_answer_release(&asked);
+    ceduo_results_release(&asked);
     return status;
 }
 
@@ -463,7 +465,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
 
 static double value_of(const struct rows *r, size_t option, enum ceduo_uncertainty_kind kind)
 {
-    return ceduo_uncertainty_figure_of(r->answer, option, kind, false)->value;
+    return ceduo_uncertainty_find_figure(r->answer, option, kind, false)->value;
 }
 
 /* How two options compare, by the surface of their difference. */
@@ -499,8 +501,8 @@ static int compare_pair(void *context, size_t item, size_t worker)
 
 static enum ceduo_status rank_options(struct rows *r, bool rotation, struct ceduo_uncertainty_ranking *ranking)
 {
-    size_t options = r->options, *ranks = ceduo_arena_take(&r->memory, options * sizeof *ranks);
-    double *values = ceduo_arena_take(&r->memory, options * sizeof *values);
+    size_t options = r->options, *ranks = ceduo_arena_alloc(&r->memory, options * sizeof *ranks);
+    double *values = ceduo_arena_alloc(&r->memory, options * sizeof *values);
     r->ranking = ranking;
     ranking->rotation = rotation;
     ranking->orders = calloc(options, sizeof *ranking->orders);
@@ -516,7 +518,7 @@ static enum ceduo_status rank_options(struct rows *r, bool rotation, struct cedu
     return (enum ceduo_status)ceduo_parallel(&(struct parallel){ranking->count, r->def->threads, compare_pair, r});
 }
 
-const struct ceduo_uncertainty_ranking *ceduo_uncertainty_verdict(const struct ceduo_uncertainty_answer *answer)
+const struct ceduo_uncertainty_ranking *ceduo_uncertainty_ranking_by(const struct ceduo_uncertainty_result *answer)
 {
     return answer->rotation ? &answer->over_rotation : &answer->today;
 }
@@ -526,7 +528,7 @@ const struct ceduo_uncertainty_ranking *ceduo_uncertainty_verdict(const struct c
 /* Room for all figures, with what they say of each input behind them. */
 static enum ceduo_status open_answer(struct rows *r)
 {
-    struct ceduo_uncertainty_answer *a = r->answer;
+    struct ceduo_uncertainty_result *a = r->answer;
     size_t n = r->def->inputs_count, count = (2 * r->options - 1) * CEDUO_UNCERTAINTY_KINDS;
     a->figures = calloc(count, sizeof *a->figures + n * (sizeof *a->figures->at + sizeof *a->figures->order));
     if (!a->figures)
@@ -551,12 +553,12 @@ struct ceduo_uncertainty_def ceduo_uncertainty_def_default(const struct ceduo_sc
         .scene = scene, .points = CEDUO_UNCERTAINTY_POINTS, .rocks = CEDUO_UNCERTAINTY_ROCKS, .threads = 1};
 }
 
-enum ceduo_status ceduo_uncertainty_ask(const struct ceduo_uncertainty_def *def, struct ceduo_uncertainty_answer *answer)
+enum ceduo_status ceduo_uncertainty_compute(const struct ceduo_uncertainty_def *def, struct ceduo_uncertainty_result *answer)
 {
     GSL_RETURNS_ERRORS;
     struct rows rows;
     struct ceduo_uncertainty_def enough = *def;
-    *answer = (struct ceduo_uncertainty_answer){0};
+    *answer = (struct ceduo_uncertainty_result){0};
     enum ceduo_status status = ceduo_check_uncertainty_def(def);
     if (status != CEDUO_OK)
         return status;
@@ -591,22 +593,22 @@ enum ceduo_status ceduo_uncertainty_ask(const struct ceduo_uncertainty_def *def,
     return status;
 }
 
-void ceduo_uncertainty_free(struct ceduo_uncertainty_answer *answer)
+void ceduo_uncertainty_free(struct ceduo_uncertainty_result *answer)
 {
     for (size_t i = 0; i < answer->figures_count; i++)
         ceduo_surface_release(&answer->figures[i].fit);
     free(answer->figures);
     free(answer->today.orders);
     free(answer->over_rotation.orders);
-    *answer = (struct ceduo_uncertainty_answer){0};
+    *answer = (struct ceduo_uncertainty_result){0};
 }
 
 /* ---- what a light hangs on ---- */
 
-size_t ceduo_uncertainty_depends(const struct ceduo_scene *scene, const struct ceduo_uncertainty_answer *a, size_t option,
-                                 enum ceduo_uncertainty_kind light, size_t inputs[2])
+size_t ceduo_uncertainty_dominant_inputs(const struct ceduo_scene *scene, const struct ceduo_uncertainty_result *a,
+                                         size_t option, enum ceduo_uncertainty_kind light, size_t inputs[2])
 {
-    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(a, option, light, false);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(a, option, light, false);
     if (!f)
         return 0;
     double limit = light == CEDUO_UNCERTAINTY_EXCEED    ? limit_of(scene)

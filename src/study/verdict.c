@@ -9,27 +9,27 @@
 #include "ceduo/uncertainty.h"
 
 /* Half the interval if rocks have weights, otherwise by the number of rocks. */
-static struct ceduo_portion portion_of(const struct ceduo_arrivals *a, struct ceduo_estimate share)
+static struct ceduo_mean_share portion_of(const struct ceduo_arrivals *a, struct ceduo_estimate share)
 {
     double p = share.mean, half = isnan(a->hazard.per_year)
                                       ? ceduo_half_width_of_share(p, ceduo_share_se(p, (double)a->released), a->released)
                                       : (share.hi - share.lo) / 2;
-    return (struct ceduo_portion){p, half};
+    return (struct ceduo_mean_share){p, half};
 }
 
-struct ceduo_portion ceduo_share_arriving(const struct ceduo_arrivals *a)
+struct ceduo_mean_share ceduo_share_arriving(const struct ceduo_arrivals *a)
 {
-    return a ? portion_of(a, a->reach) : (struct ceduo_portion){NAN, NAN};
+    return a ? portion_of(a, a->reach) : (struct ceduo_mean_share){NAN, NAN};
 }
 
-struct ceduo_portion ceduo_share_exceeding(const struct ceduo_arrivals *a)
+struct ceduo_mean_share ceduo_share_exceeding(const struct ceduo_arrivals *a)
 {
-    return a ? portion_of(a, a->exceed) : (struct ceduo_portion){NAN, NAN};
+    return a ? portion_of(a, a->exceed) : (struct ceduo_mean_share){NAN, NAN};
 }
 
-struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *a)
+struct ceduo_mean_share ceduo_share_at(const struct ceduo_arrivals *a)
 {
-    return a ? portion_of(a, ceduo_judged_share(a)) : (struct ceduo_portion){NAN, NAN};
+    return a ? portion_of(a, ceduo_judged_share(a)) : (struct ceduo_mean_share){NAN, NAN};
 }
 
 /* The difference of what is compared. */
@@ -83,8 +83,8 @@ static struct ceduo_estimate difference_today(const void *context, size_t option
 static struct ceduo_estimate difference_by_other_law(const void *context, size_t option, size_t less)
 {
     const struct ceduo_result *r = context;
-    const struct ceduo_other_energy *one = &r->options[option].others[r->last_control];
-    const struct ceduo_other_energy *two = &r->options[less].others[r->last_control];
+    const struct ceduo_alternative_energy *one = &r->options[option].others[r->last_control];
+    const struct ceduo_alternative_energy *two = &r->options[less].others[r->last_control];
     bool alike = one->known && two->known && (one->model == two->model || !one->stems || !two->stems);
     if (!alike)
         return CEDUO_NO_ESTIMATE;
@@ -99,10 +99,10 @@ static struct ceduo_estimate difference_over_years(const void *context, size_t o
 
 /* ---- one option ---- */
 
-struct ceduo_portion ceduo_share_over_years(const struct ceduo_years *years, const struct ceduo_years_summary *s)
+struct ceduo_mean_share ceduo_share_over_years(const struct ceduo_years *years, const struct ceduo_years_summary *s)
 {
     struct ceduo_estimate mean = isnan(s->exceed.mean) ? s->reach : s->exceed;
-    return (struct ceduo_portion){mean.mean, ceduo_half_width_of_share(mean.mean, mean.se, years->rocks)};
+    return (struct ceduo_mean_share){mean.mean, ceduo_half_width_of_share(mean.mean, mean.se, years->rocks)};
 }
 
 static bool read_years(const struct ceduo_years *years, struct ceduo_choice *c)
@@ -139,9 +139,9 @@ static unsigned due_cut(const struct ceduo_option *option)
 static enum ceduo_status read_choice(const struct ceduo_result *r, const struct ceduo_years *years,
                                      const struct ceduo_years *whole, size_t option, struct ceduo_choice *c)
 {
-    const struct ceduo_portion unknown = {NAN, NAN};
+    const struct ceduo_mean_share unknown = {NAN, NAN};
     const struct ceduo_option *o = &r->scene->options[option];
-    struct ceduo_window rotation = ceduo_window_of(o);
+    struct ceduo_window rotation = ceduo_window_compute(o);
     *c = (struct ceduo_choice){.today = unknown, .worst = unknown, .mean = unknown, .rotation = unknown, .cut = due_cut(o)};
     c->window = years ? years->window : ceduo_window_in(r->scene);
     if (r->scene->controls_count > 0) {
@@ -156,7 +156,7 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
     }
     unsigned end = rotation.last + 1, most = end + CEDUO_PERIOD_MAX;
     unsigned last = c->window.last < end ? end : c->window.last < most ? c->window.last : most;
-    return ceduo_yield_of(o, last, &c->yield);
+    return ceduo_yield_compute(o, last, &c->yield);
 }
 
 /* ---- all options ---- */
@@ -190,11 +190,11 @@ static bool find_turned(const struct ceduo_result *r, struct ceduo_verdict *v)
             double now = errors_worse(difference_today, r, k, i), other = errors_worse(difference_by_other_law, r, i, k);
             if (i == k || !(fmin(now, other) > 1 && fmax(now, other) > CEDUO_CLEAR))
                 continue;
-            struct ceduo_turned *grown = ceduo_grow(v->turned, v->turned_count, &room, sizeof *grown);
+            struct ceduo_rank_reversal *grown = ceduo_grow(v->turned, v->turned_count, &room, sizeof *grown);
             if (!grown)
                 return false;
             v->turned = grown;
-            v->turned[v->turned_count++] = (struct ceduo_turned){i, k};
+            v->turned[v->turned_count++] = (struct ceduo_rank_reversal){i, k};
         }
     return true;
 }
@@ -232,15 +232,15 @@ static void find_leader(const struct ceduo_result *r, struct ceduo_years *const 
 /* ---- one option at one control ---- */
 
 /* Today, by the sampling error and the 90 % range of uncertain inputs. */
-static enum ceduo_judgement judge_today(const struct ceduo_result *r, const struct ceduo_uncertainty_answer *uncertainty,
+static enum ceduo_judgement judge_today(const struct ceduo_result *r, const struct ceduo_uncertainty_result *uncertainty,
                                         size_t option, size_t control)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
-    enum ceduo_judgement judgement = ceduo_judge(bare, wooded);
+    enum ceduo_judgement judgement = ceduo_judge_control(bare, wooded);
     if (judgement == CEDUO_NOTHING || judgement == CEDUO_UNANSWERED || !wooded || !uncertainty || control != r->last_control)
         return judgement;
     const struct ceduo_surface_fit *fit =
-        &ceduo_uncertainty_figure_of(uncertainty, option, CEDUO_UNCERTAINTY_EXCEED, false)->fit;
+        &ceduo_uncertainty_find_figure(uncertainty, option, CEDUO_UNCERTAINTY_EXCEED, false)->fit;
     double share = wooded->exceed.mean; /* the range holds it */
     return fmin(fit->p5, share) <= wooded->limit && fmax(fit->p95, share) > wooded->limit ? CEDUO_DEPENDS : judgement;
 }
@@ -280,8 +280,8 @@ static bool is_impossible(const struct ceduo_result *r, size_t option, size_t co
     return impossible;
 }
 
-struct ceduo_outcome ceduo_outcome_of(const struct ceduo_result *r, const struct ceduo_verdict *v,
-                                      const struct ceduo_uncertainty_answer *uncertainty, size_t option, size_t control)
+struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const struct ceduo_verdict *v,
+                                           const struct ceduo_uncertainty_result *uncertainty, size_t option, size_t control)
 {
     const struct ceduo_choice *c = v && option < v->n && v->choices[option].ahead ? &v->choices[option] : NULL;
     const struct ceduo_years_summary *s = c ? &c->ahead[control] : NULL;
@@ -290,15 +290,15 @@ struct ceduo_outcome ceduo_outcome_of(const struct ceduo_result *r, const struct
     enum ceduo_judgement today = judge_today(r, uncertainty, option, control);
     struct ceduo_outcome o = {.answer = today,
                               .today = today,
-                              .ahead = s && s->simulated > 0 && c->window.kind != CEDUO_WINDOW_ALIKE,
-                              .also_bare = ceduo_judge(&r->bare.arrivals[control], NULL) == CEDUO_YES,
+                              .ahead = s && s->simulated > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT,
+                              .also_bare = ceduo_judge_control(&r->bare.arrivals[control], NULL) == CEDUO_YES,
                               .rate = CEDUO_NO_ESTIMATE};
     bool years = last && uncertainty && uncertainty->rotation;
     if (today == CEDUO_UNANSWERED || today == CEDUO_NOTHING)
         return o;
     if (o.ahead) {
         const struct ceduo_surface_fit *fit =
-            years ? &ceduo_uncertainty_figure_of(uncertainty, option, CEDUO_UNCERTAINTY_FAILING, false)->fit : NULL;
+            years ? &ceduo_uncertainty_find_figure(uncertainty, option, CEDUO_UNCERTAINTY_FAILING, false)->fit : NULL;
         o.uncertain = fit && !isnan(fit->p5);
         o.failing = (double)s->unprotected_energy;
         o.failing_lo = fmin(o.failing, o.uncertain ? round(fit->p5) : (double)s->failing_lo);
@@ -310,7 +310,7 @@ struct ceduo_outcome ceduo_outcome_of(const struct ceduo_result *r, const struct
         o.rate = o.ahead ? s->rate : ceduo_hazard_feared(&wooded->hazard);
         o.answer = judge_rate(r,
                               last && uncertainty && (years || !o.ahead)
-                                  ? &ceduo_uncertainty_figure_of(uncertainty, option, kind, false)->fit
+                                  ? &ceduo_uncertainty_find_figure(uncertainty, option, kind, false)->fit
                                   : NULL,
                               control, &o);
     }
@@ -322,14 +322,14 @@ struct ceduo_outcome ceduo_outcome_of(const struct ceduo_result *r, const struct
 
 /* ---- all of it ---- */
 
-enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_years *const *years,
-                                     struct ceduo_years *const *rotations, struct ceduo_verdict *v)
+enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ceduo_years *const *years,
+                                        struct ceduo_years *const *rotations, struct ceduo_verdict *v)
 {
     size_t n = r->options_count;
     *v = (struct ceduo_verdict){
         .wooded = r->wooded && r->scene->controls_count > 0,
         .accepted = r->scene->controls_count > 0 && !isnan(r->scene->controls[r->last_control].accepted),
-        .nothing = r->scene->controls_count > 0 && ceduo_says_nothing(&r->bare.arrivals[r->last_control]),
+        .nothing = r->scene->controls_count > 0 && ceduo_too_few_arrivals(&r->bare.arrivals[r->last_control]),
         .choices = calloc(n + 1, sizeof *v->choices)};
     v->today.rival = calloc(n + 1, sizeof *v->today.rival);
     v->rotation.rival = calloc(n + 1, sizeof *v->rotation.rival);

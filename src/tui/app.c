@@ -28,12 +28,12 @@ const char *ceduo_app_path(const struct app *app, const char *path)
     return ceduo_arena_string(app->scratch, ceduo_text_string(&words));
 }
 
-void ceduo_app_tell(struct app *app, bool bad, const char *format, ...)
+void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...)
 {
     LOCAL_TEXT(safe);
     va_list args;
     va_start(args, format);
-    ceduo_text_safe(&safe, ceduo_arena_vformat(app->scratch, format, args));
+    ceduo_text_append_escaped(&safe, ceduo_arena_vformat(app->scratch, format, args));
     va_end(args);
     snprintf(app->message, sizeof app->message, "%s", ceduo_text_string(&safe));
     app->message_bad = bad;
@@ -42,7 +42,7 @@ void ceduo_app_tell(struct app *app, bool bad, const char *format, ...)
 void ceduo_app_hint(struct app *app, const char *text)
 {
     if (!app->message[0] && !app->popup)
-        ceduo_app_say(app, "%s", text);
+        ceduo_app_show_message(app, "%s", text);
 }
 
 /* The first message of a list of problems, without the place, which the cursor shows. */
@@ -124,9 +124,9 @@ bool ceduo_app_uncertainty(const struct app *app, struct ceduo_uncertainty_repor
 struct ceduo_report *ceduo_app_report(const struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
-    struct ceduo_report *report = ceduo_must(ceduo_arena_take(app->scratch, sizeof *report));
-    struct ceduo_uncertainty_report *uncertainty = ceduo_must(ceduo_arena_take(app->scratch, sizeof *uncertainty));
-    struct ceduo_years **years = ceduo_must(ceduo_arena_take(app->scratch, scene->options_count * sizeof *years));
+    struct ceduo_report *report = ceduo_check_memory(ceduo_arena_alloc(app->scratch, sizeof *report));
+    struct ceduo_uncertainty_report *uncertainty = ceduo_check_memory(ceduo_arena_alloc(app->scratch, sizeof *uncertainty));
+    struct ceduo_years **years = ceduo_check_memory(ceduo_arena_alloc(app->scratch, scene->options_count * sizeof *years));
     for (size_t i = 0; i < scene->options_count; i++)
         years[i] = ceduo_live_years(&app->live, scene, i);
     *report = (struct ceduo_report){.file = &app->document.file,
@@ -207,7 +207,7 @@ void ceduo_app_follow_belt(struct app *app)
 
 bool ceduo_app_edited(struct app *app, bool good)
 {
-    ceduo_problems_close(&app->problems);
+    ceduo_problems_finish(&app->problems);
     if (!good)
         say_problem(app, ceduo_text_string(&app->problems.text));
     else
@@ -221,7 +221,7 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
     LOCAL_TEXT(said);
     bool good = ceduo_app_edited(app, ceduo_document_set_alone(&app->document, path, value, &said, &app->problems));
     if (good && said.length > 0)
-        ceduo_app_say(app, "%s", said.bytes);
+        ceduo_app_show_message(app, "%s", said.bytes);
     return good;
 }
 
@@ -272,7 +272,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .uncertainties = !no_recovery};
     if (!ceduo_document_open(&document, path ? path : "paper-site", NULL, 0, problems))
         return false;
-    app->scratch = ceduo_must(calloc(1, sizeof *app->scratch));
+    app->scratch = ceduo_check_memory(calloc(1, sizeof *app->scratch));
     if (take_opened(app, &document, threads, problems))
         return true;
     free(app->scratch);
@@ -323,7 +323,7 @@ void ceduo_app_resize(struct app *app, int width, int height)
 {
     width = width < 1 ? 1 : width > CEDUO_CANVAS_MAX_WIDTH ? CEDUO_CANVAS_MAX_WIDTH : width;
     height = height < 1 ? 1 : height > CEDUO_CANVAS_MAX_HEIGHT ? CEDUO_CANVAS_MAX_HEIGHT : height;
-    struct ceduo_cells *cells = ceduo_must(ceduo_cells_create(width, height, app->charset));
+    struct ceduo_cells *cells = ceduo_check_memory(ceduo_cells_create(width, height, app->charset));
     ceduo_cells_free(app->cells);
     ceduo_cells_free(app->kept.cells);
     app->kept.cells = NULL;
@@ -354,7 +354,7 @@ int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role
     int lines = 0;
     size_t width = area.width > 0 ? (size_t)area.width : 0;
     for (const char *next; *text; text = next, lines++) {
-        bool goes_on = ceduo_utf8_width_of(text, strcspn(text, "\n")) > width; /* its last column stays free */
+        bool goes_on = ceduo_utf8_char_width(text, strcspn(text, "\n")) > width; /* its last column stays free */
         size_t n = ceduo_utf8_wrap(text, goes_on && width > 0 ? width - 1 : width, &next);
         if (lines >= skip && lines - skip < area.height)
             ceduo_app_label(app, area.left, area.top + lines - skip, role, "%.*s", (int)n, text);
@@ -374,7 +374,7 @@ void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
         return;
     while (!fits) {
         size_t end = text->length;
-        ceduo_text_put(text, " ..."); /* as wide as the sign is in ASCII */
+        ceduo_text_append(text, " ..."); /* as wide as the sign is in ASCII */
         fits = ceduo_app_text_lines(app, text->bytes, width) <= lines;
         while (!fits && end > 0 && text->bytes[end - 1] != ' ' && text->bytes[end - 1] != '\n') /* the last word, */
             end--;
@@ -383,10 +383,10 @@ void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
         text->length = end - !fits; /* and what stands before it */
         text->bytes[text->length] = '\0';
     }
-    ceduo_text_put(text, " \xe2\x80\xa6");
+    ceduo_text_append(text, " \xe2\x80\xa6");
 }
 
-void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text)
+void ceduo_app_set_cursor(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text)
 {
     ceduo_app_shorten(app, text, area.width, area.height);
     if (text->bytes)
@@ -411,7 +411,7 @@ int ceduo_scroll_clamp(int scroll, int max)
     return scroll > 0 ? scroll : 0;
 }
 
-void ceduo_app_read_on(struct app *app, int by)
+void ceduo_app_continue_form(struct app *app, int by)
 {
     int *scroll = &ceduo_app_state(app)->scroll;
     *scroll = ceduo_scroll_by(*scroll, by);

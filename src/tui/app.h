@@ -75,7 +75,7 @@ struct place {
 
 /* A piece of a trajectory: a flight, or a roll along the ground. */
 struct rock_piece {
-    struct ceduo_piece piece;
+    struct ceduo_trajectory_segment piece;
     size_t stems; /* that it has come to, up to its end */
 };
 
@@ -84,7 +84,7 @@ struct rock_trajectory {
     uint64_t key, rock; /* of the run and the rock that they were followed for */
     size_t n, room, at; /* pieces; how many of them are shown, 0: all */
     struct rock_piece *pieces;
-    struct ceduo_stem_passed *stems; /* that it comes to */
+    struct ceduo_stem_encounter *stems; /* that it comes to */
     size_t stems_count, stems_room;
     double begun;   /* s: when the following began */
     bool cut_short; /* it took too long to be followed to its end */
@@ -150,9 +150,9 @@ void ceduo_app_resize(struct app *app, int width, int height);
 char *ceduo_app_format(const struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
 const char *ceduo_app_path(const struct app *app, const char *path);
 
-void ceduo_app_tell(struct app *app, bool bad, const char *format, ...) __attribute__((format(printf, 3, 4)));
-#define ceduo_app_say(app, ...)  ceduo_app_tell(app, false, __VA_ARGS__)
-#define ceduo_app_warn(app, ...) ceduo_app_tell(app, true, __VA_ARGS__)
+void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...) __attribute__((format(printf, 3, 4)));
+#define ceduo_app_show_message(app, ...) ceduo_app_show_problem(app, false, __VA_ARGS__)
+#define ceduo_app_warn(app, ...)         ceduo_app_show_problem(app, true, __VA_ARGS__)
 
 /* ---- the document ---- */
 
@@ -264,14 +264,14 @@ int ceduo_scroll_by(int scroll, int by);
 int ceduo_scroll_clamp(int scroll, int max);
 
 /* Scrolls the view by so many lines. */
-void ceduo_app_read_on(struct app *app, int by);
+void ceduo_app_continue_form(struct app *app, int by);
 
 /* Draws a page from line `*scroll` on, limited to the page, and frees it; a mark stands to the right where more follows
  * below. */
 void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll);
 
 /* Draws a text, shortened to its area, and frees it. */
-void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
+void ceduo_app_set_cursor(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
 void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 

@@ -48,7 +48,7 @@ void ceduo_edit_start(struct app *app)
     else if (node && cell->field->type != FIELD_SPREAD && !plain)
         ceduo_emit_flow(&text, node);
     else
-        ceduo_text_put(&text, cell->text);
+        ceduo_text_append(&text, cell->text);
     ceduo_line_set(&app->line, ceduo_text_string(&text));
     app->editing = true;
 }
@@ -59,7 +59,7 @@ void ceduo_edit_key(struct app *app, int key)
     if (key == K_ESCAPE || !cell) {
         app->editing = false;
     } else if (key == K_ENTER || key == K_TAB) {
-        if (!ceduo_popup_is_meant(app, cell->field, &app->line) || !set_value(app, cell, app->line.text))
+        if (!ceduo_popup_confirm_unusual(app, cell->field, &app->line) || !set_value(app, cell, app->line.text))
             return;
         app->editing = false;
         if (key == K_TAB)
@@ -74,9 +74,9 @@ void ceduo_edit_step(struct app *app, int direction)
     struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     LOCAL_TEXT(value);
     if (!ceduo_form_step(ceduo_app_form(app), direction, &value) || !value.bytes)
-        ceduo_app_say(app, "%s", _("this field has no steps; Enter edits it"));
+        ceduo_app_show_message(app, "%s", _("this field has no steps; Enter edits it"));
     else if (strcmp(value.bytes, cell->text) == 0)
-        ceduo_app_say(app, "%s", _("the limit of its range"));
+        ceduo_app_show_message(app, "%s", _("the limit of its range"));
     else
         set_value(app, cell, value.bytes);
 }
@@ -106,7 +106,7 @@ static bool find_item(struct app *app, struct item *item, bool there)
     const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
     bool seen = row && row->list[0] && ceduo_app_state(app)->pane == 0;
     if (!seen || (there && row->n == 0)) {
-        ceduo_app_say(app, "%s", _("this works on an item of a list: put the cursor on one"));
+        ceduo_app_show_message(app, "%s", _("this works on an item of a list: put the cursor on one"));
         return false;
     }
     *item = item_of(app, row->list, row->index);
@@ -274,7 +274,7 @@ static bool add_trees(struct app *app, const struct item *item)
 static bool ask_for_blocks(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
-    const struct ceduo_block_class *largest = NULL;
+    const struct ceduo_size_class *largest = NULL;
     for (size_t i = 0; i < s->blocks_count; i++)
         if (s->blocks[i].volumes[1] > (largest ? largest->volumes[1] : 0))
             largest = &s->blocks[i];
@@ -282,7 +282,7 @@ static bool ask_for_blocks(struct app *app, const struct item *item)
         largest ? ceduo_number_spoken(ceduo_app_format(app, "%.4g", largest->per_year / 10)) : "",
         largest ? ceduo_number_spoken(ceduo_app_format(app, "%.10g %.10g", largest->volumes[1], 10 * largest->volumes[1]))
                 : ""};
-    ceduo_popup_item_of(app, item->list, NULL, offered, 2);
+    ceduo_popup_item_find(app, item->list, NULL, offered, 2);
     app->popup->title = _("A class of blocks that come down");
     return false;
 }
@@ -358,7 +358,7 @@ void ceduo_items_add(struct app *app)
         return;
     make(app, &item, true);
     if (strcmp(item.key, "forest") == 0 && !app->message[0])
-        ceduo_app_say(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
+        ceduo_app_show_message(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
 }
 
 void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at)
@@ -375,7 +375,7 @@ void ceduo_items_delete(struct app *app)
         return;
     const struct node *list = ceduo_document_node(&app->document, item.list);
     if (list && list->n == 1 && strcmp(item.list, "controls") == 0) {
-        ceduo_app_say(app, "%s", _("the only place where rocks are counted stays"));
+        ceduo_app_show_message(app, "%s", _("the only place where rocks are counted stays"));
         return;
     }
     const char *path = ceduo_app_format(app, "%s[%zu]", item.list, item.index);
@@ -383,7 +383,7 @@ void ceduo_items_delete(struct app *app)
         const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
         if (row && strcmp(row->list, item.list) != 0) /* another d would delete in the next list what nobody meant */
             ceduo_form_move(ceduo_app_form(app), -1, 0);
-        ceduo_app_say(app, _("deleted: %s; u brings it back"), ceduo_app_path(app, path));
+        ceduo_app_show_message(app, _("deleted: %s; u brings it back"), ceduo_app_path(app, path));
     }
 }
 
@@ -415,7 +415,7 @@ static bool append_item(struct app *app, const char *list, const struct node *no
         return ceduo_document_insert(&app->document, list, now->n, yaml, &app->problems);
     if (now)
         ceduo_emit_flow(&first, now);
-    ceduo_text_put(&first, now ? ", " : "");
+    ceduo_text_append(&first, now ? ", " : "");
     if (strcmp(list, "blocks") == 0)
         ceduo_changes_add(&c, CHANGE_DELETE, "rocks_per_year", NULL);
     ceduo_changes_set(&c, list, "[%s%s]", ceduo_text_string(&first), yaml);
@@ -427,7 +427,7 @@ static bool filled_item(struct app *app, struct popup *p)
 {
     const char *list = p->path;
     LOCAL_TEXT(item);
-    ceduo_text_put(&item, "{");
+    ceduo_text_append(&item, "{");
     for (size_t i = 0; i < p->fields_count; i++) {
         const struct field *f = p->fields[i].value;
         LOCAL_TEXT(value);
@@ -436,7 +436,7 @@ static bool filled_item(struct app *app, struct popup *p)
         if (value.length > 0)
             ceduo_text_format(&item, "%s%s: %s", item.length > 1 ? ", " : "", f->key, value.bytes);
     }
-    ceduo_text_put(&item, "}");
+    ceduo_text_append(&item, "}");
     bool counted = strcmp(list, "blocks") == 0 && ceduo_document_node(&app->document, "rocks_per_year");
     const char *yaml =
         p->kept ? ceduo_app_format(app, "{%s: %s}", p->kept, item.bytes) : ceduo_app_format(app, "%s", item.bytes);
@@ -449,20 +449,20 @@ static bool filled_item(struct app *app, struct popup *p)
         return false;
     }
     ceduo_form_go(ceduo_app_form(app), list, n);
-    ceduo_app_say(
+    ceduo_app_show_message(
         app, "%s",
         counted ? _("taken over; blocks say how many rocks a year come down, so rocks_per_year is removed; u takes it back")
                 : _("taken over; u takes it back"));
     return true;
 }
 
-void ceduo_popup_item_of(struct app *app, const char *list, const char *group, const char *const *offered, size_t n)
+void ceduo_popup_item_find(struct app *app, const char *list, const char *group, const char *const *offered, size_t n)
 {
     const struct field *of = ceduo_schema_row(list);
     of = group ? ceduo_schema_field(of->object, group) : of;
     struct popup *p = ceduo_popup_fields(app, _(of->meaning), list, filled_item);
     p->kept = group ? of->key : NULL;
-    ceduo_text_put(&p->text, _("Several numbers with blanks between them, decimals with a dot or a comma: 41 44.5 52."));
+    ceduo_text_append(&p->text, _("Several numbers with blanks between them, decimals with a dot or a comma: 41 44.5 52."));
     for (const struct field *f = of->object->fields; f < of->object->fields + of->object->n; f++) {
         if (f->type != FIELD_NUMBER && f->type != FIELD_NUMBERS && f->type != FIELD_COUNT && f->type != FIELD_SPREAD)
             continue; /* files of values are named in the scene's file */

@@ -49,9 +49,9 @@ static void show_node(struct text *to, const struct node *node, const struct fie
 {
     const char *name = node->kind == NODE_MAP ? ceduo_node_text(node, "name") : NULL;
     if (name && field->flags & FIELD_FOLLOWS) {
-        ceduo_text_put(to, ceduo_in_language(name, ceduo_node_text(node, "name_it")));
+        ceduo_text_append(to, ceduo_in_language(name, ceduo_node_text(node, "name_it")));
     } else if (node->written && node->written->kind == NODE_SCALAR) {
-        ceduo_text_put(to, node->written->text);
+        ceduo_text_append(to, node->written->text);
     } else if (node->kind == NODE_SCALAR) {
         ceduo_shown_value(field, node->text, to);
     } else if (node->kind == NODE_MAP && field->type == FIELD_SPREAD) {
@@ -61,9 +61,9 @@ static void show_node(struct text *to, const struct node *node, const struct fie
                           kind && strcmp(kind, "uniform") == 0 ? " u" : "");
     } else if (node->kind == NODE_LIST) {
         for (size_t i = 0; i < node->n; i++)
-            ceduo_text_then(to, i ? " " : "", "%s", node->items[i]->kind == NODE_SCALAR ? node->items[i]->text : "~");
+            ceduo_text_append_joined(to, i ? " " : "", "%s", node->items[i]->kind == NODE_SCALAR ? node->items[i]->text : "~");
     } else {
-        ceduo_text_put(to, "{}");
+        ceduo_text_append(to, "{}");
     }
 }
 
@@ -83,7 +83,7 @@ static void add_cell(const struct form *form, struct form_row *row, const struct
     if (node && node->kind == NODE_SCALAR && field->type == FIELD_TEXT)
         italian = ceduo_document_node(form->document, other);
     if (italian && italian->kind == NODE_SCALAR)
-        ceduo_text_put(&shown, ceduo_in_language(node->text, italian->text));
+        ceduo_text_append(&shown, ceduo_in_language(node->text, italian->text));
     else if (node)
         show_node(&shown, node, field);
     else
@@ -315,7 +315,7 @@ static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, i
     if (cell->given && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
         ceduo_shown_path(cell->text, &words);
     else
-        ceduo_text_put(&words, cell->text[0] ? cell->text : "-");
+        ceduo_text_append(&words, cell->text[0] ? cell->text : "-");
     snprintf(shown, sizeof shown, "%s%s", ceduo_text_string(&words), cell->assumed ? "*" : "");
     double number;
     bool fine = digits_of(shown) > DIGITS_MAX || (int)ceduo_utf8_width(shown) > span;
@@ -336,7 +336,7 @@ static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, i
         return;
     }
     enum ceduo_role role = cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM;
-    ceduo_canvas_put(&cells->canvas, x, y, span, role, shown);
+    ceduo_canvas_draw_text(&cells->canvas, x, y, span, role, shown);
 }
 
 static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t i, int y, const char *edit)
@@ -345,12 +345,14 @@ static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t 
     struct ceduo_canvas *canvas = &cells->canvas;
     int left = form->area.left, width = form->area.width, label = label_columns(form, width);
     if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
-        ceduo_canvas_put(canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
+        ceduo_canvas_draw_text(canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM,
+                               row->label);
         return;
     }
     if (row->kind == FORM_FIELDS) {
         int span = row->n == 0 ? width : row->list[0] ? 3 : label - 1;
-        ceduo_canvas_put(canvas, left, y, span, i == form->row && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
+        ceduo_canvas_draw_text(canvas, left, y, span, i == form->row && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
+                               row->label);
     }
     for (size_t k = 0; k < row->n; k++) {
         int from, span;
@@ -361,8 +363,8 @@ static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t 
         }
         const struct field_shown *shown = &row->cells[k].field->shown;
         bool fits = (int)ceduo_utf8_width(_(shown->label)) <= span || !shown->brief;
-        ceduo_canvas_put(canvas, left + from, y, span, CEDUO_ROLE_TITLE,
-                         fits ? _(shown->label) : ceduo_translate_in(shown->brief));
+        ceduo_canvas_draw_text(canvas, left + from, y, span, CEDUO_ROLE_TITLE,
+                               fits ? _(shown->label) : ceduo_translate_in(shown->brief));
     }
 }
 
@@ -425,7 +427,7 @@ void ceduo_form_explain(struct form *form, struct text *text)
         ceduo_text_format(text, ", %s", ceduo_text_string(&range));
     if (f->value) {
         ceduo_shown_value(f, f->value, &usual);
-        ceduo_text_then(text, " ", _("(default %s)"), ceduo_text_string(&usual));
+        ceduo_text_append_joined(text, " ", _("(default %s)"), ceduo_text_string(&usual));
     }
     const struct source_note *note = ceduo_notes_find(form->document->file.notes, cell->path);
     if (note && cell->given)
@@ -455,11 +457,11 @@ bool ceduo_form_step(struct form *form, int direction, struct text *value)
     if (f->type == FIELD_CHOICE) {
         const struct choices *c = f->choices;
         int at = ceduo_choice_find(c, cell->written);
-        ceduo_text_put(value, c->names[at < 0 ? 0 : ((size_t)at + (direction > 0 ? 1 : c->n - 1)) % c->n]);
+        ceduo_text_append(value, c->names[at < 0 ? 0 : ((size_t)at + (direction > 0 ? 1 : c->n - 1)) % c->n]);
         return true;
     }
     if (f->type == FIELD_FLAG) {
-        ceduo_text_put(value, strcmp(cell->written, "true") == 0 ? "false" : "true");
+        ceduo_text_append(value, strcmp(cell->written, "true") == 0 ? "false" : "true");
         return true;
     }
     const struct node *node = ceduo_document_node(form->document, cell->path);

@@ -12,7 +12,7 @@ const struct action_info ceduo_actions[ACTION_COUNT] = {
 #undef X
 };
 
-enum action ceduo_action_of(int key)
+enum action ceduo_action_find(int key)
 {
     for (int i = 0; i < ACTION_COUNT; i++)
         if (key != K_NONE && (ceduo_actions[i].key == key || ceduo_actions[i].key2 == key))
@@ -20,7 +20,7 @@ enum action ceduo_action_of(int key)
     return ACTION_NONE;
 }
 
-int ceduo_key_of(const char *name)
+int ceduo_key_compute(const char *name)
 {
     static const struct {
         const char *name;

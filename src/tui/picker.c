@@ -106,9 +106,9 @@ void ceduo_picker_add(struct picker *p, const char *text, const char *name, cons
     LOCAL_TEXT(safe);
     p->picks = ceduo_grow(p->picks, p->count, &p->room, sizeof *p->picks);
     p->order = ceduo_grow(p->order, p->count, &p->order_room, sizeof *p->order);
-    ceduo_text_safe(&safe, text);
+    ceduo_text_append_escaped(&safe, text);
     if (now)
-        ceduo_text_then(&safe, "  ", _("(now)"));
+        ceduo_text_append_joined(&safe, "  ", _("(now)"));
     p->picks[p->count++] = (struct pick){ceduo_arena_string(&p->arena, ceduo_text_string(&safe)),
                                          ceduo_arena_string(&p->arena, value), ceduo_arena_string(&p->arena, name), now, 0};
 }
@@ -169,8 +169,8 @@ int ceduo_picker_draw(struct picker *p, struct ceduo_cells *cells, struct ceduo_
         return 0;
     p->top = at < p->top ? at : at >= p->top + height ? at + 1 - height : p->top;
     for (int i = p->top; i < p->top + height && i < n; i++)
-        ceduo_canvas_put(&cells->canvas, area.left, area.top + i - p->top, area.width,
-                         i == at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->picks[p->order[i]].text);
+        ceduo_canvas_draw_text(&cells->canvas, area.left, area.top + i - p->top, area.width,
+                               i == at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->picks[p->order[i]].text);
     return (p->top > 0) + 2 * (p->top + height < n);
 }
 
@@ -199,7 +199,7 @@ void ceduo_picker_add_files(struct picker *p, const char *typed, const char *end
         ceduo_text_format(&path, "%s%s", ceduo_text_string(&folder), name);
         bool is_folder = stat(path.bytes, &st) == 0 && S_ISDIR(st.st_mode);
         if (is_folder)
-            ceduo_text_put(&path, "/");
+            ceduo_text_append(&path, "/");
         if (i < FILES_MAX && name[0] != '.' && (is_folder || ceduo_picker_is_file(name, endings)) &&
             !ceduo_picker_has(p, path.bytes))
             ceduo_picker_add(p, path.bytes, path.bytes, path.bytes, false);

@@ -19,7 +19,7 @@
 static struct popup *open_popup(struct app *app, enum popup_kind kind, const char *title, const char *path)
 {
     ceduo_popup_close(app);
-    struct popup *p = ceduo_must(calloc(1, sizeof *p));
+    struct popup *p = ceduo_check_memory(calloc(1, sizeof *p));
     p->kind = kind;
     p->title = ceduo_arena_string(&p->arena, title);
     p->path = ceduo_arena_string(&p->arena, path);
@@ -97,7 +97,7 @@ const struct field ceduo_popup_amount = {
 struct field *ceduo_popup_value(struct popup *p, const char *label, const char *value, const struct field *kind)
 {
     struct popup_field *field = ceduo_popup_field(p, label, value);
-    struct field *own = ceduo_must(ceduo_arena_take(&p->arena, sizeof *own));
+    struct field *own = ceduo_check_memory(ceduo_arena_alloc(&p->arena, sizeof *own));
     *own = *kind;
     own->shown.label = field->label;
     field->value = own;
@@ -106,7 +106,7 @@ struct field *ceduo_popup_value(struct popup *p, const char *label, const char *
 
 /* ---- what is typed ---- */
 
-bool ceduo_popup_is_meant(struct app *app, const struct field *field, struct line *line)
+bool ceduo_popup_confirm_unusual(struct app *app, const struct field *field, struct line *line)
 {
     LOCAL_TEXT(why);
     bool good = ceduo_typed_in_range(field, line->text, &why);
@@ -122,7 +122,7 @@ bool ceduo_popup_read(struct app *app, const struct field *field, struct line *l
     const char *label = _(field->shown.label);
     bool list = field->type == FIELD_NUMBERS, needed = field->flags & FIELD_REQUIRED;
     double number;
-    if (!ceduo_popup_is_meant(app, field, line))
+    if (!ceduo_popup_confirm_unusual(app, field, line))
         return false;
     if (line->text[0] == '\0') {
         if (needed)
@@ -193,7 +193,7 @@ static int lines_of(int key, bool letters)
 {
     static const int lines[ACTION_COUNT] = {[ACTION_UP] = -1,        [ACTION_DOWN] = 1,         [ACTION_PAGE_UP] = -10,
                                             [ACTION_PAGE_DOWN] = 10, [ACTION_TOP] = -ALL_LINES, [ACTION_BOTTOM] = ALL_LINES};
-    enum action action = ceduo_action_of(key);
+    enum action action = ceduo_action_find(key);
     return action != ACTION_NONE && (letters || ceduo_actions[action].key == key) ? lines[action] : 0;
 }
 
@@ -330,8 +330,8 @@ static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines,
     p->box = r;
     draw_box(app, r, p->title);
     LOCAL_TEXT(note);
-    ceduo_text_put(&note, note_lines > 0 ? ceduo_text_string(&p->text) : "");
-    ceduo_app_put(app, in, CEDUO_ROLE_DIM, &note);
+    ceduo_text_append(&note, note_lines > 0 ? ceduo_text_string(&p->text) : "");
+    ceduo_app_set_cursor(app, in, CEDUO_ROLE_DIM, &note);
     in.top += note_lines;
     in.height = r.height - 2 - note_lines;
     return in;
@@ -396,7 +396,7 @@ static void draw_fields(struct app *app, struct popup *p)
     int shown = n <= in.height - FOOT_MIN ? n : in.height - FOOT_MIN;
     p->top = at < p->top ? at : at >= p->top + shown ? at + 1 - shown : p->top;
     for (int i = p->top; i < p->top + shown; i++, in.top++, in.height--) {
-        ceduo_canvas_put(&app->cells->canvas, in.left, in.top, 31, CEDUO_ROLE_DIM, p->fields[i].label);
+        ceduo_canvas_draw_text(&app->cells->canvas, in.left, in.top, 31, CEDUO_ROLE_DIM, p->fields[i].label);
         draw_line(app, &p->fields[i].line, x, in.top, width, i == at);
     }
     if (shown < n)
@@ -443,7 +443,7 @@ const char *ceduo_popup_bar(const struct app *app)
     return app->popup->asks ? _("a letter, or Up Down and Enter  Esc cancel") : _(kinds[app->popup->kind].bar);
 }
 
-void ceduo_popup_look(struct app *app)
+void ceduo_popup_browse(struct app *app)
 {
     struct popup *p = app->popup;
     if (!p->ready)

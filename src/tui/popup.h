@@ -74,7 +74,7 @@ extern const struct field ceduo_popup_amount;
 struct field *ceduo_popup_value(struct popup *popup, const char *label, const char *value, const struct field *kind);
 
 /* True if the typed value is in range and usual; otherwise warns, or asks once whether it is meant. */
-bool ceduo_popup_is_meant(struct app *app, const struct field *kind, struct line *line);
+bool ceduo_popup_confirm_unusual(struct app *app, const struct field *kind, struct line *line);
 
 /* Reads it as a file has it; false where it is not meant, no such value, or needed and missing, which is said. */
 bool ceduo_popup_read(struct app *app, const struct field *kind, struct line *line, struct text *value);
@@ -90,7 +90,7 @@ bool ceduo_popup_may_write(struct app *app, struct popup *popup);
 void ceduo_popup_draw(struct app *app);
 
 /* After a key: the note over a list is about the item under the cursor. */
-void ceduo_popup_look(struct app *app);
+void ceduo_popup_browse(struct app *app);
 /* What that item would do to the lights is known. */
 void ceduo_popup_previewed(struct app *app, const struct preview *preview);
 const char *ceduo_popup_bar(const struct app *app); /* its keys */
@@ -113,12 +113,12 @@ void ceduo_popup_counts(struct app *app);
 
 /* Asks for the fields of a new item of a list, or of one group of it (may be NULL), and appends it. `offered`: the first n
  * fields. */
-void ceduo_popup_item_of(struct app *app, const char *list, const char *group, const char *const *offered, size_t n);
+void ceduo_popup_item_find(struct app *app, const char *list, const char *group, const char *const *offered, size_t n);
 
 /* Treatments of the option under the cursor as items of a list. The other two return false if the item is none of them. */
 void ceduo_popup_offer_treatments(struct app *app, struct popup *popup);
 bool ceduo_popup_preview_treatment(struct app *app, struct popup *popup);
-bool ceduo_popup_chose_treatment(struct app *app, const char *value);
+bool ceduo_popup_on_treatment(struct app *app, const char *value);
 
 /* What the search came to that ceduo_popup_find() started. */
 void ceduo_popup_found(struct app *app, struct search_answer *sought);
@@ -133,13 +133,13 @@ void ceduo_popup_save_as(struct app *app);
 void ceduo_popup_quit(struct app *app);
 
 /* Goes on with `then`; asks first (save, discard, stay) where there is unsaved work. */
-void ceduo_popup_once_saved(struct app *app, void (*then)(struct app *app));
+void ceduo_popup_confirm_unsaved(struct app *app, void (*then)(struct app *app));
 
 /* Lists unsaved work that earlier processes left behind, where some of it is on this document or has no file. */
 void ceduo_popup_recover(struct app *app);
 /* Adds all of it to a list; takes up the one that was chosen, false where the value is none. */
 void ceduo_popup_offer_recoveries(const struct app *app, struct popup *popup);
-bool ceduo_popup_take_recovery(struct app *app, const char *value);
+bool ceduo_popup_open_recovery(struct app *app, const char *value);
 
 /* ---- what fields of popups may hold ---- */
 

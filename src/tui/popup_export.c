@@ -35,9 +35,9 @@ static void show_command(struct app *app, struct popup *p)
                                          : _("\nThe figures on the screen are of %llu rocks.\n"),
                           (unsigned long long)shown->released);
     else
-        ceduo_text_put(&p->text, _("\nThere are no figures yet: -n is what the scene says.\n"));
+        ceduo_text_append(&p->text, _("\nThere are no figures yet: -n is what the scene says.\n"));
     if (ceduo_document_unsaved(&app->document))
-        ceduo_text_put(&p->text, _("\nThere is unsaved work: s saves it first.\n"));
+        ceduo_text_append(&p->text, _("\nThere is unsaved work: s saves it first.\n"));
 }
 
 /* Whether all that will be known of uncertainty is. */
@@ -51,7 +51,7 @@ static bool is_sure(const struct app *app)
 static void put_html(struct app *app, struct ceduo_report *report, struct text *text)
 {
     struct ceduo_uncertainty_report uncertainty;
-    bool sure = is_sure(app) && report->result->wooded && !ceduo_page_says_nothing(report->result) &&
+    bool sure = is_sure(app) && report->result->wooded && !ceduo_page_is_unassessable(report->result) &&
                 ceduo_app_uncertainty(app, &uncertainty);
     const struct ceduo_scene *scene = &app->document.file.scene;
     struct ceduo_html html = {.text = text};
@@ -88,7 +88,7 @@ static void append_export(struct app *app, enum export export, struct text *text
     if (export == EXPORT_SCREEN) {
         ceduo_screen_draw(app); /* without the popup, which is off already */
         char *screen = ceduo_cells_dump(app->cells);
-        ceduo_text_put(text, screen ? screen : "");
+        ceduo_text_append(text, screen ? screen : "");
         free(screen);
     } else if (!app->live.result) {
         return;
@@ -118,11 +118,11 @@ static bool filled_export(struct app *app, struct popup *p)
     else if (!good)
         ceduo_app_warn(app, "%s: %s", path, strerror(errno));
     else
-        ceduo_app_say(app,
-                      export == EXPORT_REPORT && !is_sure(app)
-                          ? _("written: %s; how sure it is was not known yet: write it again in a moment")
-                          : _("written: %s"),
-                      path);
+        ceduo_app_show_message(app,
+                               export == EXPORT_REPORT && !is_sure(app)
+                                   ? _("written: %s; how sure it is was not known yet: write it again in a moment")
+                                   : _("written: %s"),
+                               path);
     return good;
 }
 
@@ -175,7 +175,7 @@ static void chose_export(struct app *app, struct popup *p)
     struct tm local;
     /* Translators: a date, as strftime() writes it. */
     strftime(today, sizeof today, _("%Y-%m-%d"), localtime_r(&now, &local));
-    ceduo_text_put(&head->text, _("Each line may stay empty. What is written here is kept in the scene, as 'page'."));
+    ceduo_text_append(&head->text, _("Each line may stay empty. What is written here is kept in the scene, as 'page'."));
     for (size_t i = 0; i < page->n; i++)
         ceduo_popup_field(head, _(page->fields[i].shown.label), strcmp(page->fields[i].key, "date") == 0 ? today : "");
 }
@@ -197,17 +197,17 @@ void ceduo_popup_copy(struct app *app)
         ceduo_app_warn(app, "%s", _("nothing is computed yet"));
         return;
     }
-    ceduo_text_safe(&text, ceduo_in_language(scene->title, scene->title_it));
+    ceduo_text_append_escaped(&text, ceduo_in_language(scene->title, scene->title_it));
     ceduo_text_format(&text, ": %s\n", ceduo_app_option(app)->name);
     if (r && scene->controls_count > 0) {
-        const struct ceduo_subject subject = ceduo_subject_of(ceduo_app_report(app), app->option, r->last_control);
+        const struct ceduo_subject subject = ceduo_subject_find(ceduo_app_report(app), app->option, r->last_control);
         ceduo_words_answer(&text, &subject, COPY_WIDTH);
         ceduo_text_char(&text, '\n');
     }
     /* the view drawn by itself, long enough for all of it, its pictures left blank; runs of blank lines are one */
     struct view_state *state = ceduo_app_state(app), kept = *state;
     struct ceduo_cells *screen = app->cells;
-    app->cells = ceduo_must(ceduo_cells_create(COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT, app->charset));
+    app->cells = ceduo_check_memory(ceduo_cells_create(COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT, app->charset));
     app->cells->canvas.words_alone = true;
     state->pane = 0;
     ceduo_views[app->view]->draw(app, (struct ceduo_area){0, 0, COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT});
@@ -226,7 +226,7 @@ void ceduo_popup_copy(struct app *app)
     app->cells = screen;
     *state = kept;
     if (app->copy(text.bytes))
-        ceduo_app_say(
+        ceduo_app_show_message(
             app, ngettext("copied: %zu line of what this view says", "copied: %zu lines of what this view says", lines), lines);
     else
         ceduo_app_warn(app, "%s", _("this view says too much for a clipboard; w writes it to a file"));

@@ -81,10 +81,11 @@ static void append_law(struct app *app, const char *path, struct text *text)
     struct ceduo_compliance c = ceduo_regulation_check(&app->document.file.scene.rules, &o->belts[app->belt].stand);
     double own = app->document.file.scene.reserves_minimum;
     if (c.standards_item)
-        ceduo_text_then(text, " ", _("The rules of %s ask for %g standards per ha at least (%s, %u); %g are left."), c.of->name,
-                        c.standards_item->least, c.standards_item->article, c.standards_item->year, c.standards);
+        ceduo_text_append_joined(text, " ", _("The rules of %s ask for %g standards per ha at least (%s, %u); %g are left."),
+                                 c.of->name, c.standards_item->least, c.standards_item->article, c.standards_item->year,
+                                 c.standards);
     if (!isnan(own) && own > 0)
-        ceduo_text_then(text, " ", _("The scene asks for %g per ha at least."), own);
+        ceduo_text_append_joined(text, " ", _("The scene asks for %g per ha at least."), own);
 }
 
 /* What the fields ask for; the path is the popup's. */
@@ -108,7 +109,7 @@ static bool filled_find(struct app *app, struct popup *p)
     struct ceduo_search search;
     if (read_fields(app, p, &search)) {
         ceduo_jobs_search(app->live.jobs, &app->document.file, &search);
-        ceduo_app_say(app, "%s", _("computing … Esc or another key stops it"));
+        ceduo_app_show_message(app, "%s", _("computing … Esc or another key stops it"));
     }
     return false;
 }
@@ -126,15 +127,15 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
         ceduo_text_format(text, "%s = %s: ", ceduo_app_path(app, p->path), ceduo_shown_number(field, f->value, room));
     ceduo_find_words(text, s, f, field, s->sure == 0); /* otherwise there is no room, and it was typed */
     if (!f->monotone)
-        ceduo_text_then(text, "; ", _("not monotone: there may be other values"));
+        ceduo_text_append_joined(text, "; ", _("not monotone: there may be other values"));
     if (s->sure > 0) {
-        ceduo_text_put(text, "; ");
-        ceduo_find_sure(text, s, &answer->sure, field);
+        ceduo_text_append(text, "; ");
+        ceduo_find_reliable(text, s, &answer->sure, field);
     }
     if (s->rotation)
-        ceduo_text_then(text, "; ", _("over the years ahead"));
+        ceduo_text_append_joined(text, "; ", _("over the years ahead"));
     if (s->rotation && !isnan(answer->yield.cut_per_year))
-        ceduo_text_then(text, ", ", _("yielding %.3g m\xc2\xb3 per ha and year"), answer->yield.cut_per_year);
+        ceduo_text_append_joined(text, ", ", _("yielding %.3g m\xc2\xb3 per ha and year"), answer->yield.cut_per_year);
 }
 
 /* Puts the value that was found into the field, and says it; a search that failed leaves the popup. */
@@ -163,7 +164,7 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
     }
     ceduo_problems_free(&app->problems);
     if (good)
-        ceduo_app_say(app, "%s", words.bytes);
+        ceduo_app_show_message(app, "%s", words.bytes);
     ceduo_popup_close(app);
 }
 

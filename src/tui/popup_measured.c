@@ -97,7 +97,7 @@ static bool filled_counts(struct app *app, struct popup *p)
     ceduo_changes_add(c, CHANGE_SET, ceduo_app_format(app, "%s.name", p->path), name.bytes);
     bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot"), &app->problems));
     if (good)
-        ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
+        ceduo_app_show_message(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
     return good;
 }
 
@@ -106,7 +106,7 @@ static bool filled_counts(struct app *app, struct popup *p)
 void ceduo_popup_counts(struct app *app)
 {
     if (ceduo_app_option(app)->belts_count == 0) {
-        ceduo_app_say(app, "%s", _("there is no belt yet: a adds one in view 1"));
+        ceduo_app_show_message(app, "%s", _("there is no belt yet: a adds one in view 1"));
         return;
     }
     const struct ceduo_belt *belt = &ceduo_app_option(app)->belts[app->belt];
@@ -164,7 +164,7 @@ static bool read_survey(const char *path, struct survey_answers *answers, struct
     const struct node *root = ceduo_yaml_read(&arena, &source, problems);
     if (root) {
         ceduo_emit_flow(value, root);
-        ceduo_text_put(understood, file.understood);
+        ceduo_text_append(understood, file.understood);
     }
     return root != NULL;
 }
@@ -175,13 +175,13 @@ static void take_stand(struct app *app, const char *path, const char *value, con
     if (!ceduo_popup_replace_stand(app, path, value))
         return;
     if (app->message[0])
-        ceduo_app_say(app, "%s; %s", ceduo_app_format(app, "%s", app->message), understood);
+        ceduo_app_show_message(app, "%s; %s", ceduo_app_format(app, "%s", app->message), understood);
     else
-        ceduo_app_say(app,
-                      ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
-                          ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
-                          : _("the stand of the survey; it has no growth and cutting; %s"),
-                      understood);
+        ceduo_app_show_message(app,
+                               ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
+                                   ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
+                                   : _("the stand of the survey; it has no growth and cutting; %s"),
+                               understood);
 }
 
 static void open_form(struct app *app, const char *path, const char *survey, const struct survey_answers *answers);
@@ -263,9 +263,9 @@ void ceduo_popup_survey(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem, or for each class"),
                                        ceduo_app_stand(app), chose_survey);
-    ceduo_text_put(&p->text,
-                   _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, status; "
-                     "see ceduo-stand(5)."));
+    ceduo_text_append(&p->text,
+                      _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, status; "
+                        "see ceduo-stand(5)."));
     p->fields[0].offer = offer_surveys;
     p->endings = ".csv .txt";
 }

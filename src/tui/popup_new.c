@@ -34,7 +34,7 @@ static void release_answers(struct answers *a)
 
 static void append_quoted(struct text *yaml, const char *before, const char *value)
 {
-    ceduo_text_put(yaml, before);
+    ceduo_text_append(yaml, before);
     ceduo_emit_scalar(yaml, value, true);
 }
 
@@ -59,7 +59,7 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
     LOCAL_PROBLEMS(problems);
     struct points points = {0};
     const char *mark = ceduo_picker_is_file(typed, p->endings) ? NULL : strrchr(typed, '#'); /* FILE.csv#LINE */
-    const char *path = mark ? ceduo_must(ceduo_arena_copy(&p->arena, typed, (size_t)(mark - typed))) : typed;
+    const char *path = mark ? ceduo_check_memory(ceduo_arena_copy(&p->arena, typed, (size_t)(mark - typed))) : typed;
     if (ceduo_picker_is_file(path, p->endings)) {
         bool good = ceduo_csv_slope_read(&p->arena, path, mark ? mark + 1 : NULL, &points, &problems) && points.n > 1;
         if (!good)
@@ -74,7 +74,7 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
         if (mark)
             append_quoted(&a->slope, "\n  layer: ", mark + 1);
     } else {
-        ceduo_text_put(&a->slope, "vertices_m: ");
+        ceduo_text_append(&a->slope, "vertices_m: ");
         if (!ceduo_typed_points(typed, &a->slope, &a->first, &a->last))
             wrong = _("the profile: a file that ends in .csv, or points x z, x z, … with x rising");
     }
@@ -136,12 +136,12 @@ static void describe(struct popup *p, const struct answers *a)
     else
         ceduo_text_format(&p->text, _("The profile is %.4g m long and falls by %.4g m."), s->x[s->vertices - 1],
                           -s->z[s->vertices - 1]);
-    ceduo_text_then(&p->text, " ", _("Steepest at %.4g m, %.0f\xc2\xb0."), at + s->origin_x, degrees_at(s, at));
+    ceduo_text_append_joined(&p->text, " ", _("Steepest at %.4g m, %.0f\xc2\xb0."), at + s->origin_x, degrees_at(s, at));
     if (s->reversed)
-        ceduo_text_then(&p->text, " ", "%s", _("Turned round."));
+        ceduo_text_append_joined(&p->text, " ", "%s", _("Turned round."));
     if (a->release >= a->first && a->release < a->last)
-        ceduo_text_then(&p->text, " ", _("Rocks start at %.4g m, on %.0f\xc2\xb0."), a->release,
-                        degrees_at(s, a->release - s->origin_x));
+        ceduo_text_append_joined(&p->text, " ", _("Rocks start at %.4g m, on %.0f\xc2\xb0."), a->release,
+                                 degrees_at(s, a->release - s->origin_x));
 }
 
 /* ---- reading ---- */
@@ -225,7 +225,7 @@ static void append_material(struct text *yaml, const struct ceduo_slope *s, doub
     double a = ceduo_slope_mirrored(s, from), b = ceduo_slope_mirrored(s, to);
     ceduo_text_format(yaml, "    - {from_m: %.10g, to_m: %.10g", fmin(a, b), fmax(a, b));
     append_quoted(yaml, ", material: ", material);
-    ceduo_text_put(yaml, "}\n");
+    ceduo_text_append(yaml, "}\n");
 }
 
 static void append_scene(struct popup *p, const struct answers *a, struct text *yaml)
@@ -245,12 +245,12 @@ static void append_scene(struct popup *p, const struct answers *a, struct text *
     ceduo_text_format(yaml, "controls:\n  - {x_m: %.10g", a->control);
     if (!isnan(a->accepted))
         ceduo_text_format(yaml, ", accepted_kJ: %.10g", a->accepted);
-    ceduo_text_put(yaml, "}\n");
+    ceduo_text_append(yaml, "}\n");
     if (!stand[0])
         return;
     ceduo_text_format(yaml, "forest:\n  - {from_m: %.10g, to_m: %.10g", a->face, a->control);
     append_quoted(yaml, ", stand: ", is_measured(stand) ? "simple-coppice" : stand);
-    ceduo_text_put(yaml, "}\n");
+    ceduo_text_append(yaml, "}\n");
 }
 
 static bool filled_new(struct app *app, struct popup *p)
@@ -317,8 +317,8 @@ static void ask(struct app *app)
 {
     char room[CEDUO_NUMBER_ROOM];
     struct popup *p = ceduo_popup_fields(app, _("New scene"), "", filled_new);
-    ceduo_text_put(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is "
-                               "left empty is not there; rocks are then counted at the end. All can be changed later."));
+    ceduo_text_append(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is "
+                                  "left empty is not there; rocks are then counted at the end. All can be changed later."));
     p->endings = ".csv .txt";
     p->check = check_new;
     p->picture = draw_profile;
@@ -335,5 +335,5 @@ static void ask(struct app *app)
 
 void ceduo_popup_new(struct app *app)
 {
-    ceduo_popup_once_saved(app, ask);
+    ceduo_popup_confirm_unsaved(app, ask);
 }

@@ -20,10 +20,10 @@ bool ceduo_popup_read_stand(const struct app *app, const char *value, struct sce
 {
     LOCAL_PROBLEMS(problems);
     LOCAL_TEXT(yaml);
-    ceduo_text_put(&yaml, "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
-                          "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: ");
+    ceduo_text_append(&yaml, "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
+                             "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: ");
     ceduo_emit_scalar(&yaml, value, true);
-    ceduo_text_put(&yaml, "}]}");
+    ceduo_text_append(&yaml, "}]}");
     const char *name = app->document.path ? app->document.path : "preset";
     *file = (struct scene_file){0};
     bool good = ceduo_scene_load_text(file, name, yaml.bytes, &problems);
@@ -111,7 +111,7 @@ static void append_light(struct text *text, const char *name, enum ceduo_light l
 {
     ceduo_text_format(text, _("%s %s"), name, ceduo_words_verdict(light));
     if (light != now)
-        ceduo_text_then(text, " ", _("(now %s)"), ceduo_words_verdict(now));
+        ceduo_text_append_joined(text, " ", _("(now %s)"), ceduo_words_verdict(now));
 }
 
 static void append_lights(struct app *app, struct text *text, const struct preview *f)
@@ -121,15 +121,15 @@ static void append_lights(struct app *app, struct text *text, const struct previ
     append_light(text, _("Contact"), f->index.contact, now->contact);
     if (isfinite(f->index.worst_adc))
         ceduo_text_format(text, _(", %.3g m"), f->index.worst_adc);
-    ceduo_text_put(text, "; ");
+    ceduo_text_append(text, "; ");
     append_light(text, _("free run"), f->index.free_run, now->free_run);
-    ceduo_text_put(text, "; ");
+    ceduo_text_append(text, "; ");
     append_light(text, _("energy"), f->index.energy, now->energy);
     if (!isnan(f->exceed))
-        ceduo_text_then(text, ", ", _("about %.0f of 1000 with too much"), 1000 * f->exceed);
+        ceduo_text_append_joined(text, ", ", _("about %.0f of 1000 with too much"), 1000 * f->exceed);
     else if (!isnan(f->reach))
-        ceduo_text_then(text, ", ", _("about %.0f of 1000 arrive"), 1000 * f->reach);
-    ceduo_text_put(text, "\n");
+        ceduo_text_append_joined(text, ", ", _("about %.0f of 1000 arrive"), 1000 * f->reach);
+    ceduo_text_append(text, "\n");
 }
 
 /* What the lights would be with a value at the popup's path; it is asked for, and put once it is known. */
@@ -141,7 +141,7 @@ static void append_change(struct app *app, struct popup *p)
             append_lights(app, &p->text, &p->ahead);
         return;
     }
-    ceduo_text_put(&p->text, _("the lights: computing …\n"));
+    ceduo_text_append(&p->text, _("the lights: computing …\n"));
     bool all = p->chosen == chose_new_option; /* the stand in every belt */
     if (!all)
         ceduo_emit_scalar(&value, p->value, true);
@@ -178,7 +178,7 @@ static void preview_stand(struct app *app, struct popup *p)
             ceduo_text_format(&p->text, _("with this rock: ADC %.3g m, free run %.1f %% (%s)"), r.adc_m,
                               r.free_run_probability * 100, ceduo_words_law(ceduo_rule_words.names[r.rule]));
         if (!r.bare)
-            ceduo_text_then(&p->text, ", ", _("%.3g kJ/100 m"), r.dissipated * J_TO_KJ);
+            ceduo_text_append_joined(&p->text, ", ", _("%.3g kJ/100 m"), r.dissipated * J_TO_KJ);
         ceduo_text_char(&p->text, '\n');
         append_change(app, p);
     }
@@ -225,16 +225,16 @@ bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *va
                                                    : _("the cutting of '%s' is now that of '%s'"),
                           name, name_of_stand(app));
     if (dropped[0] || dropped[1])
-        ceduo_text_then(&said, said.length > 0 ? "; " : "",
-                        dropped[0] && dropped[1] ? _("growth and cutting of '%s' are dropped: '%s' has none")
-                        : dropped[0]             ? _("the growth of '%s' is dropped: '%s' has none")
-                                                 : _("the cutting of '%s' is dropped: '%s' has none"),
-                        name, name_of_stand(app));
+        ceduo_text_append_joined(&said, said.length > 0 ? "; " : "",
+                                 dropped[0] && dropped[1] ? _("growth and cutting of '%s' are dropped: '%s' has none")
+                                 : dropped[0]             ? _("the growth of '%s' is dropped: '%s' has none")
+                                                          : _("the cutting of '%s' is dropped: '%s' has none"),
+                                 name, name_of_stand(app));
     double year = ceduo_app_option(app)->belts[app->belt].cut_year;
     if (!isnan(year) && ceduo_node_get(now, "cutting"))
-        ceduo_text_then(&said, said.length > 0 ? "; " : "", _("it is cut in year %g as before"), year);
+        ceduo_text_append_joined(&said, said.length > 0 ? "; " : "", _("it is cut in year %g as before"), year);
     if (said.length > 0)
-        ceduo_app_say(app, "%s", said.bytes);
+        ceduo_app_show_message(app, "%s", said.bytes);
     return true;
 }
 
@@ -249,12 +249,12 @@ static void chose_word(struct app *app, struct popup *p)
 static void chose_new_option(struct app *app, struct popup *p)
 {
     const char *name = p->value;
-    if (ceduo_popup_chose_treatment(app, p->value))
+    if (ceduo_popup_on_treatment(app, p->value))
         return;
     describe_stand(app, p->value, "", &name);
     if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, p->value, name, &app->problems))) {
         ceduo_app_show_option(app, app->document.file.scene.options_count - 1);
-        ceduo_app_say(app, _("added '%s'; Enter renames it, 2 changes its stand"), ceduo_app_option(app)->name);
+        ceduo_app_show_message(app, _("added '%s'; Enter renames it, 2 changes its stand"), ceduo_app_option(app)->name);
     }
 }
 
@@ -335,7 +335,7 @@ void ceduo_popup_offer_grounds(struct app *app, struct popup *p)
 void ceduo_popup_presets(struct app *app)
 {
     if (ceduo_app_option(app)->belts_count == 0)
-        ceduo_app_say(app, "%s", _("there is no belt yet: a adds one in view 1"));
+        ceduo_app_show_message(app, "%s", _("there is no belt yet: a adds one in view 1"));
     else
         list_stands(app,
                     ceduo_app_format(app, _("Stand of belt %zu, now '%s'"), app->belt + 1,
@@ -382,7 +382,7 @@ static void offer_scenes(struct app *app, struct popup *p)
 
 static void chose_scene(struct app *app, struct popup *p)
 {
-    if (!ceduo_popup_take_recovery(app, p->value))
+    if (!ceduo_popup_open_recovery(app, p->value))
         ceduo_app_open(app, p->value);
 }
 
@@ -395,5 +395,5 @@ static void list_scenes(struct app *app)
 
 void ceduo_popup_open(struct app *app)
 {
-    ceduo_popup_once_saved(app, list_scenes);
+    ceduo_popup_confirm_unsaved(app, list_scenes);
 }

@@ -34,11 +34,11 @@ static bool save_to(struct app *app, const char *path)
         return false;
     }
     if (anew && from[0])
-        ceduo_app_say(app, _("saved %s; laid out anew, without the comments of %s"), path, from);
+        ceduo_app_show_message(app, _("saved %s; laid out anew, without the comments of %s"), path, from);
     else if (anew)
-        ceduo_app_say(app, _("saved %s; laid out anew, the old file is %s.bak"), path, path);
+        ceduo_app_show_message(app, _("saved %s; laid out anew, the old file is %s.bak"), path, path);
     else
-        ceduo_app_say(app, _("saved %s"), path);
+        ceduo_app_show_message(app, _("saved %s"), path);
     if (app->once_saved)
         app->once_saved(app);
     app->once_saved = NULL;
@@ -122,7 +122,7 @@ static void ask_for_name(struct app *app, const char *why)
     if (why)
         ceduo_text_format(&p->text, _("It could not be saved: %s. Give another name, or one in another folder."), why);
     else if (d->shipped)
-        ceduo_text_put(&p->text, _("This scene belongs to the program and is never written over; save your own copy."));
+        ceduo_text_append(&p->text, _("This scene belongs to the program and is never written over; save your own copy."));
     const char *slash = d->path && d->shipped ? strrchr(d->path, '/') : NULL;
     p->endings = ENDING;
     p->typed_wins = true;
@@ -182,7 +182,7 @@ static void chose_unsaved(struct app *app, struct popup *p)
     }
 }
 
-void ceduo_popup_once_saved(struct app *app, void (*then)(struct app *app))
+void ceduo_popup_confirm_unsaved(struct app *app, void (*then)(struct app *app))
 {
     if (!ceduo_document_unsaved(&app->document)) {
         then(app);
@@ -203,7 +203,7 @@ static void quit(struct app *app)
 
 void ceduo_popup_quit(struct app *app)
 {
-    ceduo_popup_once_saved(app, quit);
+    ceduo_popup_confirm_unsaved(app, quit);
 }
 
 /* ---- work that was left behind ---- */
@@ -244,7 +244,7 @@ static bool is_due(const struct app *app, const struct recovery *r)
     return due;
 }
 
-bool ceduo_popup_take_recovery(struct app *app, const char *value)
+bool ceduo_popup_open_recovery(struct app *app, const char *value)
 {
     LOCAL_ARENA(arena);
     size_t n;
@@ -264,7 +264,7 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value)
         if (good) {
             unlink(list[i].file); /* this program keeps a copy of its own now */
             app->opened = false;
-            ceduo_app_say(app, "%s", _("your work is back; s saves it, u shows what was before"));
+            ceduo_app_show_message(app, "%s", _("your work is back; s saves it, u shows what was before"));
         }
         free(text);
     }
@@ -277,7 +277,7 @@ static void chose_recover(struct app *app, struct popup *p)
     const struct recovery *list = strcmp(p->value, "forget") == 0 ? ceduo_recovery_list(&p->arena, &n) : NULL;
     for (size_t i = 0; list && i < n; i++)
         unlink(list[i].file);
-    ceduo_popup_take_recovery(app, p->value);
+    ceduo_popup_open_recovery(app, p->value);
 }
 
 void ceduo_popup_recover(struct app *app)

@@ -96,11 +96,11 @@ static void lend(struct plan *p, size_t belt, const struct lender *l, const char
             continue;
         ceduo_text_format(&value, "%s: ", map->items[i]->key);
         ceduo_emit_flow(&value, map->items[i]);
-        ceduo_text_put(&value, ", ");
+        ceduo_text_append(&value, ", ");
     }
-    ceduo_text_put(&value, "source: {kind: assumed, text: ");
+    ceduo_text_append(&value, "source: {kind: assumed, text: ");
     ceduo_emit_scalar(&value, ceduo_app_format(p->app, _("as in the stand '%s'"), lent_belt(l)->name), true);
-    ceduo_text_put(&value, "}}");
+    ceduo_text_append(&value, "}}");
     ceduo_changes_add(&p->edits, CHANGE_SET, ceduo_app_format(p->app, "forest[%zu].stand.%s", belt, key), value.bytes);
 }
 
@@ -112,7 +112,7 @@ static void tell_lent(struct plan *p, const char *stand, const struct lender *l,
                                                           : _("The cutting of '%s' is that of '%s' (assumed)."),
                                         stand, lent_belt(l)->name);
     if (!strstr(ceduo_text_string(&p->borrowed), told))
-        ceduo_text_then(&p->borrowed, p->borrowed.length > 0 ? " " : "", "%s", told);
+        ceduo_text_append_joined(&p->borrowed, p->borrowed.length > 0 ? " " : "", "%s", told);
 }
 
 /* The ages of the standards that stay are those of `model`, in proportion. Without such ages all are one rotation old. */
@@ -134,7 +134,8 @@ static void keep_standards(struct plan *p, size_t belt, const struct ceduo_stand
 
 static void leave_belt(struct plan *p, size_t belt, const char *why)
 {
-    ceduo_text_then(&p->untreated, p->untreated.length > 0 ? " " : "", _("Belt %zu stays as it is: %s."), belt + 1, why);
+    ceduo_text_append_joined(&p->untreated, p->untreated.length > 0 ? " " : "", _("Belt %zu stays as it is: %s."), belt + 1,
+                             why);
 }
 
 static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
@@ -236,10 +237,10 @@ static bool add_option(struct app *app, enum treatment kind, double number)
         LOCAL_TEXT(said);
         ceduo_text_format(&said, _("added '%s'."), scene->options[scene->options_count - 1].name);
         if (p.borrowed.length > 0)
-            ceduo_text_then(&said, " ", "%s", p.borrowed.bytes);
+            ceduo_text_append_joined(&said, " ", "%s", p.borrowed.bytes);
         if (p.untreated.length > 0)
-            ceduo_text_then(&said, " ", "%s", p.untreated.bytes);
-        ceduo_app_say(app, "%s", said.bytes);
+            ceduo_text_append_joined(&said, " ", "%s", p.untreated.bytes);
+        ceduo_app_show_message(app, "%s", said.bytes);
     }
     free_plan(&p);
     return good;
@@ -257,14 +258,14 @@ static void ask_number(struct app *app, enum treatment kind)
     const struct ceduo_option *o = ceduo_app_option(app);
     double stay = 0;
     for (size_t i = 0; i < o->belts_count; i++)
-        stay = fmax(stay, ceduo_stand_stay(&o->belts[i].stand));
+        stay = fmax(stay, ceduo_stand_retained_per_ha(&o->belts[i].stand));
     bool cut = kind == CUT_NOW;
     const char *offered = ceduo_app_format(app, "%g", stay > 0 ? round(stay) : KEPT_USUALLY);
     struct popup *p = ceduo_popup_fields(app, _(treatments[kind].item), treatments[kind].value, filled_number);
     struct field *own = ceduo_popup_value(p, cut ? _("standards kept per ha") : _("years without a cut"), cut ? offered : "",
                                           ceduo_schema_at(cut ? "forest[0].stand.trees[0].per_ha" : "forest[0].cut_year"));
-    ceduo_text_put(&p->text, cut ? _("Of all ages together, in the proportion that the stand says. 0: all stems are cut.")
-                                 : _("In the year after them it is cut. Empty: it is never cut."));
+    ceduo_text_append(&p->text, cut ? _("Of all ages together, in the proportion that the stand says. 0: all stems are cut.")
+                                    : _("In the year after them it is cut. Empty: it is never cut."));
     own->flags = cut ? FIELD_REQUIRED : 0;
     own->meaning = cut ? N_("0: all stems are cut") : "";
     own->lo = cut ? 0 : 1;
@@ -286,16 +287,16 @@ bool ceduo_popup_preview_treatment(struct app *app, struct popup *p)
     if (kind == TREATMENTS)
         return false;
     struct plan plan = make_plan(app, kind, NAN);
-    ceduo_text_put(&p->text, _(treatments[kind].about));
+    ceduo_text_append(&p->text, _(treatments[kind].about));
     if (plan.borrowed.length > 0)
-        ceduo_text_then(&p->text, " ", "%s", plan.borrowed.bytes);
+        ceduo_text_append_joined(&p->text, " ", "%s", plan.borrowed.bytes);
     if (plan.untreated.length > 0)
-        ceduo_text_then(&p->text, " ", "%s", plan.untreated.bytes);
+        ceduo_text_append_joined(&p->text, " ", "%s", plan.untreated.bytes);
     free_plan(&plan);
     return true;
 }
 
-bool ceduo_popup_chose_treatment(struct app *app, const char *value)
+bool ceduo_popup_on_treatment(struct app *app, const char *value)
 {
     enum treatment kind = find_treatment(value);
     if (kind == SELECTION)

@@ -12,18 +12,18 @@ static void undo_or_redo(struct app *app, int by)
     struct document *d = &app->document;
     bool redo = by > 0;
     if (!ceduo_document_undo_or_redo(d, by)) {
-        ceduo_app_say(app, "%s", redo ? _("nothing to redo") : _("nothing to undo"));
+        ceduo_app_show_message(app, "%s", redo ? _("nothing to redo") : _("nothing to undo"));
         return;
     }
     ceduo_app_refresh(app);
-    ceduo_app_say(app, redo ? _("again: %s") : _("undone: %s"), ceduo_app_path(app, d->states[d->at + !redo].what));
+    ceduo_app_show_message(app, redo ? _("again: %s") : _("undone: %s"), ceduo_app_path(app, d->states[d->at + !redo].what));
 }
 
 static void next_option(struct app *app, int by)
 {
     size_t n = app->document.file.scene.options_count;
     ceduo_app_show_option(app, (app->option + (by > 0 ? 1 : n - 1)) % n);
-    ceduo_app_say(app, _("option %zu of %zu: %s"), app->option + 1, n, ceduo_app_option(app)->name);
+    ceduo_app_show_message(app, _("option %zu of %zu: %s"), app->option + 1, n, ceduo_app_option(app)->name);
 }
 
 static void next_pane(struct app *app, int by)
@@ -38,7 +38,7 @@ static void move_lines(struct app *app, int lines)
     if (state->pane == 0 && state->form.n > 0)
         ceduo_form_move(&state->form, lines, 0);
     else
-        ceduo_app_read_on(app, lines);
+        ceduo_app_continue_form(app, lines);
 }
 
 static void move_page(struct app *app, int by)
@@ -59,7 +59,7 @@ static void search_again(struct app *app)
     if (ceduo_form_search(ceduo_app_form(app), app->search))
         ceduo_app_state(app)->pane = 0;
     else
-        ceduo_app_say(app, _("'%s' is not found in this view"), app->search);
+        ceduo_app_show_message(app, _("'%s' is not found in this view"), app->search);
 }
 
 static bool filled_search(struct app *app, struct popup *p)
@@ -126,10 +126,10 @@ static void show_help(struct app *app)
     if (ceduo_app_state(app)->pane == 0)
         ceduo_form_explain(ceduo_app_form(app), &field);
     if (field.bytes) {
-        ceduo_text_safe(&p->text, field.bytes);
-        ceduo_text_put(&p->text, "\n \n");
+        ceduo_text_append_escaped(&p->text, field.bytes);
+        ceduo_text_append(&p->text, "\n \n");
     }
-    ceduo_text_put(&p->text, _("Every edit is live: figures and pictures follow at once.\n \n"));
+    ceduo_text_append(&p->text, _("Every edit is live: figures and pictures follow at once.\n \n"));
     for (int i = 0; i < ACTION_COUNT; i++) {
         const struct action_info *a = &ceduo_actions[i];
         for (size_t k = 0; k < sizeof groups / sizeof groups[0]; k++)
@@ -138,17 +138,17 @@ static void show_help(struct app *app)
         const char *keys = ceduo_app_format(app, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
         ceduo_text_format(&p->text, "  %-16s%s\n", keys, ceduo_translate_in(a->help));
     }
-    ceduo_text_put(&p->text, " \n");
-    ceduo_text_put(&p->text, _("A star marks what is assumed and not measured. Dim values are defaults.\n"
-                               "A number is typed with a comma or a dot, a diameter in cm; one with a spread as "
-                               "0.6 +- 0.1, with a u behind it where all between is alike. A point is x z with a blank "
-                               "between.\n"
-                               "In a list, type to search: the best match stands first. a and y split a ground, a belt "
-                               "or a point of the profile; its neighbours follow where a border is moved.\n"
-                               "The column on the right: of 1000 rocks released, without forest; the three lights; what "
-                               "the index (Eq. 4 and 5 of Ciabocco et al. 2009) takes and leaves; how sure it is.\n"
-                               "With the mouse: click a field or a view's name; the wheel moves; with Shift held the "
-                               "terminal itself selects text.\n"));
+    ceduo_text_append(&p->text, " \n");
+    ceduo_text_append(&p->text, _("A star marks what is assumed and not measured. Dim values are defaults.\n"
+                                  "A number is typed with a comma or a dot, a diameter in cm; one with a spread as "
+                                  "0.6 +- 0.1, with a u behind it where all between is alike. A point is x z with a blank "
+                                  "between.\n"
+                                  "In a list, type to search: the best match stands first. a and y split a ground, a belt "
+                                  "or a point of the profile; its neighbours follow where a border is moved.\n"
+                                  "The column on the right: of 1000 rocks released, without forest; the three lights; what "
+                                  "the index (Eq. 4 and 5 of Ciabocco et al. 2009) takes and leaves; how sure it is.\n"
+                                  "With the mouse: click a field or a view's name; the wheel moves; with Shift held the "
+                                  "terminal itself selects text.\n"));
     ceduo_text_format(&p->text, " \n%s\n", _("Words"));
     for (size_t i = 0; i < sizeof glossary / sizeof glossary[0]; i++)
         ceduo_text_format(&p->text, "  %s: %s\n", _(glossary[i].word), _(glossary[i].meaning));
@@ -210,14 +210,14 @@ static void end_input(struct app *app)
         ceduo_popup_recover(app);
     app->opened = false;
     if (app->popup)
-        ceduo_popup_look(app);
+        ceduo_popup_browse(app);
     if (!app->quit && ceduo_views[app->view]->follow)
         ceduo_views[app->view]->follow(app);
 }
 
 void ceduo_program_key(struct app *app, int key)
 {
-    enum action action = ceduo_action_of(key);
+    enum action action = ceduo_action_find(key);
     begin_input(app);
     if (app->popup)
         ceduo_popup_key(app, key);
@@ -233,7 +233,7 @@ void ceduo_program_paste(struct app *app, const char *text)
     begin_input(app);
     app->message[0] = '\0'; /* that of a popup, too */
     if (app->popup ? !ceduo_popup_paste(app, text) : !app->editing)
-        ceduo_app_say(app, "%s", _("what was pasted goes nowhere: no field is open"));
+        ceduo_app_show_message(app, "%s", _("what was pasted goes nowhere: no field is open"));
     else if (!app->popup && !ceduo_line_paste(&app->line, text))
         ceduo_app_warn(app, "%s", _(CEDUO_LINE_FULL));
     end_input(app);
@@ -286,11 +286,11 @@ void ceduo_program_free(struct app *app)
     ceduo_app_free(app);
 }
 
-bool ceduo_program_news(struct app *app)
+bool ceduo_program_poll(struct app *app)
 {
     ceduo_arena_free(app->scratch);
     const struct ceduo_scene *scene = &app->document.file.scene;
-    bool changed = ceduo_live_news(&app->live, scene);
+    bool changed = ceduo_live_poll(&app->live, scene);
     const struct ceduo_years *years = ceduo_live_years(&app->live, scene, app->option);
     union results *results = &app->live.results;
     if (years && app->year >= years->count)
@@ -299,7 +299,7 @@ bool ceduo_program_news(struct app *app)
         ceduo_popup_previewed(app, results->preview);
     if (results->search)
         ceduo_popup_found(app, results->search);
-    ceduo_results_drop(results, JOB_PREVIEW);
-    ceduo_results_drop(results, JOB_SEARCH);
+    ceduo_result_list_drop(results, JOB_PREVIEW);
+    ceduo_result_list_drop(results, JOB_SEARCH);
     return changed;
 }

@@ -18,7 +18,7 @@ void ceduo_program_click(struct app *app, int x, int y);
 void ceduo_program_wheel(struct app *app, int by);
 
 /* Takes the news of the jobs, and what a search found. True where the screen has changed. */
-bool ceduo_program_news(struct app *app);
+bool ceduo_program_poll(struct app *app);
 
 /* ---- a script (script.c) ---- */
 

@@ -19,7 +19,7 @@ static bool is_enough(void *context)
     return ceduo_clock() - s->begun > SECONDS_MAX;
 }
 
-static void add_piece(void *context, const struct ceduo_piece *piece)
+static void add_piece(void *context, const struct ceduo_trajectory_segment *piece)
 {
     struct rock_trajectory *s = context;
     if (s->n == PIECES_MAX)
@@ -28,7 +28,7 @@ static void add_piece(void *context, const struct ceduo_piece *piece)
     s->pieces[s->n++] = (struct rock_piece){*piece, s->stems_count};
 }
 
-static void add_stem(void *context, const struct ceduo_stem_passed *stem)
+static void add_stem(void *context, const struct ceduo_stem_encounter *stem)
 {
     struct rock_trajectory *s = context;
     if (s->n >= PIECES_MAX)
@@ -51,7 +51,8 @@ bool ceduo_app_follow_rock(struct app *app)
         s->key = key;
         s->rock = app->rock;
         s->begun = ceduo_clock();
-        const struct ceduo_watch watch = {.enough = is_enough, .piece = add_piece, .stem = add_stem, .context = s};
+        const struct ceduo_trajectory_callbacks watch = {
+            .enough = is_enough, .piece = add_piece, .stem = add_stem, .context = s};
         enum ceduo_status status = ceduo_trajectory_follow(scene, ceduo_app_option(app), s->rock, &watch, &s->whole, NULL);
         s->cut_short = status == CEDUO_CANCELLED;
         if (status != CEDUO_OK && !s->cut_short) {
@@ -63,13 +64,13 @@ bool ceduo_app_follow_rock(struct app *app)
     size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
     struct ceduo_polyline *line = &s->line;
     free(line->x);
-    line->x = ceduo_must(malloc(2 * room * sizeof(double)));
+    line->x = ceduo_check_memory(malloc(2 * room * sizeof(double)));
     line->z = line->x + room;
     line->x[0] = s->whole.x0;
     line->z[0] = s->whole.z0;
     line->n = 1;
     for (size_t k = 0; k < shown; k++) {
-        const struct ceduo_piece *p = &s->pieces[k].piece;
+        const struct ceduo_trajectory_segment *p = &s->pieces[k].piece;
         for (int i = 1; i < FLIGHT_POINTS && !p->rolls; i++) {
             double time = p->seconds * i / FLIGHT_POINTS;
             line->x[line->n] = p->x + p->vx * time;
@@ -97,30 +98,31 @@ static void describe(const struct rock_trajectory *s, const struct ceduo_scene *
                           s->cut_short ? _("goes on too long to be shown") : _(ends[s->whole.end]), s->whole.x + origin,
                           (unsigned long long)s->whole.contacts);
         if (s->whole.stems_drawn > 0)
-            ceduo_text_then(text, ", ", _("%llu stems hit"), (unsigned long long)s->whole.stems_hit);
+            ceduo_text_append_joined(text, ", ", _("%llu stems hit"), (unsigned long long)s->whole.stems_hit);
         return;
     }
-    const struct ceduo_piece *p = &s->pieces[s->at - 1].piece;
+    const struct ceduo_trajectory_segment *p = &s->pieces[s->at - 1].piece;
     double up = p->vz > 0 && !p->rolls ? fmin(p->vz / gravity, p->seconds) : 0;
     double x = p->x + p->vx * up, z = p->z + (p->vz - gravity / 2 * up) * up;
     ceduo_text_format(text, _("rock %llu, piece %zu of %zu"), (unsigned long long)s->rock, s->at, s->n);
     if (p->rolls)
-        ceduo_text_then(text, ": ", _("rolls from %.2f to %.2f m, %.1f to %.1f m/s"), p->x + origin, p->x1 + origin,
-                        hypot(p->vx, p->vz), hypot(p->vx1, p->vz1));
+        ceduo_text_append_joined(text, ": ", _("rolls from %.2f to %.2f m, %.1f to %.1f m/s"), p->x + origin, p->x1 + origin,
+                                 hypot(p->vx, p->vz), hypot(p->vx1, p->vz1));
     else
-        ceduo_text_then(text, ": ", _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m over the ground"), p->x + origin,
-                        p->x1 + origin, hypot(p->vx1, p->vz1), fmax(0, z - ceduo_slope_height(&scene->slope, x)));
+        ceduo_text_append_joined(text, ": ", _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m over the ground"),
+                                 p->x + origin, p->x1 + origin, hypot(p->vx1, p->vz1),
+                                 fmax(0, z - ceduo_slope_height(&scene->slope, x)));
     for (size_t i = s->at > 1 ? s->pieces[s->at - 2].stems : 0; i < s->pieces[s->at - 1].stems; i++) {
-        const struct ceduo_stem_passed *stem = &s->stems[i];
+        const struct ceduo_stem_encounter *stem = &s->stems[i];
         if (!stem->hit) /* at its end */
             continue;
         if (isnan(stem->dbh))
-            ceduo_text_then(text, "; ", _("hits a log: %.2g of %.3g kJ"), stem->taken / 1e3, stem->before / 1e3);
+            ceduo_text_append_joined(text, "; ", _("hits a log: %.2g of %.3g kJ"), stem->taken / 1e3, stem->before / 1e3);
         else
-            ceduo_text_then(text, "; ",
-                            stem->shoot ? _("hits a shoot of %.2g cm: %.2g of %.3g kJ")
-                                        : _("hits a tree of %.2g cm: %.2g of %.3g kJ"),
-                            stem->dbh * 100, stem->taken / 1e3, stem->before / 1e3);
+            ceduo_text_append_joined(text, "; ",
+                                     stem->shoot ? _("hits a shoot of %.2g cm: %.2g of %.3g kJ")
+                                                 : _("hits a tree of %.2g cm: %.2g of %.3g kJ"),
+                                     stem->dbh * 100, stem->taken / 1e3, stem->before / 1e3);
     }
 }
 
@@ -133,7 +135,7 @@ void ceduo_app_step_rock(struct app *app, int by)
     else if (by < 0)
         s->at = s->at > 0 ? s->at - 1 : s->n;
     describe(s, &app->document.file.scene, &text);
-    ceduo_app_say(app, "%s", text.bytes);
+    ceduo_app_show_message(app, "%s", text.bytes);
 }
 
 void ceduo_app_next_rock(struct app *app, int by)

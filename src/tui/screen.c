@@ -52,8 +52,8 @@ static const char *title_of(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     LOCAL_TEXT(safe);
-    ceduo_text_put(&safe, ceduo_document_unsaved(&app->document) ? "* " : "");
-    ceduo_text_safe(&safe, ceduo_in_language(scene->title, scene->title_it));
+    ceduo_text_append(&safe, ceduo_document_unsaved(&app->document) ? "* " : "");
+    ceduo_text_append_escaped(&safe, ceduo_in_language(scene->title, scene->title_it));
     return ceduo_arena_string(app->scratch, ceduo_text_string(&safe));
 }
 
@@ -62,10 +62,10 @@ static bool draw_title(struct app *app)
 {
     int x = 0;
     for (int v = 0; v < VIEW_COUNT; x += title_columns(app, v++))
-        ceduo_canvas_put(&app->cells->canvas, x, 0, title_columns(app, v),
-                         v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
-                         ceduo_app_format(app, app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
-                                          ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help)));
+        ceduo_canvas_draw_text(&app->cells->canvas, x, 0, title_columns(app, v),
+                               v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
+                               ceduo_app_format(app, app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
+                                                ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help)));
     const char *title = title_of(app);
     bool fits = ceduo_cells_label_width(app->charset, title) + 4 <= app->width - x;
     if (fits)
@@ -81,19 +81,19 @@ static void draw_verdict(struct app *app)
     LOCAL_TEXT(answer);
     if (!r || r->scene->controls_count == 0)
         return;
-    struct ceduo_subject subject = ceduo_subject_of(ceduo_app_report(app), app->option, r->last_control);
+    struct ceduo_subject subject = ceduo_subject_find(ceduo_app_report(app), app->option, r->last_control);
     enum ceduo_judgement judgement = subject.outcome.answer;
     bool open = judgement != CEDUO_NOTHING && judgement != CEDUO_UNANSWERED;
     double share = open ? ceduo_live_awaits_uncertainty(&app->live, &app->document.file, app->option) : NAN;
     const char *progress = isnan(share) ? "" : ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
     subject.so_far = !isnan(share);
     ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE - ceduo_utf8_width(progress));
-    ceduo_canvas_put(&app->cells->canvas, 1, 1, app->width - 1,
-                     judgement == CEDUO_UNANSWERED ? CEDUO_ROLE_TITLE
-                     : judgement == CEDUO_YES      ? CEDUO_ROLE_GOOD
-                     : judgement == CEDUO_NO       ? CEDUO_ROLE_BAD
-                                                   : CEDUO_ROLE_WARN,
-                     answer.bytes);
+    ceduo_canvas_draw_text(&app->cells->canvas, 1, 1, app->width - 1,
+                           judgement == CEDUO_UNANSWERED ? CEDUO_ROLE_TITLE
+                           : judgement == CEDUO_YES      ? CEDUO_ROLE_GOOD
+                           : judgement == CEDUO_NO       ? CEDUO_ROLE_BAD
+                                                         : CEDUO_ROLE_WARN,
+                           answer.bytes);
     ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 1, CEDUO_ROLE_DIM, progress);
 }
 
@@ -121,7 +121,7 @@ static void dim_figures(struct app *app, struct ceduo_area column)
     struct kept *kept = &app->kept;
     if (!ceduo_live_is_stale(&app->live, scene, app->option)) {
         if (!kept->cells)
-            kept->cells = ceduo_must(ceduo_cells_create(app->width, app->height, app->charset));
+            kept->cells = ceduo_check_memory(ceduo_cells_create(app->width, app->height, app->charset));
         memcpy(kept->cells->cell, app->cells->cell, (size_t)app->width * (size_t)app->height * sizeof *app->cells->cell);
         kept->view = app->view;
         kept->option = app->option;
@@ -146,18 +146,18 @@ static void draw_explanation(struct app *app)
     enum ceduo_role role = CEDUO_ROLE_TEXT;
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
     if (app->message[0] && !(app->popup && app->popup->kind != POPUP_TEXT && !app->popup->asks)) { /* which shows it */
-        ceduo_text_put(&text, app->message);
+        ceduo_text_append(&text, app->message);
         role = app->message_bad ? CEDUO_ROLE_WARN : CEDUO_ROLE_GOOD;
     } else if (ceduo_app_state(app)->pane == 0) {
         ceduo_form_explain(ceduo_app_form(app), &text);
     }
-    ceduo_text_safe(&safe, ceduo_text_string(&text));
+    ceduo_text_append_escaped(&safe, ceduo_text_string(&text));
     ceduo_app_shorten(app, &safe, lines.width, lines.height);
     const char *shown = ceduo_text_string(&safe);
     if ((int)ceduo_utf8_width(shown) > app->width)
         ceduo_app_text(app, lines, role, shown, 0);
     else
-        ceduo_canvas_put(&app->cells->canvas, 0, app->height - 2, app->width, role, shown);
+        ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 2, app->width, role, shown);
 }
 
 static int bar_width(enum action action, const char *word)
@@ -185,9 +185,9 @@ static void draw_bar(struct app *app)
     const struct bar_key *bar = ceduo_views[app->view]->bar;
     int x = 0, room = app->width + 2;
     if (app->popup || app->editing) {
-        ceduo_canvas_put(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM,
-                         app->popup ? ceduo_popup_bar(app)
-                                    : _("Enter takes the value  Esc leaves it as it was  empty: the default"));
+        ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM,
+                               app->popup ? ceduo_popup_bar(app)
+                                          : _("Enter takes the value  Esc leaves it as it was  empty: the default"));
         return;
     }
     for (int i = 0; i < ACTION_COUNT; i++)
@@ -215,7 +215,7 @@ static void draw_column(struct app *app, struct ceduo_area area, bool titled)
     if (titled) {
         static const struct ceduo_page_column columns[] = {{"", 8, 0, CEDUO_FILLS}};
         CEDUO_PAGE_TABLE_OF(&page, columns);
-        ceduo_page_mark(&page, CEDUO_ROLE_TITLE, title_of(app));
+        ceduo_page_cell_role(&page, CEDUO_ROLE_TITLE, title_of(app));
     }
     size_t warnings = ceduo_pane_column(&page, &pane), left = 0;
     for (; left < warnings; left++) {
@@ -224,7 +224,7 @@ static void draw_column(struct app *app, struct ceduo_area area, bool titled)
         ceduo_page_drop(&page);
     }
     if (left > 0)
-        ceduo_page_say(&page, CEDUO_PAGE_WARNING, ngettext("%zu remark more: view 4", "%zu remarks more: view 4", left), left);
+        ceduo_page_para(&page, CEDUO_PAGE_WARNING, ngettext("%zu remark more: view 4", "%zu remarks more: view 4", left), left);
     if (ceduo_page_draw(&page, canvas, area, 0) > area.height)
         ceduo_canvas_label_right(canvas, app->width - 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, " \xe2\x80\xa6");
     ceduo_page_free(&page);

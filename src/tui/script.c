@@ -16,9 +16,9 @@
 static enum script_end fail(const char *path, size_t line, const char *what, const char *word, size_t most)
 {
     LOCAL_TEXT(message);
-    ceduo_text_safe(&message, path);
+    ceduo_text_append_escaped(&message, path);
     ceduo_text_format(&message, ":%zu: %s: ", line, what);
-    ceduo_text_safe_n(&message, word, ceduo_utf8_cut(word, most));
+    ceduo_text_append_escaped_n(&message, word, ceduo_utf8_cut(word, most));
     fprintf(stderr, "%s\n", message.bytes);
     return SCRIPT_WRONG;
 }
@@ -28,20 +28,21 @@ static void press_key(struct app *app, int key)
 {
     ceduo_program_key(app, key);
     if (ceduo_jobs_wait_search(app->live.jobs))
-        ceduo_program_news(app);
+        ceduo_program_poll(app);
 }
 
 /* Puts the screen as text, as letters of its roles, or as a drawing. */
 static enum script_end dump(struct app *app, const char *what, const char *name, const char *path, size_t line)
 {
     LOCAL_TEXT(drawing);
-    ceduo_program_news(app);
+    ceduo_program_poll(app);
     ceduo_screen_draw(app);
     if (strcmp(what, "draw") == 0) {
         ceduo_svg_screen(&drawing, app->cells, app->document.file.scene.title);
     } else {
-        char *screen = ceduo_must(strcmp(what, "roles") == 0 ? ceduo_cells_roles(app->cells) : ceduo_cells_dump(app->cells));
-        ceduo_text_put(&drawing, screen);
+        char *screen =
+            ceduo_check_memory(strcmp(what, "roles") == 0 ? ceduo_cells_roles(app->cells) : ceduo_cells_dump(app->cells));
+        ceduo_text_append(&drawing, screen);
         free(screen);
     }
     bool good = strcmp(name, "-") == 0 ? fputs(drawing.bytes, stdout) >= 0 && fflush(stdout) == 0
@@ -61,7 +62,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
         *rest++ = '\0';
     if (strcmp(command, "key") == 0) {
         for (char *name = strtok_r(rest, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
-            int key = ceduo_key_of(name);
+            int key = ceduo_key_compute(name);
             if (key == K_NONE)
                 return fail(path, line, _("no such key"), name, CEDUO_FOREIGN_MAX);
             press_key(app, key);
@@ -83,7 +84,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
         ceduo_app_resize(app, width, height);
     } else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0) {
         ceduo_jobs_wait(app->live.jobs);
-        ceduo_program_news(app);
+        ceduo_program_poll(app);
     } else {
         return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command, CEDUO_FOREIGN_MAX);
     }

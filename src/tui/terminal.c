@@ -92,7 +92,7 @@ static bool copy(const char *string)
     LOCAL_TEXT(all);
     if (n > COPY_MAX)
         return false;
-    ceduo_text_put(&copied, "\033]52;c;");
+    ceduo_text_append(&copied, "\033]52;c;");
     append_base64(&copied, string, n);
     ceduo_text_format(&all, "%s\a", copied.bytes);
     if (tmux && tmux[0])
@@ -426,7 +426,7 @@ static void loop(struct app *app, bool colours)
             app->redraw = true;
         }
         bool changed = take_keys(app); /* also where a signal told of a new size */
-        changed |= ceduo_program_news(app);
+        changed |= ceduo_program_poll(app);
         if (changed || app->redraw || n < 0 || app->width != COLS || app->height != LINES)
             show(app, colours);
     }

@@ -37,11 +37,11 @@ static void draw_table(struct app *app, struct ceduo_area area)
     size_t first = app->option >= shown ? app->option - shown + 1 : 0;
     ceduo_pane_options(&table, &pane, first, shown);
     if (shown < n)
-        ceduo_page_say(&table, CEDUO_PAGE_NOTE, _("%zu\xe2\x80\x93%zu of %zu options; up, down: the others"), first + 1,
-                       first + shown, n);
+        ceduo_page_para(&table, CEDUO_PAGE_NOTE, _("%zu\xe2\x80\x93%zu of %zu options; up, down: the others"), first + 1,
+                        first + shown, n);
     int used = ceduo_page_draw(&table, &app->cells->canvas, area, 0) + 1;
     ceduo_page_free(&table);
-    ceduo_pane_said(&said, &pane);
+    ceduo_pane_message(&said, &pane);
     int lines = ceduo_page_draw(&said, &app->cells->canvas, (struct ceduo_area){0}, 0), rest = area.height - used;
     struct ceduo_area below = {area.left, area.top + used, area.width - 2, lines < rest ? lines : rest};
     ceduo_app_page(app, below, &said, &ceduo_app_state(app)->scroll);
@@ -93,9 +93,9 @@ static void delete_option(struct app *app)
     const char *path = ceduo_app_format(app, "options[%zu]", app->option);
     const char *name = ceduo_app_format(app, "%s", ceduo_app_option(app)->name);
     if (app->document.file.scene.options_count < 2)
-        ceduo_app_say(app, "%s", _("the only option stays"));
+        ceduo_app_show_message(app, "%s", _("the only option stays"));
     else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems)))
-        ceduo_app_say(app, _("deleted: %s; u brings it back"), name);
+        ceduo_app_show_message(app, _("deleted: %s; u brings it back"), name);
 }
 
 static void move_option(struct app *app, int by)
@@ -125,8 +125,8 @@ static const struct act acts[] = {{ACTION_UP, .function = next_option, .by = -1}
                                   {ACTION_DOWN, .function = next_option, .by = 1},
                                   {ACTION_TOP, .function = next_option, .by = -1000000},
                                   {ACTION_BOTTOM, .function = next_option, .by = 1000000},
-                                  {ACTION_PAGE_UP, .function = ceduo_app_read_on, .by = -4},
-                                  {ACTION_PAGE_DOWN, .function = ceduo_app_read_on, .by = 4},
+                                  {ACTION_PAGE_UP, .function = ceduo_app_continue_form, .by = -4},
+                                  {ACTION_PAGE_DOWN, .function = ceduo_app_continue_form, .by = 4},
                                   {ACTION_ADD, .plain = ceduo_popup_new_option},
                                   {ACTION_DUPLICATE, .plain = copy_option},
                                   {ACTION_DELETE, .plain = delete_option},

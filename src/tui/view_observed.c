@@ -20,7 +20,7 @@ static void append_number(struct text *text, const struct scene_file *file, cons
     if (file->observations[p->observation].kind == CEDUO_OBSERVED_PASSED)
         ceduo_text_format(text, "%.0f", value);
     else
-        ceduo_words_number(text, ceduo_seen_shown(file, p, value), 3);
+        ceduo_words_number(text, ceduo_observed_shown(file, p, value), 3);
 }
 
 static void add_rows(struct ceduo_page *page, const struct scene_file *file, const struct ceduo_predicted *predicted)
@@ -35,24 +35,25 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
         const struct ceduo_observation *o = &file->observations[p->observation];
         const char *unit = ceduo_observed_quantity(o->kind)->unit;
         struct text *name = ceduo_page_text(page);
-        ceduo_text_safe(name, o->name);
+        ceduo_text_append_escaped(name, o->name);
         if (o->use == CEDUO_OBSERVED_CHECK)
             ceduo_text_format(name, " %s", _("(check)"));
         struct text *seen = ceduo_page_text(page);
         append_number(seen, file, p, p->seen);
-        ceduo_text_then(seen, " ", "%s", unit);
+        ceduo_text_append_joined(seen, " ", "%s", unit);
         struct text *band = ceduo_page_text(page);
         if (isnan(p->lo)) {
             ceduo_text_char(band, '-');
         } else {
             append_number(band, file, p, p->lo);
-            ceduo_text_put(band, RANGE);
+            ceduo_text_append(band, RANGE);
             append_number(band, file, p, p->hi);
         }
-        ceduo_page_write(page, "%s",
-                         !p->inside                  ? _("OUTSIDE")
-                         : p->p_value < CEDUO_MISFIT ? _("mean only") /* what is refuted below is how the values are spread */
-                                                     : _("inside"));
+        ceduo_page_cell_format(page, "%s",
+                               !p->inside ? _("OUTSIDE")
+                               : p->p_value < CEDUO_MISFIT
+                                   ? _("mean only") /* what is refuted below is how the values are spread */
+                                   : _("inside"));
     }
     ceduo_page_add(page, CEDUO_PAGE_GAP);
 }
@@ -74,8 +75,8 @@ static void say_as_it_is(struct app *app, struct ceduo_page *page)
         const struct ceduo_predicted *p = &s->predicted[i];
         if (p->p_value >= CEDUO_MISFIT && p->inside)
             continue;
-        ceduo_text_put(&bad, bad.length > 0 ? "; " : "");
-        ceduo_text_safe(&bad, file->observations[i].name);
+        ceduo_text_append(&bad, bad.length > 0 ? "; " : "");
+        ceduo_text_append_escaped(&bad, file->observations[i].name);
         const char *chance = p->p_value < 0.001 ? "<.001" : WRITTEN(p->p_value, 2);
         if (isnan(p->p_value))
             ceduo_text_format(&bad, " (%s)", _("no simulated rock does that"));
@@ -87,12 +88,12 @@ static void say_as_it_is(struct app *app, struct ceduo_page *page)
             ceduo_text_format(&bad, " (p %s)", chance);
     }
     if (bad.length > 0)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("The scene as it is does not give what was seen: %s."), bad.bytes);
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("The scene as it is does not give what was seen: %s."), bad.bytes);
     else
         ceduo_page_note(page, _("The scene as it is can give all that was seen."));
     if (ceduo_fit_has_observations(file))
         ceduo_page_note(page, _("c fits the ground to what was seen; only a fit says what of it is determined."));
-    ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Simulated: %llu rocks."), (unsigned long long)s->rocks);
+    ceduo_page_para(page, CEDUO_PAGE_NOTE, _("Simulated: %llu rocks."), (unsigned long long)s->rocks);
 }
 
 static void append_best(struct text *text, const char *path, double best)
@@ -111,21 +112,22 @@ static void say_fitting(const struct live *live, struct ceduo_page *page)
     if (!s || s->evaluations == 0)
         return;
     if (s->stage == CEDUO_CHAINS && isfinite(s->rhat))
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("%llu scenes; R-hat %.3f (at most 1.05 is wanted), effective size %.0f (200)."),
-                       (unsigned long long)s->evaluations, s->rhat, s->effective_size);
+        ceduo_page_para(page, CEDUO_PAGE_NOTE,
+                        _("%llu scenes; R-hat %.3f (at most 1.05 is wanted), effective size %.0f (200)."),
+                        (unsigned long long)s->evaluations, s->rhat, s->effective_size);
     else
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("%llu scenes; log-likelihood %.2f."), (unsigned long long)s->evaluations,
-                       s->log_likelihood);
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("%llu scenes; log-likelihood %.2f."), (unsigned long long)s->evaluations,
+                        s->log_likelihood);
     for (size_t i = 0; f->loose.n > 0 && i < f->request.n;
          i++) /* a short first fit tells what cannot be known from what was seen */
         if (f->loose.loose[i]) {
-            ceduo_text_put(&loose, loose.length > 0 ? ", " : "");
+            ceduo_text_append(&loose, loose.length > 0 ? ", " : "");
             ceduo_calibration_name(&loose, f->request.values[i].path);
         }
     if (f->loose.n > 0)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE,
-                       _("What was seen does not hold %zu values: fix %s. c fits without it; to go on takes long."),
-                       f->request.n, ceduo_text_string(&loose));
+        ceduo_page_para(page, CEDUO_PAGE_NOTE,
+                        _("What was seen does not hold %zu values: fix %s. c fits without it; to go on takes long."),
+                        f->request.n, ceduo_text_string(&loose));
     ceduo_page_note(page, _("The best values so far:"));
     for (size_t i = 0; i < f->request.n; i++)
         append_best(ceduo_page_add(page, CEDUO_PAGE_ITEM), f->request.values[i].path, s->best[i]);
@@ -147,11 +149,11 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
         const char *path = f->inputs[i].path;
         append_best(text, path, one->best);
-        ceduo_text_put(text, " (");
+        ceduo_text_append(text, " (");
         ceduo_calibration_number(text, path, one->p2_5);
-        ceduo_text_put(text, RANGE);
+        ceduo_text_append(text, RANGE);
         ceduo_calibration_number(text, path, one->p97_5);
-        ceduo_text_put(text, ")");
+        ceduo_text_append(text, ")");
         if (!one->determined)
             ceduo_text_format(text, ", %s", _("not determined"));
     }
@@ -165,11 +167,11 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
                       "the draws. Once the scene is saved, as SCENE.yaml, this writes them to FITTED.draws.csv, and "
                       "FITTED.yaml, which reads them:"));
     struct text *command = ceduo_page_add(page, CEDUO_PAGE_NOTE);
-    ceduo_text_put(command, "ceduo");
+    ceduo_text_append(command, "ceduo");
     for (size_t i = 0; i < f->request.n; i++) {
         LOCAL_TEXT(value);
         ceduo_text_format(&value, "%s=%s:%s", f->inputs[i].path, NUMERAL(f->inputs[i].lo), NUMERAL(f->inputs[i].hi));
-        ceduo_text_put(command, " --calibrate ");
+        ceduo_text_append(command, " --calibrate ");
         ceduo_text_quoted(command, value.bytes);
     }
     ceduo_text_format(command, " -n %llu -o FITTED.yaml SCENE.yaml", (unsigned long long)f->request.rocks);
@@ -211,7 +213,7 @@ static void build(struct app *app, struct form *form)
             continue;
         for (size_t k = 0; k < of->n; k++)
             if (of->fields[k].type > FIELD_FILE || first_with(rows, kind->key, of->fields[k].key))
-                ceduo_text_then(&keys, keys.length > 0 ? " " : "", "%s", of->fields[k].key);
+                ceduo_text_append_joined(&keys, keys.length > 0 ? " " : "", "%s", of->fields[k].key);
         ceduo_form_heading(form, _(kind->meaning));
         ceduo_form_table(form, "observed", kind->key, ceduo_text_string(&keys));
     }
@@ -221,7 +223,7 @@ static void build(struct app *app, struct form *form)
 
 static void chose_group(struct app *app, struct popup *p)
 {
-    ceduo_popup_item_of(app, "observed", p->value, NULL, 0);
+    ceduo_popup_item_find(app, "observed", p->value, NULL, 0);
 }
 
 static void add(struct app *app)
@@ -241,7 +243,7 @@ static void draw(struct app *app, struct ceduo_area area)
     const struct scene_file *file = &app->document.file;
     const struct live *f = &app->live;
     const struct comparison *c = ceduo_live_comparison(f, file);
-    const struct ceduo_seen_stops *stops = NULL; /* of the option that is shown, otherwise the first there are */
+    const struct ceduo_observed_stops *stops = NULL; /* of the option that is shown, otherwise the first there are */
     const struct ceduo_observation *seen = c ? c->file.observations : NULL;
     for (size_t i = 0; c && i < c->file.observations_count; i++)
         if (c->stops[i].known && (!stops || (seen[i].option == app->option && seen[stops - c->stops].option != app->option)))
@@ -276,7 +278,7 @@ static void draw(struct app *app, struct ceduo_area area)
     int height = max > area.height / 2 ? max : area.height / 2;
     if (stops && height >= PICTURE_MIN) {
         struct ceduo_area top = {area.left, area.top, area.width, height};
-        ceduo_plot_seen(&app->cells->canvas, &top, stops, file->scene.slope.origin_x);
+        ceduo_plot_observed(&app->cells->canvas, &top, stops, file->scene.slope.origin_x);
         area.top += height + 1;
         area.height -= height + 1;
     }
@@ -359,7 +361,7 @@ static void ask_for_fit(struct app *app)
     for (size_t i = FILLED; i < request.n; i++) {
         if (i == FILLED)
             ceduo_text_format(&p->text, " %s ", _("Usual bounds of the others:"));
-        ceduo_text_put(&p->text, i == FILLED ? "" : "; ");
+        ceduo_text_append(&p->text, i == FILLED ? "" : "; ");
         ceduo_calibration_name(&p->text, request.values[i].path);
         ceduo_text_char(&p->text, ' ');
         append_bounds(&p->text, &request.values[i]);
@@ -395,23 +397,24 @@ static void take(struct app *app)
         return;
     }
     if (!f) {
-        ceduo_app_say(app, "%s",
-                      app->live.fitting ? _("the fit is not done yet; Esc stops it") : _("c fits the ground to what was seen"));
+        ceduo_app_show_message(app, "%s",
+                               app->live.fitting ? _("the fit is not done yet; Esc stops it")
+                                                 : _("c fits the ground to what was seen"));
         return;
     }
     const struct ceduo_calibration_report r = report_of(f);
     LOCAL_TEXT(source);
     ceduo_calibration_sources(&source, &r);
     const struct fit_values values = {&f->answer, f->inputs, ceduo_text_string(&source), NULL};
-    bool good = ceduo_keep_fit(&app->document, &values, &app->problems);
+    bool good = ceduo_apply_fit(&app->document, &values, &app->problems);
     if (ceduo_app_edited(app, good))
-        ceduo_app_say(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
+        ceduo_app_show_message(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
 }
 
 static void stop(struct app *app)
 {
     if (app->live.fitting || ceduo_live_fitted(&app->live))
-        ceduo_app_say(app, "%s", _("the scene is as it was"));
+        ceduo_app_show_message(app, "%s", _("the scene is as it was"));
     ceduo_live_drop_fit(&app->live);
 }
 

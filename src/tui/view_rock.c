@@ -63,13 +63,13 @@ static void draw(struct app *app, struct ceduo_area area)
         ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2."), rock.mass, rock.volume,
                           rock.mean_diameter, rock.moment);
     if (area.width >= WIDE && app->document.file.scene.simulation.law == CEDUO_LAW_LUMPED)
-        ceduo_text_then(&text, " ", "%s",
-                        _("The lumped law knows neither mass nor shape: on the ground they scale the "
-                          "energy alone."));
+        ceduo_text_append_joined(&text, " ", "%s",
+                                 _("The lumped law knows neither mass nor shape: on the ground they scale the "
+                                   "energy alone."));
     int lines = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
     ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top, area.width, area.height - lines - 1});
     struct ceduo_area foot = {area.left, area.top + area.height - lines, area.width, lines};
-    ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &text);
+    ceduo_app_set_cursor(app, foot, CEDUO_ROLE_DIM, &text);
 }
 
 /* Deletes the class under the cursor, or the power law that is all blocks. */
@@ -80,7 +80,7 @@ static void delete_blocks(struct app *app)
     if (!blocks || blocks->kind != NODE_MAP || !cell || strncmp(cell->path, "blocks.", 7) != 0)
         ceduo_items_delete(app);
     else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, "blocks", &app->problems)))
-        ceduo_app_say(app, "%s", _("blocks deleted: every rock is the one above; u brings them back"));
+        ceduo_app_show_message(app, "%s", _("blocks deleted: every rock is the one above; u brings them back"));
 }
 
 static const struct act acts[] = {{ACTION_ADD, .plain = ceduo_items_add_blocks}, {ACTION_DELETE, .plain = delete_blocks}, {0}};

@@ -42,16 +42,16 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         const struct ceduo_stand *s = &belt->stand;
         ceduo_text_format(text, "%s\xe2\x80\x93%s m: ", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
         if (ceduo_stand_is_bare(s))
-            ceduo_text_put(text, _("no stems"));
+            ceduo_text_append(text, _("no stems"));
         if (s->shoots_count > 0)
             ceduo_text_format(text, _("%.0f stools"), s->stools_per_ha);
         for (size_t i = 0; i < s->shoots_count; i++)
-            ceduo_text_then(text, ", ", _("%.0f shoots of %.1f cm, %.1f m"), s->shoots[i].per_ha, s->shoots[i].dbh * 100,
-                            s->shoots[i].height);
+            ceduo_text_append_joined(text, ", ", _("%.0f shoots of %.1f cm, %.1f m"), s->shoots[i].per_ha,
+                                     s->shoots[i].dbh * 100, s->shoots[i].height);
         for (size_t i = 0; i < s->trees_count; i++)
-            ceduo_text_then(text, s->shoots_count + i > 0 ? ", " : "", _("%.0f trees of %.0f cm, %.0f m"), s->trees[i].per_ha,
-                            s->trees[i].dbh * 100, s->trees[i].height);
-        ceduo_text_put(text, ". ");
+            ceduo_text_append_joined(text, s->shoots_count + i > 0 ? ", " : "", _("%.0f trees of %.0f cm, %.0f m"),
+                                     s->trees[i].per_ha, s->trees[i].dbh * 100, s->trees[i].height);
+        ceduo_text_append(text, ". ");
     }
 }
 
@@ -59,12 +59,13 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
 {
     const struct ceduo_verdict *v = &app->live.verdict;
     ceduo_words_window(text, ceduo_app_option(app));
-    ceduo_text_put(text, text->length > 0 ? " " : "");
+    ceduo_text_append(text, text->length > 0 ? " " : "");
     ceduo_words_years_sum(text, app->live.result, years);
     if (app->option < v->n && !isnan(v->choices[app->option].yield.cut_per_year))
-        ceduo_text_then(text, " ", _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);
+        ceduo_text_append_joined(text, " ", _("Yield %.2g m\xc2\xb3 per ha and year."),
+                                 v->choices[app->option].yield.cut_per_year);
     ceduo_text_char(text, ' ');
-    ceduo_words_counted(text, years->rocks);
+    ceduo_words_year_numbering(text, years->rocks);
 }
 
 #define PICTURE_MIN     7 /* lines of the picture beside the form: of the curve alone */
@@ -96,7 +97,7 @@ static void draw(struct app *app, struct ceduo_area area)
     if (alone)
         ceduo_app_hint(app, _("left, right: another year; Tab: back to the form"));
     ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &top, &picture);
-    ceduo_app_put(app, text_area, CEDUO_ROLE_TEXT, &text);
+    ceduo_app_set_cursor(app, text_area, CEDUO_ROLE_TEXT, &text);
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
     ceduo_app_draw_form(app, below);
 }

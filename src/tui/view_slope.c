@@ -133,7 +133,7 @@ static void say_place(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     const struct ceduo_snapshot *o = ceduo_live_snapshot(&app->live, scene);
-    const struct ceduo_run_snapshot *run = ceduo_snapshot_of(o, scene, app->option);
+    const struct ceduo_run_snapshot *run = ceduo_snapshot_find(o, scene, app->option);
     double x = place_x(app);
     size_t belt = belt_at(app, x), cell = 0;
     LOCAL_TEXT(text);
@@ -145,8 +145,8 @@ static void say_place(struct app *app)
     bool near = o && o->cells > 1 && fabs(o->cell_x[cell] - x) <= fabs(o->cell_x[1] - o->cell_x[0]);
     const struct ceduo_envelope *e = near && run && run->envelopes ? &run->envelopes[cell] : NULL;
     if (e && e->passed > 0)
-        ceduo_text_then(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
-                        WRITTEN(e->height.p95, 2), WRITTEN(e->mean_energy * J_TO_KJ, 3));
+        ceduo_text_append_joined(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
+                                 WRITTEN(e->height.p95, 2), WRITTEN(e->mean_energy * J_TO_KJ, 3));
     ceduo_app_hint(app, text.bytes);
 }
 
@@ -294,9 +294,9 @@ static void zoom(struct app *app, int by)
     state->pane = state->pane == PANE_FORM ? PANE_PLACE : state->pane;
     by += app->place.zoom;
     if (by < 0)
-        ceduo_app_say(app, "%s", _("this is the whole slope"));
+        ceduo_app_show_message(app, "%s", _("this is the whole slope"));
     else if (by > ZOOM_MAX)
-        ceduo_app_say(app, "%s", _("this is as near as it gets"));
+        ceduo_app_show_message(app, "%s", _("this is as near as it gets"));
     else
         app->place.zoom = by;
 }

@@ -47,7 +47,7 @@ static void build(struct app *app, struct form *form)
                                       each == 0 || each < s->shoots_count ? "per_ha " : ""));
     ceduo_form_heading(form, _("Single trees: standards, reserves"));
     ceduo_form_table(form, ceduo_app_format(app, "%s.trees", path), NULL, "per_ha " STEMS);
-    double today = ceduo_stand_trees(s), stay = ceduo_stand_stay(s);
+    double today = ceduo_stand_trees(s), stay = ceduo_stand_retained_per_ha(s);
     if (s->cutting.rotation > 0) /* beside the trees of today: to change one does not change the other */
         ceduo_form_fields(form, in, "cutting.stay_per_ha");
     if (s->cutting.rotation > 0 && fabs(today - stay) > 0.5)
@@ -84,11 +84,11 @@ static int draw_figures(struct app *app, struct ceduo_area area)
     const struct ceduo_belt *belt = &o->belts[app->belt];
     struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, belt);
     ceduo_words_unlikely(belt, &r, add_warning, &unlikely);
-    ceduo_words_thick(belt, add_warning, &unlikely);
+    ceduo_words_thick_stems(belt, add_warning, &unlikely);
     int lines = unlikely.length > 0 ? ceduo_app_text_lines(app, unlikely.bytes, area.width) : 0;
     lines = lines > area.height / 3 ? area.height / 3 : lines;
     struct ceduo_area above = {area.left, area.top + area.height - FIGURES - lines, area.width, lines};
-    ceduo_app_put(app, above, CEDUO_ROLE_WARN, &unlikely);
+    ceduo_app_set_cursor(app, above, CEDUO_ROLE_WARN, &unlikely);
     area.top += area.height - FIGURES;
     area.height = FIGURES;
     ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha."), r.stems_per_ha, r.basal_area);
@@ -98,8 +98,8 @@ static int draw_figures(struct app *app, struct ceduo_area area)
                           ceduo_words_law(ceduo_rule_words.names[r.rule]), r.adc.gsteiger_stools, r.adc.gsteiger_stems,
                           r.adc.interception, r.adc.crofton);
     if (!r.bare && !isnan(r.per_100m))
-        ceduo_text_then(&text, "; ", _("%.3g kJ per 100 m"), r.per_100m * J_TO_KJ);
-    ceduo_app_put(app, area, CEDUO_ROLE_DIM, &text);
+        ceduo_text_append_joined(&text, "; ", _("%.3g kJ per 100 m"), r.per_100m * J_TO_KJ);
+    ceduo_app_set_cursor(app, area, CEDUO_ROLE_DIM, &text);
     return lines;
 }
 

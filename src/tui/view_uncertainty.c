@@ -34,16 +34,16 @@ static void draw(struct app *app, struct ceduo_area area)
     picture.uncertainty = waits ? NULL : r;
     const char *never = waits ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;
     if (never)
-        ceduo_page_say(&page, CEDUO_PAGE_NOTE, "%s", _(never));
+        ceduo_page_para(&page, CEDUO_PAGE_NOTE, "%s", _(never));
     else if (ceduo_plot_add(CEDUO_PLOT_UNCERTAINTY, &page, &picture, pane.height - WORDS_MIN - 1))
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
     if (!waits)
         ceduo_pane_uncertainty(&page, &pane);
     if (r && r->answer && !waits)
-        ceduo_page_say(&page, CEDUO_PAGE_NOTE,
-                       r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
-                       (unsigned long long)r->answer->evaluations,
-                       (unsigned long long)(r->over ? CEDUO_UNCERTAINTY_YEAR_ROCKS : r->rocks));
+        ceduo_page_para(&page, CEDUO_PAGE_NOTE,
+                        r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
+                        (unsigned long long)r->answer->evaluations,
+                        (unsigned long long)(r->over ? CEDUO_UNCERTAINTY_YEAR_ROCKS : r->rocks));
     area.height = pane.height;
     area.width -= 2;
     ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
@@ -75,7 +75,7 @@ static void add(struct app *app)
     struct ceduo_uncertainty_report r;
     bool known = ceduo_app_uncertainty(app, &r) && (!r.answer || !isnan(ceduo_uncertainty_main(&r, app->option)->fit.p5));
     if (!known || !r.answer || (rows && rows->kind != NODE_LIST)) {
-        ceduo_app_say(app, "%s", known ? _("nothing here has a range") : _("not computed yet"));
+        ceduo_app_show_message(app, "%s", known ? _("nothing here has a range") : _("not computed yet"));
         return;
     }
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_main(&r, app->option);
@@ -84,11 +84,11 @@ static void add(struct app *app)
         if (input->kind == CEDUO_INPUT_WORDS || input->places_count != 1 || is_named(rows, input->places[0]))
             continue;
         LOCAL_TEXT(row);
-        ceduo_text_put(&row, "{path: ");
+        ceduo_text_append(&row, "{path: ");
         ceduo_emit_scalar(&row, input->places[0], true);
-        ceduo_text_put(&row, ", lo: ");
+        ceduo_text_append(&row, ", lo: ");
         ceduo_uncertainty_input_end(&row, &r, f->order[i], 0);
-        ceduo_text_put(&row, ", hi: ");
+        ceduo_text_append(&row, ", hi: ");
         ceduo_uncertainty_input_end(&row, &r, f->order[i], 1);
         ceduo_text_char(&row, '}');
         size_t n = rows ? rows->n : 0;
@@ -96,14 +96,14 @@ static void add(struct app *app)
             ceduo_form_go(ceduo_app_form(app), "uncertainty", n);
         return;
     }
-    ceduo_app_say(app, "%s", _("every uncertain value has a range of the scene already"));
+    ceduo_app_show_message(app, "%s", _("every uncertain value has a range of the scene already"));
 }
 
 static const struct act acts[] = {{ACTION_ADD, .plain = add},
                                   {ACTION_NEXT_PANE, .plain = turn},
                                   {ACTION_LAST_PANE, .plain = turn},
-                                  {ACTION_PAGE_UP, .function = ceduo_app_read_on, .by = -4},
-                                  {ACTION_PAGE_DOWN, .function = ceduo_app_read_on, .by = 4},
+                                  {ACTION_PAGE_UP, .function = ceduo_app_continue_form, .by = -4},
+                                  {ACTION_PAGE_DOWN, .function = ceduo_app_continue_form, .by = 4},
                                   {0}};
 
 const struct view ceduo_view_uncertainty = {.panes = 1,

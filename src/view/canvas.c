@@ -282,7 +282,7 @@ void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int widt
 void ceduo_canvas_cloud_start(struct ceduo_canvas *canvas)
 {
     free(canvas->cells->density);
-    canvas->cells->density = ceduo_must(calloc(ceduo_cells_dots(canvas->cells), sizeof *canvas->cells->density));
+    canvas->cells->density = ceduo_check_memory(calloc(ceduo_cells_dots(canvas->cells), sizeof *canvas->cells->density));
 }
 
 void ceduo_canvas_cloud_show(struct ceduo_canvas *canvas, double quantile)
@@ -290,7 +290,7 @@ void ceduo_canvas_cloud_show(struct ceduo_canvas *canvas, double quantile)
     struct ceduo_cells *cells = canvas->cells;
     const uint32_t *count = cells->density;
     size_t across = (size_t)cells->width * (size_t)cells->canvas.dots_x, n = count ? ceduo_cells_dots(cells) : 0, passed = 0;
-    double *counts = ceduo_must(malloc((n + 1) * sizeof *counts));
+    double *counts = ceduo_check_memory(malloc((n + 1) * sizeof *counts));
     for (size_t i = 0; i < n; ++i)
         if (count[i] > 0)
             counts[passed++] = count[i];
@@ -324,7 +324,7 @@ bool ceduo_canvas_is_blank(const struct ceduo_canvas *canvas, int column, int ro
     return ceduo_cells_glyph(canvas->cells, column, row) == ' ';
 }
 
-int ceduo_canvas_put(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text)
+int ceduo_canvas_draw_text(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text)
 {
     if (most < 1)
         return 0;
@@ -332,7 +332,7 @@ int ceduo_canvas_put(struct ceduo_canvas *canvas, int column, int row, int most,
         return ceduo_canvas_label(canvas, column, row, role, text);
     const char *mark = ceduo_canvas_label_width(canvas, "\xe2\x80\xa6") > 1 ? "~" : "\xe2\x80\xa6";
     LOCAL_TEXT(cut);
-    ceduo_text_put(&cut, text);
+    ceduo_text_append(&cut, text);
     char *end = cut.bytes + cut.length;
     while (end > cut.bytes && ceduo_canvas_label_width(canvas, cut.bytes) > most - 1) {
         end = cut.bytes + (ceduo_utf8_back(cut.bytes, end) - cut.bytes);

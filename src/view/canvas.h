@@ -141,7 +141,7 @@ int ceduo_canvas_label_width(const struct ceduo_canvas *canvas, const char *text
 bool ceduo_canvas_is_blank(const struct ceduo_canvas *canvas, int column, int row);
 
 /* A text of at most `most` cells, cut with a mark where it is longer; returns the cells it took. */
-int ceduo_canvas_put(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text);
+int ceduo_canvas_draw_text(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text);
 
 /* ---- Axes ---- */
 

@@ -27,7 +27,7 @@ struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset
 {
     if (width < 1 || width > CEDUO_CANVAS_MAX_WIDTH || height < 1 || height > CEDUO_CANVAS_MAX_HEIGHT)
         return NULL;
-    struct ceduo_cells *cells = ceduo_must(calloc(1, sizeof *cells));
+    struct ceduo_cells *cells = ceduo_check_memory(calloc(1, sizeof *cells));
     cells->width = width;
     cells->height = height;
     cells->charset = charset;
@@ -36,7 +36,7 @@ struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset
                                           .to = cells,
                                           .dots_x = charset == CEDUO_CHARSET_ASCII ? 1 : 2,
                                           .dots_y = charset == CEDUO_CHARSET_BRAILLE ? 4 : 2};
-    cells->cell = ceduo_must(calloc(cell_count(cells), sizeof *cells->cell));
+    cells->cell = ceduo_check_memory(calloc(cell_count(cells), sizeof *cells->cell));
     return cells;
 }
 
@@ -269,7 +269,7 @@ char *ceduo_cells_roles(const struct ceduo_cells *cells)
         CEDUO_ROLES(X)
 #undef X
     };
-    char *roles = ceduo_must(malloc(((size_t)cells->width + 1) * (size_t)cells->height + 1)), *to = roles;
+    char *roles = ceduo_check_memory(malloc(((size_t)cells->width + 1) * (size_t)cells->height + 1)), *to = roles;
     for (int row = 0; row < cells->height; ++row) {
         char *end = to;
         for (int column = 0; column < cells->width; ++column) {

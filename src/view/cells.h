@@ -72,7 +72,7 @@ enum {
 enum ceduo_charset {
     CEDUO_CHARSET_BRAILLE, /* UTF-8, 2 x 4 dots a cell, square where a cell is twice as high as wide */
     CEDUO_CHARSET_BLOCK,   /* UTF-8, 2 x 2 dots a cell, each twice as high as wide */
-    CEDUO_CHARSET_ASCII,   /* 1 x 2 dots a cell (' . :), square; text is brought down to ASCII too */
+    CEDUO_CHARSET_ASCII,   /* 1 x 2 dots a cell (' . :), square; text is control_means down to ASCII too */
 };
 
 struct ceduo_cell {

@@ -36,7 +36,7 @@ static struct ceduo_value value_of(const struct ceduo_figure *f, const void *obj
     return v;
 }
 
-static void say(const struct ceduo_figure *f, const struct ceduo_place *place, ceduo_words_say *to, void *context)
+static void say(const struct ceduo_figure *f, const struct ceduo_place *place, ceduo_sentence_sink *to, void *context)
 {
     ceduo_language_of_data(true);
     f->say(place, to, context);
@@ -141,11 +141,11 @@ static void append_value(struct text *text, struct ceduo_value v)
 {
     char room[CEDUO_NUMBER_ROOM];
     if (v.kind == CEDUO_VALUE_NUMBER)
-        ceduo_text_put(text, ceduo_number_shortest(v.number, room));
+        ceduo_text_append(text, ceduo_number_shortest(v.number, room));
     else if (v.kind == CEDUO_VALUE_COUNT)
         ceduo_text_format(text, "%" PRIu64, v.count);
     else if (v.kind == CEDUO_VALUE_FLAG)
-        ceduo_text_put(text, v.flag ? "true" : "false");
+        ceduo_text_append(text, v.flag ? "true" : "false");
     else if (v.kind == CEDUO_VALUE_TEXT)
         ceduo_text_csv(text, v.text);
 }
@@ -154,8 +154,8 @@ static void append_value(struct text *text, struct ceduo_value v)
 static void join(void *context, const char *sentence)
 {
     struct text *all = context;
-    ceduo_text_put(all, all->length > 0 ? "; " : "");
-    ceduo_text_put(all, sentence);
+    ceduo_text_append(all, all->length > 0 ? "; " : "");
+    ceduo_text_append(all, sentence);
 }
 
 /* A cell, and a comma behind it. */

@@ -60,7 +60,7 @@ struct ceduo_figure {
     bool (*enter)(struct ceduo_place *place, size_t i); /* a list: goes to item i; false after the last */
     const void *(*item)(const void *object, size_t i);  /* a list within any object; NULL after the last */
     size_t columns; /* of such a list: its items in CSV, whose heads are name[0] and so on */
-    void (*say)(const struct ceduo_place *place, ceduo_words_say *say, void *context);
+    void (*say)(const struct ceduo_place *place, ceduo_sentence_sink *say, void *context);
     bool one;     /* of sentences: there is one, and JSON has it as text, not as a list */
     bool details; /* of a list: null where details are not asked for */
     bool plain;   /* of a list: its items are values, not objects */

@@ -42,9 +42,9 @@ static const struct ceduo_arrivals *through_the_wood(const struct ceduo_place *p
 }
 
 /* Of today alone; NULL where no stem stands. */
-static const struct ceduo_other_energy *other_law(const struct ceduo_place *p)
+static const struct ceduo_alternative_energy *other_law(const struct ceduo_place *p)
 {
-    const struct ceduo_other_energy *other = &result_of(p)->options[p->option].others[p->control];
+    const struct ceduo_alternative_energy *other = &result_of(p)->options[p->option].others[p->control];
     return !p->year && other->known && other->stems ? other : NULL;
 }
 
@@ -98,10 +98,10 @@ OBJECT(standards_of, compliance, o->standards_item)
 OBJECT(turn_of, compliance, o->turn_item)
 OBJECT(search_of, find_report, o->search)
 OBJECT(found_of, find_report, o->found)
-OBJECT(sure_of, find_report, o->sure && o->sure->inputs > 0 ? o->sure : NULL) /* nothing in uncertainty: nothing was computed */
+OBJECT(sure_of, find_report, o->sure && o->sure->inputs > 0 ? o->sure : NULL) /* nothing uncertain: nothing was computed */
 OBJECT(nearest_of, find_report, o->found->found ? NULL : o->found)
-OBJECT(sure_found_of, sure, o->found.found ? o : NULL)
-OBJECT(sure_nearest_of, sure, o->found.found ? NULL : o)
+OBJECT(sure_found_of, reliability, o->found.found ? o : NULL)
+OBJECT(sure_nearest_of, reliability, o->found.found ? NULL : o)
 OBJECT(found_yield_of, find_report, o->yield && !isnan(o->yield->cut_per_year) ? o->yield : NULL)
 OBJECT(yields_of, find_report, found_yield_of(o) ? o : NULL)
 
@@ -130,7 +130,7 @@ static bool enter_year(struct ceduo_place *p, size_t i)
 static bool enter_felling(struct ceduo_place *p, size_t i)
 {
     const struct ceduo_yield *yield = yield_at(p);
-    struct ceduo_window rotation = ceduo_window_of(&result_of(p)->scene->options[p->option]);
+    struct ceduo_window rotation = ceduo_window_compute(&result_of(p)->scene->options[p->option]);
     p->felling = i;
     return yield && i < yield->fellings_count && yield->fellings[i].year <= rotation.last + 1;
 }
@@ -145,13 +145,13 @@ static bool enter_difference(struct ceduo_place *p, size_t i)
 
 /* ---- sentences ---- */
 
-static void say_of_run(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+static void say_of_run(const struct ceduo_place *p, ceduo_sentence_sink *say, void *context)
 {
-    ceduo_words_still(result_of(p), say, context);
+    ceduo_words_still_moving(result_of(p), say, context);
     ceduo_words_run_warnings(result_of(p), &p->report->remarks, say, context);
 }
 
-static void say_of_stand(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+static void say_of_stand(const struct ceduo_place *p, ceduo_sentence_sink *say, void *context)
 {
     ceduo_words_stand_warnings(result_of(p)->scene, belt_of(p), stand_of(p), say, context);
 }
@@ -160,16 +160,16 @@ static void say_of_stand(const struct ceduo_place *p, ceduo_words_say *say, void
 static struct ceduo_outcome outcome_of(const struct ceduo_place *p)
 {
     if (p->year) {
-        enum ceduo_judgement judgement = ceduo_judge(&result_of(p)->bare.arrivals[p->control], through_the_wood(p));
+        enum ceduo_judgement judgement = ceduo_judge_control(&result_of(p)->bare.arrivals[p->control], through_the_wood(p));
         return (struct ceduo_outcome){.answer = judgement, .today = judgement};
     }
     return ceduo_report_outcome(p->report, p->option, p->control);
 }
 
-static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+static void say_because(const struct ceduo_place *p, ceduo_sentence_sink *say, void *context)
 {
     const struct ceduo_outcome o = outcome_of(p);
-    const struct ceduo_subject subject = ceduo_subject_of(p->report, p->option, p->control);
+    const struct ceduo_subject subject = ceduo_subject_find(p->report, p->option, p->control);
     LOCAL_TEXT(why);
     if ((o.ahead && o.answer != CEDUO_NOTHING) || o.impossible)
         ceduo_words_reason(&why, &subject);
@@ -178,7 +178,7 @@ static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void 
     say(context, ceduo_text_string(&why));
 }
 
-static void say_of_all(const struct ceduo_place *place, ceduo_words_say *say, void *context)
+static void say_of_all(const struct ceduo_place *place, ceduo_sentence_sink *say, void *context)
 {
     struct ceduo_place p = *place;
     say_of_run(&p, say, context);
@@ -216,7 +216,7 @@ VALUE(window_lo, choice, NUMBER, NUMBER(fmax(0, o->mean.mean - o->mean.half)))
 VALUE(window_hi, choice, NUMBER, NUMBER(fmin(1, o->mean.mean + o->mean.half)))
 VALUE(window_worst, choice, NUMBER, NUMBER(o->worst.mean))
 VALUE(window_failing, choice, COUNT, o->energy_known ? COUNT(o->over.unprotected_energy) : NOTHING)
-VALUE(judgement_of_other, other_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
+VALUE(judgement_of_other, alternative_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
 VALUE(felled_of, place, NUMBER, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, TEXT, WORD("ceduo-find-1"))
 VALUE(find_path, find_report, TEXT, WORD(o->file->name))
@@ -224,7 +224,7 @@ VALUE(find_option, find_report, TEXT, WORD(o->file->scene.options[o->search->opt
 VALUE(goal_of, search, TEXT, WORD(ceduo_goals[o->goal].word))
 VALUE(over_of, search, TEXT, WORD(o->rotation ? "rotation" : "today"))
 VALUE(side_of, found, TEXT, WORD(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
-VALUE(sure_side, sure, TEXT, WORD(!o->found.found ? NULL : o->found.side == CEDUO_SMALLEST ? "smallest" : "largest"))
+VALUE(sure_side, reliability, TEXT, WORD(!o->found.found ? NULL : o->found.side == CEDUO_SMALLEST ? "smallest" : "largest"))
 
 /* ---- the tables ---- */
 
@@ -474,21 +474,21 @@ static const struct ceduo_figure verdict_of_other[] = {
     END};
 
 static const struct ceduo_figure other_mean[] = {
-    {"mean", "", "mean", AT(other_energy, arrivals.energy.mean), .null = NO_ROCK},
-    {"se", "", "standard error of the mean", AT(other_energy, arrivals.energy.se), .null = FEW},
+    {"mean", "", "mean", AT(alternative_energy, arrivals.energy.mean), .null = NO_ROCK},
+    {"se", "", "standard error of the mean", AT(alternative_energy, arrivals.energy.se), .null = FEW},
     END};
 
 static const struct ceduo_figure other_energy[] = {
     {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
-     .offset = offsetof(struct ceduo_other_energy, model)},
-    {"rocks", "", "simulated under it: the first 10240 of the run, if it has more", AT(other_energy, arrivals.released)},
-    {"reach_probability", "", "share of these that reach the control", AT(other_energy, arrivals.reach.mean)},
-    {"reach_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.reach.lo)},
-    {"reach_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.reach.hi)},
+     .offset = offsetof(struct ceduo_alternative_energy, model)},
+    {"rocks", "", "simulated under it: the first 10240 of the run, if it has more", AT(alternative_energy, arrivals.released)},
+    {"reach_probability", "", "share of these that reach the control", AT(alternative_energy, arrivals.reach.mean)},
+    {"reach_lo", "", "lower end of its 95 % interval", AT(alternative_energy, arrivals.reach.lo)},
+    {"reach_hi", "", "upper end of its 95 % interval", AT(alternative_energy, arrivals.reach.hi)},
     {"exceed_probability", "", "share of these that reach it with more than accepted_kJ",
-     AT(other_energy, arrivals.exceed.mean), .null = UNSAID},
-    {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.exceed.lo), .null = UNSAID},
-    {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.exceed.hi), .null = UNSAID},
+     AT(alternative_energy, arrivals.exceed.mean), .null = UNSAID},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(alternative_energy, arrivals.exceed.lo), .null = UNSAID},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(alternative_energy, arrivals.exceed.hi), .null = UNSAID},
     {"energy_kJ", "kJ", "energy of the rocks that reach it", .of = other_mean, .scale = J_TO_KJ},
     {"verdict", "", "what is said of the control", .of = verdict_of_other},
     END};
@@ -727,22 +727,22 @@ static const struct ceduo_figure goal_rows[] = {
 #define NOT_SURE "--sure is not given, or nothing is uncertain"
 #define NO_ERROR NONE ", every value does, or the points do not tell it"
 static const struct ceduo_figure sure_rows[] = {
-    {"wanted", "", "share of what may be true in which the goal is to be reached", AT(sure, sure)},
-    {"found", "", "whether a value reaches it in so much", AT(sure, found.found)},
-    {"value", "", "the value", AT(sure, found.value), .null = NONE},
-    {"value_lo", "", "lower end of its 95 % interval, by the points and by the rocks", AT(sure, lo), .null = NO_ERROR},
-    {"value_hi", "", "its upper end", AT(sure, hi), .null = NO_ERROR},
+    {"wanted", "", "share of what may be true in which the goal is to be reached", AT(reliability, sure)},
+    {"found", "", "whether a value reaches it in so much", AT(reliability, found.found)},
+    {"value", "", "the value", AT(reliability, found.value), .null = NONE},
+    {"value_lo", "", "lower end of its 95 % interval, by the points and by the rocks", AT(reliability, lo), .null = NO_ERROR},
+    {"value_hi", "", "its upper end", AT(reliability, hi), .null = NO_ERROR},
     {"side", "", "smallest or largest: which of the values that do this is", .value = sure_side, .null = NONE},
     {"probability", "", "share of what may be true in which this value reaches the goal", .from = sure_found_of,
-     AT(sure, share.value), .null = NONE},
-    {"probability_se", "", "its standard error, by the points and by the rocks", .from = sure_found_of, AT(sure, share.se),
-     .null = NONE},
-    {"nearest", "", "value that is surest", .from = sure_nearest_of, AT(sure, found.nearest), .null = ONE},
-    {"probability_at_nearest", "", "share in which that reaches the goal", .from = sure_nearest_of, AT(sure, share.value),
-     .null = ONE},
-    {"evaluations", "", "values looked at", AT(sure, found.evaluations)},
-    {"points", "", "points of what may be true, for each", AT(sure, points)},
-    {"rocks", "", "rocks at each point", AT(sure, rocks)},
+     AT(reliability, share.value), .null = NONE},
+    {"probability_se", "", "its standard error, by the points and by the rocks", .from = sure_found_of,
+     AT(reliability, share.se), .null = NONE},
+    {"nearest", "", "value that is surest", .from = sure_nearest_of, AT(reliability, found.nearest), .null = ONE},
+    {"probability_at_nearest", "", "share in which that reaches the goal", .from = sure_nearest_of,
+     AT(reliability, share.value), .null = ONE},
+    {"evaluations", "", "values looked at", AT(reliability, found.evaluations)},
+    {"points", "", "points of what may be true, for each", AT(reliability, points)},
+    {"rocks", "", "rocks at each point", AT(reliability, rocks)},
     END};
 static const struct ceduo_figure found_yield[] = {
     {.from = found_yield_of, .of = yield_rows},

@@ -157,7 +157,7 @@ static void add_columns(struct text *rows, const struct ceduo_figure *f, const s
             add_columns(rows, f->of, f->key ? &own : group, heads);
         } else {
             append_path(rows, group);
-            ceduo_text_put(rows, f->key);
+            ceduo_text_append(rows, f->key);
             if (heads)
                 ceduo_text_char(rows, ',');
             else

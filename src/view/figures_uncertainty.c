@@ -26,12 +26,12 @@ static double shown(const struct ceduo_place *p, double value)
 
 static const struct ceduo_uncertainty_order *order_of(const struct ceduo_place *p)
 {
-    return &ceduo_uncertainty_verdict(p->uncertainty->answer)->orders[p->item];
+    return &ceduo_uncertainty_ranking_by(p->uncertainty->answer)->orders[p->item];
 }
 
 static bool enter_figure(struct ceduo_place *p, size_t i)
 {
-    const struct ceduo_uncertainty_answer *a = p->uncertainty->answer;
+    const struct ceduo_uncertainty_result *a = p->uncertainty->answer;
     for (p->figure = 0; a && p->figure < a->figures_count; p->figure++)
         if (a->figures[p->figure].kind < CEDUO_UNCERTAINTY_SHOWN && a->figures[p->figure].fit.values && i-- == 0)
             return true;
@@ -48,18 +48,18 @@ static bool enter_input(struct ceduo_place *p, size_t i)
 /* What to measure first, for the figure that pages advise on. */
 static bool enter_first(struct ceduo_place *p, size_t i)
 {
-    const struct ceduo_uncertainty_answer *a = p->uncertainty->answer;
+    const struct ceduo_uncertainty_result *a = p->uncertainty->answer;
     if (!a)
         return false;
     const struct ceduo_uncertainty_figure *f =
-        ceduo_uncertainty_figure_of(a, ceduo_uncertainty_chosen(p->uncertainty), a->main, false);
+        ceduo_uncertainty_find_figure(a, ceduo_uncertainty_chosen(p->uncertainty), a->main, false);
     size_t input = ceduo_uncertainty_advised(p->uncertainty, f, i);
     p->figure = (size_t)(f - a->figures);
     p->input = input == SIZE_MAX ? 0 : input;
     return input != SIZE_MAX;
 }
 
-ENTER(enter_order, item, p->uncertainty->answer ? ceduo_uncertainty_verdict(p->uncertainty->answer)->count : 0)
+ENTER(enter_order, item, p->uncertainty->answer ? ceduo_uncertainty_ranking_by(p->uncertainty->answer)->count : 0)
 
 static struct ceduo_value end_of(const struct ceduo_place *p, int end)
 {
@@ -102,7 +102,7 @@ VALUE(uncertainty_figure, place, TEXT, WORD(figure_key(o)))
 VALUE(figure_number, place, NUMBER, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
 #define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_uncertainty_figure, member)
 /* Paths that set the input: its own, or those of all its places, if no path means just these. */
-static void say_paths(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+static void say_paths(const struct ceduo_place *p, ceduo_sentence_sink *say, void *context)
 {
     const struct ceduo_input *input = &p->uncertainty->inputs->items[p->input];
     bool own = input->places_count == 1 || strchr(input->path, '*') || strncmp(input->path, "slope.materials[", 16) == 0;
@@ -118,7 +118,7 @@ VALUE(input_at_hi, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][1])
 VALUE(input_left, place, NUMBER, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
 VALUE(order_better, place, TEXT, WORD(scene_of(o)->options[order_of(o)->better].name_given))
 VALUE(order_than, place, TEXT, WORD(scene_of(o)->options[order_of(o)->than].name_given))
-VALUE(order_over, place, TEXT, WORD(ceduo_uncertainty_verdict(o->uncertainty->answer)->rotation ? "rotation" : "today"))
+VALUE(order_over, place, TEXT, WORD(ceduo_uncertainty_ranking_by(o->uncertainty->answer)->rotation ? "rotation" : "today"))
 
 #define NO_BAND    UNSAID ", or there are fewer than 20 points"
 #define FEW_POINTS "there are too few points, or nothing varies"
@@ -245,7 +245,7 @@ static const struct ceduo_predicted *predicted_of(const struct ceduo_place *p)
 
 static const struct ceduo_observation *observed_of(const struct ceduo_place *p)
 {
-    return ceduo_seen_of(p->calibration, predicted_of(p));
+    return ceduo_observed_find(p->calibration, predicted_of(p));
 }
 
 static const struct scene_file *file_of(const struct ceduo_place *p)
@@ -260,7 +260,7 @@ ENTER(enter_fitted, item, answer_of(p)->parameters_count)
 ENTER(enter_column, column, answer_of(p)->parameters_count)
 ENTER(enter_predicted, item, answer_of(p)->predicted_count)
 
-static void say_scenes(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+static void say_scenes(const struct ceduo_place *p, ceduo_sentence_sink *say, void *context)
 {
     for (size_t i = 0; i < p->calibration->scenes_count; i++)
         say(context, p->calibration->files[i].name);
@@ -276,9 +276,9 @@ VALUE(observed_what, place, TEXT, WORD(observed_of(o)->name_given))
 VALUE(observed_scene, place, TEXT, WORD(file_of(o)->name))
 VALUE(observed_option, place, TEXT, WORD(file_of(o)->scene.options[observed_of(o)->option].name_given))
 VALUE(observed_use, place, TEXT, WORD(observed_of(o)->use == CEDUO_OBSERVED_FIT ? "fit" : "check"))
-VALUE(observed_n, place, COUNT, COUNT(ceduo_seen_number(observed_of(o))))
+VALUE(observed_n, place, COUNT, COUNT(ceduo_observed_number(observed_of(o))))
 VALUE(seen_number, place, NUMBER,
-      NUMBER(ceduo_seen_shown(file_of(o), predicted_of(o), *(const double *)member(f, predicted_of(o)))))
+      NUMBER(ceduo_observed_shown(file_of(o), predicted_of(o), *(const double *)member(f, predicted_of(o)))))
 #define SEEN(member) .value = seen_number, .offset = offsetof(struct ceduo_predicted, member)
 VALUE(single_inside, place, COUNT,
       observed_of(o)->values && !isnan(predicted_of(o)->one_lo) ? COUNT(predicted_of(o)->one_inside) : NOTHING)

@@ -8,7 +8,7 @@
 #include "report.h"
 #include "words.h"
 
-static struct ceduo_measure of_1000(struct ceduo_portion share, double lo, double hi)
+static struct ceduo_measure of_1000(struct ceduo_mean_share share, double lo, double hi)
 {
     return (struct ceduo_measure){.value = 1000 * share.mean,
                                   .lo = floor(1000 * lo),
@@ -19,20 +19,20 @@ static struct ceduo_measure of_1000(struct ceduo_portion share, double lo, doubl
                                   .names = {N_("of 1000 arrive"), N_("arrive"), N_("arrive"), N_("arrive")}};
 }
 
-struct ceduo_measure ceduo_share(struct ceduo_portion share)
+struct ceduo_measure ceduo_share(struct ceduo_mean_share share)
 {
     return of_1000(share, fmax(0, share.mean - share.half), fmin(1, share.mean + share.half));
 }
 
-struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *a)
+struct ceduo_measure ceduo_measure_arriving(const struct ceduo_arrivals *a)
 {
     return of_1000(ceduo_share_arriving(a), a ? a->reach.lo : NAN, a ? a->reach.hi : NAN);
 }
 
-struct ceduo_measure ceduo_judged(const struct ceduo_control *c, const struct ceduo_arrivals *a)
+struct ceduo_measure ceduo_measure_exceeding(const struct ceduo_control *c, const struct ceduo_arrivals *a)
 {
     if (isnan(c->accepted))
-        return ceduo_arriving(a);
+        return ceduo_measure_arriving(a);
     struct ceduo_measure m = of_1000(ceduo_share_exceeding(a), a ? a->exceed.lo : NAN, a ? a->exceed.hi : NAN);
     m.limit = ceduo_words_accepted(c);
     m.names[CEDUO_HEAD] = N_("of 1000 > %s kJ");
@@ -52,7 +52,7 @@ void ceduo_measure_range(struct ceduo_measure *m, const struct ceduo_surface_fit
 static void set_uncertainty(struct ceduo_measure *m, const struct ceduo_uncertainty_report *uncertainty, size_t option,
                             enum ceduo_uncertainty_kind kind)
 {
-    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(uncertainty->answer, option, kind, false);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(uncertainty->answer, option, kind, false);
     ceduo_measure_range(m, &f->fit, 1000);
 }
 
@@ -98,13 +98,13 @@ struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *a)
                   N_("kJ a rock"), N_("energy of a rock that starts, kJ"));
 }
 
-struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *a, enum ceduo_end end)
+struct ceduo_measure ceduo_measure_stopped(const struct ceduo_arrivals *a, enum ceduo_end end)
 {
     static const char *const names[CEDUO_ENDS] = {[CEDUO_STOPPED_BY_STEMS] = N_("stems stop"),
                                                   [CEDUO_AT_REST] = N_("at rest"),
                                                   [CEDUO_LEFT_SLOPE] = N_("left the slope"),
                                                   [CEDUO_UNFINISHED] = N_("unfinished")};
-    struct ceduo_measure m = of_1000((struct ceduo_portion){a && a->released > 0 ? a->missed[end] : NAN, NAN}, NAN, NAN);
+    struct ceduo_measure m = of_1000((struct ceduo_mean_share){a && a->released > 0 ? a->missed[end] : NAN, NAN}, NAN, NAN);
     for (int i = 0; i < CEDUO_MEASURE_NAMES; i++)
         m.names[i] = names[end];
     return m;
@@ -141,7 +141,7 @@ const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, cha
     return room;
 }
 
-const char *ceduo_measure_may_be(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM])
+const char *ceduo_measure_plausible_range(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM])
 {
     return ceduo_measure_span(m, fmin(fmin(m.value, m.lo), m.may_lo), fmax(fmax(m.value, m.hi), m.may_hi), room);
 }

@@ -11,7 +11,7 @@
 
 static struct ceduo_page_block *add_block(struct ceduo_page *page, enum ceduo_page_kind kind)
 {
-    struct ceduo_page_block *block = ceduo_must(calloc(1, sizeof *block));
+    struct ceduo_page_block *block = ceduo_check_memory(calloc(1, sizeof *block));
     block->kind = kind;
     *(page->last ? &page->last->next : &page->first) = block;
     page->last = block;
@@ -23,7 +23,7 @@ struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind)
     return &add_block(page, kind)->text;
 }
 
-void ceduo_page_say(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...)
+void ceduo_page_para(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -31,7 +31,7 @@ void ceduo_page_say(struct ceduo_page *page, enum ceduo_page_kind kind, const ch
     va_end(args);
 }
 
-void ceduo_page_line(struct ceduo_page *page, enum ceduo_role role, const char *format, ...)
+void ceduo_page_para_role(struct ceduo_page *page, enum ceduo_role role, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -40,7 +40,7 @@ void ceduo_page_line(struct ceduo_page *page, enum ceduo_role role, const char *
     page->last->role = role;
 }
 
-struct text *ceduo_page_label(struct ceduo_page *page, enum ceduo_page_kind kind, const char *label)
+struct text *ceduo_page_item(struct ceduo_page *page, enum ceduo_page_kind kind, const char *label)
 {
     struct text *text = ceduo_page_add(page, kind);
     ceduo_text_format(text, "%s\t", label);
@@ -57,7 +57,7 @@ void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *c
         size_t brief = strcspn(head, "|");
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
         ceduo_text_add(&cell->text, head, brief);
-        ceduo_text_put(&cell->written, head + brief + (head[brief] != '\0'));
+        ceduo_text_append(&cell->written, head + brief + (head[brief] != '\0'));
     }
 }
 
@@ -72,7 +72,7 @@ struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page)
 struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page)
 {
     struct ceduo_page_block *table = page->last;
-    table->cells = ceduo_must(ceduo_grow(table->cells, table->cells_count, &table->cells_room, sizeof *table->cells));
+    table->cells = ceduo_check_memory(ceduo_grow(table->cells, table->cells_count, &table->cells_room, sizeof *table->cells));
     table->cells[table->cells_count] = (struct ceduo_page_cell){.kind = CEDUO_CELL_TEXT};
     return &table->cells[table->cells_count++];
 }
@@ -82,7 +82,7 @@ struct text *ceduo_page_text(struct ceduo_page *page)
     return &ceduo_page_cell(page)->text;
 }
 
-void ceduo_page_write(struct ceduo_page *page, const char *format, ...)
+void ceduo_page_cell_format(struct ceduo_page *page, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -122,11 +122,11 @@ void ceduo_page_scale(struct ceduo_page *page, size_t column, double lo, double 
     }
 }
 
-void ceduo_page_mark(struct ceduo_page *page, enum ceduo_role role, const char *string)
+void ceduo_page_cell_role(struct ceduo_page *page, enum ceduo_role role, const char *string)
 {
     struct ceduo_page_cell *cell = ceduo_page_cell(page);
     cell->role = role;
-    ceduo_text_put(&cell->text, string);
+    ceduo_text_append(&cell->text, string);
 }
 
 struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half)

@@ -106,24 +106,25 @@ struct ceduo_page {
 
 /* Adds a block and returns its text, which the caller fills; or fills it. */
 struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind);
-void ceduo_page_say(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...) CEDUO_PAGE_FORMAT(3);
-void ceduo_page_line(struct ceduo_page *page, enum ceduo_role role, const char *format, ...) CEDUO_PAGE_FORMAT(3); /* a note */
-struct text *ceduo_page_label(struct ceduo_page *page, enum ceduo_page_kind kind, const char *label); /* fact, point, head */
+void ceduo_page_para(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...) CEDUO_PAGE_FORMAT(3);
+void ceduo_page_para_role(struct ceduo_page *page, enum ceduo_role role, const char *format, ...)
+    CEDUO_PAGE_FORMAT(3);                                                                            /* a note */
+struct text *ceduo_page_item(struct ceduo_page *page, enum ceduo_page_kind kind, const char *label); /* fact, point, head */
 
 /* Adds a table with its heads; then its cells, row by row, to the block added last. */
 void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n);
 #define CEDUO_PAGE_TABLE_OF(page, columns) ceduo_page_table(page, columns, sizeof(columns) / sizeof(columns)[0])
 struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page); /* of the column whose head is NULL */
 struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page);
-struct text *ceduo_page_text(struct ceduo_page *page);                                        /* of a new cell */
-void ceduo_page_write(struct ceduo_page *page, const char *format, ...) CEDUO_PAGE_FORMAT(2); /* a new cell */
+struct text *ceduo_page_text(struct ceduo_page *page);                                              /* of a new cell */
+void ceduo_page_cell_format(struct ceduo_page *page, const char *format, ...) CEDUO_PAGE_FORMAT(2); /* a new cell */
 void ceduo_page_number(struct ceduo_page *page, double value, int digits);
 /* A new cell with a bar up to a value, to which the caller adds a limit or a line around it. */
 struct ceduo_page_bar *ceduo_page_bar(struct ceduo_page *page, double value, enum ceduo_role role);
 /* Makes shares of the values of all bars of a column: even ones from 0 on, or logarithmic ones from `lo` on. */
 void ceduo_page_scale(struct ceduo_page *page, size_t column, double lo, double hi);
 /* A new cell in a role. */
-void ceduo_page_mark(struct ceduo_page *page, enum ceduo_role role, const char *string);
+void ceduo_page_cell_role(struct ceduo_page *page, enum ceduo_role role, const char *string);
 
 /* Adds a picture, which is the page's from then on; its title (`text`) and description are for the caller to fill. */
 struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half);

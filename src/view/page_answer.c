@@ -15,9 +15,9 @@ static const struct ceduo_control *place_of(const struct ceduo_result *r)
     return &r->scene->controls[r->last_control];
 }
 
-bool ceduo_page_says_nothing(const struct ceduo_result *r)
+bool ceduo_page_is_unassessable(const struct ceduo_result *r)
 {
-    return r->scene->controls_count == 0 || ceduo_says_nothing(&r->bare.arrivals[r->last_control]);
+    return r->scene->controls_count == 0 || ceduo_too_few_arrivals(&r->bare.arrivals[r->last_control]);
 }
 
 void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
@@ -66,7 +66,7 @@ static void append_judged(struct text *text, const struct ceduo_report *report, 
             ceduo_text_format(text, n++ > 0 ? ", '%s'" : "'%s'", r->scene->options[i].name);
     }
     if (n == 0)
-        ceduo_text_put(text, _("none"));
+        ceduo_text_append(text, _("none"));
 }
 
 /* "In every year: none. Uncertain: 'simple coppice'." */
@@ -79,7 +79,7 @@ static void append_keepers(struct text *text, const struct ceduo_report *report,
     ceduo_text_char(text, ' ');
     ceduo_append_with(text, sentence, ceduo_text_string(&keepers));
     if (strcmp(ceduo_text_string(&open), _("none")) != 0)
-        ceduo_text_then(text, " ", _("It depends on uncertain inputs for %s."), ceduo_text_string(&open));
+        ceduo_text_append_joined(text, " ", _("It depends on uncertain inputs for %s."), ceduo_text_string(&open));
 }
 
 static void answer_many(struct ceduo_page *page, const struct ceduo_report *report)
@@ -102,7 +102,7 @@ static void answer_many(struct ceduo_page *page, const struct ceduo_report *repo
 size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
     size_t best = 0;
-    if (v && v->rotation.known && v->choices[0].window.kind != CEDUO_WINDOW_ALIKE)
+    if (v && v->rotation.known && v->choices[0].window.kind != CEDUO_WINDOW_CONSTANT)
         return v->rotation.best;
     if (v && v->today.known)
         return v->today.best;
@@ -135,17 +135,17 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
     size_t n = r->scene->options_count;
     if (r->scene->controls_count == 0)
         return;
-    if (ceduo_page_says_nothing(r)) /* neither error changes that */
+    if (ceduo_page_is_unassessable(r)) /* neither error changes that */
         ceduo_words_nothing(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, r->last_control);
     else if (n > 1 && !r->wooded)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ANSWER), _(ceduo_words_by_index));
+        ceduo_text_append(ceduo_page_add(page, CEDUO_PAGE_ANSWER), _(ceduo_words_by_index));
     else if (n > 1 && report->verdict)
         answer_many(page, report);
     /* of one option a line for each place that is judged, and for the last one */
-    for (size_t k = 0; n == 1 && !ceduo_page_says_nothing(r) && k < r->scene->controls_count; k++) {
+    for (size_t k = 0; n == 1 && !ceduo_page_is_unassessable(r) && k < r->scene->controls_count; k++) {
         if (k != r->last_control && isnan(r->scene->controls[k].accepted))
             continue;
-        struct ceduo_subject subject = ceduo_subject_of(report, 0, k);
+        struct ceduo_subject subject = ceduo_subject_find(report, 0, k);
         subject.apart = k == r->last_control;
         ceduo_words_answer(ceduo_page_add(page, CEDUO_PAGE_ANSWER), &subject, page->width - CEDUO_ANSWER_INDENT);
         if (subject.apart)
@@ -166,15 +166,15 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
     LOCAL_TEXT(error);
     for (size_t i = 0; v && i < v->n; i++) {
         today = fmax(today, v->choices[i].today.half);
-        if (v->choices[i].window.kind != CEDUO_WINDOW_ALIKE)
+        if (v->choices[i].window.kind != CEDUO_WINDOW_CONSTANT)
             mean = fmax(mean, v->choices[i].mean.half);
     }
     if (!r->wooded) {
         ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"),
                           WRITTEN(ceduo_half_width(bare->energy.se, bare->reached) * J_TO_KJ, 2));
     } else if (r->scene->options_count == 1) {
-        const struct ceduo_measure m = ceduo_judged(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
-        ceduo_text_put(&error, SPAN(m, m.lo, m.hi));
+        const struct ceduo_measure m = ceduo_measure_exceeding(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
+        ceduo_text_append(&error, SPAN(m, m.lo, m.hi));
     } else if (mean > 0) {
         ceduo_text_format(text, _("\xc2\xb1%.0f by the number of rocks today (%llu), \xc2\xb1%.0f over years (%llu each)"),
                           ceil(1000 * today), rocks, ceil(1000 * mean), (unsigned long long)v->choices[0].rocks);
@@ -193,37 +193,37 @@ static void say_uncertainty(struct text *text, const struct ceduo_report *report
     const struct ceduo_verdict *v = report->verdict && report->verdict->n > 1 ? report->verdict : NULL;
     bool over = v && v->rotation.known && uncertainty && uncertainty->answer && uncertainty->answer->rotation;
     size_t option = over ? v->rotation.best : v ? v->today.best : 0;
-    const struct ceduo_measure m = ceduo_subject_of(report, option, r->last_control).today;
+    const struct ceduo_measure m = ceduo_subject_find(report, option, r->last_control).today;
     if (!uncertainty || !uncertainty->answer) {
-        ceduo_text_then(text, "; ", "%s.",
-                        uncertainty && (ceduo_uncertainty_is_off(uncertainty) || uncertainty->inputs->n == 0)
-                            ? ceduo_uncertainty_none(uncertainty)
-                        : uncertainty && uncertainty->too_much
-                            ? _("what is not known was not computed, as it takes long: --sensitivity does")
-                            : _("what is not known was not computed"));
+        ceduo_text_append_joined(text, "; ", "%s.",
+                                 uncertainty && (ceduo_uncertainty_is_off(uncertainty) || uncertainty->inputs->n == 0)
+                                     ? ceduo_uncertainty_none(uncertainty)
+                                 : uncertainty && uncertainty->too_much
+                                     ? _("what is not known was not computed, as it takes long: --sensitivity does")
+                                     : _("what is not known was not computed"));
         return;
     }
     if (r->scene->options_count == 1 && r->wooded && !isnan(m.may_lo)) {
-        ceduo_text_then(text, "; ", "%s%s", SPAN(m, m.may_lo, m.may_hi), _(" by what is not known"));
+        ceduo_text_append_joined(text, "; ", "%s%s", SPAN(m, m.may_lo, m.may_hi), _(" by what is not known"));
     }
     ceduo_text_char(text, '.');
-    if (ceduo_uncertainty_verdict(uncertainty->answer)->count > 0) {
+    if (ceduo_uncertainty_ranking_by(uncertainty->answer)->count > 0) {
         ceduo_text_char(text, ' ');
         ceduo_uncertainty_order_words(text, uncertainty, 0); /* how sure the best option is */
     }
-    const struct ceduo_uncertainty_answer *a = uncertainty->answer;
+    const struct ceduo_uncertainty_result *a = uncertainty->answer;
     ceduo_uncertainty_advice(text, uncertainty,
-                             ceduo_uncertainty_figure_of(a, ceduo_uncertainty_chosen(uncertainty), a->main, false), 1);
+                             ceduo_uncertainty_find_figure(a, ceduo_uncertainty_chosen(uncertainty), a->main, false), 1);
     LOCAL_TEXT(points);
     ceduo_uncertainty_points(&points, uncertainty);
-    ceduo_text_then(text, points.length > 0 ? " " : "", "%s", ceduo_text_string(&points));
+    ceduo_text_append_joined(text, points.length > 0 ? " " : "", "%s", ceduo_text_string(&points));
 }
 
 void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    if (ceduo_page_says_nothing(report->result))
+    if (ceduo_page_is_unassessable(report->result))
         return;
-    struct text *text = ceduo_page_label(page, CEDUO_PAGE_POINT, _("HOW SURE"));
+    struct text *text = ceduo_page_item(page, CEDUO_PAGE_POINT, _("HOW SURE"));
     say_sampling(text, report);
     say_uncertainty(text, report);
 }
@@ -235,10 +235,10 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && v->n == 1 ? &v->choices[0] : NULL; /* of several a table says it */
     const struct ceduo_option *option = report->result->scene->options;
-    if (!c || c->over.years == 0 || ceduo_page_says_nothing(report->result))
+    if (!c || c->over.years == 0 || ceduo_page_is_unassessable(report->result))
         return;
-    if (c->window.kind == CEDUO_WINDOW_ALIKE) {
-        ceduo_words_window(ceduo_page_label(page, CEDUO_PAGE_POINT, _("OVER TIME")), option);
+    if (c->window.kind == CEDUO_WINDOW_CONSTANT) {
+        ceduo_words_window(ceduo_page_item(page, CEDUO_PAGE_POINT, _("OVER TIME")), option);
         return;
     }
     if (c->over.simulated > 0) /* the answer says it */
@@ -263,34 +263,34 @@ void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *a)
 void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, enum ceduo_measure_name otherwise)
 {
     struct ceduo_page_cell *head = ceduo_page_head(page);
-    const struct ceduo_measure m = ceduo_judged(c, NULL);
+    const struct ceduo_measure m = ceduo_measure_exceeding(c, NULL);
     bool kilo = fabs(c->accepted) < 1e6;
-    ceduo_text_put(&head->text, NAMED(m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD));
-    ceduo_text_put(&head->written, NAMED(m, CEDUO_HEAD));
+    ceduo_text_append(&head->text, NAMED(m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD));
+    ceduo_text_append(&head->written, NAMED(m, CEDUO_HEAD));
     if (!isnan(c->accepted))
         ceduo_text_format(&head->shorter, kilo ? "> %s kJ" : "> %s MJ", ROUNDED(c->accepted * (kilo ? 1e-3 : 1e-6), 3));
 }
 
 void ceduo_page_free_run(struct ceduo_page *page, double share)
 {
-    ceduo_page_write(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MAX));
+    ceduo_page_cell_format(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MAX));
 }
 
 void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light)
 {
     const char *const words[] = {[CEDUO_UNKNOWN] = "?", [CEDUO_PASS] = _("pass"), [CEDUO_FAIL] = _("FAIL")};
     const enum ceduo_role roles[] = {[CEDUO_PASS] = CEDUO_ROLE_GOOD, [CEDUO_FAIL] = CEDUO_ROLE_BAD};
-    ceduo_page_mark(page, roles[light], words[light]);
+    ceduo_page_cell_role(page, roles[light], words[light]);
 }
 
 void ceduo_page_yes(struct ceduo_page *page, bool yes)
 {
-    ceduo_page_mark(page, yes ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, yes ? _("yes") : _("NO"));
+    ceduo_page_cell_role(page, yes ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, yes ? _("yes") : _("NO"));
 }
 
 void ceduo_page_warn(void *page, const char *sentence)
 {
-    ceduo_page_say(page, CEDUO_PAGE_WARNING, "%s", sentence);
+    ceduo_page_para(page, CEDUO_PAGE_WARNING, "%s", sentence);
 }
 
 void ceduo_page_once(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...)
@@ -313,5 +313,5 @@ void ceduo_page_warn_once(void *page, const char *sentence)
 
 void ceduo_page_note(void *page, const char *sentence)
 {
-    ceduo_page_say(page, CEDUO_PAGE_NOTE, "%s", sentence);
+    ceduo_page_para(page, CEDUO_PAGE_NOTE, "%s", sentence);
 }

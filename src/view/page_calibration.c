@@ -14,7 +14,7 @@
 void ceduo_calibration_name(struct text *text, const char *path)
 {
     const char *name = path + sizeof GROUND - 1, *bracket = strchr(path, '[');
-    ceduo_text_put(text, _(ceduo_schema_fitted(path)->shown.label));
+    ceduo_text_append(text, _(ceduo_schema_fitted(path)->shown.label));
     if (strncmp(path, GROUND, sizeof GROUND - 1) == 0)
         ceduo_text_format(text, ", %.*s", (int)strcspn(name, "]"), name);
     else if (bracket && bracket[1] != '*')
@@ -32,19 +32,19 @@ void ceduo_calibration_number(struct text *text, const char *path, double value)
     ceduo_words_number(text, shown(path, value), 3);
 }
 
-double ceduo_seen_shown(const struct scene_file *file, const struct ceduo_predicted *p, double value)
+double ceduo_observed_shown(const struct scene_file *file, const struct ceduo_predicted *p, double value)
 {
     const enum ceduo_observed_kind kind = file->observations[p->observation].kind;
     bool place = ceduo_observed_row(kind)->quantity == CEDUO_QUANTITY_PLACE;
     return place ? value + file->scene.slope.origin_x : value * (1 / ceduo_observed_quantity(kind)->scale);
 }
 
-const struct ceduo_observation *ceduo_seen_of(const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)
+const struct ceduo_observation *ceduo_observed_find(const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)
 {
     return &r->files[p->scene].observations[p->observation];
 }
 
-size_t ceduo_seen_number(const struct ceduo_observation *o)
+size_t ceduo_observed_number(const struct ceduo_observation *o)
 {
     return o->kind == CEDUO_OBSERVED_PASSED ? (size_t)o->of : o->n;
 }
@@ -55,11 +55,11 @@ void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration
         const struct ceduo_fitted *f = &r->answer->parameters[i];
         const char *between = i > 0 ? "; " : "";
         for (size_t k = 0; k < r->answer->predicted_count; k++) {
-            const struct ceduo_observation *o = ceduo_seen_of(r, &r->answer->predicted[k]);
+            const struct ceduo_observation *o = ceduo_observed_find(r, &r->answer->predicted[k]);
             if (o->use != CEDUO_OBSERVED_FIT)
                 continue;
-            ceduo_text_format(text, "%s%zu ", between, ceduo_seen_number(o));
-            ceduo_text_safe(text, o->name_given);
+            ceduo_text_format(text, "%s%zu ", between, ceduo_observed_number(o));
+            ceduo_text_append_escaped(text, o->name_given);
             between = ", ";
         }
         ceduo_text_format(text, "; %s 95 %% %s\xe2\x80\x93%s%s", ceduo_schema_fitted(r->inputs[i].path)->key,
@@ -73,8 +73,8 @@ void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration_r
     for (size_t i = 0; i < a->parameters_count; i++) {
         const struct ceduo_input *input = &r->inputs[i];
         LOCAL_TEXT(places);
-        ceduo_text_words(&places, input->places, input->places_count, " ");
-        ceduo_text_put(text, i > 0 ? "," : "");
+        ceduo_text_join(&places, input->places, input->places_count, " ");
+        ceduo_text_append(text, i > 0 ? "," : "");
         ceduo_text_csv(text, places.length > 0 ? places.bytes : input->path);
     }
     ceduo_text_char(text, '\n');
@@ -98,9 +98,9 @@ static void append_range(struct text *t, double lo, double hi)
 /* Two scenes may call alike what was seen there. */
 static void append_name(struct text *name, const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)
 {
-    ceduo_text_safe(name, ceduo_seen_of(r, p)->name);
+    ceduo_text_append_escaped(name, ceduo_observed_find(r, p)->name);
     if (r->scenes_count > 1)
-        ceduo_text_then(name, ", ", _("scene %zu"), p->scene + 1);
+        ceduo_text_append_joined(name, ", ", _("scene %zu"), p->scene + 1);
 }
 
 /* ---- in words ---- */
@@ -112,11 +112,11 @@ static void say_values(struct ceduo_page *page, const struct ceduo_calibration_r
         LOCAL_TEXT(name);
         ceduo_calibration_name(&name, r->inputs[i].path);
         if (!f->determined)
-            ceduo_page_say(page, CEDUO_PAGE_WARNING,
-                           _("%s is not determined by what was seen: nearly everything within its bounds fits as well."),
-                           name.bytes);
+            ceduo_page_para(page, CEDUO_PAGE_WARNING,
+                            _("%s is not determined by what was seen: nearly everything within its bounds fits as well."),
+                            name.bytes);
         if (f->at_bound)
-            ceduo_page_say(
+            ceduo_page_para(
                 page, CEDUO_PAGE_WARNING,
                 _("%s lies at a bound: what fits best may be beyond it. Widen its bounds, or ask what the model lacks."),
                 name.bytes);
@@ -130,8 +130,8 @@ static void say_values(struct ceduo_page *page, const struct ceduo_calibration_r
                 continue;
             ceduo_calibration_name(&a, r->inputs[k].path);
             ceduo_calibration_name(&b, r->inputs[i].path);
-            ceduo_page_say(page, CEDUO_PAGE_ITEM, _("%s and %s are known only together, not each (correlation %.2f)."),
-                           ceduo_text_string(&a), ceduo_text_string(&b), c);
+            ceduo_page_para(page, CEDUO_PAGE_ITEM, _("%s and %s are known only together, not each (correlation %.2f)."),
+                            ceduo_text_string(&a), ceduo_text_string(&b), c);
         }
 }
 
@@ -140,29 +140,29 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
     const struct ceduo_calibration *a = r->answer;
     for (size_t i = 0; i < a->predicted_count; i++) {
         const struct ceduo_predicted *p = &a->predicted[i];
-        const struct ceduo_observation *o = ceduo_seen_of(r, p);
+        const struct ceduo_observation *o = ceduo_observed_find(r, p);
         const struct scene_file *file = &r->files[p->scene];
         LOCAL_TEXT(name);
         append_name(&name, r, p);
         if (p->p_value < CEDUO_MISFIT)
-            ceduo_page_say(page, CEDUO_PAGE_WARNING,
-                           o->use != CEDUO_OBSERVED_FIT ? _("The fit does not hold for what was to check it: %s.")
-                           : p->inside
-                               ? _("This model can give the mean of what was seen here, but not how the values are spread: %s.")
-                               : _("This model cannot give what was seen here: %s."),
-                           ceduo_text_string(&name));
+            ceduo_page_para(
+                page, CEDUO_PAGE_WARNING,
+                o->use != CEDUO_OBSERVED_FIT ? _("The fit does not hold for what was to check it: %s.")
+                : p->inside ? _("This model can give the mean of what was seen here, but not how the values are spread: %s.")
+                            : _("This model cannot give what was seen here: %s."),
+                ceduo_text_string(&name));
         if (o->use == CEDUO_OBSERVED_CHECK && o->values && !isnan(p->one_lo)) {
             LOCAL_TEXT(range); /* of those that were kept back, which lie where single rocks are predicted */
-            append_range(&range, ceduo_seen_shown(file, p, p->one_lo), ceduo_seen_shown(file, p, p->one_hi));
-            ceduo_page_say(page, CEDUO_PAGE_ITEM,
-                           _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
-                           ceduo_text_string(&name), o->n, p->one_inside, ceduo_text_string(&range));
+            append_range(&range, ceduo_observed_shown(file, p, p->one_lo), ceduo_observed_shown(file, p, p->one_hi));
+            ceduo_page_para(page, CEDUO_PAGE_ITEM,
+                            _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
+                            ceduo_text_string(&name), o->n, p->one_inside, ceduo_text_string(&range));
         }
         if (o->kind == CEDUO_OBSERVED_SCARS && o->of > 0 && isnan(o->share_seen))
-            ceduo_page_say(page, CEDUO_PAGE_WARNING,
-                           _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
-                             "number of blows is taken too low."),
-                           ceduo_text_string(&name));
+            ceduo_page_para(page, CEDUO_PAGE_WARNING,
+                            _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
+                              "number of blows is taken too low."),
+                            ceduo_text_string(&name));
     }
     if (!a->misfit)
         ceduo_page_note(page, _("The model can give all that it was fitted to."));
@@ -187,7 +187,7 @@ static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibratio
         widest = width > most ? i : widest;
         most = fmax(most, width);
     }
-    if (ceduo_calibration_loose(a, loose) == 0)
+    if (ceduo_calibration_unidentified(a, loose) == 0)
         loose[widest] = true;
     for (size_t i = 0; i < a->parameters_count; i++) {
         LOCAL_TEXT(name);
@@ -196,7 +196,7 @@ static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibratio
         if (loose[i])
             ceduo_text_format(&fixed, "%s%s", fixed.length > 0 ? ", " : "", name.bytes);
     }
-    ceduo_page_say(
+    ceduo_page_para(
         page, CEDUO_PAGE_WARNING,
         _("What was seen does not tell these values apart: %s; the ranges are rough. Fit fewer, leaving as the scene "
           "has them: %s. Or observe more."),
@@ -212,8 +212,9 @@ void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibra
         say_unsettled(page, r);
     ceduo_page_note(
         page, _("A ground that is fitted on a profile holds for this profile; a hundred metres beside it may be another."));
-    ceduo_page_say(page, CEDUO_PAGE_NOTE, _("%llu scenes were computed with %llu rocks each; R-hat %.3f, effective size %.0f."),
-                   (unsigned long long)a->evaluations, (unsigned long long)r->rocks, a->rhat, a->effective_size);
+    ceduo_page_para(page, CEDUO_PAGE_NOTE,
+                    _("%llu scenes were computed with %llu rocks each; R-hat %.3f, effective size %.0f."),
+                    (unsigned long long)a->evaluations, (unsigned long long)r->rocks, a->rhat, a->effective_size);
 }
 
 void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_report *r, bool plain)
@@ -228,9 +229,9 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
         struct text *title = ceduo_page_add(&page, CEDUO_PAGE_TITLE);
         if (r->scenes_count > 1)
             ceduo_text_format(title, "%zu ", s + 1);
-        ceduo_text_safe(title, ceduo_in_language(r->files[s].scene.title, r->files[s].scene.title_it));
+        ceduo_text_append_escaped(title, ceduo_in_language(r->files[s].scene.title, r->files[s].scene.title_it));
     }
-    ceduo_page_say(&page, CEDUO_PAGE_SECTION, _("Fitted to what was seen"));
+    ceduo_page_para(&page, CEDUO_PAGE_SECTION, _("Fitted to what was seen"));
     CEDUO_PAGE_TABLE_OF(&page, fitted);
     for (size_t i = 0; i < r->answer->parameters_count; i++) {
         const struct ceduo_fitted *f = &r->answer->parameters[i];
@@ -244,17 +245,17 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
     CEDUO_PAGE_TABLE_OF(&page, seen);
     for (size_t i = 0; i < r->answer->predicted_count; i++) {
         const struct ceduo_predicted *p = &r->answer->predicted[i];
-        const struct ceduo_observation *o = ceduo_seen_of(r, p);
+        const struct ceduo_observation *o = ceduo_observed_find(r, p);
         const struct scene_file *file = &r->files[p->scene];
         append_name(ceduo_page_text(&page), r, p);
-        ceduo_page_write(&page, "%s", o->use == CEDUO_OBSERVED_FIT ? _("fit") : _("check"));
-        ceduo_page_write(&page, "%zu", ceduo_seen_number(o));
-        ceduo_page_write(&page, "%s", WRITTEN(ceduo_seen_shown(file, p, p->seen), 3));
-        append_range(ceduo_page_text(&page), ceduo_seen_shown(file, p, p->lo), ceduo_seen_shown(file, p, p->hi));
+        ceduo_page_cell_format(&page, "%s", o->use == CEDUO_OBSERVED_FIT ? _("fit") : _("check"));
+        ceduo_page_cell_format(&page, "%zu", ceduo_observed_number(o));
+        ceduo_page_cell_format(&page, "%s", WRITTEN(ceduo_observed_shown(file, p, p->seen), 3));
+        append_range(ceduo_page_text(&page), ceduo_observed_shown(file, p, p->lo), ceduo_observed_shown(file, p, p->hi));
         if (isnan(p->p_value) || p->p_value < 0.001)
-            ceduo_page_write(&page, "%s", isnan(p->p_value) ? "-" : "<.001");
+            ceduo_page_cell_format(&page, "%s", isnan(p->p_value) ? "-" : "<.001");
         else
-            ceduo_page_write(&page, _("%.*f"), p->p_value < 0.1 ? 3 : 2, p->p_value);
+            ceduo_page_cell_format(&page, _("%.*f"), p->p_value < 0.1 ? 3 : 2, p->p_value);
     }
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
     ceduo_calibration_words(&page, r);

@@ -25,7 +25,7 @@ static const char *name_of(const struct ceduo_result *r, size_t item)
 
 /* ---- in words ---- */
 
-const char *ceduo_words_every(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM])
+const char *ceduo_words_interval_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM])
 {
     if (isnan(rate.mean) || rate.mean > 0)
         return ceduo_words_shown(1 / rate.mean, 2, room);
@@ -51,16 +51,16 @@ void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t 
     LOCAL_TEXT(rock);
     ceduo_words_place(&place, c);
     if (isnan(c->accepted))
-        ceduo_text_put(&rock, _("A rock"));
+        ceduo_text_append(&rock, _("A rock"));
     else
         ceduo_text_format(&rock, _("A rock with more than %s kJ"), SHORTEST(ceduo_words_accepted(c)));
     ceduo_text_format(text, _("%s reaches %s every %s years today without forest"), rock.bytes, place.bytes,
                       YEARS(ceduo_hazard_feared(hazard_of(r, 0, control))));
     if (wooded && r->scene->options_count > 1)
-        ceduo_text_then(text, ", ", _("every %s years with '%s'"), YEARS(ceduo_hazard_feared(wooded)),
-                        r->scene->options[option].name);
+        ceduo_text_append_joined(text, ", ", _("every %s years with '%s'"), YEARS(ceduo_hazard_feared(wooded)),
+                                 r->scene->options[option].name);
     else if (wooded)
-        ceduo_text_then(text, ", ", _("every %s years through the wood"), YEARS(ceduo_hazard_feared(wooded)));
+        ceduo_text_append_joined(text, ", ", _("every %s years through the wood"), YEARS(ceduo_hazard_feared(wooded)));
     ceduo_text_char(text, '.');
 }
 
@@ -71,7 +71,7 @@ static void append_shorter(struct text *text, double value, double lo, double hi
 {
     int e = value > 0 ? (int)floor(log10(value)) : 0;
     double unit = pow(10, e);
-    ceduo_text_put(text, WRITTEN(value / unit, 2));
+    ceduo_text_append(text, WRITTEN(value / unit, 2));
     if (isnan(hi))
         ceduo_text_format(text, " (> %s)e%d", WRITTEN(lo / unit, 2), e);
     else
@@ -82,8 +82,8 @@ static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, s
 {
     static const struct ceduo_page_column columns[] = {
         {"", 22, 4, CEDUO_WHOLE}, {"", -17, 1, 0}, {"", -17, 1, 0}, {"", -17, 1, 0}};
-    ceduo_page_say(page, CEDUO_PAGE_CAPTION, "%s",
-                   _("Energy that is reached or exceeded once in so many years, kJ (95 % interval):"));
+    ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s",
+                    _("Energy that is reached or exceeded once in so many years, kJ (95 % interval):"));
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t t = 1; t < CEDUO_RETURNS; t++)
         ceduo_text_format(&page->last->cells[t].text, _("%u years"), ceduo_return_years[t]);
@@ -91,14 +91,14 @@ static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, s
         const struct ceduo_hazard *h = hazard_of(r, i, control);
         if (!h)
             continue;
-        ceduo_page_write(page, "%s", name_of(r, i));
+        ceduo_page_cell_format(page, "%s", name_of(r, i));
         for (size_t t = 1; t < CEDUO_RETURNS; t++) {
             struct ceduo_page_cell *cell = ceduo_page_cell(page);
             const struct ceduo_estimate *energy = &h->returns[t].energy;
             double value = energy->mean * J_TO_KJ, hi = energy->hi * J_TO_KJ;
             double lo = isnan(energy->lo) ? 0 : energy->lo * J_TO_KJ;
             if (isnan(value)) {
-                ceduo_text_put(&cell->text, _("none"));
+                ceduo_text_append(&cell->text, _("none"));
                 continue;
             }
             ceduo_text_format(&cell->text, isnan(hi) ? "%s (> %s)" : "%s (%s\xe2\x80\x93%s)", WRITTEN(value, 3), WRITTEN(lo, 3),
@@ -116,20 +116,20 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
         {NP_("head", "intensity"), 26, 4, CEDUO_WHOLE}, {"", 15, 0, CEDUO_WHOLE}, {"", 15, 0, CEDUO_WHOLE}, {"", 0, 0, 0}};
     static const char *const rows[] = {N_("none arrives"), N_("weak, below 30 kJ"), N_("medium, 30 to 300 kJ"),
                                        N_("strong, above 300 kJ")};
-    ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Intensity by return period, in the classes of Swiss practice (BAFU 2016):"));
+    ceduo_page_para(page, CEDUO_PAGE_CAPTION, _("Intensity by return period, in the classes of Swiss practice (BAFU 2016):"));
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t t = 1; t < CEDUO_RETURNS; t++)
         ceduo_text_format(&page->last->cells[t].text, _("to %u years"), ceduo_return_years[t]);
     for (int i = CEDUO_INTENSITIES - 1; i >= -1; i--) { /* -1: none arrives so often */
-        ceduo_page_write(page, "%s", _(rows[i + 1]));
+        ceduo_page_cell_format(page, "%s", _(rows[i + 1]));
         for (size_t t = 1; t < CEDUO_RETURNS; t++) {
             struct text *cell = ceduo_page_text(page); /* which of all have it at that return period, by their numbers */
             for (size_t k = 0; k <= r->scene->options_count; k++) {
                 const struct ceduo_hazard *h = hazard_of(r, k, control);
-                if (h && ceduo_intensity_of(h->returns[t].energy.mean) == i)
+                if (h && ceduo_intensity_find(h->returns[t].energy.mean) == i)
                     ceduo_text_format(cell, cell->length > 0 ? " %zu" : "%zu", k);
             }
-            ceduo_text_put(cell, cell->length == 0 ? "\xc2\xb7" : "");
+            ceduo_text_append(cell, cell->length == 0 ? "\xc2\xb7" : "");
         }
     }
     struct text *names = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
@@ -147,7 +147,7 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
     static const struct ceduo_page_column columns[] = {
         {"", 26, 4, CEDUO_WHOLE}, {N_("years between"), -21, 1, 0}, {"", -9, 0, 0}, {"", -9, 0, 0}, {"", -9, 0, 0}};
     static const char *const classes[CEDUO_INTENSITIES] = {N_("weak"), N_("medium"), N_("strong")};
-    ceduo_page_say(
+    ceduo_page_para(
         page, CEDUO_PAGE_CAPTION,
         _("Years from one such rock to the next, and what arrives weak, medium and strong, in %% of what does without "
           "forest:"));
@@ -159,14 +159,14 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
         if (!h)
             continue;
         struct ceduo_estimate rate = ceduo_hazard_feared(h);
-        ceduo_page_write(page, "%s", name_of(r, i));
+        ceduo_page_cell_format(page, "%s", name_of(r, i));
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
-        ceduo_text_put(&cell->text, YEARS(rate));
+        ceduo_text_append(&cell->text, YEARS(rate));
         if (rate.mean > 0)
             append_shorter(&cell->shorter, 1 / rate.mean, 1 / rate.hi, rate.lo > 0 ? 1 / rate.lo : NAN);
         for (size_t k = 0; k < CEDUO_INTENSITIES; k++) {
             if (isnan(h->intensity[k].left))
-                ceduo_page_write(page, "%s", _("none"));
+                ceduo_page_cell_format(page, "%s", _("none"));
             else
                 ceduo_page_number(page, i == 0 ? 100 : h->intensity[k].left * 100, i == 0 ? 3 : 2);
         }
@@ -179,14 +179,14 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_control *control = &r->scene->controls[c];
     if (!ceduo_report_has_hazard(report))
         return;
-    ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How often, at %s m%s%s"), SHORTEST(control->x_given), control->name ? ", " : "",
-                   control->name ? control->name : "");
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How often, at %s m%s%s"), SHORTEST(control->x_given),
+                    control->name ? ", " : "", control->name ? control->name : "");
     if (first)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("%g blocks come down a year. Rare large ones were simulated as often as small ones and "
-                         "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
-                       r->bare.arrivals[c].hazard.per_year, (unsigned long long)r->bare.rocks,
-                       r->bare.arrivals[c].hazard.effective);
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
+                        _("%g blocks come down a year. Rare large ones were simulated as often as small ones and "
+                          "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
+                        r->bare.arrivals[c].hazard.per_year, (unsigned long long)r->bare.rocks,
+                        r->bare.arrivals[c].hazard.effective);
     ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, ceduo_result_best(r, report->verdict), c);
     add_rates(page, r, c);
     add_returns(page, r, c);

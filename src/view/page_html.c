@@ -17,10 +17,10 @@ static void put_escaped(struct text *to, const char *string)
     static const char signs[] = "&<>\"'", *const names[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
     for (size_t n; *string; string += n + (string[n] != '\0')) {
         n = strcspn(string, "&<>\"'\n\t");
-        ceduo_text_safe_n(to, string, n);
+        ceduo_text_append_escaped_n(to, string, n);
         const char *sign = string[n] ? strchr(signs, string[n]) : NULL;
         if (sign)
-            ceduo_text_put(to, names[sign - signs]);
+            ceduo_text_append(to, names[sign - signs]);
         else if (string[n])
             ceduo_text_char(to, string[n]);
     }
@@ -62,7 +62,7 @@ void ceduo_html_empty(struct ceduo_html *html, const char *name, ...)
     va_start(args, name);
     begin(html, name, args);
     va_end(args);
-    ceduo_text_put(html->text, "/>\n");
+    ceduo_text_append(html->text, "/>\n");
 }
 
 void ceduo_html_leaf(struct ceduo_html *html, const char *name, const char *text, ...)
@@ -131,7 +131,7 @@ static const char style[] =
 
 void ceduo_page_html_begin(struct ceduo_html *html, const char *title)
 {
-    ceduo_text_put(html->text, "<!DOCTYPE html>\n");
+    ceduo_text_append(html->text, "<!DOCTYPE html>\n");
     /* Translators: the code of your language, as HTML has it. */
     ceduo_html_open(html, "html", "lang", _("en"), NULL);
     ceduo_text_char(html->text, '\n');
@@ -139,9 +139,9 @@ void ceduo_page_html_begin(struct ceduo_html *html, const char *title)
     ceduo_html_empty(html, "meta", "charset", "utf-8", NULL);
     ceduo_html_empty(html, "meta", "name", "viewport", "content", "width=device-width, initial-scale=1", NULL);
     ceduo_html_leaf(html, "title", title, NULL);
-    ceduo_text_put(html->text, "<style>\n");
-    ceduo_text_put(html->text, style);
-    ceduo_text_put(html->text, "</style>\n");
+    ceduo_text_append(html->text, "<style>\n");
+    ceduo_text_append(html->text, style);
+    ceduo_text_append(html->text, "</style>\n");
     ceduo_html_close(html);
     ceduo_html_open(html, "body", NULL);
     ceduo_html_open(html, "main", NULL);

@@ -35,14 +35,14 @@ static int rank_of(enum ceduo_judgement judgement)
 
 static const char *keep(struct ceduo_profiles *p, const char *string)
 {
-    return ceduo_must(ceduo_arena_string(&p->arena, string));
+    return ceduo_check_memory(ceduo_arena_string(&p->arena, string));
 }
 
 void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *report, const char *name)
 {
     const struct ceduo_result *r = report->result;
     size_t n = r->scene->options_count;
-    p->items = ceduo_must(realloc(p->items, (p->count + 1) * sizeof *p->items));
+    p->items = ceduo_check_memory(realloc(p->items, (p->count + 1) * sizeof *p->items));
     struct ceduo_profile *to = &p->items[p->count];
     const struct ceduo_control *c = r->scene->controls_count > 0 ? &r->scene->controls[r->last_control] : NULL;
     *to = (struct ceduo_profile){.title = keep(p, name ? name : ceduo_in_language(r->scene->title, r->scene->title_it)),
@@ -50,14 +50,14 @@ void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *rep
                                  .accepted = c ? c->accepted : NAN,
                                  .number = p->count++,
                                  .n = n,
-                                 .options = ceduo_must(ceduo_arena_take(&p->arena, (n + 1) * sizeof *to->options))};
+                                 .options = ceduo_check_memory(ceduo_arena_alloc(&p->arena, (n + 1) * sizeof *to->options))};
     for (size_t i = 0; i < n; i++) {
         struct profile_option *option = &to->options[i];
         LOCAL_TEXT(answer);
         *option = (struct profile_option){keep(p, r->scene->options[i].name), "-", CEDUO_UNANSWERED, 0, NAN};
         if (!c)
             continue;
-        const struct ceduo_subject subject = ceduo_subject_of(report, i, r->last_control);
+        const struct ceduo_subject subject = ceduo_subject_find(report, i, r->last_control);
         ceduo_words_answer(&answer, &subject, CEDUO_PAGE_WIDTH - SCENE_WIDTH - 1);
         option->answer = keep(p, ceduo_text_string(&answer));
         option->judgement = subject.outcome.answer;
@@ -127,8 +127,8 @@ static void say_whole(struct ceduo_page *page, const struct ceduo_profiles *p, s
     for (size_t i = 0; i < p->count; i++)
         n += p->items[i].options[option].judgement == worst;
     struct text *text = ceduo_page_text(page);
-    ceduo_text_put(text, DECISION(worst));
-    ceduo_text_then(text, ": ", _("on %zu of %zu profiles"), n, p->count);
+    ceduo_text_append(text, DECISION(worst));
+    ceduo_text_append_joined(text, ": ", _("on %zu of %zu profiles"), n, p->count);
 }
 
 void ceduo_profiles_page(struct ceduo_page *page, const struct ceduo_profiles *p)
@@ -138,23 +138,23 @@ void ceduo_profiles_page(struct ceduo_page *page, const struct ceduo_profiles *p
     bool whole = p->count > 1 && is_one_place(p);
     CEDUO_PAGE_TABLE_OF(page, columns);
     if (whole && p->items->place)
-        ceduo_page_write(page, _("%s as a whole"), p->items->place);
+        ceduo_page_cell_format(page, _("%s as a whole"), p->items->place);
     else if (whole)
-        ceduo_page_write(page, "%s", _("the place as a whole"));
+        ceduo_page_cell_format(page, "%s", _("the place as a whole"));
     for (size_t i = 0; i < p->count + whole; i++) {
         const struct ceduo_profile *one = &p->items[i - (i > 0 && whole)];
         bool all = whole && i == 0;
         if (!all)
-            ceduo_page_write(page, "%s", one->title);
+            ceduo_page_cell_format(page, "%s", one->title);
         if (one->n > 1)
-            ceduo_page_write(page, "%s", "");
+            ceduo_page_cell_format(page, "%s", "");
         for (size_t k = 0; k < one->n; k++) {
             if (one->n > 1)
-                ceduo_page_write(page, "  %s", one->options[k].name);
+                ceduo_page_cell_format(page, "  %s", one->options[k].name);
             if (all)
                 say_whole(page, p, k);
             else
-                ceduo_page_write(page, "%s", one->options[k].answer);
+                ceduo_page_cell_format(page, "%s", one->options[k].answer);
         }
     }
 }

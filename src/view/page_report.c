@@ -26,7 +26,7 @@ static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int colum
     ceduo_plot_draw(plot, ceduo_svg_canvas(svg), &area, picture);
     struct ceduo_page_block *block = ceduo_page_picture(page, svg, columns == HALF);
     ceduo_plot_title(&block->text, plot, picture);
-    ceduo_text_put(&block->description, description);
+    ceduo_text_append(&block->description, description);
 }
 
 static struct ceduo_picture picture_of(const struct ceduo_report *report, size_t option)
@@ -53,17 +53,17 @@ static bool is_crowded(const struct ceduo_report *report)
 static void add_unknown(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
-    if (r->scene->controls_count == 0 || !r->wooded || ceduo_page_says_nothing(r))
+    if (r->scene->controls_count == 0 || !r->wooded || ceduo_page_is_unassessable(r))
         return;
     const struct ceduo_uncertainty_report *uncertainty = report->uncertainty;
     const struct ceduo_control *place = &r->scene->controls[r->last_control];
     size_t option = ceduo_result_best(r, report->verdict);
     const struct ceduo_outcome o = ceduo_report_outcome(report, option, r->last_control);
-    struct ceduo_measure m = ceduo_judged(place, NULL); /* without its value the range stays as it is */
+    struct ceduo_measure m = ceduo_measure_exceeding(place, NULL); /* without its value the range stays as it is */
     ceduo_measure_uncertainty(&m, uncertainty, option, r->last_control);
     if (isnan(m.may_lo)) {
         if (!uncertainty || ceduo_uncertainty_is_off(uncertainty) || !uncertainty->inputs || uncertainty->inputs->n > 0)
-            ceduo_page_say(
+            ceduo_page_para(
                 page, CEDUO_PAGE_ANSWER, "%s",
                 _("Not everything here is known for certain, and what that changes was not computed: the answer holds "
                   "if all is as the scene says."));
@@ -71,22 +71,23 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     }
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
     const char *phrase = NAMED(m, CEDUO_PHRASE);
-    ceduo_text_put(text, _("Not everything here is known for certain."));
+    ceduo_text_append(text, _("Not everything here is known for certain."));
     if (r->scene->options_count > 1)
-        ceduo_text_then(text, " ", _("With '%s', in nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."),
-                        r->scene->options[option].name, m.may_lo, m.may_hi, phrase);
+        ceduo_text_append_joined(text, " ",
+                                 _("With '%s', in nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."),
+                                 r->scene->options[option].name, m.may_lo, m.may_hi, phrase);
     else
-        ceduo_text_then(text, " ", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.may_lo,
-                        m.may_hi, phrase);
+        ceduo_text_append_joined(text, " ", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.may_lo,
+                                 m.may_hi, phrase);
     if (o.ahead && o.uncertain && r->scene->blocks_count == 0)
-        ceduo_text_then(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
-                        o.failing_hi, report->verdict->choices[option].over.years);
+        ceduo_text_append_joined(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
+                                 o.failing_hi, report->verdict->choices[option].over.years);
     if (o.answer == CEDUO_DEPENDS)
-        ceduo_text_then(text, " ", "%s",
-                        _("Some of these cases keep within the limit and some do not: the answer depends on "
-                          "uncertain inputs."));
+        ceduo_text_append_joined(text, " ", "%s",
+                                 _("Some of these cases keep within the limit and some do not: the answer depends on "
+                                   "uncertain inputs."));
     else if (o.answer == CEDUO_YES || o.answer == CEDUO_NO)
-        ceduo_text_then(text, " ", "%s", _("The answer is the same in all of these cases."));
+        ceduo_text_append_joined(text, " ", "%s", _("The answer is the same in all of these cases."));
 }
 
 /* What the scene says for it; there is always room to date and to sign. */
@@ -97,7 +98,7 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
                                     {_("Signature"), NULL}};
     for (size_t i = 0, n = sizeof lines / sizeof lines[0]; i < n; i++)
         if (i + 2 >= n || (lines[i][1] && lines[i][1][0]))
-            ceduo_text_put(ceduo_page_label(page, CEDUO_PAGE_HEAD, lines[i][0]), lines[i][1] ? lines[i][1] : "");
+            ceduo_text_append(ceduo_page_item(page, CEDUO_PAGE_HEAD, lines[i][0]), lines[i][1] ? lines[i][1] : "");
 }
 
 #define SLOPE_ROWS 19
@@ -108,7 +109,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
 {
     struct ceduo_picture picture = picture_of(report, ceduo_result_best(report->result, report->verdict));
     size_t options = report->result->scene->options_count;
-    ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
     ceduo_page_facts(page, report);
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, options > 1 ? SLOPE_MIN : SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
@@ -149,26 +150,26 @@ static void add_years(struct ceduo_page *page, const struct ceduo_report *report
 {
     const struct ceduo_verdict *v = report->verdict;
     size_t option = v && v->rotation.known ? v->rotation.best : ceduo_result_best(report->result, report->verdict);
-    if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_ALIKE || !report->ahead ||
+    if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_CONSTANT || !report->ahead ||
         !report->ahead[option] || report->ahead[option]->count < 2) /* they do not differ at all */
         return;
     struct ceduo_picture picture = picture_of(report, option);
     const struct ceduo_scene *scene = report->result->scene;
-    ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("Year by year"));
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("Year by year"));
     if (scene->options_count > 1)
-        ceduo_page_say(page, CEDUO_PAGE_PLACE, "%s", scene->options[option].name);
+        ceduo_page_para(page, CEDUO_PAGE_PLACE, "%s", scene->options[option].name);
     ceduo_page_years_words(page, report->result, report->ahead[option]);
     if (is_crowded(report))
         return;
-    ceduo_page_say(page, CEDUO_PAGE_DETAIL, "%s",
-                   _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
+    ceduo_page_para(page, CEDUO_PAGE_DETAIL, "%s",
+                    _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
     size_t yields = 0;
     for (size_t i = 0; i < v->n; i++)
         yields += v->choices[i].yield.cut_per_year > 0;
     bool both = yields > 1;
     if (both)
-        ceduo_page_say(page, CEDUO_PAGE_DETAIL, "%s",
-                       _("Numbers beside points stand for the options in the order of the tables."));
+        ceduo_page_para(page, CEDUO_PAGE_DETAIL, "%s",
+                        _("Numbers beside points stand for the options in the order of the tables."));
     add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, &picture,
                 _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
                   "arrive with too much energy, and below them which tests each year passes."));
@@ -190,10 +191,10 @@ static void add_limits(struct ceduo_page *page, const struct ceduo_result *resul
         N_("A coppice cannot promise to stop any given rock. Where people may be hurt, an engineer must judge the "
            "situation "
            "on the ground.")};
-    ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("What the model cannot tell"));
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("What the model cannot tell"));
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++)
-        ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", _(limits[i]));
-    ceduo_page_say(
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", _(limits[i]));
+    ceduo_page_para(
         page, CEDUO_PAGE_ITEM, "%s",
         result->scene->blocks_count > 0
             ? _("How often blocks come down is as the scene says; only a survey of the wall and of what lies at its "
@@ -216,16 +217,16 @@ static const struct node *without_texts(struct arena *arena, const struct node *
 
 static void add_origin(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("How to compute this page again"));
-    ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Program")), "ceduo %s", CEDUO_VERSION);
-    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s",
-                   report->same ? _("This command gives the same page, to the last byte:")
-                                : _("This command computes the page again:"));
-    ceduo_page_say(page, CEDUO_PAGE_CODE, "%s", report->command);
-    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene, as its file says it, without the texts of sources:"));
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("How to compute this page again"));
+    ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Program")), "ceduo %s", CEDUO_VERSION);
+    ceduo_page_para(page, CEDUO_PAGE_SENTENCE, "%s",
+                    report->same ? _("This command gives the same page, to the last byte:")
+                                 : _("This command computes the page again:"));
+    ceduo_page_para(page, CEDUO_PAGE_CODE, "%s", report->command);
+    ceduo_page_para(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene, as its file says it, without the texts of sources:"));
     /* with what the command line changed, and the names of other files */
     struct arena arena = {0};
-    const struct node *root = ceduo_emit_unresolve(&arena, report->file->root);
+    const struct node *root = ceduo_emit_restore_references(&arena, report->file->root);
     ceduo_emit(ceduo_page_add(page, CEDUO_PAGE_CODE), without_texts(&arena, root));
     ceduo_arena_free(&arena);
 }
@@ -254,7 +255,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
 {
     const struct ceduo_scene *scene = report->result->scene;
     bool controls = scene->controls_count > 0, several = scene->options_count > 1;
-    ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
+    ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     add_head(page, &scene->page);
     ceduo_page_question(page, report->result);
     ceduo_page_answer(page, report);
@@ -271,7 +272,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
                         _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too "
                           "much energy, and their mean energy."));
     } else if (!several) {
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("Through the forest, and without it"));
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("Through the forest, and without it"));
         ceduo_page_option(page, report, 0, true);
     }
     if (controls && !is_crowded(report))

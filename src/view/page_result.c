@@ -21,7 +21,7 @@ static const char *const facets[] = {[CEDUO_AGAINST] = N_("against"), [CEDUO_BOT
 
 static const char *assumed_mark(const struct ceduo_report *report, const char *path)
 {
-    return ceduo_notes_say(report->file->notes, "assumed", path) ? "*" : "";
+    return ceduo_notes_print(report->file->notes, "assumed", path) ? "*" : "";
 }
 
 void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report)
@@ -29,29 +29,29 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
     const struct ceduo_result *r = report->result;
     const struct ceduo_scene *s = r->scene;
     const struct ceduo_slope *slope = &s->slope;
-    struct text *line = ceduo_page_label(page, CEDUO_PAGE_FACT, _("Rock"));
+    struct text *line = ceduo_page_item(page, CEDUO_PAGE_FACT, _("Rock"));
     ceduo_text_format(line,
                       s->blocks_count > 0 ? _("%s; rocks are the blocks below, the index is of %s kg, mean diameter %s m")
                       : ceduo_rock_varies(&s->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
                                                     : _("%s, %s kg, mean diameter %s m"),
                       _(shapes[s->rock.shape]), WRITTEN(r->rock.mass, 4), WRITTEN(r->rock.mean_diameter, 3));
-    ceduo_text_put(line, assumed_mark(report, "rock"));
+    ceduo_text_append(line, assumed_mark(report, "rock"));
     for (size_t i = 0; i < s->blocks_count; i++)
-        ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Blocks")), _("%g a year of %g to %g m3, exponent %g"),
+        ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Blocks")), _("%g a year of %g to %g m3, exponent %g"),
                           s->blocks[i].per_year, s->blocks[i].volumes[0], s->blocks[i].volumes[1], s->blocks[i].exponent);
     double low = 0, high = 0;
     for (size_t i = 0; i < slope->vertices; i++) {
         low = fmin(low, slope->z[i]);
         high = fmax(high, slope->z[i]);
     }
-    line = ceduo_page_label(page, CEDUO_PAGE_FACT, _("Slope"));
+    line = ceduo_page_item(page, CEDUO_PAGE_FACT, _("Slope"));
     ceduo_text_format(line, _("%s m long, %s m high, "), WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4));
     ceduo_words_points(line, slope);
     ceduo_text_format(line, _("; law %s, facets %s%s"), ceduo_words_law(ceduo_law_words.names[s->simulation.law]),
                       _(facets[slope->facets]), assumed_mark(report, "slope"));
     if (!s->simulation.friction_bound && s->simulation.law != CEDUO_LAW_ARM)
-        ceduo_text_put(line, _("; published law, without the friction bound"));
-    ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Rocks")), _("%llu, seed %llu"),
+        ceduo_text_append(line, _("; published law, without the friction bound"));
+    ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Rocks")), _("%llu, seed %llu"),
                       (unsigned long long)ceduo_result_rocks(r), (unsigned long long)s->simulation.seed);
 }
 
@@ -67,18 +67,18 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
         ceduo_text_format(place, ", %s", c->name);
     ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
     if (!isnan(c->accepted))
-        ceduo_text_then(place, ", ", _("withstands %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
-                        ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
+        ceduo_text_append_joined(place, ", ", _("withstands %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
+                                 ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
     ceduo_words_topography(place, &report->result->bare.arrivals[i].topography, false);
 }
 
 static void add_arrivals_row(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
                              const struct ceduo_arrivals *a)
 {
-    ceduo_page_write(page, "%s", name);
+    ceduo_page_cell_format(page, "%s", name);
     if (!isnan(c->accepted))
-        ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(c, a)));
-    ceduo_page_write(page, "%s", INTERVAL(ceduo_arriving(a)));
+        ceduo_page_cell_format(page, "%s", INTERVAL(ceduo_measure_exceeding(c, a)));
+    ceduo_page_cell_format(page, "%s", INTERVAL(ceduo_measure_arriving(a)));
     ceduo_page_mean(page, a);
     ceduo_page_number(page, a->energy.p95 * J_TO_KJ, 3);
     ceduo_page_number(page, a->speed.mean, 3);
@@ -118,15 +118,15 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, 
                       a->reach.mean * 1000, missed[CEDUO_STOPPED_BY_STEMS] * 1000, missed[CEDUO_AT_REST] * 1000,
                       missed[CEDUO_LEFT_SLOPE] * 1000);
     if (a->unfinished > 0)
-        ceduo_text_then(line, "; ", _("%llu of %llu never come to an end"), (unsigned long long)a->unfinished,
-                        (unsigned long long)f->rocks);
+        ceduo_text_append_joined(line, "; ", _("%llu of %llu never come to an end"), (unsigned long long)a->unfinished,
+                                 (unsigned long long)f->rocks);
     if (a->reached > 0)
-        ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts.mean);
+        ceduo_text_append_joined(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts.mean);
     ceduo_text_char(line, '.');
     if (last)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
-                       all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
+                        _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
+                        all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
 }
 
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
@@ -141,9 +141,10 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
     /* what reads as harm is that the small and the slow ones are stopped */
     if (r->scene->options[option].belts_count > 0 &&
         wooded->energy.mean - bare->energy.mean > CEDUO_Z95 * hypot(wooded->energy.se, bare->energy.se))
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean "
-                         "is higher."));
+        ceduo_page_para(
+            page, CEDUO_PAGE_SENTENCE,
+            _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean "
+              "is higher."));
     say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
 }
 
@@ -165,8 +166,8 @@ static void say_released(struct ceduo_page *page, const struct ceduo_arrivals *w
 static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
-    if (ceduo_says_nothing(bare)) { /* why stands at the head of the page */
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy: nothing can be said."));
+    if (ceduo_too_few_arrivals(bare)) { /* why stands at the head of the page */
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy: nothing can be said."));
         return;
     }
     for (size_t i = 0; i < 3; i++)
@@ -196,9 +197,9 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
     for (size_t i = 0; i < o->belts_count; i++) {
         const struct ceduo_belt *b = &o->belts[i];
         const struct ceduo_stand_result *s = &found->stands[i];
-        ceduo_page_write(page, "%s\xe2\x80\x93%s", SHORTEST(b->from_given), SHORTEST(b->to_given));
-        ceduo_page_write(page, "%s%s", b->name, b->assumed ? "*" : "");
-        ceduo_page_write(page, "%s", BESIDE(s->adc_m, 3, scene->simulation.threshold));
+        ceduo_page_cell_format(page, "%s\xe2\x80\x93%s", SHORTEST(b->from_given), SHORTEST(b->to_given));
+        ceduo_page_cell_format(page, "%s%s", b->name, b->assumed ? "*" : "");
+        ceduo_page_cell_format(page, "%s", BESIDE(s->adc_m, 3, scene->simulation.threshold));
         ceduo_page_yes(page, s->passes_threshold);
         ceduo_page_free_run(page, s->free_run_probability);
         ceduo_page_number(page, s->dissipated * J_TO_KJ, 3);
@@ -252,21 +253,21 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
     int decimals = mean > 0 ? (int)fmax(0, 3 - floor(log10(mean))) : 1; /* of all three, so that what is written is true */
     LOCAL_TEXT(rest);
     if (index->exhausted)
-        ceduo_text_put(&rest, _("nothing is left on average, some rocks still pass"));
+        ceduo_text_append(&rest, _("nothing is left on average, some rocks still pass"));
     else
         ceduo_text_format(&rest, _("%s kJ are left"), SAME(left));
     if (index->length > 0 && mean > 0)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."), SAME(taken),
-                       WRITTEN(index->per_100m * J_TO_KJ, 3), SAME(mean), rest.bytes);
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
+                        _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."), SAME(taken),
+                        WRITTEN(index->per_100m * J_TO_KJ, 3), SAME(mean), rest.bytes);
     if (!isnan(index->measured))
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
-                       WRITTEN(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
+                        WRITTEN(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
 }
 
 /* ---- blocks of other sizes ---- */
 
-static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_block *blocks)
+static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_size_result *blocks)
 {
     static const struct ceduo_page_column columns[] = {{"", 3, 0, 0},
                                                        {NP_("head", "m3|volume, m3"), -8, 0, 0},
@@ -277,30 +278,32 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
                                                        {NULL, -18, 0, 0}};
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     double own = NAN;
-    for (size_t i = 0; i < CEDUO_BLOCKS; i++)
+    for (size_t i = 0; i < CEDUO_SIZES; i++)
         own = blocks[i].own ? blocks[i].volume : own;
-    ceduo_page_say(page, CEDUO_PAGE_CAPTION,
-                   _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"), SHORTEST(c->x_given));
+    ceduo_page_para(page, CEDUO_PAGE_CAPTION,
+                    _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"),
+                    SHORTEST(c->x_given));
     CEDUO_PAGE_TABLE_OF(page, columns);
     ceduo_page_limit(page, c, CEDUO_HEAD);
     bool left_out = false;
-    for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
-        const struct ceduo_block *b = &blocks[i];
+    for (size_t i = 0; i < CEDUO_SIZES; i++) {
+        const struct ceduo_size_result *b = &blocks[i];
         if (!b->own && b->volume < 2 * own && 2 * b->volume > own)
             continue; /* less than an octave apart the order would be chance: the scene's own stands for it */
-        ceduo_page_write(page, "%s", b->own ? "  >" : "");
+        ceduo_page_cell_format(page, "%s", b->own ? "  >" : "");
         ceduo_page_number(page, b->volume, 3);
         ceduo_page_number(page, b->mass, 3);
         ceduo_page_number(page, b->diameter, 3);
         ceduo_page_number(page, b->adc, 3);
         ceduo_page_number(page, b->contacts, 3);
-        ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(c, b->arrivals.released > 0 ? &b->arrivals : NULL)));
+        ceduo_page_cell_format(page, "%s",
+                               INTERVAL(ceduo_measure_exceeding(c, b->arrivals.released > 0 ? &b->arrivals : NULL)));
         left_out |= b->arrivals.released == 0;
     }
     if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("A size with a dash was left out: its rocks come to so many stems that they would cost far more than "
-                         "those of the scene."));
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
+                        _("A size with a dash was left out: its rocks come to so many stems that they would cost far more than "
+                          "those of the scene."));
 }
 
 /* ---- what an office expects: percentiles of speed, energy and height with their intervals, and design values ---- */
@@ -312,10 +315,10 @@ static void add_percentile(struct ceduo_page *page, double value, double lo, dou
 {
     struct ceduo_page_cell *both = ceduo_page_cell(page);
     struct text *cell = &both->text;
-    ceduo_text_put(cell, SHOWN(value));
+    ceduo_text_append(cell, SHOWN(value));
     if (isnan(value))
         return;
-    ceduo_text_put(&both->shorter, SHOWN(value)); /* where the interval has no room */
+    ceduo_text_append(&both->shorter, SHOWN(value)); /* where the interval has no room */
     if (!isnan(lo) && !isnan(hi))
         ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", SHOWN(lo), SHOWN(hi));
     else if (!isnan(lo))
@@ -326,7 +329,7 @@ static void add_percentile(struct ceduo_page *page, double value, double lo, dou
 
 static void add_row(struct ceduo_page *page, const char *name, const struct ceduo_distribution *d, double scale)
 {
-    ceduo_page_write(page, "%s", name);
+    ceduo_page_cell_format(page, "%s", name);
     add_percentile(page, d->p50 * scale, d->p50_lo * scale, d->p50_hi * scale);
     add_percentile(page, d->p95 * scale, d->p95_lo * scale, d->p95_hi * scale);
     add_percentile(page, d->p99 * scale, d->p99_lo * scale, d->p99_hi * scale);
@@ -342,8 +345,8 @@ void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *
                                            bare ? &r->bare.arrivals[control] : NULL};
     if (!runs[0] && !runs[1])
         return;
-    ceduo_page_say(page, CEDUO_PAGE_CAPTION, "%s",
-                   _("Percentiles of the rocks that arrive, of so many released (95 % interval):"));
+    ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s",
+                    _("Percentiles of the rocks that arrive, of so many released (95 % interval):"));
     for (size_t i = 0; i < 2; i++) {
         const struct ceduo_arrivals *a = runs[i];
         if (!a)
@@ -369,17 +372,17 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_result *r = report->result;
     const struct ceduo_design_values *d = &r->scene->design;
     const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control), *bare = &r->bare.arrivals[control];
-    bool calibrated = ceduo_notes_say(report->file->notes, "calibrated", "slope");
+    bool calibrated = ceduo_notes_print(report->file->notes, "calibrated", "slope");
     double survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD), blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD);
     double model = FACTOR(calibrated), speed = survey * model, energy = J_TO_KJ * speed * speed * blocks;
     if (d->survey < 0 || d->blocks < 0 || isnan(bare->speed.p95))
         return;
     for (const struct ceduo_arrivals *a = wooded && !isnan(wooded->speed.p95) ? wooded : bare; a; a = a == bare ? NULL : bare)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height of the block's top %s m."),
-                       a == bare ? _("without forest") : _("as long as the wood stands as in this option"),
-                       WRITTEN(a->speed.p95 * speed, 3), WRITTEN(a->energy.p95 * energy, 3), SHOWN(a->top_p95));
-    ceduo_page_say(
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
+                        _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height of the block's top %s m."),
+                        a == bare ? _("without forest") : _("as long as the wood stands as in this option"),
+                        WRITTEN(a->speed.p95 * speed, 3), WRITTEN(a->energy.p95 * energy, 3), SHOWN(a->top_p95));
+    ceduo_page_para(
         page, CEDUO_PAGE_DETAIL,
         _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, %s. Energy: 95th "
           "percentile times the square of both and %.2f for the survey of the blocks. Height: 95th percentile of the "
@@ -415,7 +418,7 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
         say_residual(page, r, i, k);
     }
     if (whole && report->blocks && !report->years)
-        add_sizes(page, r, &report->blocks[i * CEDUO_BLOCKS]);
+        add_sizes(page, r, &report->blocks[i * CEDUO_SIZES]);
     if (whole && report->years)
         ceduo_page_years(page, report, i);
     ceduo_page_stand_warnings(page, r, i);
@@ -426,7 +429,7 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
 
 static bool is_shown(const struct ceduo_report *report, const struct source_note *note)
 {
-    return strcmp(note->kind, "assumed") == 0 && (report->years || !ceduo_note_of_years(note));
+    return strcmp(note->kind, "assumed") == 0 && (report->years || !ceduo_note_years(note));
 }
 
 /* The notes are kept last first. */
@@ -455,13 +458,13 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     size_t option = dot ? strtoul(note->path + 8, NULL, 10) : SIZE_MAX;
     ceduo_shown_path(dot ? dot + 1 : note->path, &where);
     if (option < scene->options_count)
-        ceduo_text_then(&where, ", ", "%s", scene->options[option].name);
+        ceduo_text_append_joined(&where, ", ", "%s", scene->options[option].name);
     const char *place = where.length > 0 ? where.bytes : _("the scene");
     if (times > 1)
-        ceduo_page_say(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), said, place,
-                       times - 1);
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), said, place,
+                        times - 1);
     else
-        ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s (%s)", said, place);
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s (%s)", said, place);
 }
 
 void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *report, bool places)
@@ -471,7 +474,7 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
 
 static void add_table(void *page, const char *line)
 {
-    ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", line);
+    ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", line);
 }
 
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report)
@@ -482,14 +485,14 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
     if (page->last == gap)
         ceduo_page_drop(page);
     const struct source_note *note = report->file->notes;
-    if (ceduo_notes_say(note, CEDUO_NOTE_TABLE, ""))
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("Tables as they were read:"));
+    if (ceduo_notes_print(note, CEDUO_NOTE_TABLE, ""))
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Tables as they were read:"));
     ceduo_notes_each(note, CEDUO_NOTE_TABLE, add_table, page);
     while (note && !is_shown(report, note))
         note = note->before;
     if (!note)
         return;
-    ceduo_page_say(page, CEDUO_PAGE_SECTION, _("* Assumed, not measured:"));
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, _("* Assumed, not measured:"));
     ceduo_page_assumed(page, report, true);
 }
 
@@ -498,14 +501,14 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
 static void add_whole(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_scene *scene = report->result->scene;
-    ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
+    ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_facts(page, report);
     ceduo_page_question(page, report->result);
     ceduo_page_answer(page, report);
     ceduo_page_sure(page, report);
     ceduo_page_over(page, report);
     if (scene->options_count > 1) /* what they share */
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
     for (size_t k = 0; scene->options_count > 1 && k < scene->controls_count; k++) {
         const struct ceduo_arrivals *bare = &report->result->bare.arrivals[k];
         add_place(page, report, k);
@@ -515,7 +518,7 @@ static void add_whole(struct ceduo_page *page, const struct ceduo_report *report
             ceduo_page_percentiles(page, report->result, SIZE_MAX, k, true);
     }
     for (size_t i = 0; i < scene->options_count; i++) {
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", scene->options[i].name);
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", scene->options[i].name);
         ceduo_page_option(page, report, i, scene->options_count == 1);
     }
     if (scene->options_count > 1 && scene->controls_count > 0)

@@ -11,7 +11,8 @@ typedef const struct ceduo_regulation_item item;
 static const char *note_of(const struct ceduo_regulation *rules, struct text *text)
 {
     ceduo_text_format(text, _("%s: check the text in force"), rules->name);
-    ceduo_text_then(text, rules->note ? "; " : "", "%s.", rules->note ? ceduo_in_language(rules->note, rules->note_it) : "");
+    ceduo_text_append_joined(text, rules->note ? "; " : "", "%s.",
+                             rules->note ? ceduo_in_language(rules->note, rules->note_it) : "");
     return text->bytes;
 }
 
@@ -76,15 +77,15 @@ void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *
 static void add_rule(struct ceduo_page *page, double is, item *asked, bool met, bool species)
 {
     if (isnan(is))
-        ceduo_page_write(page, "-");
+        ceduo_page_cell_format(page, "-");
     else
-        ceduo_page_write(page, "%s", ROUNDED(is, 4));
+        ceduo_page_cell_format(page, "%s", ROUNDED(is, 4));
     if (!asked)
-        ceduo_page_write(page, "%s", species ? _("not named") : _("no species"));
+        ceduo_page_cell_format(page, "%s", species ? _("not named") : _("no species"));
     else
         append_asked(ceduo_page_text(page), asked);
     if (!asked || isnan(is))
-        ceduo_page_write(page, "-");
+        ceduo_page_cell_format(page, "-");
     else
         ceduo_page_yes(page, met);
 }
@@ -114,7 +115,7 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
                 continue;
             if (!rules) {
                 rules = c->of;
-                ceduo_page_say(page, CEDUO_PAGE_SECTION, _("What the rules of %s ask"), rules->name);
+                ceduo_page_para(page, CEDUO_PAGE_SECTION, _("What the rules of %s ask"), rules->name);
                 CEDUO_PAGE_TABLE_OF(page, columns);
             }
             bool listed = false; /* an earlier belt of any option has the same stand */
@@ -124,7 +125,7 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
             if (listed)
                 continue;
             bool species = r->scene->options[i].belts[k].stand.species >= 0;
-            ceduo_page_write(page, "%s", r->scene->options[i].belts[k].name);
+            ceduo_page_cell_format(page, "%s", r->scene->options[i].belts[k].name);
             add_rule(page, c->standards, c->standards_item, c->standards_met, species);
             add_rule(page, c->turn, c->turn_item, c->turn_met, species);
             add_source(&sources, c->standards_item);
@@ -133,6 +134,6 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
     if (!rules)
         return;
     if (sources.length > 0)
-        ceduo_page_say(page, CEDUO_PAGE_DETAIL, _("Sources: %s."), ceduo_text_string(&sources));
+        ceduo_page_para(page, CEDUO_PAGE_DETAIL, _("Sources: %s."), ceduo_text_string(&sources));
     ceduo_page_note(page, note_of(rules, &note));
 }

@@ -29,13 +29,13 @@ static void add_title(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_text_format(&rocks, s->blocks_count > 0 ? _("%llu rocks of many sizes") : _("%llu rocks of %s%s m (%s kg)"),
                       (unsigned long long)ceduo_result_rocks(r), about, WRITTEN(r->rock.mean_diameter, 2),
                       WRITTEN(r->rock.mass, 3));
-    ceduo_text_put(text, title);
+    ceduo_text_append(text, title);
     for (char *end = rocks.bytes; *end && ceduo_utf8_width(title) + ceduo_utf8_width(rocks.bytes) > page->width;) {
         end = strrchr(rocks.bytes, '(');
         end = end ? end - 1 : rocks.bytes;
         *end = '\0';
     }
-    ceduo_text_put(text, rocks.bytes);
+    ceduo_text_append(text, rocks.bytes);
 }
 
 /* ---- one option ---- */
@@ -49,8 +49,8 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
     const struct ceduo_arrivals *arrivals[] = {&r->bare.arrivals[r->last_control], ceduo_result_wooded(r, 0, r->last_control)};
     struct ceduo_measure figures[2][4];
     for (size_t i = 0; i < 2; i++) {
-        figures[i][0] = ceduo_arriving(arrivals[i]);
-        figures[i][1] = ceduo_judged(c, arrivals[i]);
+        figures[i][0] = ceduo_measure_arriving(arrivals[i]);
+        figures[i][1] = ceduo_measure_exceeding(c, arrivals[i]);
         figures[i][2] = ceduo_mean_energy(arrivals[i]);
         figures[i][3] = ceduo_energy_p95(arrivals[i]);
         figures[i][2].digits = 3; /* as many as the other one */
@@ -59,15 +59,15 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
     for (size_t k = 0; k < 4; k++) {
         if (k == 1 && isnan(c->accepted))
             continue;
-        ceduo_page_write(page, "%s", NAMED(figures[0][k], CEDUO_PHRASE));
+        ceduo_page_cell_format(page, "%s", NAMED(figures[0][k], CEDUO_PHRASE));
         for (size_t i = 0; i < (stems ? 2 : 1); i++)
-            ceduo_page_write(page, "%s", VALUE_OF(figures[i][k]));
+            ceduo_page_cell_format(page, "%s", VALUE_OF(figures[i][k]));
     }
-    ceduo_page_write(page, "%s", _("stopped by stems, at rest before"));
+    ceduo_page_cell_format(page, "%s", _("stopped by stems, at rest before"));
     for (size_t i = 0; i < (stems ? 2 : 1); i++)
-        ceduo_page_write(page, arrivals[i] ? "%.0f, %.0f" : "-",
-                         arrivals[i] ? 1000 * arrivals[i]->missed[CEDUO_STOPPED_BY_STEMS] : 0,
-                         arrivals[i] ? 1000 * arrivals[i]->missed[CEDUO_AT_REST] : 0);
+        ceduo_page_cell_format(page, arrivals[i] ? "%.0f, %.0f" : "-",
+                               arrivals[i] ? 1000 * arrivals[i]->missed[CEDUO_STOPPED_BY_STEMS] : 0,
+                               arrivals[i] ? 1000 * arrivals[i]->missed[CEDUO_AT_REST] : 0);
 }
 
 static void add_wood(struct ceduo_page *page, const struct ceduo_result *r)
@@ -78,23 +78,23 @@ static void add_wood(struct ceduo_page *page, const struct ceduo_result *r)
     const char *threshold = SHORTEST(r->scene->simulation.threshold);
     CEDUO_PAGE_TABLE_OF(page, columns);
     if (s->length > 0 && s->longest_gap > r->scene->simulation.threshold) { /* the reason why neither is kept */
-        ceduo_page_write(page, "%s", _("gap without forest, m"));
-        ceduo_page_write(page, "%s", ROUNDED(s->longest_gap, 6));
-        ceduo_page_write(page, _("at most %s"), threshold);
+        ceduo_page_cell_format(page, "%s", _("gap without forest, m"));
+        ceduo_page_cell_format(page, "%s", ROUNDED(s->longest_gap, 6));
+        ceduo_page_cell_format(page, _("at most %s"), threshold);
         ceduo_page_yes(page, false);
     }
-    ceduo_page_write(page, "%s", _("distance between contacts (ADC), m"));
-    ceduo_page_write(page, "%s", BESIDE(s->length > 0 ? s->worst_adc : NAN, 3, r->scene->simulation.threshold));
-    ceduo_page_write(page, _("below %s"), threshold);
+    ceduo_page_cell_format(page, "%s", _("distance between contacts (ADC), m"));
+    ceduo_page_cell_format(page, "%s", BESIDE(s->length > 0 ? s->worst_adc : NAN, 3, r->scene->simulation.threshold));
+    ceduo_page_cell_format(page, _("below %s"), threshold);
     ceduo_page_yes(page, s->worst_adc < r->scene->simulation.threshold);
-    ceduo_page_write(page, _("chance of %s m without a contact"), threshold);
+    ceduo_page_cell_format(page, _("chance of %s m without a contact"), threshold);
     ceduo_page_free_run(page, s->worst_free_run);
-    ceduo_page_write(page, _("at most %.0f %%"), 100 * CEDUO_FREE_RUN_MAX);
+    ceduo_page_cell_format(page, _("at most %.0f %%"), 100 * CEDUO_FREE_RUN_MAX);
     ceduo_page_yes(page, s->worst_free_run <= CEDUO_FREE_RUN_MAX);
-    ceduo_page_write(page, "%s", _("energy taken by stems, left (index), kJ"));
-    ceduo_page_write(page, "%s, %s", WRITTEN(s->dissipated * J_TO_KJ, 3), WRITTEN(s->residual * J_TO_KJ, 3));
-    ceduo_page_write(page, "%s", "");
-    ceduo_page_write(page, "%s", "");
+    ceduo_page_cell_format(page, "%s", _("energy taken by stems, left (index), kJ"));
+    ceduo_page_cell_format(page, "%s, %s", WRITTEN(s->dissipated * J_TO_KJ, 3), WRITTEN(s->residual * J_TO_KJ, 3));
+    ceduo_page_cell_format(page, "%s", "");
+    ceduo_page_cell_format(page, "%s", "");
 }
 
 /* ---- several ---- */
@@ -113,23 +113,23 @@ static enum form form_of(const struct ceduo_report *report)
 static void add_option(struct ceduo_page *page, const struct ceduo_report *report, enum form form, size_t i)
 {
     const struct ceduo_result *r = report->result;
-    const struct ceduo_subject s = ceduo_subject_of(report, i, r->last_control);
-    ceduo_page_write(page, "%s", r->scene->options[i].name);
+    const struct ceduo_subject s = ceduo_subject_find(report, i, r->last_control);
+    ceduo_page_cell_format(page, "%s", r->scene->options[i].name);
     if (form == RATES) { /* how often, with both errors; whether that is accepted; the same today */
-        ceduo_page_write(page, "%s", YEARS(s.outcome.rate));
-        ceduo_page_write(page, "%s", DECISION(s.outcome.answer));
-        ceduo_page_write(page, "%s", EVERY(s.wooded ? ceduo_hazard_feared(&s.wooded->hazard) : s.outcome.rate));
+        ceduo_page_cell_format(page, "%s", YEARS(s.outcome.rate));
+        ceduo_page_cell_format(page, "%s", DECISION(s.outcome.answer));
+        ceduo_page_cell_format(page, "%s", EVERY(s.wooded ? ceduo_hazard_feared(&s.wooded->hazard) : s.outcome.rate));
     } else if (form == AHEAD) {
-        ceduo_page_write(page, "%s", VALUE_OF(s.mean));
-        ceduo_page_write(page, "%s", isnan(s.mean.may_lo) ? "-" : MAY_BE(s.mean));
+        ceduo_page_cell_format(page, "%s", VALUE_OF(s.mean));
+        ceduo_page_cell_format(page, "%s", isnan(s.mean.may_lo) ? "-" : MAY_BE(s.mean));
         ceduo_page_worst(page, s.choice);
         ceduo_page_fails(page, s.choice, s.choice->over.unprotected_energy, s.choice->energy_known);
     }
     if (form != RATES)
-        ceduo_page_write(page, "%s", VALUE_OF(s.today));
+        ceduo_page_cell_format(page, "%s", VALUE_OF(s.today));
     if (form == TODAY)
-        ceduo_page_write(page, "%s", isnan(s.today.may_lo) ? "-" : MAY_BE(s.today));
-    ceduo_page_write(page, "%s", BESIDE(s.index->worst_adc, 3, r->scene->simulation.threshold));
+        ceduo_page_cell_format(page, "%s", isnan(s.today.may_lo) ? "-" : MAY_BE(s.today));
+    ceduo_page_cell_format(page, "%s", BESIDE(s.index->worst_adc, 3, r->scene->simulation.threshold));
     if (form != TODAY)
         ceduo_page_number(page, s.choice->yield.cut_per_year, 2);
 }
@@ -158,27 +158,27 @@ static void add_options(struct ceduo_page *page, const struct ceduo_report *repo
     const struct ceduo_result *r = report->result;
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control];
-    const struct ceduo_measure share = ceduo_judged(c, bare);
+    const struct ceduo_measure share = ceduo_measure_exceeding(c, bare);
     const struct ceduo_window *w = &report->verdict->choices[0].window;
     enum form form = form_of(report);
     ceduo_page_table(page, forms[form].columns, forms[form].n);
-    if (w->kind != CEDUO_WINDOW_ALIKE)
+    if (w->kind != CEDUO_WINDOW_CONSTANT)
         ceduo_text_format(&page->last->cells[1].text, form == TODAY ? "" : _("years %u to %u"), w->first, w->last);
     if (form == RATES)
         ceduo_text_format(ceduo_page_text(page), _("years between > %s kJ"), SHORTEST(ceduo_words_accepted(c)));
     else
-        ceduo_page_write(page, "%s", NAMED(share, CEDUO_HEAD));
+        ceduo_page_cell_format(page, "%s", NAMED(share, CEDUO_HEAD));
     for (size_t i = 0; below[form][i]; i++)
-        ceduo_page_write(page, "%s", below[form][i]);
+        ceduo_page_cell_format(page, "%s", below[form][i]);
     for (size_t i = 0; i < r->scene->options_count; i++)
         add_option(page, report, form, i);
-    ceduo_page_write(page, "%s", _("without forest"));
+    ceduo_page_cell_format(page, "%s", _("without forest"));
     for (size_t i = 0; below[form][i]; i++) {
         struct text *text = ceduo_page_text(page);
         if (i == forms[form].today && form == RATES)
-            ceduo_text_put(text, EVERY(ceduo_hazard_feared(&bare->hazard)));
+            ceduo_text_append(text, EVERY(ceduo_hazard_feared(&bare->hazard)));
         else if (i == forms[form].today)
-            ceduo_text_put(text, VALUE_OF(share));
+            ceduo_text_append(text, VALUE_OF(share));
     }
 }
 
@@ -191,9 +191,9 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     if (report->uncertainty && report->uncertainty->answer)
         ceduo_uncertainty_outside(report->uncertainty, ceduo_page_warn_once, notes);
     if (r->scene->controls_count > 0 && !isnan(ceduo_result_last_index(r, 0)->measured))
-        ceduo_page_say(notes, CEDUO_PAGE_WARNING, _("One rock that was measured here had %s kJ."),
-                       WRITTEN(ceduo_result_last_index(r, 0)->measured * J_TO_KJ, 3));
-    ceduo_words_thin(r, ceduo_page_warn_once, notes);
+        ceduo_page_para(notes, CEDUO_PAGE_WARNING, _("One rock that was measured here had %s kJ."),
+                        WRITTEN(ceduo_result_last_index(r, 0)->measured * J_TO_KJ, 3));
+    ceduo_words_thin_stems(r, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_rules(notes, r, i, false);
     if (n > 1 && report->verdict && report->verdict->choices[0].over.years > 0)
@@ -203,7 +203,7 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     ceduo_words_run_warnings(r, &report->remarks, ceduo_page_warn_once, notes);
     if (r->scene->slope.points > r->scene->slope.vertices) {
         struct text *points = ceduo_page_add(notes, CEDUO_PAGE_WARNING);
-        ceduo_text_put(points, _("Profile: "));
+        ceduo_text_append(points, _("Profile: "));
         ceduo_words_points(points, &r->scene->slope);
         ceduo_text_char(points, '.');
     }
@@ -212,10 +212,10 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
 /* A point of sentences (warnings) or of other texts, and how many more there are. */
 static void add_point(struct ceduo_page *page, const char *label, const struct text *said, size_t more)
 {
-    struct text *text = ceduo_page_label(page, CEDUO_PAGE_POINT, label);
-    ceduo_text_put(text, ceduo_text_string(said));
+    struct text *text = ceduo_page_item(page, CEDUO_PAGE_POINT, label);
+    ceduo_text_append(text, ceduo_text_string(said));
     if (more > 0)
-        ceduo_text_then(text, said->length > 0 ? " " : "", _("(%zu more)"), more);
+        ceduo_text_append_joined(text, said->length > 0 ? " " : "", _("(%zu more)"), more);
 }
 
 /* Adds those of the sentences, whole ones, that keep within so many lines. False where none has room, or not even how many more. */
@@ -228,7 +228,7 @@ static bool add_sentences(struct ceduo_page *page, const char *label, const stru
         more++;
     for (const struct ceduo_page_block *b = sentences->first; b; b = b->next) {
         size_t before = said.length; /* the first goes before how many more */
-        ceduo_text_then(&said, before == 0 ? "" : b->kind == CEDUO_PAGE_WARNING ? " " : "; ", "%s", b->text.bytes);
+        ceduo_text_append_joined(&said, before == 0 ? "" : b->kind == CEDUO_PAGE_WARNING ? " " : "; ", "%s", b->text.bytes);
         add_point(&tried, label, &said, before == 0 ? 0 : more - 1);
         if (ceduo_page_lines(&tried) > lines)
             ceduo_text_cut(&said, before);
@@ -263,7 +263,7 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
 {
     const struct ceduo_result *r = report->result;
     size_t n = r->scene->options_count;
-    bool nothing = ceduo_page_says_nothing(r);
+    bool nothing = ceduo_page_is_unassessable(r);
     add_title(page, report);
     ceduo_page_question(page, r);
     if (n == 1)
@@ -286,11 +286,11 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     size_t shared = LINES_SHARED + (r->scene->blocks_count > 0 ? LINES_BLOCKS : 0);
     bool noted = add_rest(page, report, n > 1 ? shared + LINES_OPTION * n : LINES);
     for (size_t i = 0; report->years && !nothing && i < n; i++) { /* they were asked for */
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", r->scene->options[i].name);
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", r->scene->options[i].name);
         ceduo_page_years(page, report, i);
     }
     if (report->years && !nothing && n > 1)
         ceduo_page_years_beside(page, report);
-    ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_POINT, _("MORE")), "--details%s, --sensitivity, --report page.html; %s",
+    ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_POINT, _("MORE")), "--details%s, --sensitivity, --report page.html; %s",
                       noted ? "" : _(" (notes)"), noted ? _("as screens: ceduo SCENE") : _("or ceduo SCENE"));
 }

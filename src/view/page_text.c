@@ -60,7 +60,7 @@ static void draw_text(const struct drawing *d, int column, int row, int room, st
     while (d->role != CEDUO_ROLE_CURSOR && end > string + blanks && end[-1] == ' ')
         *--end = '\0';
     if (string[blanks])
-        ceduo_canvas_put(d->canvas, column + (int)blanks, row, room - (int)blanks, d->role, string + blanks);
+        ceduo_canvas_draw_text(d->canvas, column + (int)blanks, row, room - (int)blanks, d->role, string + blanks);
 }
 
 /* Draws the piece that was printed, if that is to be done; the next one is a text, or a bar, in a role. */
@@ -102,7 +102,7 @@ void ceduo_page_powers(struct text *text, const char *string)
 {
     for (const char *at = string; *at; at++) {
         if (ceduo_is_power(string, at))
-            ceduo_text_put(text, *at == '2' ? "\xc2\xb2" : "\xc2\xb3");
+            ceduo_text_append(text, *at == '2' ? "\xc2\xb2" : "\xc2\xb3");
         else
             ceduo_text_char(text, *at);
     }
@@ -117,11 +117,11 @@ static void append_safe(const struct printer *p, struct text *to, const char *st
         ceduo_page_powers(&powers, string);
         string = ceduo_text_string(&powers);
     }
-    ceduo_text_safe(&safe, string);
+    ceduo_text_append_escaped(&safe, string);
     if (p->plain)
         ceduo_cells_ascii(to, ceduo_text_string(&safe));
     else
-        ceduo_text_put(to, ceduo_text_string(&safe));
+        ceduo_text_append(to, ceduo_text_string(&safe));
 }
 
 /* ---- paragraphs ---- */
@@ -177,7 +177,7 @@ static void print_paragraph(struct printer *p, const struct ceduo_page_block *bl
     LOCAL_TEXT(rest);
     margin = margin > MARGIN ? MARGIN : margin;
     indent -= margin;
-    ceduo_text_put(&first, begin + margin);
+    ceduo_text_append(&first, begin + margin);
     ceduo_text_add(&first, text, label);
     size_t column = ceduo_utf8_width(ceduo_text_string(&first));
     if (label > 0) {
@@ -191,7 +191,7 @@ static void print_paragraph(struct printer *p, const struct ceduo_page_block *bl
     if (block->kind == CEDUO_PAGE_SECTION && (!p->drawing || p->line > 0))
         end_line(p);
     begin_piece(p, block->role ? block->role : styles[block->kind].role, NULL);
-    ceduo_text_put(p->text, ceduo_text_string(&first));
+    ceduo_text_append(p->text, ceduo_text_string(&first));
     print_wrapped(p, ceduo_text_string(&rest), column, indent);
     end_line(p);
 }
@@ -205,7 +205,7 @@ static void print_padded(struct printer *p, const char *string, int width, bool 
     if (width < 0 && have < want)
         append_blanks(p->text, want - have);
     if (have <= want || want == 0) {
-        ceduo_text_put(p->text, string);
+        ceduo_text_append(p->text, string);
     } else {
         size_t tail = ends && want >= TAIL_MIN ? (want - 1) / 2 : 0;
         const char *end = string;
@@ -213,9 +213,9 @@ static void print_padded(struct printer *p, const char *string, int width, bool 
             end += ceduo_utf8_step(end);
         size_t n = ceduo_utf8_cut(string, want - 1 - ceduo_utf8_width(end));
         ceduo_text_add(p->text, string, n);
-        ceduo_text_put(p->text, p->plain ? "~" : "\xe2\x80\xa6");
-        ceduo_text_put(p->text, end);
-        have = ceduo_utf8_width_of(string, n) + 1 + ceduo_utf8_width(end);
+        ceduo_text_append(p->text, p->plain ? "~" : "\xe2\x80\xa6");
+        ceduo_text_append(p->text, end);
+        have = ceduo_utf8_char_width(string, n) + 1 + ceduo_utf8_width(end);
     }
     if (width > 0 && have < want)
         append_blanks(p->text, want - have);

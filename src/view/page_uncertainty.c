@@ -38,11 +38,11 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
     const char *place = input->places[0], *ground = input->path + sizeof GROUND - 1;
     struct value v;
     if (input->kind == CEDUO_INPUT_DRAWS) {
-        ceduo_text_put(text, _("left open by calibration"));
+        ceduo_text_append(text, _("left open by calibration"));
         return;
     }
     if (!ceduo_value_find(&r->file->scene, place, &v)) {
-        ceduo_text_safe(text, input->path);
+        ceduo_text_append_escaped(text, input->path);
         return;
     }
     /* a value of stems with whose it is, for several may have one: "trees 2: diameter, cm" */
@@ -50,7 +50,7 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
     const char *label = _(v.field->shown.label), *shoots = strstr(place, ".shoots["), *trees = strstr(place, ".trees[");
     size_t count = !belt ? 0 : shoots ? belt->stand.shoots_count : belt->stand.trees_count;
     if (!shoots && !trees)
-        ceduo_text_put(text, label);
+        ceduo_text_append(text, label);
     else if (count < 2)
         ceduo_text_format(text, shoots ? _("shoots: %s") : _("trees: %s"), label);
     else
@@ -63,10 +63,10 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
         ceduo_text_add(&material, ground, strcspn(ground, "]"));
         ceduo_text_format(text, ", %s", _(ceduo_text_string(&material)));
     } else if (stand && stand->name && input->kind != CEDUO_INPUT_WORDS) {
-        ceduo_text_put(text, ", ");
-        ceduo_text_safe(text, stand->name);
+        ceduo_text_append(text, ", ");
+        ceduo_text_append_escaped(text, stand->name);
     } else if (strncmp(place, "slope.segments[", 15) == 0 && input->places_count > 1) {
-        ceduo_text_then(text, ", ", _("%zu stretches"), input->places_count);
+        ceduo_text_append_joined(text, ", ", _("%zu stretches"), input->places_count);
     }
 }
 
@@ -88,7 +88,7 @@ void ceduo_uncertainty_input_end(struct text *text, const struct ceduo_uncertain
     const char *word;
     double value = ceduo_uncertainty_input_value(r, i, end, &word);
     if (word || !isnan(value))
-        ceduo_text_put(text, word ? word : ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0}));
+        ceduo_text_append(text, word ? word : ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0}));
 }
 
 /* A value, or a word, in the unit that people use, and short. */
@@ -98,7 +98,7 @@ static void append_value(struct text *text, const struct field *field, double va
     if (word)
         ceduo_shown_value(field, word, text);
     else if (!isnan(value)) /* 6.300 is 6300 in Italian */
-        ceduo_text_put(text, fabs(value) < 1e4 ? ROUNDED(value, 4) : WRITTEN(value, 4));
+        ceduo_text_append(text, fabs(value) < 1e4 ? ROUNDED(value, 4) : WRITTEN(value, 4));
 }
 
 static void append_input_end(struct text *text, const struct ceduo_uncertainty_report *r, size_t i, int end)
@@ -121,7 +121,7 @@ static bool is_outside(const struct ceduo_input *input, double value)
     return word || value < input->lo || value > input->hi;
 }
 
-void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *r, ceduo_words_say *say, void *context)
+void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *r, ceduo_sentence_sink *say, void *context)
 {
     for (size_t i = 0; i < r->inputs->n; i++) {
         const struct ceduo_input *input = &r->inputs->items[i];
@@ -140,7 +140,7 @@ void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *r, ceduo_w
         ceduo_uncertainty_input_name(&name, r, i);
         append_value(&here, v.field, value, input->kind == CEDUO_INPUT_WORDS ? v.field->choices->names[(int)value] : NULL);
         append_input_end(&ends, r, i, 0);
-        ceduo_text_put(&ends, "\xe2\x80\x93");
+        ceduo_text_append(&ends, "\xe2\x80\x93");
         append_input_end(&ends, r, i, 1);
         ceduo_text_format(&sentence, _("%s is %s, outside its doubt (%s): what may be true is computed within that."),
                           name.bytes, here.bytes, ends.bytes);
@@ -151,7 +151,7 @@ void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *r, ceduo_w
 static const struct range *range_of(const struct ceduo_uncertainty_report *r, const struct ceduo_input *input)
 {
     struct value v;
-    return ceduo_value_find(&r->file->scene, input->places[0], &v) ? ceduo_range_of(v.field) : NULL;
+    return ceduo_value_find(&r->file->scene, input->places[0], &v) ? ceduo_range_find(v.field) : NULL;
 }
 
 const char *ceduo_uncertainty_measured(const struct ceduo_uncertainty_report *r, size_t i)
@@ -167,7 +167,7 @@ const char *ceduo_uncertainty_measured(const struct ceduo_uncertainty_report *r,
 
 const struct ceduo_uncertainty_figure *ceduo_uncertainty_main(const struct ceduo_uncertainty_report *r, size_t option)
 {
-    return ceduo_uncertainty_figure_of(r->answer, option, r->over ? CEDUO_UNCERTAINTY_MEAN : r->answer->main, false);
+    return ceduo_uncertainty_find_figure(r->answer, option, r->over ? CEDUO_UNCERTAINTY_MEAN : r->answer->main, false);
 }
 
 /* Factor that shows the main figure of 1000 rocks, or in kJ. */
@@ -199,10 +199,10 @@ static struct ceduo_measure measure_of(const struct ceduo_uncertainty_report *r,
     double scale = scale_of(r);
     uint64_t own = r->answer->own_rocks;
     own = r->over && own > CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS ? CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS : own;
-    struct ceduo_measure m = ceduo_share((struct ceduo_portion){NAN, NAN});
+    struct ceduo_measure m = ceduo_share((struct ceduo_mean_share){NAN, NAN});
     if (a && a->released >= own) {
         own = a->released;
-        m = energy ? ceduo_energy_released(a) : ceduo_judged(&s->controls[ceduo_scene_last_control(s)], a);
+        m = energy ? ceduo_energy_released(a) : ceduo_measure_exceeding(&s->controls[ceduo_scene_last_control(s)], a);
     } else if (c && c->over.simulated > 0 && c->rocks > own) {
         own = c->rocks;
         m = ceduo_share(c->mean);
@@ -254,16 +254,16 @@ static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_
     ceduo_page_table(page, over ? rotation : today, judged ? 5 : 4);
     for (size_t i = 0; i < r.file->scene.options_count; i++) {
         const struct ceduo_measure m = measure_of(&r, i, NULL);
-        ceduo_page_write(page, "%s", r.file->scene.options[i].name);
-        ceduo_page_write(page, "%s", VALUE_OF(m));
-        ceduo_page_write(page, "%s", SPAN(m, m.lo, m.hi));
-        ceduo_page_write(page, "%s", SPAN(m, m.may_lo, m.may_hi));
+        ceduo_page_cell_format(page, "%s", r.file->scene.options[i].name);
+        ceduo_page_cell_format(page, "%s", VALUE_OF(m));
+        ceduo_page_cell_format(page, "%s", SPAN(m, m.lo, m.hi));
+        ceduo_page_cell_format(page, "%s", SPAN(m, m.may_lo, m.may_hi));
         if (!judged)
             continue;
         const struct ceduo_uncertainty_figure *years =
-            ceduo_uncertainty_figure_of(r.answer, i, CEDUO_UNCERTAINTY_FAILING, false);
+            ceduo_uncertainty_find_figure(r.answer, i, CEDUO_UNCERTAINTY_FAILING, false);
         double lo = floor(years->fit.p5), hi = ceil(years->fit.p95); /* outwards */
-        ceduo_page_write(page, lo == hi || isnan(lo) ? "%.0f" : "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
+        ceduo_page_cell_format(page, lo == hi || isnan(lo) ? "%.0f" : "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
     }
 }
 
@@ -287,7 +287,7 @@ static void append_left(struct text *text, const struct ceduo_uncertainty_figure
     LOCAL_TEXT(width);
     ceduo_uncertainty_value(&width, f->kind, left);
     if (left > NOTHING_GAINED * (f->fit.p95 - f->fit.p5))
-        ceduo_text_put(text, _("no gain"));
+        ceduo_text_append(text, _("no gain"));
     else
         ceduo_append_with(text, format, width.bytes);
 }
@@ -303,7 +303,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
     size_t rest = 0;
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (r->file->scene.options_count > 1)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What '%s' depends on:"), r->file->scene.options[f->option].name);
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("What '%s' depends on:"), r->file->scene.options[f->option].name);
     if (!f->fit.enough) {
         ceduo_page_note(page, _("There are too few points to say what it depends on; take more (--sensitivity=N)."));
         return;
@@ -318,22 +318,22 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
         ceduo_uncertainty_input_name(ceduo_page_text(page), r, g);
         for (int end = 0; end < 2; end++)
             append_input_end(ceduo_page_text(page), r, g, end);
-        ceduo_page_write(page, "%.0f %%", ceduo_uncertainty_share(f, g) * 100);
+        ceduo_page_cell_format(page, "%.0f %%", ceduo_uncertainty_share(f, g) * 100);
         append_left(ceduo_page_text(page), f, g, "%s");
     }
     if (f->fit.whole.value >= SHOWN && f->fit.whole.value > 2 * f->fit.whole.se) {
-        ceduo_page_write(page, "%s", _("not explained by a smooth surface"));
-        ceduo_page_write(page, "%s", "");
-        ceduo_page_write(page, "%s", "");
-        ceduo_page_write(page, "%.0f %%", f->fit.whole.value * 100);
-        ceduo_page_write(page, "%s", "");
+        ceduo_page_cell_format(page, "%s", _("not explained by a smooth surface"));
+        ceduo_page_cell_format(page, "%s", "");
+        ceduo_page_cell_format(page, "%s", "");
+        ceduo_page_cell_format(page, "%.0f %%", f->fit.whole.value * 100);
+        ceduo_page_cell_format(page, "%s", "");
     }
     if (rest == f->uses)
         ceduo_page_note(page, _("No input stands out; more points (--sensitivity=N) may tell."));
     else if (rest > 0)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE,
-                       ngettext("%zu other input has hardly any effect.", "%zu other inputs have hardly any effect.", rest),
-                       rest);
+        ceduo_page_para(page, CEDUO_PAGE_NOTE,
+                        ngettext("%zu other input has hardly any effect.", "%zu other inputs have hardly any effect.", rest),
+                        rest);
 }
 
 size_t ceduo_uncertainty_chosen(const struct ceduo_uncertainty_report *r)
@@ -341,7 +341,7 @@ size_t ceduo_uncertainty_chosen(const struct ceduo_uncertainty_report *r)
     size_t chosen = SIZE_MAX;
     double least = INFINITY;
     for (size_t i = 0; i < r->file->scene.options_count; i++) {
-        const struct ceduo_surface_fit *fit = &ceduo_uncertainty_figure_of(r->answer, i, r->answer->main, false)->fit;
+        const struct ceduo_surface_fit *fit = &ceduo_uncertainty_find_figure(r->answer, i, r->answer->main, false)->fit;
         if (fit->values && (chosen == SIZE_MAX || fit->mean < least))
             chosen = i, least = fit->mean;
     }
@@ -383,8 +383,8 @@ void ceduo_uncertainty_advice(struct text *text, const struct ceduo_uncertainty_
     for (size_t i = 0, g; i < most && (g = ceduo_uncertainty_advised(r, f, i)) != SIZE_MAX; i++) {
         LOCAL_TEXT(name);
         ceduo_uncertainty_input_name(&name, r, g);
-        ceduo_text_then(text, text->length > 0 ? " " : "", i == 0 ? _("Measure first: %s (%s).") : _("Then: %s (%s)."),
-                        ceduo_text_string(&name), _(ceduo_uncertainty_measured(r, g)));
+        ceduo_text_append_joined(text, text->length > 0 ? " " : "", i == 0 ? _("Measure first: %s (%s).") : _("Then: %s (%s)."),
+                                 ceduo_text_string(&name), _(ceduo_uncertainty_measured(r, g)));
     }
 }
 
@@ -392,7 +392,7 @@ void ceduo_uncertainty_advice(struct text *text, const struct ceduo_uncertainty_
 bool ceduo_uncertainty_causes(struct text *text, const struct ceduo_uncertainty_report *r, size_t option,
                               enum ceduo_uncertainty_kind light)
 {
-    size_t inputs[2], n = ceduo_uncertainty_depends(&r->file->scene, r->answer, option, light, inputs);
+    size_t inputs[2], n = ceduo_uncertainty_dominant_inputs(&r->file->scene, r->answer, option, light, inputs);
     LOCAL_TEXT(first);
     LOCAL_TEXT(second);
     if (n == 0)
@@ -403,7 +403,7 @@ bool ceduo_uncertainty_causes(struct text *text, const struct ceduo_uncertainty_
     if (n == 2)
         ceduo_text_format(text, _("%s and %s"), ceduo_text_string(&first), ceduo_text_string(&second));
     else
-        ceduo_text_put(text, ceduo_text_string(&first));
+        ceduo_text_append(text, ceduo_text_string(&first));
     return true;
 }
 
@@ -426,7 +426,7 @@ void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncerta
 void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncertainty_report *r, size_t i)
 {
     const struct ceduo_scene *s = &r->file->scene;
-    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_verdict(r->answer);
+    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_ranking_by(r->answer);
     const struct ceduo_uncertainty_order *o = &ranking->orders[i];
     ceduo_text_format(text,
                       ranking->rotation ? _("Over the years %s is better than %s in %.0f %% of what may be true")
@@ -445,7 +445,7 @@ void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncerta
 /* Each option and the next one, and how far apart they may lie. */
 static void add_orders(struct ceduo_page *page, const struct ceduo_uncertainty_report *r)
 {
-    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_verdict(r->answer);
+    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_ranking_by(r->answer);
     enum ceduo_uncertainty_kind kind = ranking->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
     for (size_t i = 0; i < ranking->count; i++) {
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
@@ -456,10 +456,10 @@ static void add_orders(struct ceduo_page *page, const struct ceduo_uncertainty_r
         ceduo_uncertainty_order_words(text, r, i);
         if (isnan(ranking->orders[i].p5))
             continue;
-        ceduo_text_then(text, " ",
-                        kind == CEDUO_UNCERTAINTY_ENERGY ? _("The difference may be %s to %s kJ per released rock.")
-                                                         : _("The difference may be %s to %s of 1000."),
-                        lo.bytes, hi.bytes);
+        ceduo_text_append_joined(text, " ",
+                                 kind == CEDUO_UNCERTAINTY_ENERGY ? _("The difference may be %s to %s kJ per released rock.")
+                                                                  : _("The difference may be %s to %s of 1000."),
+                                 lo.bytes, hi.bytes);
     }
 }
 
@@ -472,31 +472,31 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     bool several = s->options_count > 1;
     const char *place = c->name ? c->name : "";
     if (r->answer->main == CEDUO_UNCERTAINTY_EXCEED)
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"),
-                       place, c->x_given, ceduo_words_accepted(c));
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"),
+                        place, c->x_given, ceduo_words_accepted(c));
     else
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"), place, c->x_given);
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"), place, c->x_given);
     add_options(page, r, false);
     ceduo_uncertainty_outside(r, ceduo_page_warn, page);
     size_t chosen = ceduo_uncertainty_chosen(r);
-    const struct ceduo_uncertainty_figure *figure = ceduo_uncertainty_figure_of(r->answer, chosen, r->answer->main, false);
+    const struct ceduo_uncertainty_figure *figure = ceduo_uncertainty_find_figure(r->answer, chosen, r->answer->main, false);
     add_inputs(page, r, figure);
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     LOCAL_TEXT(advice);
     ceduo_uncertainty_advice(&advice, r, figure, 3);
     if (advice.length > 0)
-        ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
     for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change within what may be true */
         LOCAL_TEXT(words);
         ceduo_uncertainty_light_words(&words, r, i / 3, i % 3);
         if (words.length > 0)
-            ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s%s%s", several ? s->options[i / 3].name : "", several ? ": " : "",
-                           words.bytes);
+            ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s%s%s", several ? s->options[i / 3].name : "", several ? ": " : "",
+                            words.bytes);
     }
     if (r->answer->rotation && all) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
         add_options(page, r, true);
-        add_inputs(page, r, ceduo_uncertainty_figure_of(r->answer, chosen, CEDUO_UNCERTAINTY_MEAN, false));
+        add_inputs(page, r, ceduo_uncertainty_find_figure(r->answer, chosen, CEDUO_UNCERTAINTY_MEAN, false));
         ceduo_page_add(page, CEDUO_PAGE_GAP);
     }
     if (all)
@@ -505,20 +505,21 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
         ceduo_uncertainty_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
     uint64_t rocks;
     measure_of(r, 0, &rocks);
-    ceduo_page_say(page, CEDUO_PAGE_NOTE,
-                   _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
-                     "reduces it. %llu scenes were computed."),
-                   (unsigned long long)rocks, (unsigned long long)r->answer->evaluations);
+    ceduo_page_para(page, CEDUO_PAGE_NOTE,
+                    _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
+                      "reduces it. %llu scenes were computed."),
+                    (unsigned long long)rocks, (unsigned long long)r->answer->evaluations);
     LOCAL_TEXT(points);
     ceduo_uncertainty_points(&points, r);
     if (points.length > 0)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, "%s", points.bytes);
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, "%s", points.bytes);
 }
 
 void ceduo_uncertainty_page(struct text *text, const struct ceduo_uncertainty_report *r, bool plain)
 {
     LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
-    ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_in_language(r->file->scene.title, r->file->scene.title_it));
+    ceduo_text_append_escaped(ceduo_page_add(&page, CEDUO_PAGE_TITLE),
+                              ceduo_in_language(r->file->scene.title, r->file->scene.title_it));
     if (r->answer)
         ceduo_uncertainty_blocks(&page, r, true);
     else
@@ -533,12 +534,12 @@ void ceduo_uncertainty_page(struct text *text, const struct ceduo_uncertainty_re
 
 static void add_bar_of_option(struct ceduo_page *page, const struct ceduo_measure *m, enum ceduo_role role, const char *name)
 {
-    ceduo_page_mark(page, role, name);
+    ceduo_page_cell_role(page, role, name);
     struct ceduo_page_bar *bar = ceduo_page_bar(page, m->hi, CEDUO_ROLE_TITLE);
     bar->from = fmax(1e-9, m->lo); /* what the rocks leave open takes at least one cell, at 0, too */
     bar->least = m->may_lo;
     bar->most = m->may_hi;
-    ceduo_page_write(page, isnan(m->may_lo) ? "%s" : "%s (%s)", VALUE_OF(*m), MAY_BE(*m));
+    ceduo_page_cell_format(page, isnan(m->may_lo) ? "%s" : "%s (%s)", VALUE_OF(*m), MAY_BE(*m));
 }
 
 /* Returns the lines that it takes. */
@@ -552,10 +553,10 @@ static int add_option_bars(struct ceduo_page *page, const struct ceduo_uncertain
     size_t first = option >= room ? option - room + 1 : 0;
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *heads = page->last->cells;
-    const struct ceduo_measure judged = ceduo_judged(&scene->controls[ceduo_scene_last_control(scene)], NULL);
+    const struct ceduo_measure judged = ceduo_measure_exceeding(&scene->controls[ceduo_scene_last_control(scene)], NULL);
     bool share = ceduo_uncertainty_main(r, 0)->kind != CEDUO_UNCERTAINTY_ENERGY;
-    ceduo_text_put(&heads[0].text, share ? NAMED(judged, CEDUO_HEAD) : _("kJ a rock"));
-    ceduo_text_put(&heads[2].text, r->over ? _("years (may be)") : _("now (may be)"));
+    ceduo_text_append(&heads[0].text, share ? NAMED(judged, CEDUO_HEAD) : _("kJ a rock"));
+    ceduo_text_append(&heads[2].text, r->over ? _("years (may be)") : _("now (may be)"));
     double end = 0; /* of the axis */
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_measure m = measure_of(r, i, NULL);
@@ -568,8 +569,8 @@ static int add_option_bars(struct ceduo_page *page, const struct ceduo_uncertain
     ceduo_text_format(&page->last->cells[1].text, "0\xe2\x80\x93%s", ROUNDED(end, 4));
     ceduo_page_scale(page, 1, 0, end);
     if (n > room)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, ngettext("%zu more option: ] goes on", "%zu more options: ] goes on", n - room),
-                       n - room);
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, ngettext("%zu more option: ] goes on", "%zu more options: ] goes on", n - room),
+                        n - room);
     return 1 + (int)(n > room ? room + 1 : n);
 }
 
@@ -587,7 +588,7 @@ static void add_input_bars(struct ceduo_page *page, const struct ceduo_uncertain
             double share = ceduo_uncertainty_share(f, f->order[i]);
             ceduo_uncertainty_input_name(ceduo_page_text(page), r, f->order[i]);
             ceduo_page_bar(page, share, CEDUO_ROLE_MEAN);
-            ceduo_page_write(page, "%.0f %%", share * 100);
+            ceduo_page_cell_format(page, "%.0f %%", share * 100);
             append_left(ceduo_page_text(page), f, f->order[i], _("leaves %s"));
             n++;
         }

@@ -27,12 +27,12 @@ static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
         per_year += s->blocks[i].per_year;
     }
     if (s->options_count > 1)
-        ceduo_page_line(page, CEDUO_ROLE_TITLE, "%s", s->options[pane->option].name);
+        ceduo_page_para_role(page, CEDUO_ROLE_TITLE, "%s", s->options[pane->option].name);
     if (s->blocks_count > 0) /* no single size stands for them */
-        ceduo_page_line(page, CEDUO_ROLE_TEXT, _("Blocks %.3g\xe2\x80\x93%.3g m\xc2\xb3, %.3g/year"), min, max, per_year);
+        ceduo_page_para_role(page, CEDUO_ROLE_TEXT, _("Blocks %.3g\xe2\x80\x93%.3g m\xc2\xb3, %.3g/year"), min, max, per_year);
     else if (!isnan(rock.mass) && pane->height >= HEIGHT_MIN)
-        ceduo_page_line(page, CEDUO_ROLE_TEXT, _("Rock %.3g m, %.4g kg%s"), rock.mean_diameter, rock.mass,
-                        ceduo_notes_say(pane->report->file->notes, "assumed", "rock") ? "*" : "");
+        ceduo_page_para_role(page, CEDUO_ROLE_TEXT, _("Rock %.3g m, %.4g kg%s"), rock.mean_diameter, rock.mass,
+                             ceduo_notes_print(pane->report->file->notes, "assumed", "rock") ? "*" : "");
 }
 
 /* ---- what arrives ---- */
@@ -49,15 +49,15 @@ static const struct ceduo_arrivals *wood_of(const struct ceduo_pane *pane)
 /* A row: a share with the error of the rocks, an energy or a height with three digits. */
 static void add_row(struct ceduo_page *page, struct ceduo_measure wood, struct ceduo_measure bare)
 {
-    ceduo_page_write(page, "%s", NAMED(bare, CEDUO_ROW));
+    ceduo_page_cell_format(page, "%s", NAMED(bare, CEDUO_ROW));
     if (wood.digits > 0)
         ceduo_page_number(page, wood.value, 3);
     else
-        ceduo_page_write(page, "%s", page->width >= WIDE ? INTERVAL(wood) : WITH_ERROR(wood, ""));
+        ceduo_page_cell_format(page, "%s", page->width >= WIDE ? INTERVAL(wood) : WITH_ERROR(wood, ""));
     if (bare.digits > 0)
         ceduo_page_number(page, bare.value, 3);
     else
-        ceduo_page_write(page, "%s", VALUE_OF(bare));
+        ceduo_page_cell_format(page, "%s", VALUE_OF(bare));
 }
 
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_control *c, bool nothing)
@@ -71,26 +71,26 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
                                 *wood = wood_of(pane);
     bool blocks = !isnan(bare->hazard.per_year);
     ceduo_page_table(page, page->width >= WIDE ? wide : narrow, 3);
-    add_row(page, ceduo_arriving(wood), ceduo_arriving(bare));
+    add_row(page, ceduo_measure_arriving(wood), ceduo_measure_arriving(bare));
     if (!isnan(c->accepted) && !nothing)
-        add_row(page, ceduo_judged(c, wood), ceduo_judged(c, bare));
-    struct ceduo_measure judged = ceduo_judged(c, wood);
+        add_row(page, ceduo_measure_exceeding(c, wood), ceduo_measure_exceeding(c, bare));
+    struct ceduo_measure judged = ceduo_measure_exceeding(c, wood);
     if (wood && !pane->year && !nothing) /* by the index it would be of the rocks without forest */
         ceduo_measure_uncertainty(&judged, pane->report->uncertainty, pane->option, pane->report->result->last_control);
     if (!isnan(judged.may_lo)) {
-        ceduo_page_write(page, "  %s", _("may be"));
-        ceduo_page_write(page, "%s", MAY_BE(judged));
-        ceduo_page_write(page, "%s", "");
+        ceduo_page_cell_format(page, "  %s", _("may be"));
+        ceduo_page_cell_format(page, "%s", MAY_BE(judged));
+        ceduo_page_cell_format(page, "%s", "");
     }
     if (blocks && !nothing) { /* years from one dangerous rock to the next: what matters where blocks of all sizes come down */
-        ceduo_page_write(page, "%s", _("years apart"));
-        ceduo_page_write(page, "%s", wood ? EVERY(ceduo_hazard_feared(&wood->hazard)) : "-");
-        ceduo_page_write(page, "%s", EVERY(ceduo_hazard_feared(&bare->hazard)));
+        ceduo_page_cell_format(page, "%s", _("years apart"));
+        ceduo_page_cell_format(page, "%s", wood ? EVERY(ceduo_hazard_feared(&wood->hazard)) : "-");
+        ceduo_page_cell_format(page, "%s", EVERY(ceduo_hazard_feared(&bare->hazard)));
     }
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
         bool any = (wood && wood->ended[ends[i]] > 0) || bare->ended[ends[i]] > 0;
         if (pane->height >= HEIGHT_LOW && (i == 0 || (i == 1 ? pane->height >= HEIGHT_MIN : any)))
-            add_row(page, ceduo_missed(wood, ends[i]), ceduo_missed(bare, ends[i]));
+            add_row(page, ceduo_measure_stopped(wood, ends[i]), ceduo_measure_stopped(bare, ends[i]));
     }
     if (nothing || pane->height < HEIGHT_LOW)
         return;
@@ -125,7 +125,7 @@ static void add_light(struct ceduo_page *page, const struct ceduo_pane *pane, en
     if (c)
         ceduo_page_light(page, !known || c->over.nothing ? CEDUO_UNKNOWN : fails > 0 ? CEDUO_FAIL : CEDUO_PASS);
     else
-        ceduo_page_write(page, "%s", "");
+        ceduo_page_cell_format(page, "%s", "");
 }
 
 static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_index *index)
@@ -139,25 +139,25 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
     bool gap = index->length > 0 && index->longest_gap > threshold; /* the reason in the page, too */
     CEDUO_PAGE_TABLE_OF(page, columns);
     if (gap)
-        ceduo_page_write(page, _("gap %s m > %g"), ROUNDED(index->longest_gap, 6), threshold);
+        ceduo_page_cell_format(page, _("gap %s m > %g"), ROUNDED(index->longest_gap, 6), threshold);
     else if (isinf(index->worst_adc))
-        ceduo_page_write(page, "%s", _("ADC: no stems"));
+        ceduo_page_cell_format(page, "%s", _("ADC: no stems"));
     else
-        ceduo_page_write(page, _("ADC %s m %s %g"), BESIDE(index->worst_adc, 3, threshold),
-                         than(index->contact, "<", "\xe2\x89\xa5"), threshold);
+        ceduo_page_cell_format(page, _("ADC %s m %s %g"), BESIDE(index->worst_adc, 3, threshold),
+                               than(index->contact, "<", "\xe2\x89\xa5"), threshold);
     add_light(page, pane, index->contact, c->over.unprotected_contact, true);
-    ceduo_page_write(page, _("%g m free %s %% %s %g"), threshold, PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MAX),
-                     index->worst_free_run <= CEDUO_FREE_RUN_MAX ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MAX * 100);
+    ceduo_page_cell_format(page, _("%g m free %s %% %s %g"), threshold, PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MAX),
+                           index->worst_free_run <= CEDUO_FREE_RUN_MAX ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MAX * 100);
     add_light(page, pane, index->free_run, c->over.unprotected_free_run, true);
     if (index->energy != CEDUO_UNKNOWN && wood)
-        ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed.mean, wood->limit),
-                         than(index->energy, "\xe2\x89\xa4", ">"), ROUNDED(wood->limit * 100, 3));
+        ceduo_page_cell_format(page, _("energy %s %% %s %s"), PERCENT(wood->exceed.mean, wood->limit),
+                               than(index->energy, "\xe2\x89\xa4", ">"), ROUNDED(wood->limit * 100, 3));
     else
-        ceduo_page_write(page, "%s",
-                         wood || !pane->report->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));
+        ceduo_page_cell_format(page, "%s",
+                               wood || !pane->report->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));
     add_light(page, pane, index->energy, c->over.unprotected_energy, c->energy_known);
     if (pane->height >= HEIGHT_ALL && choice_ahead(pane))
-        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
+        ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
 }
 
 static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_index *index)
@@ -165,11 +165,11 @@ static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, co
     const char *taken = WRITTEN(index->dissipated * J_TO_KJ, 3), *left = WRITTEN(index->residual * J_TO_KJ, 3);
     bool known = !isnan(index->residual); /* rocks arrive without forest */
     if (known && index->exhausted)
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s kJ: all of it"), taken);
+        ceduo_page_para_role(page, CEDUO_ROLE_DIM, _("taken %s kJ: all of it"), taken);
     else if (known)
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), taken, left);
+        ceduo_page_para_role(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), taken, left);
     if (!isnan(index->measured) && pane->height >= HEIGHT_ALL)
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("measured %s kJ (one rock)"), WRITTEN(index->measured * J_TO_KJ, 3));
+        ceduo_page_para_role(page, CEDUO_ROLE_DIM, _("measured %s kJ (one rock)"), WRITTEN(index->measured * J_TO_KJ, 3));
 }
 
 /* ---- all ---- */
@@ -179,18 +179,18 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     const struct ceduo_result *r = pane->report->result;
     add_scene(page, pane);
     if (!r) {
-        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
+        ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
         return 0;
     }
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
-    bool nothing = ceduo_says_nothing(&r->bare.arrivals[r->last_control]); /* why stands below, and takes the room */
+    bool nothing = ceduo_too_few_arrivals(&r->bare.arrivals[r->last_control]); /* why stands below, and takes the room */
     if (pane->year)
-        ceduo_page_line(page, CEDUO_ROLE_TITLE, pane->year->cut ? _("Year %u, just cut") : _("Year %u"), pane->year->year);
-    ceduo_page_line(page, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
+        ceduo_page_para_role(page, CEDUO_ROLE_TITLE, pane->year->cut ? _("Year %u, just cut") : _("Year %u"), pane->year->year);
+    ceduo_page_para_role(page, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
     if (pane->height >= HEIGHT_ALL) {
         LOCAL_TEXT(angles);
         ceduo_words_topography(&angles, &r->bare.arrivals[r->last_control].topography, true);
-        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", ceduo_text_string(&angles));
+        ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", ceduo_text_string(&angles));
     }
     add_arrivals(page, pane, c, nothing);
     const struct ceduo_index *index =
@@ -200,18 +200,19 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
         add_index(page, pane, index);
     }
     const struct ceduo_arrivals *wood = wood_of(pane);
-    ceduo_page_line(page, CEDUO_ROLE_DIM, pane->report->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
-                    (unsigned long long)(wood ? wood : &r->bare.arrivals[r->last_control])->released);
+    ceduo_page_para_role(page, CEDUO_ROLE_DIM, pane->report->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
+                         (unsigned long long)(wood ? wood : &r->bare.arrivals[r->last_control])->released);
     bool uncertainty =
         pane->height >= HEIGHT_ALL && !nothing && pane->report->uncertainty && pane->report->uncertainty->answer && !pane->year;
     for (size_t i = 0; i < 3 && uncertainty; i++) { /* what turns a test within what may be true */
         LOCAL_TEXT(causes);
         if (ceduo_uncertainty_causes(&causes, pane->report->uncertainty, pane->option, ceduo_uncertainty_lights[i]))
-            ceduo_page_line(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]), ceduo_text_string(&causes));
+            ceduo_page_para_role(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]),
+                                 ceduo_text_string(&causes));
     }
     const struct ceduo_page_block *last = page->last;
     size_t warnings = 0;
-    ceduo_words_still(r, ceduo_page_warn, page);
+    ceduo_words_still_moving(r, ceduo_page_warn, page);
     ceduo_page_stand_warnings(page, r, pane->option);
     ceduo_words_run_warnings(r, &pane->report->remarks, ceduo_page_warn, page);
     ceduo_page_stand_rules(page, r, pane->option, true);
@@ -237,9 +238,9 @@ void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane)
         const struct ceduo_stand_result *r = &pane->report->result->options[pane->option].stands[i];
         LOCAL_TEXT(name);
         ceduo_plot_belt_name(&name, belt);
-        ceduo_page_mark(page, CEDUO_ROLE_BELT, ceduo_text_string(&name));
-        ceduo_page_write(page, "%s\xe2\x80\x93%s m", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
-        ceduo_page_write(page, isfinite(r->adc_m) ? _("%s m") : "%s", BESIDE(r->adc_m, 3, threshold));
+        ceduo_page_cell_role(page, CEDUO_ROLE_BELT, ceduo_text_string(&name));
+        ceduo_page_cell_format(page, "%s\xe2\x80\x93%s m", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
+        ceduo_page_cell_format(page, isfinite(r->adc_m) ? _("%s m") : "%s", BESIDE(r->adc_m, 3, threshold));
         ceduo_page_light(page, r->passes_threshold ? CEDUO_PASS : CEDUO_FAIL);
     }
     ceduo_page_add(page, CEDUO_PAGE_GAP);
@@ -248,19 +249,19 @@ void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane)
 static void add_simulated(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
                           const struct ceduo_arrivals *a)
 {
-    ceduo_page_write(page, "%s", name);
+    ceduo_page_cell_format(page, "%s", name);
     ceduo_page_mean(page, a);
     ceduo_page_number(page, a->energy.p95 * J_TO_KJ, 3);
-    ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(c, a)));
+    ceduo_page_cell_format(page, "%s", INTERVAL(ceduo_measure_exceeding(c, a)));
 }
 
 /* A mean alone. */
 static void add_mean(struct ceduo_page *page, const char *name, const char *mean)
 {
-    ceduo_page_write(page, "%s", name);
-    ceduo_page_write(page, "%s", mean);
-    ceduo_page_write(page, "-");
-    ceduo_page_write(page, "-");
+    ceduo_page_cell_format(page, "%s", name);
+    ceduo_page_cell_format(page, "%s", mean);
+    ceduo_page_cell_format(page, "-");
+    ceduo_page_cell_format(page, "-");
 }
 
 void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane)
@@ -276,8 +277,8 @@ void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane)
     struct ceduo_page_cell *heads = page->last->cells;
     ceduo_text_format(&heads[0].text, _("energy left at %g m"), c->x_given);
     ceduo_text_format(&heads[0].shorter, _("left at %g m"), c->x_given);
-    ceduo_text_put(&heads[1].text, NAMED(ceduo_mean_energy(bare), CEDUO_SHORT_HEAD));
-    ceduo_text_put(&heads[3].text, NAMED(ceduo_judged(c, bare), CEDUO_SHORT_HEAD));
+    ceduo_text_append(&heads[1].text, NAMED(ceduo_mean_energy(bare), CEDUO_SHORT_HEAD));
+    ceduo_text_append(&heads[3].text, NAMED(ceduo_measure_exceeding(c, bare), CEDUO_SHORT_HEAD));
     add_simulated(page, _("without forest"), c, bare);
     if (r->scene->options[pane->option].belts_count > 0)
         add_mean(page, _("index (Eq. 5)"), index->exhausted ? _("used up") : WRITTEN(index->residual * J_TO_KJ, 3));
@@ -291,9 +292,9 @@ void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     const struct ceduo_report *report = pane->report;
     if (report->result->scene->options_count > 1)
-        ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", report->result->scene->options[pane->option].name);
+        ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", report->result->scene->options[pane->option].name);
     ceduo_page_option(page, report, pane->option, true);
-    ceduo_words_still(report->result, ceduo_page_warn, page);
+    ceduo_words_still_moving(report->result, ceduo_page_warn, page);
     ceduo_words_run_warnings(report->result, &report->remarks, ceduo_page_warn, page);
 }
 
@@ -304,15 +305,15 @@ void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pa
         return;
     ceduo_uncertainty_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
     ceduo_uncertainty_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, ceduo_uncertainty_main(r, pane->option), 1);
-    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_verdict(r->answer);
+    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_ranking_by(r->answer);
     for (size_t i = 0; i < ranking->count; i++)
         if (ranking->orders[i].better == pane->option || ranking->orders[i].than == pane->option)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
     const struct ceduo_uncertainty_figure *failing =
-        ceduo_uncertainty_figure_of(r->answer, pane->option, CEDUO_UNCERTAINTY_FAILING, false);
+        ceduo_uncertainty_find_figure(r->answer, pane->option, CEDUO_UNCERTAINTY_FAILING, false);
     if (r->over && !isnan(failing->fit.p5))
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Years that fail: %.0f, may be %.0f\xe2\x80\x93%.0f."), failing->value,
-                       floor(failing->fit.p5), ceil(failing->fit.p95)); /* outwards */
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("Years that fail: %.0f, may be %.0f\xe2\x80\x93%.0f."), failing->value,
+                        floor(failing->fit.p5), ceil(failing->fit.p95)); /* outwards */
     for (size_t i = 0; i < 3 && !r->over; i++)
         ceduo_uncertainty_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
 }

@@ -34,6 +34,6 @@ void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pa
 
 /* The options side by side, one row each, from the option `first` on, at most `rows`; then what is to be said of them. */
 void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, size_t first, size_t rows);
-void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane);
+void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane);
 
 #endif

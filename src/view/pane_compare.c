@@ -32,7 +32,7 @@ static const struct ceduo_page_column columns[COLUMNS] = {
 
 static void add_share(struct ceduo_page *page, struct ceduo_measure share)
 {
-    ceduo_page_write(page, "%s", isnan(share.value) ? PENDING : WITH_ERROR(share, ""));
+    ceduo_page_cell_format(page, "%s", isnan(share.value) ? PENDING : WITH_ERROR(share, ""));
 }
 
 /* The years at a glance: a column for each, or of several that share one the worst; as high as what gets through. */
@@ -70,34 +70,34 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     const struct ceduo_result *r = pane->report->result;
     const struct ceduo_verdict *v = pane->report->verdict;
     const struct ceduo_choice *c = &v->choices[i];
-    const struct ceduo_subject s = ceduo_subject_of(pane->report, i, r->last_control);
+    const struct ceduo_subject s = ceduo_subject_find(pane->report, i, r->last_control);
     bool years = c->over.years > 0, rates = has_rates(pane), rotation = knows_rotation(pane);
-    ceduo_page_mark(page, i == pane->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
+    ceduo_page_cell_role(page, i == pane->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
     if (rates)
-        ceduo_page_write(page, "%s", s.wooded ? EVERY(ceduo_hazard_feared(&s.wooded->hazard)) : "-");
+        ceduo_page_cell_format(page, "%s", s.wooded ? EVERY(ceduo_hazard_feared(&s.wooded->hazard)) : "-");
     else if (v->wooded)
         add_share(page, ceduo_share(c->today)); /* its error is right if rocks have weights, too */
     else
-        ceduo_page_write(page, "%s", BESIDE(s.index->worst_adc, 3, r->scene->simulation.threshold));
-    ceduo_page_write(page, "%s", isnan(s.today.may_lo) || rotation || rates ? "" : MAY_BE(s.today));
+        ceduo_page_cell_format(page, "%s", BESIDE(s.index->worst_adc, 3, r->scene->simulation.threshold));
+    ceduo_page_cell_format(page, "%s", isnan(s.today.may_lo) || rotation || rates ? "" : MAY_BE(s.today));
     if (rates)
-        ceduo_page_write(page, "%s", years ? YEARS(s.outcome.rate) : PENDING);
+        ceduo_page_cell_format(page, "%s", years ? YEARS(s.outcome.rate) : PENDING);
     else if (v->wooded && rotation && !isnan(s.mean.value) && !isnan(s.mean.may_lo)) /* "296±7 (219–327)" */
-        ceduo_page_write(page, "%s (%s)", WITH_ERROR(s.mean, ""), MAY_BE(s.mean));
+        ceduo_page_cell_format(page, "%s (%s)", WITH_ERROR(s.mean, ""), MAY_BE(s.mean));
     else if (v->wooded)
         add_share(page, s.mean);
     else
         ceduo_page_number(page, s.index->per_100m * J_TO_KJ, 3);
     if (!years)
-        ceduo_page_write(page, PENDING);
+        ceduo_page_cell_format(page, PENDING);
     else if (rates)
-        ceduo_page_write(page, "%s (%u)", WRITTEN(1 / (c->worst.mean * s.bare->hazard.per_year), 2), c->over.worst_year);
+        ceduo_page_cell_format(page, "%s (%u)", WRITTEN(1 / (c->worst.mean * s.bare->hazard.per_year), 2), c->over.worst_year);
     else if (v->wooded)
         ceduo_page_worst(page, c);
     else
         ceduo_page_number(page, c->worst.mean, 3);
     if (!years || rates)
-        ceduo_page_write(page, "%s", years ? DECISION(s.outcome.answer) : PENDING);
+        ceduo_page_cell_format(page, "%s", years ? DECISION(s.outcome.answer) : PENDING);
     else
         ceduo_page_fails(page, c, v->wooded ? c->over.unprotected_energy : c->over.unprotected_contact,
                          v->wooded ? c->energy_known : !c->over.nothing);
@@ -107,7 +107,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     bool best = known && i == v->rotation.best && v->rotation.rivals == 0;
     for (size_t k = 0; k < v->n; k++)
         worst &= k == i || v->choices[k].mean.mean + v->choices[k].mean.half < c->mean.mean - c->mean.half;
-    ceduo_page_mark(page, best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, best ? _("best") : worst ? _("worst") : "");
+    ceduo_page_cell_role(page, best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, best ? _("best") : worst ? _("worst") : "");
     ceduo_page_light(page, s.index->contact);
     ceduo_page_light(page, s.index->free_run);
     ceduo_page_light(page, s.index->energy);
@@ -118,29 +118,29 @@ static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     const struct ceduo_result *r = pane->report->result;
     struct ceduo_page_cell *heads = page->last->cells;
-    ceduo_text_put(&heads[TODAY].text, r->wooded ? _("today") : _("ADC m"));
-    ceduo_text_put(&heads[MEAN].text, r->wooded ? _("mean") : _("kJ/100 m"));
-    ceduo_text_put(&heads[FAILS].text, has_rates(pane) ? _("accepted") : _("fail"));
+    ceduo_text_append(&heads[TODAY].text, r->wooded ? _("today") : _("ADC m"));
+    ceduo_text_append(&heads[MEAN].text, r->wooded ? _("mean") : _("kJ/100 m"));
+    ceduo_text_append(&heads[FAILS].text, has_rates(pane) ? _("accepted") : _("fail"));
     if (has_rates(pane))
         return;
     if (knows_rotation(pane))
         ceduo_text_format(&heads[MEAN].text, ", %s", _("may be"));
     else if (pane->report->uncertainty && pane->report->uncertainty->answer)
-        ceduo_text_put(&heads[MAY_BE].text, _("may be"));
+        ceduo_text_append(&heads[MAY_BE].text, _("may be"));
 }
 
 void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, size_t first, size_t rows)
 {
     const struct ceduo_result *r = pane->report->result;
     const struct ceduo_control *control = &r->scene->controls[r->last_control];
-    const char *name = NAMED(ceduo_judged(control, NULL), CEDUO_SHORT_HEAD);
+    const char *name = NAMED(ceduo_measure_exceeding(control, NULL), CEDUO_SHORT_HEAD);
     if (has_rates(pane))
-        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("Years between two rocks %s at %.6g m (accepted: %s)"), name, control->x_given,
-                       SHORTEST(ceduo_accepted_return(control)));
+        ceduo_page_para(page, CEDUO_PAGE_TITLE, _("Years between two rocks %s at %.6g m (accepted: %s)"), name,
+                        control->x_given, SHORTEST(ceduo_accepted_return(control)));
     else if (r->wooded)
-        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("Of 1000 rocks: %s at %.6g m"), name, control->x_given);
+        ceduo_page_para(page, CEDUO_PAGE_TITLE, _("Of 1000 rocks: %s at %.6g m"), name, control->x_given);
     else
-        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("At %s m"), ROUNDED(control->x_given, 6));
+        ceduo_page_para(page, CEDUO_PAGE_TITLE, _("At %s m"), ROUNDED(control->x_given, 6));
     ceduo_page_table(page, columns, COLUMNS);
     add_heads(page, pane);
     for (size_t i = first; i < pane->report->verdict->n && i < first + rows; i++)
@@ -149,7 +149,7 @@ void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, 
 
 /* ---- what is to be said of them ---- */
 
-void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
+void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     const struct ceduo_result *r = pane->report->result;
     const struct ceduo_verdict *v = pane->report->verdict;
@@ -160,17 +160,18 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);
-        for (size_t i = 0; knows_rotation(pane) && i < ceduo_uncertainty_verdict(pane->report->uncertainty->answer)->count; i++)
+        for (size_t i = 0; knows_rotation(pane) && i < ceduo_uncertainty_ranking_by(pane->report->uncertainty->answer)->count;
+             i++)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->uncertainty, i);
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);
         if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
             ceduo_page_note(page, _("The years ahead are being computed."));
         if (!knows_rotation(pane)) /* of which the energy law is a part */
-            ceduo_words_turned(r, v, ceduo_page_note, page);
+            ceduo_words_rank_reversals(r, v, ceduo_page_note, page);
     }
     ceduo_words_windows(r->scene, ceduo_page_note, page);
-    ceduo_words_thin(r, ceduo_page_note, page);
+    ceduo_words_thin_stems(r, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
         ceduo_page_note(page, _(ceduo_words_unjudged));
     if (!r->wooded)
@@ -178,8 +179,8 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (pane->report->busy)
         ceduo_page_note(page, _("Computing: the figures become finer."));
     if (v->n > 1 && r->wooded && v->accepted && !has_rates(pane))
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 bring too much."),
-                       CEDUO_EXCEED_MAX * 1000);
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 bring too much."),
+                        CEDUO_EXCEED_MAX * 1000);
     if (v->rotation.known && !v->rotation.uneven)
-        ceduo_words_counted(ceduo_page_add(page, CEDUO_PAGE_NOTE), v->choices[0].rocks);
+        ceduo_words_year_numbering(ceduo_page_add(page, CEDUO_PAGE_NOTE), v->choices[0].rocks);
 }

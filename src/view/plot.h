@@ -21,13 +21,13 @@ struct ceduo_span {
 /* What a picture shows. */
 struct ceduo_uncertainty_report;
 struct ceduo_picture {
-    const struct ceduo_scene *scene;       /* checked */
-    const struct ceduo_snapshot *snapshot; /* NULL: nothing is computed yet */
-    size_t option, belt, control;          /* indices; where there is none, the picture says so */
-    const struct ceduo_polyline *selected; /* one rock's trajectory, shown before all others; NULL: none */
-    const double *mark;                    /* a place along the slope that the profile marks, m, relative; NULL: none */
-    double from, to;                       /* the stretch of slope shown, m, relative; from = to: all of it */
-    const struct ceduo_stem_passed *stems; /* those that the selected rock came to, in its order; NULL: not known */
+    const struct ceduo_scene *scene;          /* checked */
+    const struct ceduo_snapshot *snapshot;    /* NULL: nothing is computed yet */
+    size_t option, belt, control;             /* indices; where there is none, the picture says so */
+    const struct ceduo_polyline *selected;    /* one rock's trajectory, shown before all others; NULL: none */
+    const double *mark;                       /* a place along the slope that the profile marks, m, relative; NULL: none */
+    double from, to;                          /* the stretch of slope shown, m, relative; from = to: all of it */
+    const struct ceduo_stem_encounter *stems; /* those that the selected rock came to, in its order; NULL: not known */
     size_t stems_count;
     const struct ceduo_years *years;     /* of the option; NULL: not computed */
     size_t year;                         /* index of the one under the cursor; beyond them all: none */
@@ -102,8 +102,8 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
 
 /* Stops beside simulated ones, not among the pictures above as it needs no run; `origin`: where the slope begins in the user's
  * coordinates. */
-void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_seen_stops *stops,
-                     double origin);
+void ceduo_plot_observed(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_observed_stops *stops,
+                         double origin);
 
 /* One line that says what the picture shows. */
 void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *picture);

@@ -57,7 +57,7 @@ static const struct chart_size hazard_size = {.axis = 8, .below = 1, .legend = 3
 /* Item 0: without forest. NULL: not known. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_t item)
 {
-    const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_of(d->picture->snapshot, d->scene, item - 1);
+    const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_find(d->picture->snapshot, d->scene, item - 1);
     const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
     return a && a->hazard.curve ? &a->hazard : NULL;
 }

@@ -31,15 +31,15 @@ static enum ceduo_role role_of(enum ceduo_light light)
 static void read_option(const struct ceduo_drawing *d, size_t i, double bare, struct bar bars[BARS])
 {
     struct ceduo_index index = ceduo_assess_index(d->scene, &d->scene->options[i], d->control, bare);
-    bool nothing = d->bare_arrivals && ceduo_says_nothing(d->bare_arrivals); /* then no light is on */
+    bool nothing = d->bare_arrivals && ceduo_too_few_arrivals(d->bare_arrivals); /* then no light is on */
     enum ceduo_light contact = nothing ? CEDUO_UNKNOWN : index.contact;
     bars[ADC] = (struct bar){index.worst_adc, role_of(contact), contact, NULL};
     if (d->wooded) {
-        const struct ceduo_run_snapshot *run = ceduo_snapshot_of(d->picture->snapshot, d->scene, i);
+        const struct ceduo_run_snapshot *run = ceduo_snapshot_find(d->picture->snapshot, d->scene, i);
         const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
         enum ceduo_light energy = nothing ? CEDUO_UNKNOWN : ceduo_energy_light(a);
         const char *awaited = a ? NULL : "\xe2\x80\xa6";
-        bars[SHARE] = (struct bar){ceduo_judged(d->control, a).value, role_of(energy), energy, awaited};
+        bars[SHARE] = (struct bar){ceduo_measure_exceeding(d->control, a).value, role_of(energy), energy, awaited};
         bars[ENERGY] = (struct bar){ceduo_mean_energy(a).value, CEDUO_ROLE_WOOD, CEDUO_UNKNOWN, awaited};
     } else {
         bars[SHARE] = (struct bar){index.per_100m * J_TO_KJ, CEDUO_ROLE_WOOD, CEDUO_UNKNOWN, NULL};
@@ -53,20 +53,20 @@ static void read_option(const struct ceduo_drawing *d, size_t i, double bare, st
 static void add_option(struct ceduo_page *page, const struct ceduo_drawing *d, size_t i, const struct scale scales[BARS],
                        const struct bar bars[BARS])
 {
-    ceduo_page_mark(page, i == d->picture->option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, d->scene->options[i].name);
+    ceduo_page_cell_role(page, i == d->picture->option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, d->scene->options[i].name);
     for (size_t k = 0; k < BARS; k++) {
         const struct bar *b = &bars[k];
         const struct scale *s = &scales[k];
         ceduo_page_bar(page, b->value, b->role)->limit = s->limit;
-        ceduo_page_write(page, "%s",
-                         b->instead      ? b->instead
-                         : b->value == 0 ? "0"
-                         : k == ADC      ? BESIDE(b->value, 3, s->limit)
-                                         : WRITTEN(b->value, 3));
+        ceduo_page_cell_format(page, "%s",
+                               b->instead      ? b->instead
+                               : b->value == 0 ? "0"
+                               : k == ADC      ? BESIDE(b->value, 3, s->limit)
+                                               : WRITTEN(b->value, 3));
         if (k == ADC || (k == SHARE && d->wooded))
             ceduo_page_light(page, b->light);
         else if (k == SHARE)
-            ceduo_page_write(page, "%s", "");
+            ceduo_page_cell_format(page, "%s", "");
     }
 }
 
@@ -85,7 +85,7 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     size_t room = d->height > 3 ? (size_t)d->height - 2 : 1, n = scene->options_count <= room ? scene->options_count : room - 1;
     if (!d->control)
         return _("no control");
-    const struct ceduo_measure judged = ceduo_judged(d->control, arrivals);
+    const struct ceduo_measure judged = ceduo_measure_exceeding(d->control, arrivals);
     double threshold = scene->simulation.threshold, accepted = ceduo_words_accepted(d->control);
     double bare = arrivals && arrivals->reached > 0 ? arrivals->energy.mean : NAN;
     struct scale scales[BARS] = {[ADC] = {threshold / 10, threshold * 2, threshold, _("ADC m")},
@@ -98,7 +98,7 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
         struct ceduo_page_cell *heads = &page->last->cells[3 * k + 1];
         if (!isnan(scales[k].limit))
             ceduo_text_format(&heads[0].text, "\xe2\x94\x82 %s", ROUNDED(scales[k].limit, k == SHARE ? 3 : 6));
-        ceduo_text_put(&heads[1].text, scales[k].head);
+        ceduo_text_append(&heads[1].text, scales[k].head);
     }
     for (size_t i = 0; i < scene->options_count; i++) {
         read_option(d, i, bare, bars);
@@ -116,17 +116,17 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     for (size_t k = 0; k < BARS; k++)
         ceduo_page_scale(page, 3 * k + 1, scales[k].lo, scales[k].hi);
     if (n < scene->options_count)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(scene->options_count - n));
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(scene->options_count - n));
     /* what is to be held against them */
     const char *mean = WRITTEN(bare * J_TO_KJ, 4);
     if (!arrivals)
-        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("not computed yet"));
+        ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("not computed yet"));
     else if (isnan(bare))
-        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("no rock arrives"));
+        ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("no rock arrives"));
     else if (!d->wooded)
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("left of %s kJ (mean, without forest), by the index"), mean);
+        ceduo_page_para_role(page, CEDUO_ROLE_DIM, _("left of %s kJ (mean, without forest), by the index"), mean);
     else
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("without forest: %.0f %s, mean %s kJ"), judged.value, NAMED(judged, CEDUO_HEAD),
-                        mean);
+        ceduo_page_para_role(page, CEDUO_ROLE_DIM, _("without forest: %.0f %s, mean %s kJ"), judged.value,
+                             NAMED(judged, CEDUO_HEAD), mean);
     return NULL;
 }

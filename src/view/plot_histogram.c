@@ -79,18 +79,18 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i)
     ceduo_tick_label(from, b->width, lo);
     ceduo_tick_label(from + b->width, b->width, hi);
     if (b->over && i == b->count - 1)
-        ceduo_page_write(page, "\xe2\x89\xa5 %s kJ", lo);
+        ceduo_page_cell_format(page, "\xe2\x89\xa5 %s kJ", lo);
     else
-        ceduo_page_write(page, "%s\xe2\x80\x93%s kJ", lo, hi);
+        ceduo_page_cell_format(page, "%s\xe2\x80\x93%s kJ", lo, hi);
     struct ceduo_page_bar *bar = ceduo_page_bar(page, share, role);
     if (h->bare.arrivals && h->bare.counts[i] > 0)
         bar->limit = per_1000(&h->bare, i);
     bar->own = CEDUO_ROLE_BARE;
-    ceduo_page_write(page, "%.0f", share);
+    ceduo_page_cell_format(page, "%.0f", share);
     if (h->bare.arrivals)
-        ceduo_page_write(page, "%.0f", per_1000(&h->bare, i));
+        ceduo_page_cell_format(page, "%.0f", per_1000(&h->bare, i));
     else
-        ceduo_page_write(page, "%s", "");
+        ceduo_page_cell_format(page, "%s", "");
     struct ceduo_page_cell *marks = ceduo_page_cell(page);
     marks->role = CEDUO_ROLE_TITLE;
     if (h->accepted >= b->first && (h->accepted < end || b->over))
@@ -104,24 +104,24 @@ static void say_share(struct text *text, const struct histogram *h, const struct
                       const struct ceduo_measure *bare)
 {
     ceduo_text_format(text, h->bare.arrivals ? "%.0f (\xe2\x94\x82 %.0f) " : "%.0f ", m->value, bare->value);
-    ceduo_text_put(text, NAMED(*m, CEDUO_SHORT_HEAD));
+    ceduo_text_append(text, NAMED(*m, CEDUO_SHORT_HEAD));
 }
 
 /* What all rows add up to. */
 static void say_all(struct ceduo_page *page, const struct histogram *h, const struct ceduo_control *c)
 {
     const struct ceduo_arrivals *a = h->rocks.arrivals, *bare = h->bare.arrivals;
-    const struct ceduo_measure all = ceduo_arriving(a), all_bare = ceduo_arriving(bare);
-    const struct ceduo_measure judged = ceduo_judged(c, a), judged_bare = ceduo_judged(c, bare);
+    const struct ceduo_measure all = ceduo_measure_arriving(a), all_bare = ceduo_measure_arriving(bare);
+    const struct ceduo_measure judged = ceduo_measure_exceeding(c, a), judged_bare = ceduo_measure_exceeding(c, bare);
     struct text *head = ceduo_page_add(page, CEDUO_PAGE_NOTE);
     ceduo_text_format(head, "%s: ", _("of 1000"));
     say_share(head, h, &all, &all_bare);
     if (!isnan(c->accepted)) {
-        ceduo_text_put(head, ", ");
+        ceduo_text_append(head, ", ");
         say_share(head, h, &judged, &judged_bare);
     }
     if (h->rocks.n < a->reached || (bare && h->bare.n < bare->reached))
-        ceduo_text_then(head, "; ", _("drawn: the first %zu"), h->rocks.n > h->bare.n ? h->rocks.n : h->bare.n);
+        ceduo_text_append_joined(head, "; ", _("drawn: the first %zu"), h->rocks.n > h->bare.n ? h->rocks.n : h->bare.n);
 }
 
 /* ---- the picture ---- */
@@ -129,7 +129,7 @@ static void say_all(struct ceduo_page *page, const struct histogram *h, const st
 static void count(struct counted *c, const struct bins *bins, const struct ceduo_energies *e)
 {
     c->n = e->n;
-    c->counts = ceduo_must(calloc((size_t)bins->count, sizeof *c->counts));
+    c->counts = ceduo_check_memory(calloc((size_t)bins->count, sizeof *c->counts));
     for (size_t i = 0; i < e->n; i++)
         c->counts[bin_of(bins, e->values[i] * J_TO_KJ)]++;
 }
@@ -138,7 +138,7 @@ static void count(struct counted *c, const struct bins *bins, const struct ceduo
 static struct bins bins_of(const struct ceduo_energies *e, const struct ceduo_energies *bare, int rows)
 {
     size_t n = e->n + bare->n;
-    double *all = ceduo_must(malloc((n + 1) * sizeof *all)), least, most;
+    double *all = ceduo_check_memory(malloc((n + 1) * sizeof *all)), least, most;
     for (size_t i = 0; i < n; i++)
         all[i] = i < e->n ? e->values[i] : bare->values[i - e->n];
     gsl_stats_minmax(&least, &most, all, 1, n);
@@ -179,10 +179,10 @@ const char *ceduo_plot_histogram(struct ceduo_drawing *d)
     CEDUO_PAGE_TABLE_OF(d->page, columns);
     if (wooded) {
         struct ceduo_page_cell *heads = d->page->last->cells;
-        ceduo_text_put(&heads[1].text, _("\xe2\x94\x82 without forest"));
-        ceduo_text_put(&heads[1].shorter, _("\xe2\x94\x82 bare"));
-        ceduo_text_put(&heads[2].text, _("wood"));
-        ceduo_text_put(&heads[3].text, _("bare"));
+        ceduo_text_append(&heads[1].text, _("\xe2\x94\x82 without forest"));
+        ceduo_text_append(&heads[1].shorter, _("\xe2\x94\x82 bare"));
+        ceduo_text_append(&heads[2].text, _("wood"));
+        ceduo_text_append(&heads[3].text, _("bare"));
     }
     for (int i = 0; i < h.bins.count; i++) {
         add_row(d->page, &h, i);

@@ -146,7 +146,7 @@ static void draw_forest(const struct ceduo_drawing *d)
     const struct ceduo_slope *slope = &d->scene->slope;
     const struct ceduo_option *option = d->option;
     for (size_t i = 0; i < d->picture->stems_count; i++) {
-        const struct ceduo_stem_passed *stem = &d->picture->stems[i];
+        const struct ceduo_stem_encounter *stem = &d->picture->stems[i];
         double z = ceduo_slope_height(slope, stem->x);
         if (!(stem->x >= slope->x[0] && stem->x <= slope->x[slope->vertices - 1]))
             continue;
@@ -225,7 +225,8 @@ static void draw_belts(const struct ceduo_drawing *d)
     double per_metre = f->width / (f->x1 - f->x0);
     int row = d->area.top + d->area.height - 1;
     if (d->option && d->option->belts_count == 0)
-        ceduo_canvas_put(d->canvas, f->left, row, d->area.left + d->area.width - f->left, CEDUO_ROLE_BELT, _("no forest"));
+        ceduo_canvas_draw_text(d->canvas, f->left, row, d->area.left + d->area.width - f->left, CEDUO_ROLE_BELT,
+                               _("no forest"));
     for (size_t i = 0; d->option && i < d->option->belts_count; i++) {
         const struct ceduo_belt *belt = &d->option->belts[i];
         int from = f->left + (int)lround((fmax(belt->from, f->x0) - f->x0) * per_metre);
@@ -242,7 +243,7 @@ static void draw_belts(const struct ceduo_drawing *d)
         ceduo_text_char(&name, ' ');
         int width = ceduo_canvas_label_width(d->canvas, name.bytes), room = to - from - 2;
         int start = width < room ? from + 1 + (room - width) / 2 : from + 1;
-        ceduo_canvas_put(d->canvas, start, row, room, CEDUO_ROLE_BELT, name.bytes);
+        ceduo_canvas_draw_text(d->canvas, start, row, room, CEDUO_ROLE_BELT, name.bytes);
     }
 }
 
@@ -281,7 +282,7 @@ static void mark_points(struct ceduo_drawing *d, const struct ceduo_slope *slope
         return;
     for (size_t i = 0; i < slope->vertices; i++)
         if (ceduo_frame_cell(&d->frame, d->canvas, slope->x[i], slope->z[i], &column, &row) && column - last >= MARKS_APART) {
-            ceduo_canvas_put(d->canvas, column, row, 1, CEDUO_ROLE_GROUND, "o");
+            ceduo_canvas_draw_text(d->canvas, column, row, 1, CEDUO_ROLE_GROUND, "o");
             last = column;
         }
 }
@@ -308,8 +309,8 @@ const char *ceduo_plot_profile(struct ceduo_drawing *d)
     ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_GROUND, CEDUO_STROKE_PLAIN, slope->vertices, slope->x, slope->z);
     mark_points(d, slope);
     if (ceduo_frame_cell(&d->frame, d->canvas, release->x.mean, z, &column, &row) && row - 1 >= d->area.top)
-        ceduo_canvas_put(d->canvas, column, row - 1, d->area.left + d->area.width - column, CEDUO_ROLE_TEXT,
-                         _("\xe2\x96\xbc release"));
+        ceduo_canvas_draw_text(d->canvas, column, row - 1, d->area.left + d->area.width - column, CEDUO_ROLE_TEXT,
+                               _("\xe2\x96\xbc release"));
     if (d->picture->mark)
         ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_TITLE, *d->picture->mark);
     if (factor != 1) /* heights are not true to scale */

@@ -19,7 +19,8 @@ static void draw_strip(struct ceduo_drawing *d, int top, int height, double most
                        const double *x, const double *y)
 {
     const struct ceduo_years *years = d->picture->years;
-    ceduo_canvas_put(d->canvas, d->frame.left, top, d->area.left + d->area.width - d->frame.left, CEDUO_ROLE_AXIS, caption);
+    ceduo_canvas_draw_text(d->canvas, d->frame.left, top, d->area.left + d->area.width - d->frame.left, CEDUO_ROLE_AXIS,
+                           caption);
     d->frame.top = top + 1;
     d->frame.height = height - 1;
     d->frame.y1 = most;
@@ -46,9 +47,9 @@ static void draw_strips(struct ceduo_drawing *d, int height, const double *x, do
     if (first > 0)
         draw_strip(d, top, first, ADC_TOP * threshold, threshold, ceduo_text_string(&adc), x, y);
     if (!d->wooded)
-        ceduo_text_put(&share, _("stems could take, kJ per 100 m (Eq. 4)"));
+        ceduo_text_append(&share, _("stems could take, kJ per 100 m (Eq. 4)"));
     else if (isnan(accepted))
-        ceduo_text_put(&share, _("of 1000 released arrive"));
+        ceduo_text_append(&share, _("of 1000 released arrive"));
     else
         ceduo_text_format(&share, _("of 1000 released with > %g kJ (limit %g)"), accepted, limit);
     for (size_t i = 0; i < years->count; i++) {
@@ -80,7 +81,8 @@ const char *ceduo_plot_rotation(struct ceduo_drawing *d)
         return !d->control ? _("no control") : _("not computed yet");
     if (a->height < 1 + STRIP_MIN + 2 || a->width < 24)
         return _("too narrow");
-    double *x = ceduo_must(malloc((years->count + 1) * sizeof *x)), *y = ceduo_must(malloc((years->count + 1) * sizeof *y));
+    double *x = ceduo_check_memory(malloc((years->count + 1) * sizeof *x)),
+           *y = ceduo_check_memory(malloc((years->count + 1) * sizeof *y));
     for (size_t i = 0; i < years->count; i++)
         x[i] = years->years[i].year;
     double last = x[years->count - 1];

@@ -115,7 +115,7 @@ static void draw_stems(struct plan *p, struct text *words)
         draw_stool(p, i);
     ceduo_canvas_axis_bottom(p->d->canvas, &p->d->frame, _("m"));
     if (!ceduo_stand_has_stems(s)) {
-        ceduo_text_put(words, _("No stems: nothing stands in a rock's way."));
+        ceduo_text_append(words, _("No stems: nothing stands in a rock's way."));
         return;
     }
     ceduo_text_format(words, _("One pattern of many: %zu met"), p->met);
@@ -124,7 +124,7 @@ static void draw_stems(struct plan *p, struct text *words)
 /* ---- the trajectory of the selected rock ---- */
 
 /* A stem of the belt whose place in the plane is known. */
-static bool is_in(const struct ceduo_belt *belt, const struct ceduo_stem_passed *stem)
+static bool is_in(const struct ceduo_belt *belt, const struct ceduo_stem_encounter *stem)
 {
     return stem->x >= belt->from && stem->x <= belt->to && isfinite(stem->y);
 }
@@ -133,7 +133,7 @@ static bool is_in(const struct ceduo_belt *belt, const struct ceduo_stem_passed 
  * in it. False where there is none. */
 static bool find_patch(const struct ceduo_drawing *d, double *from)
 {
-    const struct ceduo_stem_passed *stems = d->picture->stems;
+    const struct ceduo_stem_encounter *stems = d->picture->stems;
     const struct ceduo_belt *belt = d->belt;
     size_t n = d->picture->stems_count, first = 0;
     while (first < n && !is_in(belt, &stems[first]))
@@ -145,7 +145,7 @@ static bool find_patch(const struct ceduo_drawing *d, double *from)
     return true;
 }
 
-static bool is_shown(const struct plan *p, double from, const struct ceduo_stem_passed *stem)
+static bool is_shown(const struct plan *p, double from, const struct ceduo_stem_encounter *stem)
 {
     return is_in(p->d->belt, stem) && stem->x >= from && stem->x <= from + p->width;
 }
@@ -171,7 +171,7 @@ static void draw_way(struct plan *p, double from, struct text *words)
     double metres = fmin(p->width, p->d->belt->to - from), factor = stretch_across(p, from);
     size_t hit = 0, flown_over = 0;
     for (size_t i = 0; i < picture->stems_count; i++) {
-        const struct ceduo_stem_passed *stem = &picture->stems[i];
+        const struct ceduo_stem_encounter *stem = &picture->stems[i];
         if (!is_shown(p, from, stem))
             continue;
         *(stem->hit ? &hit : &flown_over) += 1;
@@ -183,9 +183,9 @@ static void draw_way(struct plan *p, double from, struct text *words)
     ceduo_text_format(
         words, ngettext("The way of this rock: %zu stem hit in %.3g m", "The way of this rock: %zu stems hit in %.3g m", hit),
         hit, metres);
-    ceduo_text_then(words, "; ", _("across \xc3\x97%.2g"), factor);
+    ceduo_text_append_joined(words, "; ", _("across \xc3\x97%.2g"), factor);
     if (flown_over > 0)
-        ceduo_text_then(words, "; ", _("%zu flown over"), flown_over);
+        ceduo_text_append_joined(words, "; ", _("%zu flown over"), flown_over);
 }
 
 /* ---- the picture ---- */

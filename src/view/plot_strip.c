@@ -81,8 +81,8 @@ static bool in_stretch(const struct strip *s, size_t cell)
 static double read_curve(struct strip *s, const struct curve *curve)
 {
     const struct ceduo_envelope *cells = (curve->bare ? s->d->bare : s->d->sight)->envelopes;
-    double *y = s->y[s->count] = ceduo_must(malloc((s->n + 1) * sizeof *y)), usual = NAN;
-    double *values = ceduo_must(malloc((s->n + 1) * sizeof *values));
+    double *y = s->y[s->count] = ceduo_check_memory(malloc((s->n + 1) * sizeof *y)), usual = NAN;
+    double *values = ceduo_check_memory(malloc((s->n + 1) * sizeof *values));
     size_t n = 0;
     for (size_t i = 0; i < s->n; i++) {
         double value = *(const double *)(const void *)((const char *)&cells[i] + curve->offsets[s->energy]);
@@ -128,7 +128,7 @@ static void draw_ways(const struct ceduo_drawing *d)
     ceduo_canvas_cloud_start(d->canvas);
     for (size_t i = 0; i < d->sight->trajectories_count; i++) {
         const struct ceduo_polyline *t = &d->sight->trajectories[i];
-        double *heights = ceduo_must(malloc((t->n + 1) * sizeof *heights));
+        double *heights = ceduo_check_memory(malloc((t->n + 1) * sizeof *heights));
         for (size_t k = 0; k < t->n; k++)
             heights[k] = fmax(t->z[k] - ceduo_slope_height(&d->scene->slope, t->x[k]), 0);
         ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, t->n, t->x, heights);
@@ -164,7 +164,7 @@ static void name_curves(const struct strip *s)
             best = isnan(ends[best]) || ends[i] > ends[best] ? i : best;
         ceduo_frame_cell(f, s->d->canvas, f->x0, ends[best], &column, &row);
         next = row < next ? next : row > lowest ? lowest : row;
-        ceduo_canvas_put(s->d->canvas, left, next, room, s->curves[best]->role, _(s->curves[best]->names[s->energy]));
+        ceduo_canvas_draw_text(s->d->canvas, left, next, room, s->curves[best]->role, _(s->curves[best]->names[s->energy]));
         ends[best] = NAN;
     }
 }
@@ -199,17 +199,17 @@ static void put_caption(const struct strip *s, const struct content *content)
     int row = s->d->area.top, column = s->d->frame.left, end = s->d->area.left + s->d->area.width;
     if (s->d->frame.top == row)
         return;
-    column += ceduo_canvas_put(canvas, column, row, end - column, CEDUO_ROLE_AXIS, _(content->captions[s->energy]));
+    column += ceduo_canvas_draw_text(canvas, column, row, end - column, CEDUO_ROLE_AXIS, _(content->captions[s->energy]));
     for (int i = 0; i < 2 && s->d->wooded; i++) {
-        column += ceduo_canvas_put(canvas, column, row, end - column, parts[i].role, "  ");
-        column += ceduo_canvas_put(canvas, column, row, end - column, parts[i].role, _(parts[i].text));
+        column += ceduo_canvas_draw_text(canvas, column, row, end - column, parts[i].role, "  ");
+        column += ceduo_canvas_draw_text(canvas, column, row, end - column, parts[i].role, _(parts[i].text));
     }
     if (!(s->peak > s->d->frame.y1) || column >= end)
         return;
     LOCAL_TEXT(words);
-    ceduo_text_then(&words, "; ", _("%s up to %s %s, at %s m"), _(s->peak_name), WRITTEN(s->peak, 3),
-                    s->energy ? _("kJ") : _("m"), WRITTEN(s->peak_x + s->d->scene->slope.origin_x, 3));
-    ceduo_canvas_put(canvas, column, row, end - column, CEDUO_ROLE_WARN, words.bytes);
+    ceduo_text_append_joined(&words, "; ", _("%s up to %s %s, at %s m"), _(s->peak_name), WRITTEN(s->peak, 3),
+                             s->energy ? _("kJ") : _("m"), WRITTEN(s->peak_x + s->d->scene->slope.origin_x, 3));
+    ceduo_canvas_draw_text(canvas, column, row, end - column, CEDUO_ROLE_WARN, words.bytes);
 }
 
 #define FULL_ROWS  8  /* four curves need so many rows, */

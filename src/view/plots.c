@@ -41,7 +41,7 @@ static struct ceduo_drawing drawing_of(const struct ceduo_picture *p)
                               .scene = s,
                               .option = p->option < s->options_count ? &s->options[p->option] : NULL,
                               .control = p->control < s->controls_count ? &s->controls[p->control] : NULL,
-                              .sight = ceduo_snapshot_of(p->snapshot, s, p->option),
+                              .sight = ceduo_snapshot_find(p->snapshot, s, p->option),
                               .bare = p->snapshot ? p->snapshot->bare : NULL,
                               .wooded = s->simulation.contact_model != CEDUO_INDEX,
                               .from = whole ? slope->x[0] : fmax(p->from, slope->x[0]),
@@ -69,7 +69,7 @@ bool ceduo_plot_add(enum ceduo_plot plot, struct ceduo_page *page, const struct 
     d.height = height;
     const char *why = draw(plot, &d);
     if (why)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, "%s", why);
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, "%s", why);
     return !why;
 }
 
@@ -95,15 +95,15 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
     if (!why)
         return;
     int width = ceduo_canvas_label_width(canvas, why), column = width < area->width ? (area->width - width) / 2 : 0;
-    ceduo_canvas_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT, why);
+    ceduo_canvas_draw_text(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT, why);
 }
 
 /* The share of the rocks that lie farther down, as it was seen, over the band of the simulated rocks. */
 #define SEEN_WIDTH  30
 #define SEEN_HEIGHT 6
 
-void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_seen_stops *s,
-                     double origin)
+void ceduo_plot_observed(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_observed_stops *s,
+                         double origin)
 {
     struct ceduo_drawing d = {.canvas = canvas,
                               .frame = {.left = area->left,
@@ -117,11 +117,11 @@ void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area,
     if (canvas->words_alone)
         return;
     if (area->width < SEEN_WIDTH || area->height < SEEN_HEIGHT) {
-        ceduo_canvas_put(canvas, area->left, area->top, area->width, CEDUO_ROLE_TEXT, _("too narrow"));
+        ceduo_canvas_draw_text(canvas, area->left, area->top, area->width, CEDUO_ROLE_TEXT, _("too narrow"));
         return;
     }
-    ceduo_canvas_put(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS,
-                     _("lies farther: line seen, shaded simulated"));
+    ceduo_canvas_draw_text(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS,
+                           _("lies farther: line seen, shaded simulated"));
     d.frame.left += axis;
     d.frame.width -= axis;
     for (size_t i = 0; i < CEDUO_SEEN_PLACES; i++)
@@ -138,16 +138,16 @@ void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct cedu
     const struct ceduo_plot_kind *kind = &ceduo_plot_kinds[plot];
     LOCAL_TEXT(place);
     if (plot == CEDUO_PLOT_STAND)
-        ceduo_text_put(&place, d.belt && d.belt->name ? d.belt->name : _("no forest"));
+        ceduo_text_append(&place, d.belt && d.belt->name ? d.belt->name : _("no forest"));
     else if (d.control)
         ceduo_words_place(&place, d.control);
     else
-        ceduo_text_put(&place, _("no control"));
+        ceduo_text_append(&place, _("no control"));
     if (!(kind->flags & CEDUO_PICTURE_WHOLE))
         ceduo_text_format(text, "%s: ", d.option && d.option->name ? d.option->name : "");
     ceduo_append_with(text, _(kind->title), ceduo_text_string(&place));
     if ((kind->flags & CEDUO_PICTURE_WAYS) && !d.wooded)
-        ceduo_text_then(text, ", ", _("without forest"));
+        ceduo_text_append_joined(text, ", ", _("without forest"));
 }
 
 /* ---- words ---- */
@@ -161,13 +161,13 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
     va_end(args);
     int width = ceduo_canvas_label_width(canvas, ceduo_text_string(&text));
     width = width < abs(most) ? width : abs(most);
-    return ceduo_canvas_put(canvas, most < 0 ? column + 1 - width : column, row, width, role, ceduo_text_string(&text));
+    return ceduo_canvas_draw_text(canvas, most < 0 ? column + 1 - width : column, row, width, role, ceduo_text_string(&text));
 }
 
 void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt)
 {
-    ceduo_text_put(text, belt->name ? belt->name : _("stand"));
-    ceduo_text_put(text, belt->assumed ? "*" : "");
+    ceduo_text_append(text, belt->name ? belt->name : _("stand"));
+    ceduo_text_append(text, belt->assumed ? "*" : "");
 }
 
 enum ceduo_role ceduo_plot_light_role(enum ceduo_light light)
@@ -182,7 +182,7 @@ const char *ceduo_plot_light_mark(enum ceduo_light light)
 
 void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light)
 {
-    ceduo_page_mark(page, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));
+    ceduo_page_cell_role(page, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));
 }
 
 /* ---- forests ---- */

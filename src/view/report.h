@@ -23,7 +23,7 @@ struct ceduo_page;
 struct ceduo_uncertainty_report {
     struct scene_file *file; /* its scene is only read, but by paths */
     const struct scene_inputs *inputs;
-    const struct ceduo_uncertainty_answer *answer; /* NULL: nothing is in uncertainty, nothing was computed */
+    const struct ceduo_uncertainty_result *answer; /* NULL: nothing is uncertain, nothing was computed */
     size_t points;
     uint64_t rocks;
     const struct ceduo_result *finer;  /* figures of the scene as it is from more rocks; NULL: those of the answer */
@@ -35,7 +35,7 @@ struct ceduo_uncertainty_report {
 /* The figure that all is about: too much energy where that is known, otherwise energy; or its mean over the rotation. */
 const struct ceduo_uncertainty_figure *ceduo_uncertainty_main(const struct ceduo_uncertainty_report *report, size_t option);
 
-/* Whether the scene asks for no answer; why there is none: that, or nothing is in uncertainty. */
+/* Whether the scene asks for no answer; why there is none: that, or nothing is uncertain. */
 bool ceduo_uncertainty_is_off(const struct ceduo_uncertainty_report *report);
 const char *ceduo_uncertainty_none(const struct ceduo_uncertainty_report *report);
 
@@ -53,7 +53,7 @@ double ceduo_uncertainty_input_value(const struct ceduo_uncertainty_report *repo
 void ceduo_uncertainty_input_end(struct text *text, const struct ceduo_uncertainty_report *report, size_t group, int end);
 
 /* A warning for each input whose value in the scene is not among those that it may have. */
-void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *report, ceduo_words_say *say, void *context);
+void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *report, ceduo_sentence_sink *say, void *context);
 
 /* What would measure an input, marked for translation; NULL: nothing that is known. */
 const char *ceduo_uncertainty_measured(const struct ceduo_uncertainty_report *report, size_t group);
@@ -116,11 +116,11 @@ struct ceduo_measure {
 
 /* Of 1000 rocks released those that arrive, and those that a control is judged by: that arrive with more than it withstands, or
  * at all where that is not given. `arrivals` NULL: not known. */
-struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *arrivals);
-struct ceduo_measure ceduo_judged(const struct ceduo_control *control, const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_measure_arriving(const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_measure_exceeding(const struct ceduo_control *control, const struct ceduo_arrivals *arrivals);
 
 /* Such a share with half its interval, as that of years is known. */
-struct ceduo_measure ceduo_share(struct ceduo_portion share);
+struct ceduo_measure ceduo_share(struct ceduo_mean_share share);
 
 /* Sets the 90 % range of a fit, `scale` being units shown; it holds the measure's value. */
 void ceduo_measure_range(struct ceduo_measure *measure, const struct ceduo_surface_fit *fit, double scale);
@@ -139,7 +139,7 @@ struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *arrivals);
 struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *arrivals);
 
 /* Of 1000 those that end before the control in one way; the height under the rocks that 95 % of those that arrive stay below, m. */
-struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *arrivals, enum ceduo_end end);
+struct ceduo_measure ceduo_measure_stopped(const struct ceduo_arrivals *arrivals, enum ceduo_end end);
 struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *arrivals);
 
 /* Strings of a measure, which live as long as the block that calls: a name; its value, "-" if it is not known; an interval, "453–501";
@@ -150,13 +150,13 @@ const char *ceduo_measure_value(struct ceduo_measure m, char room[CEDUO_WORDS_RO
 const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, char room[CEDUO_WORDS_ROOM]);
 const char *ceduo_measure_interval(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
 const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_may_be(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_measure_plausible_range(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
 #define NAMED(m, name)         ceduo_measure_name(m, name, (char[CEDUO_WORDS_ROOM]){0})
 #define VALUE_OF(m)            ceduo_measure_value(m, (char[CEDUO_WORDS_ROOM]){0})
 #define SPAN(m, lo, hi)        ceduo_measure_span(m, lo, hi, (char[CEDUO_WORDS_ROOM]){0})
 #define INTERVAL(m)            ceduo_measure_interval(m, (char[CEDUO_WORDS_ROOM]){0})
 #define WITH_ERROR(m, between) ceduo_measure_error(m, between, (char[CEDUO_WORDS_ROOM]){0})
-#define MAY_BE(m)              ceduo_measure_may_be(m, (char[CEDUO_WORDS_ROOM]){0})
+#define MAY_BE(m)              ceduo_measure_plausible_range(m, (char[CEDUO_WORDS_ROOM]){0})
 
 /* ---- the answer ---- */
 
@@ -166,11 +166,11 @@ struct ceduo_report {
     const struct ceduo_result *result;   /* NULL: nothing is computed yet */
     const struct ceduo_verdict *verdict; /* of all options; NULL: not known */
     const struct ceduo_uncertainty_report
-        *uncertainty;                      /* NULL: not computed; in the terminal program perhaps of one option alone */
-    struct ceduo_years *const *years;      /* one for each option; NULL: not asked for */
-    struct ceduo_years *const *ahead;      /* likewise, for pictures; NULL, or NULL of an option: not known */
-    const struct ceduo_snapshot *snapshot; /* for pictures; NULL: there are none */
-    const struct ceduo_block *blocks;      /* CEDUO_BLOCKS for each option; NULL: none to show */
+        *uncertainty;                       /* NULL: not computed; in the terminal program perhaps of one option alone */
+    struct ceduo_years *const *years;       /* one for each option; NULL: not asked for */
+    struct ceduo_years *const *ahead;       /* likewise, for pictures; NULL, or NULL of an option: not known */
+    const struct ceduo_snapshot *snapshot;  /* for pictures; NULL: there are none */
+    const struct ceduo_size_result *blocks; /* CEDUO_SIZES for each option; NULL: none to show */
     struct ceduo_run_remarks remarks;
     struct ceduo_work work;
     double seconds;       /* that the runs took */
@@ -181,7 +181,7 @@ struct ceduo_report {
     bool busy;            /* finer figures are on their way */
 };
 
-/* Judge an option at a control, by what the report knows; see ceduo_outcome_of(). */
+/* Judge an option at a control, by what the report knows; see ceduo_outcome_compute(). */
 struct ceduo_outcome ceduo_report_outcome(const struct ceduo_report *report, size_t option, size_t control);
 
 /* An option at a control, with what a report knows of it. */
@@ -198,18 +198,18 @@ struct ceduo_subject {
     bool apart;  /* the caller shows mean, worst year and today elsewhere */
     bool so_far; /* the uncertainty is still being computed */
 };
-struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t option, size_t control);
+struct ceduo_subject ceduo_subject_find(const struct ceduo_report *report, size_t option, size_t control);
 
 /* An option over the years ahead; NULL if they are not known, or are all as today. */
 static inline const struct ceduo_choice *ceduo_report_ahead(const struct ceduo_report *report, size_t option)
 {
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && option < v->n ? &v->choices[option] : NULL;
-    return c && c->over.years > 0 && c->window.kind != CEDUO_WINDOW_ALIKE ? c : NULL;
+    return c && c->over.years > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT ? c : NULL;
 }
 
 /* Whether no place is asked for, or nothing can be said of the last one. */
-bool ceduo_page_says_nothing(const struct ceduo_result *result);
+bool ceduo_page_is_unassessable(const struct ceduo_result *result);
 
 /* The page that a forester reads first, or the `whole` one with every figure; 80 columns. `plain`: ASCII alone. */
 void ceduo_report_page(struct text *text, const struct ceduo_report *report, bool whole, bool plain);
@@ -242,15 +242,15 @@ struct ceduo_find_report {
     const struct ceduo_found *found;
     const struct ceduo_yield *yield; /* at that value; NaN where it is not known; NULL: none */
     bool yield_depends;              /* on the value; otherwise it is the same over the whole range */
-    const struct ceduo_sure *sure;
+    const struct ceduo_reliability *sure;
 };
-void ceduo_find_page(struct text *text, const struct ceduo_find_report *report);
+void ceduo_page_find(struct text *text, const struct ceduo_find_report *report);
 /* Which values reach the goal, and if wanted which limit that is; the value that is sure. Both in the unit in which the field is
  * shown (NULL: that of the file). */
 void ceduo_find_words(struct text *text, const struct ceduo_search *search, const struct ceduo_found *found,
                       const struct field *field, bool wanted);
-void ceduo_find_sure(struct text *text, const struct ceduo_search *search, const struct ceduo_sure *sure,
-                     const struct field *field);
+void ceduo_find_reliable(struct text *text, const struct ceduo_search *search, const struct ceduo_reliability *sure,
+                         const struct field *field);
 
 /* ---- what was fitted to what was seen ---- */
 
@@ -268,9 +268,10 @@ void ceduo_calibration_name(struct text *text, const char *path);
 void ceduo_calibration_number(struct text *text, const char *path, double value);
 
 /* What was seen, in the unit that files have: m, m/s, kJ, a count. */
-double ceduo_seen_shown(const struct scene_file *file, const struct ceduo_predicted *p, double value);
-const struct ceduo_observation *ceduo_seen_of(const struct ceduo_calibration_report *report, const struct ceduo_predicted *p);
-size_t ceduo_seen_number(const struct ceduo_observation *o);
+double ceduo_observed_shown(const struct scene_file *file, const struct ceduo_predicted *p, double value);
+const struct ceduo_observation *ceduo_observed_find(const struct ceduo_calibration_report *report,
+                                                    const struct ceduo_predicted *p);
+size_t ceduo_observed_number(const struct ceduo_observation *o);
 
 void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_report *report, bool plain);
 /* What the page says in words: misfit, what is not determined, what is known only together. */

@@ -91,7 +91,7 @@ static void end_stroke(struct ceduo_svg *svg)
     if (s->straight)
         append_point(path_of(svg), 'L', s->last);
     else
-        ceduo_text_put(path_of(svg), "h0"); /* a dot */
+        ceduo_text_append(path_of(svg), "h0"); /* a dot */
     s->open = false;
 }
 
@@ -176,7 +176,7 @@ static void draw_disc(void *to, const struct ceduo_raster *raster, enum ceduo_ro
         if (half > 0)
             append_point(path, 'M', (struct ceduo_position){c.x - r.x, c.y});
         append_point(path, 'A', r);
-        ceduo_text_put(path, " 0 0 0");
+        ceduo_text_append(path, " 0 0 0");
         append_point(path, ' ', (struct ceduo_position){c.x + half * r.x, c.y});
     }
     for (double y = c.y - r.y; y <= c.y + r.y; y += DOT)
@@ -199,7 +199,7 @@ static void draw_bar(void *to, int column, int row, int width, double fraction, 
     append_point(path, 'M', (struct ceduo_position){column * CELL, row * HIGH + 3});
     ceduo_text_char(path, 'h');
     append_number(path, length);
-    ceduo_text_put(path, "v10h");
+    ceduo_text_append(path, "v10h");
     append_number(path, -length);
     ceduo_text_char(path, 'z');
     mark_drawn(svg, column, row, (int)ceil(length / CELL));
@@ -258,7 +258,7 @@ static const struct ceduo_surface surface = {
 
 struct ceduo_svg *ceduo_svg_create(int width, int height)
 {
-    struct ceduo_svg *svg = ceduo_must(calloc(1, sizeof *svg));
+    struct ceduo_svg *svg = ceduo_check_memory(calloc(1, sizeof *svg));
     svg->cells = ceduo_cells_create(width, height, CEDUO_CHARSET_BRAILLE);
     svg->cells->canvas.surface = &surface;
     svg->cells->canvas.to = svg;

@@ -74,11 +74,11 @@ bool ceduo_typed_points(const char *typed, struct text *vertices, double *first,
         n = read_numbers(typed, false, values, TYPED_MAX / 2);
     if (n < 4 || n % 2 != 0)
         return false;
-    ceduo_text_put(vertices, "[");
+    ceduo_text_append(vertices, "[");
     for (size_t i = 0; i < n; i += 2)
         ceduo_text_format(vertices, "%s[%s, %s]", i ? ", " : "", ceduo_number_shortest(values[i], x),
                           ceduo_number_shortest(values[i + 1], z));
-    ceduo_text_put(vertices, "]");
+    ceduo_text_append(vertices, "]");
     *first = values[0];
     *last = values[n - 2];
     return true;
@@ -129,9 +129,9 @@ static bool put_places(const struct field *f, const char *typed, struct text *va
     for (size_t n; *(typed += strspn(typed, " ;")); typed += n) {
         n = strcspn(typed, " ;");
         snprintf(word, sizeof word, "%.*s", (int)n, typed);
-        ceduo_text_put(&list, list.length > 0 ? ", " : "[");
+        ceduo_text_append(&list, list.length > 0 ? ", " : "[");
         if (ceduo_typed_number(word, &number) == CEDUO_NUMBER_GOOD)
-            ceduo_text_put(&list, as_file(f, number, room));
+            ceduo_text_append(&list, as_file(f, number, room));
         else if (!put_place(word, &list))
             return false;
     }
@@ -153,7 +153,7 @@ static bool put_numbers(const struct field *f, const char *typed, struct text *v
         return put_places(f, typed, value);
     for (size_t i = 0; i < n; i++)
         ceduo_text_format(value, "%s%s", i ? ", " : "[", as_file(f, values[i], room));
-    ceduo_text_put(value, n > 0 ? "]" : "");
+    ceduo_text_append(value, n > 0 ? "]" : "");
     return n > 0;
 }
 
@@ -172,7 +172,7 @@ void ceduo_typed_value(const struct field *f, const char *typed, struct text *va
         typed = strcmp(typed, _("true")) == 0 ? "true" : "false";
     if (is_number(f) && (f->shown.per != 1 || strchr(typed, ',')) && ceduo_typed_number(typed, &number) == CEDUO_NUMBER_GOOD)
         typed = as_file(f, number, room);
-    ceduo_text_put(value, typed);
+    ceduo_text_append(value, typed);
 }
 
 /* ---- ranges ---- */
@@ -264,7 +264,7 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
     if (!f || (f->type != FIELD_CHOICE && f->type != FIELD_FLAG)) {
         bool other = f && is_number(f) && f->shown.per != 1 && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD;
         size_t start = shown->length;
-        ceduo_text_put(shown, other ? ceduo_shown_number(f, value, room) : written);
+        ceduo_text_append(shown, other ? ceduo_shown_number(f, value, room) : written);
         if (f && is_number(f) && shown->bytes)
             ceduo_number_spoken(shown->bytes + start);
         return;
@@ -282,7 +282,7 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
             said = _(known[i]);
     int ground = f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, written) : -1;
     const char *law = ground >= 0 ? _(f->choices->names[ground]) : ceduo_words_law(written);
-    ceduo_text_put(shown, strcmp(law, written) != 0 ? law : said);
+    ceduo_text_append(shown, strcmp(law, written) != 0 ? law : said);
 }
 
 /* ---- paths ---- */
@@ -305,7 +305,7 @@ void ceduo_shown_path(const char *path, struct text *text)
             if (places.length > 0)
                 ceduo_text_format(&place, ", %s", places.bytes);
             ceduo_text_free(&places);
-            ceduo_text_put(&places, ceduo_text_string(&place));
+            ceduo_text_append(&places, ceduo_text_string(&place));
             named = NULL;
             continue;
         }
@@ -315,5 +315,5 @@ void ceduo_shown_path(const char *path, struct text *text)
     }
     if (named)
         ceduo_text_format(text, "%s%s", _(named->shown.label), places.length ? ", " : "");
-    ceduo_text_put(text, named || places.length ? ceduo_text_string(&places) : path);
+    ceduo_text_append(text, named || places.length ? ceduo_text_string(&places) : path);
 }

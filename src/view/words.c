@@ -70,7 +70,7 @@ static int digits_beside(double value, double limit, int digits, bool decimals)
     return digits;
 }
 
-const char *ceduo_words_beside(double value, int digits, double limit, char room[CEDUO_NUMBER_ROOM])
+const char *ceduo_words_against_limit(double value, int digits, double limit, char room[CEDUO_NUMBER_ROOM])
 {
     return ceduo_words_shown(value, digits_beside(value, limit, digits, false), room);
 }
@@ -83,7 +83,7 @@ const char *ceduo_words_percent(double share, double limit, char room[CEDUO_NUMB
 
 void ceduo_words_number(struct text *text, double value, int digits)
 {
-    ceduo_text_put(text, WRITTEN(value, digits));
+    ceduo_text_append(text, WRITTEN(value, digits));
 }
 
 void ceduo_words_place(struct text *text, const struct ceduo_control *control)
@@ -101,11 +101,11 @@ void ceduo_append_with(struct text *text, const char *sentence, const char *stri
     ceduo_text_add(text, sentence, n);
     if (!at)
         return;
-    ceduo_text_put(text, string);
-    ceduo_text_put(text, at + 2);
+    ceduo_text_append(text, string);
+    ceduo_text_append(text, at + 2);
 }
 
-__attribute__((format(printf, 3, 4))) static void say_format(ceduo_words_say *say, void *context, const char *format, ...)
+__attribute__((format(printf, 3, 4))) static void say_format(ceduo_sentence_sink *say, void *context, const char *format, ...)
 {
     LOCAL_TEXT(sentence);
     va_list args;
@@ -129,7 +129,7 @@ static const struct ceduo_stems *first_unlikely(const struct ceduo_stand *s, uns
     return stems_at(s, i);
 }
 
-void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_words_say *say,
+void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_sentence_sink *say,
                           void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
@@ -159,7 +159,7 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
     }
 }
 
-void ceduo_words_thick(const struct ceduo_belt *belt, ceduo_words_say *say, void *context)
+void ceduo_words_thick_stems(const struct ceduo_belt *belt, ceduo_sentence_sink *say, void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
     const struct ceduo_stems *thick = first_unlikely(s, CEDUO_WARN_THICK);
@@ -172,14 +172,14 @@ void ceduo_words_thick(const struct ceduo_belt *belt, ceduo_words_say *say, void
 }
 
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
-                                const struct ceduo_stand_result *r, ceduo_words_say *say, void *context)
+                                const struct ceduo_stand_result *r, ceduo_sentence_sink *say, void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
     if ((!r->bare || r->felled) && r->trees_per_ha < scene->reserves_minimum)
         say_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."), NAME_OF(belt),
                    r->trees_per_ha, scene->reserves_minimum);
     ceduo_words_unlikely(belt, r, say, context);
-    ceduo_words_thick(belt, say, context);
+    ceduo_words_thick_stems(belt, say, context);
     double diameter = ceduo_rock_mean(&scene->rock).mean_diameter;
     if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
         say_format(say, context,
@@ -237,7 +237,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
 
 /* Rocks that leave the slope over its upper end, which would lie above it or come down again; and those that stems stop just below
  * the release, in the option where they are most. */
-static void say_lost(const struct ceduo_result *result, ceduo_words_say *say, void *context)
+static void say_lost(const struct ceduo_result *result, ceduo_sentence_sink *say, void *context)
 {
     const struct ceduo_simulated *uphill = &result->bare;
     double most = 0;
@@ -261,7 +261,7 @@ static void say_lost(const struct ceduo_result *result, ceduo_words_say *say, vo
 }
 
 /* Warns of controls with unusual rocks: more or fewer than the terrain suggests, faster or higher than on slopes. */
-static void say_ground(const struct ceduo_result *r, ceduo_words_say *say, void *context)
+static void say_ground(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
 {
     for (size_t c = 0; c < r->scene->controls_count; c++) {
         const struct ceduo_arrivals *bare = &r->bare.arrivals[c];
@@ -298,8 +298,8 @@ static void say_ground(const struct ceduo_result *r, ceduo_words_say *say, void 
     }
 }
 
-void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks, ceduo_words_say *say,
-                              void *context)
+void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
+                              ceduo_sentence_sink *say, void *context)
 {
     if (remarks->tolerance > 0 && !remarks->tolerance_met)
         say_format(say, context, _("The tolerance of %g was not met with %llu rocks."), remarks->tolerance,
@@ -310,7 +310,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
             const struct ceduo_arrivals *a = ceduo_result_wooded(result, k, i);
             fewest = a && a->reached < fewest ? a->reached : fewest;
         }
-        if (fewest < CEDUO_FEW_ROCKS)
+        if (fewest < CEDUO_ARRIVALS_MIN)
             say_format(say, context, _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
                        result->scene->controls[i].x_given, (unsigned long long)fewest);
     }
@@ -369,7 +369,7 @@ static void say_reason(struct text *text, const struct ceduo_index *s, double li
     if (contact && s->contact == CEDUO_PASS)
         ceduo_text_format(text, _("Every belt has an ADC below %g m (%s m at most) and no gap is longer."), limit, adc);
     else if (!(s->length > 0))
-        ceduo_text_put(text, _("No stem stands on the way."));
+        ceduo_text_append(text, _("No stem stands on the way."));
     else if (s->longest_gap > limit)
         ceduo_text_format(text, _("A gap of %s m has no forest; a rock reaches full speed in %g m."),
                           ROUNDED(s->longest_gap, 6), limit);
@@ -396,27 +396,28 @@ void ceduo_words_test(struct text *text, const struct ceduo_result *result, size
     }
     say_reason(text, s, limit, test == 0);
     if (test == 0 && counted > 0)
-        ceduo_text_then(text, " ", _("Stems below %g cm do not count."), counted * 100);
+        ceduo_text_append_joined(text, " ", _("Stems below %g cm do not count."), counted * 100);
     if (thick[test] == lights[test])
         return;
     bool stems = test == 1 || isfinite(s->thick.worst_adc);
-    ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s%s."), fmax(counted, CEDUO_THICK_DBH) * 100,
-                    !stems      ? _("no stems")
-                    : test == 0 ? BESIDE(s->thick.worst_adc, 3, limit)
-                                : PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MAX),
-                    !stems      ? ""
-                    : test == 0 ? " m"
-                                : " %");
+    ceduo_text_append_joined(text, " ", _("Counting only stems from %g cm on it fails: %s%s."),
+                             fmax(counted, CEDUO_THICK_DBH) * 100,
+                             !stems      ? _("no stems")
+                             : test == 0 ? BESIDE(s->thick.worst_adc, 3, limit)
+                                         : PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MAX),
+                             !stems      ? ""
+                             : test == 0 ? " m"
+                                         : " %");
 }
 
 #define NAMED_MAX 2 /* options; more are counted */
 
-void ceduo_words_thin(const struct ceduo_result *r, ceduo_words_say *say, void *context)
+void ceduo_words_thin_stems(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
 {
     LOCAL_TEXT(where);
     size_t n = 0;
     for (size_t i = 0; r->scene->controls_count > 0 && i < r->options_count; i++)
-        if (ceduo_index_hangs_on_thin(ceduo_result_last_index(r, i)))
+        if (ceduo_index_depends_on_thin_stems(ceduo_result_last_index(r, i)))
             ceduo_text_format(&where, "%s'%s'", n++ > 0 ? ", " : ": ", NAME_OF(&r->scene->options[i]));
     if (n == 0)
         return;
@@ -446,8 +447,9 @@ void ceduo_words_points(struct text *text, const struct ceduo_slope *slope)
 
 void ceduo_words_topography(struct text *text, const struct ceduo_topography *t, bool brief)
 {
-    ceduo_text_then(text, text->length > 0 ? ", " : "", brief ? _("reach %.0f\xc2\xb0") : _("reach angle %.0f\xc2\xb0"),
-                    t->reach * DEGREES);
+    ceduo_text_append_joined(text, text->length > 0 ? ", " : "",
+                             brief ? _("reach %.0f\xc2\xb0") : _("reach angle %.0f\xc2\xb0"), t->reach * DEGREES);
     if (!isnan(t->shadow))
-        ceduo_text_then(text, ", ", brief ? _("shadow %.0f\xc2\xb0") : _("shadow angle %.0f\xc2\xb0"), t->shadow * DEGREES);
+        ceduo_text_append_joined(text, ", ", brief ? _("shadow %.0f\xc2\xb0") : _("shadow angle %.0f\xc2\xb0"),
+                                 t->shadow * DEGREES);
 }

@@ -15,7 +15,7 @@
 /* Results as sentences that a forester understands. Each function adds to `text`. */
 
 /* Takes sentences one by one. */
-typedef void ceduo_words_say(void *context, const char *sentence);
+typedef void ceduo_sentence_sink(void *context, const char *sentence);
 
 /* Append "271 points, 13 after simplifying to 0.5 m" of a profile, or its points alone if none is left out. */
 void ceduo_words_points(struct text *text, const struct ceduo_slope *slope);
@@ -27,28 +27,28 @@ void ceduo_words_topography(struct text *text, const struct ceduo_topography *to
 
 /* What is to be said of a belt: one sentence for each bit of its warnings, handed to `say` one by one. */
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
-                                const struct ceduo_stand_result *stand, ceduo_words_say *say, void *context);
+                                const struct ceduo_stand_result *stand, ceduo_sentence_sink *say, void *context);
 
 /* Of these what is unlikely about a stand, so that it may be a mistake. */
-void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_words_say *say,
+void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_sentence_sink *say,
                           void *context);
 
 /* Print a warning if a stem is thicker than those that the volumes of its species were measured on. */
-void ceduo_words_thick(const struct ceduo_belt *belt, ceduo_words_say *say, void *context);
+void ceduo_words_thick_stems(const struct ceduo_belt *belt, ceduo_sentence_sink *say, void *context);
 
-/* What is to be said of a run as a whole, but for ceduo_words_still(). `tolerance` is 0 where none was asked for. */
+/* What is to be said of a run as a whole, but for ceduo_words_still_moving(). `tolerance` is 0 where none was asked for. */
 struct ceduo_run_remarks {
     double tolerance;
     bool tolerance_met;
     bool ground_assumed;
 };
-void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks, ceduo_words_say *say,
-                              void *context);
+void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
+                              ceduo_sentence_sink *say, void *context);
 
-/* Why nothing can be said of a control (ceduo_says_nothing()): what arrives, how far rocks come, from where, and what to do. The
+/* Why nothing can be said of a control (ceduo_too_few_arrivals()): what arrives, how far rocks come, from where, and what to do. The
  * same of the first control of which that holds, as a warning. */
 void ceduo_words_nothing(struct text *text, const struct ceduo_result *result, size_t control);
-void ceduo_words_still(const struct ceduo_result *result, ceduo_words_say *say, void *context);
+void ceduo_words_still_moving(const struct ceduo_result *result, ceduo_sentence_sink *say, void *context);
 
 /* What is said of a control: the word of files, NULL where it is not answered; and why, in a sentence. */
 const char *ceduo_words_judgement(enum ceduo_judgement judgement);
@@ -71,7 +71,7 @@ void ceduo_words_reason(struct text *text, const struct ceduo_subject *subject);
 void ceduo_words_answer(struct text *text, const struct ceduo_subject *subject, size_t width);
 
 /* Which options have lights that thin shoots alone make green today. */
-void ceduo_words_thin(const struct ceduo_result *result, ceduo_words_say *say, void *context);
+void ceduo_words_thin_stems(const struct ceduo_result *result, ceduo_sentence_sink *say, void *context);
 
 /* One of the tests of an option at a control, as ceduo_light_names has them, with its reason. */
 void ceduo_words_test(struct text *text, const struct ceduo_result *result, size_t option, size_t control, size_t test);
@@ -80,13 +80,13 @@ void ceduo_words_test(struct text *text, const struct ceduo_result *result, size
 void ceduo_words_other(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 
 /* Which options the two energy laws put in another order, one sentence for each pair, of the first few. */
-void ceduo_words_turned(const struct ceduo_result *result, const struct ceduo_verdict *verdict, ceduo_words_say *say,
-                        void *context);
+void ceduo_words_rank_reversals(const struct ceduo_result *result, const struct ceduo_verdict *verdict,
+                                ceduo_sentence_sink *say, void *context);
 
 /* Which option is best over the years and which today, at the last control, in one or two sentences, each in a line of its
  * own; nothing of what is not known. Then which options have no rotation, and why. */
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *verdict);
-void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_words_say *say, void *context);
+void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_sentence_sink *say, void *context);
 
 /* Why an option has no rotation; nothing if it has one. */
 void ceduo_words_window(struct text *text, const struct ceduo_option *option);
@@ -96,13 +96,13 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option);
 void ceduo_words_years_sum(struct text *text, const struct ceduo_result *result, const struct ceduo_years *years);
 
 /* How years are numbered, and with how many rocks in each they were simulated (0: by the index). */
-void ceduo_words_counted(struct text *text, uint64_t rocks);
+void ceduo_words_year_numbering(struct text *text, uint64_t rocks);
 
 /* How often what is feared at a control happens, in one sentence; "13" and "13 (9–14)" years. */
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
-const char *ceduo_words_every(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
+const char *ceduo_words_interval_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
 const char *ceduo_words_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
-#define EVERY(rate) ceduo_words_every(rate, (char[CEDUO_WORDS_ROOM]){0})
+#define EVERY(rate) ceduo_words_interval_years(rate, (char[CEDUO_WORDS_ROOM]){0})
 #define YEARS(rate) ceduo_words_years(rate, (char[CEDUO_WORDS_ROOM]){0})
 
 /* Why energy is not judged; why options cannot be compared by what arrives. Marked for translation. */
@@ -140,9 +140,9 @@ const char *ceduo_words_shown_of_1000(double probability, double lo, double hi, 
 #define WRITTEN_OF_1000(p, lo, hi) ceduo_words_shown_of_1000(p, lo, hi, (char[CEDUO_NUMBER_ROOM]){0})
 /* A figure beside the limit that it is judged by, with so many digits or as it takes to lie where it does: 29.98 below 30;
  * a share in percent. */
-const char *ceduo_words_beside(double value, int digits, double limit, char room[CEDUO_NUMBER_ROOM]);
+const char *ceduo_words_against_limit(double value, int digits, double limit, char room[CEDUO_NUMBER_ROOM]);
 const char *ceduo_words_percent(double share, double limit, char room[CEDUO_NUMBER_ROOM]);
-#define BESIDE(value, digits, limit) ceduo_words_beside(value, digits, limit, (char[CEDUO_NUMBER_ROOM]){0})
+#define BESIDE(value, digits, limit) ceduo_words_against_limit(value, digits, limit, (char[CEDUO_NUMBER_ROOM]){0})
 #define PERCENT(share, limit)        ceduo_words_percent(share, limit, (char[CEDUO_NUMBER_ROOM]){0})
 /* With so many digits at most: 12, 0.5, 3e+06. */
 #define ROUNDED(value, digits) ceduo_words_rounded(value, digits, (char[CEDUO_NUMBER_ROOM]){0})

@@ -32,17 +32,19 @@ static void say_contradiction(struct text *text, const struct ceduo_arrivals *ba
 {
     double reach = bare->topography.reach * DEGREES, shadow = bare->topography.shadow * DEGREES;
     if (shadow > CEDUO_SHADOW_STEEP)
-        ceduo_text_then(
+        ceduo_text_append_joined(
             text, " ",
             _("But it lies under a shadow angle of %.1f\xc2\xb0 (from the foot of the face), and rocks usually reach "
               "places under more than %.0f\xc2\xb0."),
             shadow, CEDUO_SHADOW_STEEP);
     else
-        ceduo_text_then(text, " ",
-                        _("But it lies under a reach angle of %.1f\xc2\xb0 (from the release), and rocks usually reach places "
-                          "under more than %.0f\xc2\xb0."),
-                        reach, CEDUO_REACH_STEEP);
-    ceduo_text_then(text, " ", "%s", _("Check roughness and friction of the ground, the law of impact and the profile."));
+        ceduo_text_append_joined(
+            text, " ",
+            _("But it lies under a reach angle of %.1f\xc2\xb0 (from the release), and rocks usually reach places "
+              "under more than %.0f\xc2\xb0."),
+            reach, CEDUO_REACH_STEEP);
+    ceduo_text_append_joined(text, " ", "%s",
+                             _("Check roughness and friction of the ground, the law of impact and the profile."));
 }
 
 void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t control)
@@ -57,36 +59,38 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
     double start = r->scene->release.x.mean, falls = atan(ceduo_slope_fall(s, start)) * 180 / M_PI;
     double farthest = r->bare.ends.stop_max, way = farthest - start; /* NaN: none comes to rest */
     double face = ceduo_slope_face(s);
-    ceduo_text_then(text, " ",
-                    falls < 0 ? _("They start at %.10g m, where the ground rises by %.0f\xc2\xb0.")
-                              : _("They start at %.10g m, where the ground falls by %.0f\xc2\xb0."),
-                    start + s->origin_x, fabs(falls));
+    ceduo_text_append_joined(text, " ",
+                             falls < 0 ? _("They start at %.10g m, where the ground rises by %.0f\xc2\xb0.")
+                                       : _("They start at %.10g m, where the ground falls by %.0f\xc2\xb0."),
+                             start + s->origin_x, fabs(falls));
     if (r->scene->release.x_assumed)
-        ceduo_text_then(text, " ", "%s", _("That is where the profile begins: release.x_m is not given."));
+        ceduo_text_append_joined(text, " ", "%s", _("That is where the profile begins: release.x_m is not given."));
     if (!isnan(way))
-        ceduo_text_then(text, " ", _("They come to rest within %s m of it."), WRITTEN(way < 0.05 ? 0 : way, 2));
+        ceduo_text_append_joined(text, " ", _("They come to rest within %s m of it."), WRITTEN(way < 0.05 ? 0 : way, 2));
     if (falls < 0)
-        ceduo_text_then(text, " ", "%s", _("The profile may have been drawn upward."));
+        ceduo_text_append_joined(text, " ", "%s", _("The profile may have been drawn upward."));
     /* what to do: a face that they do not reach is where they should start */
     if (face > start && !(farthest > face))
-        ceduo_text_then(
+        ceduo_text_append_joined(
             text, " ",
             _("The ground is steeper than 45\xc2\xb0 from %.10g m on: if they start there, write release.x_m: %.10g."),
             face + s->origin_x, face + s->origin_x);
     else if (ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS)
         say_contradiction(text, bare);
     else if (!(farthest > s->x[ceduo_slope_segment(s, start) + 1]))
-        ceduo_text_then(text, " ", "%s",
-                        _("Write where they start (release.x_m), or what sets them in motion (release.height_m, vx_m_s)."));
+        ceduo_text_append_joined(
+            text, " ", "%s",
+            _("Write where they start (release.x_m), or what sets them in motion (release.height_m, vx_m_s)."));
     else
-        ceduo_text_then(text, " ", "%s", _("If release and ground are right, rocks do not come as far as this place."));
+        ceduo_text_append_joined(text, " ", "%s",
+                                 _("If release and ground are right, rocks do not come as far as this place."));
 }
 
-void ceduo_words_still(const struct ceduo_result *r, ceduo_words_say *say, void *context)
+void ceduo_words_still_moving(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
 {
     for (size_t c = 0; c < r->scene->controls_count; c++) {
         LOCAL_TEXT(sentence);
-        if (!ceduo_says_nothing(&r->bare.arrivals[c]))
+        if (!ceduo_too_few_arrivals(&r->bare.arrivals[c]))
             continue;
         ceduo_words_nothing(&sentence, r, c);
         say(context, ceduo_text_string(&sentence));
@@ -100,16 +104,16 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
 {
     const struct ceduo_control *c = &r->scene->controls[control];
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
-    enum ceduo_judgement judgement = ceduo_judge(bare, wooded);
-    bool also_bare = ceduo_judge(bare, NULL) == CEDUO_YES;
+    enum ceduo_judgement judgement = ceduo_judge_control(bare, wooded);
+    bool also_bare = ceduo_judge_control(bare, NULL) == CEDUO_YES;
     if (judgement == CEDUO_NOTHING) {
         ceduo_words_nothing(text, r, control);
         return;
     }
     if (judgement == CEDUO_UNANSWERED) {
-        ceduo_text_put(text, isnan(c->accepted) ? _("It is not said what the place withstands (accepted_kJ).")
-                             : !r->wooded       ? _("The index alone says nothing of single rocks (contact_model: index).")
-                                                : _("Not computed yet."));
+        ceduo_text_append(text, isnan(c->accepted) ? _("It is not said what the place withstands (accepted_kJ).")
+                                : !r->wooded       ? _("The index alone says nothing of single rocks (contact_model: index).")
+                                                   : _("Not computed yet."));
         return;
     }
     const struct ceduo_arrivals *shown = wooded ? wooded : bare;
@@ -122,23 +126,24 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
                           WRITTEN_OF_1000(shown->exceed.mean, shown->exceed.lo, shown->exceed.hi), ceduo_words_accepted(c),
                           CEDUO_EXCEED_MAX * 1000);
     if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
-        ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."),
-                        (unsigned long long)shown->unfinished);
+        ceduo_text_append_joined(text, " ", _("%llu rocks never came to an end, and may arrive."),
+                                 (unsigned long long)shown->unfinished);
     else if (judgement == CEDUO_NOT_DECIDED)
-        ceduo_text_then(text, " ", _("So many rocks do not decide it (%llu): more do."), (unsigned long long)shown->released);
+        ceduo_text_append_joined(text, " ", _("So many rocks do not decide it (%llu): more do."),
+                                 (unsigned long long)shown->released);
     else if (also_bare)
-        ceduo_text_then(text, " ", "%s", _("The slope keeps to that without forest, too."));
+        ceduo_text_append_joined(text, " ", "%s", _("The slope keeps to that without forest, too."));
 }
 
 /* ---- in one line ---- */
 
 struct ceduo_outcome ceduo_report_outcome(const struct ceduo_report *report, size_t option, size_t control)
 {
-    return ceduo_outcome_of(report->result, report->verdict, report->uncertainty ? report->uncertainty->answer : NULL, option,
-                            control);
+    return ceduo_outcome_compute(report->result, report->verdict, report->uncertainty ? report->uncertainty->answer : NULL,
+                                 option, control);
 }
 
-struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t option, size_t control)
+struct ceduo_subject ceduo_subject_find(const struct ceduo_report *report, size_t option, size_t control)
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_verdict *v = report->verdict;
@@ -151,8 +156,8 @@ struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t 
                               .index = &r->options[option].controls[control],
                               .choice = v && option < v->n ? &v->choices[option] : NULL,
                               .outcome = ceduo_report_outcome(report, option, control)};
-    s.today = ceduo_judged(s.place, s.wooded);
-    s.mean = ceduo_share(s.choice ? s.choice->mean : (struct ceduo_portion){NAN, NAN});
+    s.today = ceduo_measure_exceeding(s.place, s.wooded);
+    s.mean = ceduo_share(s.choice ? s.choice->mean : (struct ceduo_mean_share){NAN, NAN});
     ceduo_measure_uncertainty(&s.today, report->uncertainty, option, control);
     ceduo_measure_uncertainty_over(&s.mean, report->uncertainty, option);
     return s;
@@ -275,17 +280,18 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, size_t 
 {
     const struct ceduo_scene *scene = s->report->result->scene;
     const struct ceduo_outcome *o = &s->outcome;
-    const struct ceduo_measure bare = ceduo_judged(s->place, s->bare);
+    const struct ceduo_measure bare = ceduo_measure_exceeding(s->place, s->bare);
     const char *left = WRITTEN(s->index->residual * J_TO_KJ, 3), *mean = WRITTEN(s->bare->energy.mean * J_TO_KJ, 3);
     for (enum length i = FULL; i < LENGTHS; i++) {
         ceduo_text_free(text);
         if (o->impossible)
-            ceduo_text_put(text, i < BRIEF ? _("more stems than a forest can hold: check the stand") : _("impossible stand"));
+            ceduo_text_append(text,
+                              i < BRIEF ? _("more stems than a forest can hold: check the stand") : _("impossible stand"));
         else if (o->answer == CEDUO_NOTHING)
             ceduo_text_format(text, _("of %llu rocks %llu arrive, even without forest"), (unsigned long long)s->bare->released,
                               (unsigned long long)s->bare->reached);
         else if (!s->wooded && s->report->result->wooded)
-            ceduo_text_put(text, _("not computed yet"));
+            ceduo_text_append(text, _("not computed yet"));
         else if (!s->wooded && o->answer != CEDUO_YES)
             ceduo_text_format(text,
                               i == FULL ? _("the index leaves %s of %s kJ in the mean; it knows no single rocks")
@@ -321,22 +327,22 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
     if (is_due(s)) /* "✔ YES today; ✘ NO after the cut" */
         ceduo_text_format(&verdict, _("%s today; %s after the cut"), DECISION(o->today), DECISION(o->answer));
     else
-        ceduo_text_put(&verdict, DECISION(o->answer));
+        ceduo_text_append(&verdict, DECISION(o->answer));
     if (s->so_far)
-        ceduo_text_put(&verdict, _(" so far"));
+        ceduo_text_append(&verdict, _(" so far"));
     if (o->answer == CEDUO_YES && o->also_bare)
-        ceduo_text_put(&verdict, _(", also without forest"));
+        ceduo_text_append(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
     if (s->report->result->scene->controls_count > 1) { /* the one that it is about */
         ceduo_words_place(&place, s->place);
-        ceduo_text_put(&place, ": ");
+        ceduo_text_append(&place, ": ");
         if (ceduo_utf8_width(place.bytes) + taken <= width) {
-            ceduo_text_put(text, place.bytes);
+            ceduo_text_append(text, place.bytes);
             taken += ceduo_utf8_width(place.bytes);
         }
     }
     say_reason(&reason, s, width > taken ? width - taken : 0);
-    ceduo_text_put(text, ceduo_text_string(&verdict));
+    ceduo_text_append(text, ceduo_text_string(&verdict));
     if (reason.length > 0)
         ceduo_text_format(text, "%s%s", verdict.length > 0 ? ": " : "", reason.bytes);
 }

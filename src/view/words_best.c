@@ -18,20 +18,20 @@ static const struct ceduo_window *window_of(const struct ceduo_verdict *v)
 void ceduo_words_window(struct text *text, const struct ceduo_option *option)
 {
     const struct ceduo_belt *still = NULL;
-    enum ceduo_window_kind kind = ceduo_window_of(option).kind;
+    enum ceduo_window_kind kind = ceduo_window_compute(option).kind;
     for (size_t i = 0; i < option->belts_count; i++)
         if (!still && !ceduo_stand_is_bare(&option->belts[i].stand))
             still = &option->belts[i];
     if (kind == CEDUO_WINDOW_AHEAD)
         ceduo_text_format(text, _("'%s' grows, but is never cut."), NAME_OF(option));
-    else if (kind == CEDUO_WINDOW_ALIKE && !still)
+    else if (kind == CEDUO_WINDOW_CONSTANT && !still)
         ceduo_text_format(text, _("All years of '%s' are alike: no stem stands in it."), NAME_OF(option));
-    else if (kind == CEDUO_WINDOW_ALIKE)
+    else if (kind == CEDUO_WINDOW_CONSTANT)
         ceduo_text_format(text, _("The answer for '%s' is that of today: the file of '%s' has no growth (growth, cutting)."),
                           NAME_OF(option), NAME_OF(still));
 }
 
-void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_words_say *say, void *context)
+void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_sentence_sink *say, void *context)
 {
     for (size_t i = 0; i < scene->options_count; i++) {
         LOCAL_TEXT(sentence);
@@ -46,40 +46,40 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, cons
     const struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
     const struct ceduo_window *w = &years->window;
     bool says = !isnan(s.exceed.mean);
-    if (w->kind == CEDUO_WINDOW_ALIKE)
-        ceduo_text_put(text, _("Each:"));
+    if (w->kind == CEDUO_WINDOW_CONSTANT)
+        ceduo_text_append(text, _("Each:"));
     else
         ceduo_text_format(text, _("Years %u to %u:"), w->first, w->last);
     const char *share = WITH_ERROR(ceduo_share(ceduo_share_over_years(years, &s)), " ");
     if (s.simulated > 0)
-        ceduo_text_then(text, " ", _("mean %s of 1000, worst %.0f (year %u)."), share, s.worst * 1000, s.worst_year);
+        ceduo_text_append_joined(text, " ", _("mean %s of 1000, worst %.0f (year %u)."), share, s.worst * 1000, s.worst_year);
     else if (!s.nothing)
-        ceduo_text_then(text, " ", _("the ADC is largest in year %u."), s.worst_year);
+        ceduo_text_append_joined(text, " ", _("the ADC is largest in year %u."), s.worst_year);
     if (s.nothing)
-        ceduo_text_then(text, " ", "%s", _("Nothing can be said: no rock arrives, even without forest."));
+        ceduo_text_append_joined(text, " ", "%s", _("Nothing can be said: no rock arrives, even without forest."));
     else if (s.simulated > 0 && says)
-        ceduo_text_then(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."), s.unprotected_energy,
-                        s.unprotected_contact, s.unprotected_free_run, s.years);
+        ceduo_text_append_joined(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."),
+                                 s.unprotected_energy, s.unprotected_contact, s.unprotected_free_run, s.years);
     else
-        ceduo_text_then(text, " ", _("Years that fail: contact %zu, free run %zu of %zu."), s.unprotected_contact,
-                        s.unprotected_free_run, s.years);
+        ceduo_text_append_joined(text, " ", _("Years that fail: contact %zu, free run %zu of %zu."), s.unprotected_contact,
+                                 s.unprotected_free_run, s.years);
     if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
-        ceduo_text_then(text, " ", _("From %g cm on: contact %zu, free run %zu."), CEDUO_THICK_DBH * 100, s.thick_contact,
-                        s.thick_free_run);
+        ceduo_text_append_joined(text, " ", _("From %g cm on: contact %zu, free run %zu."), CEDUO_THICK_DBH * 100,
+                                 s.thick_contact, s.thick_free_run);
     if (!isnan(s.passes_per_year) && !isnan(s.exceeds_per_year))
-        ceduo_text_then(text, " ", _("Expected a year: %s pass, %s with too much."), WRITTEN(s.passes_per_year, 2),
-                        WRITTEN(s.exceeds_per_year, 2));
+        ceduo_text_append_joined(text, " ", _("Expected a year: %s pass, %s with too much."), WRITTEN(s.passes_per_year, 2),
+                                 WRITTEN(s.exceeds_per_year, 2));
     else if (!isnan(s.passes_per_year))
-        ceduo_text_then(text, " ", _("Expected a year: %s pass."), WRITTEN(s.passes_per_year, 2));
+        ceduo_text_append_joined(text, " ", _("Expected a year: %s pass."), WRITTEN(s.passes_per_year, 2));
 }
 
-void ceduo_words_counted(struct text *text, uint64_t rocks)
+void ceduo_words_year_numbering(struct text *text, uint64_t rocks)
 {
     if (rocks > 0)
         ceduo_text_format(text, _("Years are counted from today, with %llu rocks in each; the worst is the worst of these."),
                           (unsigned long long)rocks);
     else
-        ceduo_text_put(text, _("Years are counted from today."));
+        ceduo_text_append(text, _("Years are counted from today."));
 }
 
 /* ---- the best ---- */
@@ -110,7 +110,7 @@ static void append_leaders(struct text *text, const struct ceduo_scene *scene, c
             ceduo_text_format(text, _("%s and %s"), ceduo_text_string(&said), ceduo_text_string(&one));
     }
     if (leader->rivals == 0)
-        ceduo_text_put(text, ceduo_text_string(&said));
+        ceduo_text_append(text, ceduo_text_string(&said));
 }
 
 /* "In years 1 to 25 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
@@ -128,7 +128,7 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
     if (leader->rivals + 1 == v->n && leader->equal)
         ceduo_text_format(text, _("all options are equal: %.0f of 1000."), mean);
     else if (leader->rivals + 1 == v->n)
-        ceduo_text_put(text, _("no option is clearly better than the others."));
+        ceduo_text_append(text, _("no option is clearly better than the others."));
     else if (leader->rivals == 0)
         ceduo_text_format(text, _("%s lets the fewest %s through: %s of 1000."), names.bytes, rocks, numbers.bytes);
     else if (leader->equal)
@@ -141,11 +141,11 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
 {
     if (v->nothing)
-        ceduo_text_put(text, _("Nothing can be said: no rock arrives, even without forest."));
+        ceduo_text_append(text, _("Nothing can be said: no rock arrives, even without forest."));
     LOCAL_TEXT(over);
     ceduo_text_format(&over, _("In years %u to %u"), window_of(v)->first, window_of(v)->last);
     const char *when = over.bytes;
-    bool years = v->rotation.known && !v->rotation.uneven && window_of(v)->kind != CEDUO_WINDOW_ALIKE;
+    bool years = v->rotation.known && !v->rotation.uneven && window_of(v)->kind != CEDUO_WINDOW_CONSTANT;
     bool today = v->today.known && !v->today.uneven;
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
     if (years && today && a->best == b->best && a->rivals == 0 && b->rivals == 0) {
@@ -169,7 +169,7 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 
 void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
-    const struct ceduo_other_energy *o = &r->options[option].others[control];
+    const struct ceduo_alternative_energy *o = &r->options[option].others[control];
     const struct ceduo_arrivals *a = &o->arrivals;
     const char *law = ceduo_words_law(ceduo_energy_words.names[o->model]);
     if (!o->known || !o->stems)
@@ -190,18 +190,19 @@ void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t o
                             "that arrive is %s \xc2\xb1%s kJ."),
                           law, reach, WRITTEN_OF_1000(a->exceed.mean, a->exceed.lo, a->exceed.hi), mean, half);
     if (a->released < ceduo_result_rocks(r))
-        ceduo_text_then(text, " ", _("Under this law the first %llu rocks alone were simulated."),
-                        (unsigned long long)a->released);
+        ceduo_text_append_joined(text, " ", _("Under this law the first %llu rocks alone were simulated."),
+                                 (unsigned long long)a->released);
 }
 
 static double of_1000(const struct ceduo_result *r, size_t option, bool other)
 {
-    const struct ceduo_other_energy *o = &r->options[option].others[r->last_control];
+    const struct ceduo_alternative_energy *o = &r->options[option].others[r->last_control];
     const struct ceduo_arrivals *by_other = o->known ? &o->arrivals : NULL;
     return 1000 * ceduo_share_at(other ? by_other : ceduo_result_wooded(r, option, r->last_control)).mean;
 }
 
-void ceduo_words_turned(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_words_say *say, void *context)
+void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_sentence_sink *say,
+                                void *context)
 {
     for (size_t i = 0; i < v->turned_count; i++) {
         size_t a = v->turned[i].better, b = v->turned[i].than, left = v->turned_count - i;
@@ -216,7 +217,7 @@ void ceduo_words_turned(const struct ceduo_result *r, const struct ceduo_verdict
             i = v->turned_count;
         } else {
             bool stems = r->options[a].others[r->last_control].stems;
-            const struct ceduo_other_energy *o = &r->options[stems ? a : b].others[r->last_control];
+            const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].others[r->last_control];
             ceduo_text_format(&sentence,
                               _("'%s' or '%s' is undecided: the order depends on the energy law. As the scene has it %.0f "
                                 "and %.0f of 1000, with %s %.0f and %.0f."),

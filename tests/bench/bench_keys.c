@@ -19,7 +19,7 @@ static void press(struct hand *h, int key, bool counts)
 {
     double start = ceduo_clock();
     ceduo_program_key(&h->app, key);
-    ceduo_program_news(&h->app);
+    ceduo_program_poll(&h->app);
     ceduo_screen_draw(&h->app);
     if (counts && h->n < KEYS_MAX)
         h->ms[h->n++] = 1e3 * (ceduo_clock() - start);

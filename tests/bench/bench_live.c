@@ -26,7 +26,7 @@ static void wait_for(struct app *app, uint64_t rocks)
     do {
         struct pollfd fd = {.fd = ceduo_jobs_fd(app->live.jobs), .events = POLLIN};
         poll(&fd, 1, 1000);
-        ceduo_program_news(app);
+        ceduo_program_poll(app);
     } while (!app->live.result || app->live.results.snapshot->snapshot->bare->flown.rocks < rocks ||
              app->live.asked != app->live.results.snapshot->key);
     ceduo_screen_draw(app);

@@ -36,7 +36,7 @@ struct sums {
     double n, sum, squares;
 };
 
-static void note(void *context, const struct ceduo_piece *p)
+static void note(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct track *t = context;
     if (p->contacts > t->contacts && p->contacts <= CONTACTS) { /* the first piece after that contact */
@@ -46,12 +46,12 @@ static void note(void *context, const struct ceduo_piece *p)
     }
 }
 
-static void fly(struct ceduo_follower *f, uint64_t rock, int mode, struct track *t)
+static void fly(struct ceduo_tracer *f, uint64_t rock, int mode, struct track *t)
 {
     t->contacts = 0;
     fesetround(mode);
     enum ceduo_status status =
-        ceduo_follower_follow(f, rock, &(struct ceduo_watch){.piece = note, .context = t}, &t->way, &t->crossing);
+        ceduo_tracer_run(f, rock, &(struct ceduo_trajectory_callbacks){.piece = note, .context = t}, &t->way, &t->crossing);
     fesetround(FE_TONEAREST);
     if (status != CEDUO_OK)
         fail("no memory");
@@ -80,7 +80,7 @@ static void compare(const char *name, const struct paper_site *site, const char 
     size_t many[MARKS] = {0};
     uint64_t ends_apart = 0;
     struct sums speed[2] = {0}, energy[2] = {0};
-    struct ceduo_follower *f = ceduo_follower_create(&site->scene, NULL);
+    struct ceduo_tracer *f = ceduo_tracer_create(&site->scene, NULL);
     static struct track t[2];
     for (size_t i = 0; i < MARKS; i++)
         if (!(apart[i] = malloc(rocks * sizeof(double))))
@@ -112,7 +112,7 @@ static void compare(const char *name, const struct paper_site *site, const char 
            (mean(&speed[1]) - mean(&speed[0])) / error(&speed[0]), mean(&energy[0]),
            (mean(&energy[1]) - mean(&energy[0])) / error(&energy[0]));
     fflush(stdout);
-    ceduo_follower_free(f);
+    ceduo_tracer_free(f);
 }
 
 int main(int argc, char **argv)

@@ -15,7 +15,7 @@ static void measure(const char *path, bool rotation, double goal, size_t repeats
     struct scene_file file;
     struct scene_inputs inputs;
     read_scene(&file, path);
-    if (!ceduo_inputs_of(&file, &inputs))
+    if (!ceduo_inputs_collect(&file, &inputs))
         fail("no memory");
     const struct ceduo_uncertainty_def def = {.scene = &file.scene,
                                               .inputs_count = inputs.n,
@@ -27,9 +27,9 @@ static void measure(const char *path, bool rotation, double goal, size_t repeats
     struct timing t;
     uint64_t evaluations = 0;
     for (size_t r = 0; r < repeats; r++) {
-        struct ceduo_uncertainty_answer answer;
+        struct ceduo_uncertainty_result answer;
         timing_begin(&t);
-        if (ceduo_uncertainty_ask(&def, &answer) != CEDUO_OK)
+        if (ceduo_uncertainty_compute(&def, &answer) != CEDUO_OK)
             fail("the sensitivity failed");
         timing_end(&t, r);
         evaluations = answer.evaluations;

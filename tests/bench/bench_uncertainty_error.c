@@ -45,12 +45,12 @@ static void by_surface(size_t points, uint64_t rocks, uint64_t seed, struct foun
                                               .points_max = points,
                                               .rocks = rocks,
                                               .threads = THREADS};
-    struct ceduo_uncertainty_answer answer;
+    struct ceduo_uncertainty_result answer;
     file.scene.simulation.seed = seed;
     double start = processor_s();
-    if (ceduo_uncertainty_ask(&def, &answer) != CEDUO_OK)
+    if (ceduo_uncertainty_compute(&def, &answer) != CEDUO_OK)
         fail("the sensitivity failed");
-    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(&answer, 0, CEDUO_UNCERTAINTY_EXCEED, false);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(&answer, 0, CEDUO_UNCERTAINTY_EXCEED, false);
     *found = (struct found){.band = {f->fit.p5, f->fit.p95},
                             .band_se = {f->fit.p5_se, f->fit.p95_se},
                             .seconds = processor_s() - start,
@@ -65,7 +65,7 @@ static void by_surface(size_t points, uint64_t rocks, uint64_t seed, struct foun
 /* ---- the usual design ---- */
 
 /* All designs have whole groups of equal size. */
-static void read_value(void *context, const struct point *point, const struct brought *at)
+static void read_value(void *context, const struct point *point, const struct control_means *at)
 {
     double sum = 0;
     for (size_t g = 0; g < CEDUO_SURFACE_GROUPS; g++)
@@ -185,7 +185,7 @@ int main(int argc, char **argv)
     size_t seeds = argument(argv, 1, 10, 1, 1000), true_points = argument(argv, 2, 4096, 2, 1 << 20);
     struct found truth;
     read_scene(&file, "profiles/scenes/paper-site.yaml");
-    if (!ceduo_inputs_of(&file, &inputs) || inputs.n > INPUTS_MAX)
+    if (!ceduo_inputs_collect(&file, &inputs) || inputs.n > INPUTS_MAX)
         fail("the inputs cannot be read");
     draw_anew(true_points, TRUE_ROCKS, TRUE_BAND_ROCKS, 1, &truth);
     puts("design,points,rocks,scenes,cpu_seconds,band_of_1000,shares_percent,band_held_percent,shares_held_percent");

@@ -37,8 +37,8 @@ static size_t clear_best(const struct ceduo_leader *leader)
 static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsigned threads, size_t step, struct said *today,
                  struct said *rotation)
 {
-    struct ceduo_question q = ceduo_question_default(scene);
-    struct ceduo_answer answer;
+    struct ceduo_request q = ceduo_request_default(scene);
+    struct ceduo_results answer;
     struct ceduo_verdict verdict;
     q.rocks = rocks[step];
     q.run.rocks_most = rocks[STEPS - 1];
@@ -46,12 +46,13 @@ static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsi
     q.run.arrivals_only = true;
     q.years = true;
     q.years_most = YEAR_STEP;
-    if (ceduo_ask(&q, pool, &answer) != CEDUO_OK || ceduo_verdict_make(answer.result, answer.years, NULL, &verdict) != CEDUO_OK)
+    if (ceduo_simulate_request(&q, pool, &answer) != CEDUO_OK ||
+        ceduo_compare_options(answer.result, answer.years, NULL, &verdict) != CEDUO_OK)
         fail("the question failed");
     today->best[step] = clear_best(&verdict.today);
     rotation->best[step] = clear_best(&verdict.rotation);
     ceduo_verdict_release(&verdict);
-    ceduo_answer_release(&answer);
+    ceduo_results_release(&answer);
 }
 
 static void count(const struct said *said, struct count *c)

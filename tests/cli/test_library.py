@@ -70,15 +70,15 @@ CPP = """#include <ceduo/ceduo.h>
 int main()
 {
     ceduo_flag stop{true};
-    ceduo_reading file;
+    ceduo_scene_file file;
     const char *sets[] = {"simulation.rocks=50", nullptr};
     if (std::strcmp(ceduo_version(), CEDUO_VERSION) != 0 || ceduo_scene_read("paper-site", sets, &file) != CEDUO_OK)
         return 1;
-    ceduo_question question = ceduo_question_default(&file.scene);
-    ceduo_answer answer;
+    ceduo_request question = ceduo_request_default(&file.scene);
+    ceduo_results answer;
     for (int i = 0; i < 2; i++) {
-        std::puts(ceduo_status_text(ceduo_ask(&question, nullptr, &answer)));
-        ceduo_answer_release(&answer);
+        std::puts(ceduo_status_text(ceduo_simulate_request(&question, nullptr, &answer)));
+        ceduo_results_release(&answer);
         question.run.cancel = &stop;
     }
     ceduo_uncertainty_def uncertainty{};
@@ -88,23 +88,23 @@ int main()
     uncertainty.points = 20;
     uncertainty.rocks = uncertainty.own_rocks = 20;
     uncertainty.threads = 1;
-    ceduo_uncertainty_answer range;
-    if (ceduo_uncertainty_ask(&uncertainty, &range) != CEDUO_OK)
+    ceduo_uncertainty_result range;
+    if (ceduo_uncertainty_compute(&uncertainty, &range) != CEDUO_OK)
         return 2;
     for (size_t i = 0; i < file.inputs_count; i++)
         std::puts(file.inputs[i].path);
     std::printf("%.17g %.17g\\n", range.figures[0].fit.p5, range.figures[0].fit.p95);
     ceduo_uncertainty_free(&range);
-    ceduo_reading_release(&file);
+    ceduo_scene_file_release(&file);
     if (ceduo_scene_read("vaujany", nullptr, &file) != CEDUO_OK)
         return 3;
     for (size_t i = 0; i < file.observations_count; i++)
         std::puts(file.observations[i].name);
-    ceduo_reading_release(&file);
+    ceduo_scene_file_release(&file);
     sets[0] = "rock.diameter_m=-1";
     if (ceduo_scene_read("paper-site", sets, &file) == CEDUO_BAD_FILE)
         std::fputs(file.messages, stdout);
-    ceduo_reading_release(&file);
+    ceduo_scene_file_release(&file);
 }
 """
 

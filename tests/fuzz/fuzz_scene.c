@@ -19,7 +19,7 @@ static void fail(const char *what, const char *text)
 /* The same tree comes back from its text. */
 static void check_emitted(struct scene_file *file)
 {
-    const struct node *plain = ceduo_emit_unresolve(&file->arena, file->root);
+    const struct node *plain = ceduo_emit_restore_references(&file->arena, file->root);
     struct text text = {0};
     if (!plain)
         abort();
@@ -46,7 +46,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct problems problems = {0};
     if (ceduo_scene_load_text(&file, NAME, text, &problems)) {
         struct scene_inputs inputs;
-        ceduo_inputs_of(&file, &inputs);
+        ceduo_inputs_collect(&file, &inputs);
         struct ceduo_run_def def = ceduo_run_def_default(&file.scene);
         struct ceduo_pool *pool;
         if (ceduo_pool_create(&def, &pool) != CEDUO_OK)
@@ -56,7 +56,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     } else if (problems.count == 0) {
         fail("refused without a word", text);
     }
-    ceduo_problems_close(&problems);
+    ceduo_problems_finish(&problems);
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
     free(text);

@@ -48,7 +48,7 @@ static void check_draws(struct scene_file *file, const char *use)
 {
     struct scene_inputs inputs;
     bool wanted = strncmp(use, "uncertainty", 11) == 0, found = false;
-    if (!ceduo_inputs_of(file, &inputs))
+    if (!ceduo_inputs_collect(file, &inputs))
         fail("no inputs", use);
     for (size_t i = 0; i < inputs.n; i++) {
         const struct ceduo_input *input = &inputs.items[i];
@@ -67,10 +67,10 @@ static void check_use(const char *use, const char *path)
     struct text text = {0};
     struct scene_file file;
     struct problems problems = {0};
-    ceduo_text_put(&text, SCENE);
+    ceduo_text_append(&text, SCENE);
     for (const char *at; (at = strstr(use, "%s")); use = at + 2)
         ceduo_text_format(&text, "%.*s%s", (int)(at - use), use, path);
-    ceduo_text_put(&text, use);
+    ceduo_text_append(&text, use);
     if (ceduo_scene_load_text(&file, "profiles/scenes/fuzz.yaml", ceduo_text_string(&text), &problems)) {
         const char *last = strstr(ceduo_text_string(&text), "stand:");
         last = strchr(last, '\n') + 1;
@@ -79,7 +79,7 @@ static void check_use(const char *use, const char *path)
     } else if (problems.count == 0) {
         fail("refused without a word", ceduo_text_string(&text));
     }
-    ceduo_problems_close(&problems);
+    ceduo_problems_finish(&problems);
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
     ceduo_text_free(&text);

@@ -149,7 +149,7 @@ static void turn(struct ceduo_result *r)
     const struct ceduo_estimate worse = {0.5, 0.1, NAN, NAN}, better = {-0.5, 0.1, NAN, NAN};
     r->options[1].differences[0].exceed = worse;
     for (size_t i = 0; i < 2; i++)
-        r->options[i].others[0] = (struct ceduo_other_energy){.known = true};
+        r->options[i].others[0] = (struct ceduo_alternative_energy){.known = true};
     r->options[1].others[0].to_first.exceed = better;
 }
 
@@ -165,21 +165,21 @@ static bool question(void)
     static double stay = 50;
     stand->cutting = (struct ceduo_cutting){.rotation = 20, .stay_count = 1, .stay_per_ha = &stay};
     site.belts[0].cut_year = 2;
-    struct ceduo_question q = ceduo_question_default(&site.scene);
+    struct ceduo_request q = ceduo_request_default(&site.scene);
     LOCAL(ceduo_pool, pool) = NULL;
-    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+    LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     q.run = def_of(false);
     q.rocks = 30;
     q.tolerance = 1;
     q.years = true;
     q.window = (struct ceduo_window){.last = 4, .step = 2};
     q.block_rocks = 20;
-    enum ceduo_status status = ceduo_ask(&q, &pool, &answer);
+    enum ceduo_status status = ceduo_simulate_request(&q, &pool, &answer);
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict = {0};
     if (status == CEDUO_OK)
         turn(answer.result);
     if (status == CEDUO_OK)
-        status = ceduo_verdict_make(answer.result, answer.years, NULL, &verdict);
+        status = ceduo_compare_options(answer.result, answer.years, NULL, &verdict);
     if (status == CEDUO_OK) {
         struct ceduo_years_summary s = ceduo_years_sum(answer.years[0], 0);
         assert_int_equal(verdict.turned_count, 1);
@@ -187,7 +187,7 @@ static bool question(void)
         add(ceduo_result_wooded(answer.result, 0, 0), sizeof(struct ceduo_arrivals));
         add(&s.reach, sizeof s.reach);
         add(&s.worst, sizeof s.worst);
-        for (size_t i = 0; i < 2 * CEDUO_BLOCKS; i++) {
+        for (size_t i = 0; i < 2 * CEDUO_SIZES; i++) {
             add(&answer.blocks[i].arrivals.reached, sizeof answer.blocks[i].arrivals.reached);
             add(&answer.blocks[i].arrivals.exceed.hi, sizeof answer.blocks[i].arrivals.exceed.hi);
         }
@@ -199,7 +199,7 @@ static bool question(void)
 static bool years_of_blocks(void)
 {
     static double volumes[] = {0.05, 1};
-    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     site.scene.blocks = &blocks;
     site.scene.blocks_count = 1;
@@ -226,11 +226,11 @@ static bool years_of_blocks(void)
 }
 
 /* The question of 30 rocks, answered. */
-static bool ask(struct ceduo_question q)
+static bool ask(struct ceduo_request q)
 {
-    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+    LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     q.rocks = 30;
-    enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
+    enum ceduo_status status = ceduo_simulate_request(&q, NULL, &answer);
     assert_int_equal(answer.result != NULL, status == CEDUO_OK);
     if (is_done(status)) {
         const struct ceduo_option_result *option = &answer.result->options[0];
@@ -245,7 +245,7 @@ static bool ask(struct ceduo_question q)
 static bool ask_years_apart(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_question q = ceduo_question_default(&site.scene);
+    struct ceduo_request q = ceduo_request_default(&site.scene);
     q.years = true;
     q.window = (struct ceduo_window){.last = 2, .step = 1};
     q.years_apart = true;
@@ -260,7 +260,7 @@ static bool ask_both_laws(void)
     struct ceduo_control controls[2] = {site.control, site.control}; /* at one place */
     site.scene.controls = controls;
     site.scene.controls_count = 2;
-    struct ceduo_question q = ceduo_question_default(&site.scene);
+    struct ceduo_request q = ceduo_request_default(&site.scene);
     q.run.other_energy = true;
     return ask(q);
 }
@@ -280,8 +280,8 @@ static struct ceduo_uncertainty_def uncertainty_def(size_t points, uint64_t rock
 
 static enum ceduo_status ask_uncertainty(struct ceduo_uncertainty_def def)
 {
-    struct ceduo_uncertainty_answer answer;
-    enum ceduo_status status = ceduo_uncertainty_ask(&def, &answer);
+    struct ceduo_uncertainty_result answer;
+    enum ceduo_status status = ceduo_uncertainty_compute(&def, &answer);
     if (status == CEDUO_OK) {
         add(&answer.figures[CEDUO_UNCERTAINTY_ENERGY].fit.p50, sizeof answer.figures[CEDUO_UNCERTAINTY_ENERGY].fit.p50);
         add(answer.today.orders, answer.today.count * sizeof answer.today.orders[0]);
@@ -310,10 +310,10 @@ static bool uncertainty_over_years(void)
 
 static bool sure(void)
 {
-    struct sure_answer answer = {.above = 0};
-    const struct sure_def def = {.of = uncertainty_def(8, 16), .goal = CEDUO_GOAL_ARRIVE, .target = .5, .sure = .9};
+    struct reliability_result answer = {.above = 0};
+    const struct reliability_def def = {.of = uncertainty_def(8, 16), .goal = CEDUO_GOAL_ARRIVE, .target = .5, .sure = .9};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    enum ceduo_status status = ceduo_sure_ask(&def, &answer);
+    enum ceduo_status status = ceduo_reliability_compute(&def, &answer);
     if (status == CEDUO_OK)
         add(&answer.above, sizeof answer.above);
     return is_done(status);
@@ -349,7 +349,7 @@ TEST(one_thread_ends_all)
     assert_true(told.times < 100);
 }
 
-/* What is in uncertainty has to be in the scene. */
+/* What is uncertain has to be in the scene. */
 TEST(a_place_that_is_not_there)
 {
     static const char *const colour = "rock.colour";
@@ -366,7 +366,7 @@ static bool fit_surface(void)
 {
     enum { INPUTS = 9, POINTS = 128, ROWS = 200, FIGURES = 2 };
     static double rows[ROWS], u[POINTS * INPUTS], values[FIGURES * POINTS];
-    static struct ceduo_groups y[FIGURES * POINTS], changes[FIGURES * POINTS];
+    static struct ceduo_replicates y[FIGURES * POINTS], changes[FIGURES * POINTS];
     const double *const draws[] = {rows};
     struct ceduo_input of[INPUTS] = {{.kind = CEDUO_INPUT_DRAWS, .places_count = 1, .draws_count = ROWS, .draws = draws}};
     for (size_t i = 1; i < INPUTS; i++)
@@ -393,7 +393,7 @@ static bool fit_surface(void)
     return is_done(status);
 }
 
-/* A copy of a scene with more belts than the arena gives room for at once, whose shoots are in uncertainty. */
+/* A copy of a scene with more belts than the arena gives room for at once, whose shoots are uncertain. */
 static bool copy_belts(void)
 {
     enum { MANY = 300 };
@@ -417,13 +417,13 @@ static bool copy_belts(void)
 static bool ask_by_index(void)
 {
     init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
-    return ask(ceduo_question_default(&site.scene));
+    return ask(ceduo_request_default(&site.scene));
 }
 
 static bool ask_of_one_option(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_question q = ceduo_question_default(&site.scene);
+    struct ceduo_request q = ceduo_request_default(&site.scene);
     q.only = 0;
     return ask(q);
 }
@@ -438,7 +438,7 @@ static bool assess(void)
     const struct ceduo_difference difference = {.reach = {-.6, .1, NAN, NAN}};
     LOCAL(ceduo_result, result);
     enum ceduo_status status = ceduo_result_assess(&site.scene, &flown[0], &(const struct ceduo_simulated *){&flown[1]},
-                                                   &difference, &(const struct ceduo_other_energy){0}, &result);
+                                                   &difference, &(const struct ceduo_alternative_energy){0}, &result);
     assert_int_equal(result != NULL, status == CEDUO_OK);
     if (is_done(status)) {
         assert_int_equal(result->bare.arrivals[0].reached, 10);
@@ -526,12 +526,12 @@ static bool follow_one(void)
 static bool follow(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    LOCAL(ceduo_follower, f) = ceduo_follower_create(&site.scene, &site.option);
+    LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&site.scene, &site.option);
     bool good = f;
     for (uint64_t rock = 0; rock < 3 && good; rock++) {
         struct ceduo_trajectory way;
         struct ceduo_crossing crossing;
-        good = is_done(ceduo_follower_follow(f, rock, NULL, &way, &crossing));
+        good = is_done(ceduo_tracer_run(f, rock, NULL, &way, &crossing));
         if (good)
             add(&way.x, sizeof way.x);
     }
@@ -549,7 +549,7 @@ static bool see(void)
         assert_null(o);
         return false;
     }
-    const struct ceduo_run_snapshot *sight = ceduo_snapshot_of(o, &site.scene, 0);
+    const struct ceduo_run_snapshot *sight = ceduo_snapshot_find(o, &site.scene, 0);
     add(sight->energies[0].values, sight->energies[0].n * sizeof(double));
     add(sight->envelopes, o->cells * sizeof *sight->envelopes);
     for (size_t i = 0; i < sight->trajectories_count; i++)

@@ -236,13 +236,13 @@ static bool read_scene(void)
     bool good = !reading->name
                     ? ceduo_scene_load_text(&file, "scene", said, &problems)
                     : ceduo_scene_load(&file, strchr(reading->name, '.') ? path : reading->name, reading->sets, n, &problems);
-    ceduo_problems_close(&problems);
+    ceduo_problems_finish(&problems);
     assert_true(reading->wrong ? !good : good || problems.memory);
     if (reading->wrong && !problems.memory)
         add_text(&problems.text);
     if (reading->wrong)
-        return !problems.memory && !ceduo_memory_lost();
-    good = good && ceduo_inputs_of(&file, &inputs);
+        return !problems.memory && !ceduo_memory_failed();
+    good = good && ceduo_inputs_collect(&file, &inputs);
     if (!good)
         return false;
     uint64_t key = ceduo_scene_key(&file.scene);
@@ -257,14 +257,14 @@ static bool read_scene(void)
         add(o->name, strlen(o->name));
         add(o->values ? o->values : &o->mean, sizeof(double));
     }
-    return !ceduo_memory_lost();
+    return !ceduo_memory_failed();
 }
 
 /* By the library's own call. */
 static bool read_by_library(void)
 {
     char path[256];
-    LOCAL_BY(ceduo_reading_release) struct ceduo_reading read;
+    LOCAL_BY(ceduo_scene_file_release) struct ceduo_scene_file read;
     in_folder(path, "seen.yaml");
     bool good = is_done(ceduo_scene_read(path, NULL, &read));
     for (size_t i = 0; i < read.inputs_count; i++)
@@ -281,11 +281,11 @@ static bool read_survey(void)
     struct survey_file file;
     LOCAL_TEXT(yaml);
     bool good = ceduo_survey_read(&file, &arena, survey_path, NULL, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
-    ceduo_problems_close(&problems);
+    ceduo_problems_finish(&problems);
     assert_true(good || problems.memory);
     if (good)
         add_text(&yaml);
-    return good && !ceduo_memory_lost();
+    return good && !ceduo_memory_failed();
 }
 
 /* ---- folders ---- */

@@ -24,7 +24,7 @@ static struct {
     struct ceduo_stems tree;
     struct ceduo_belt belt;
     struct ceduo_option options[2];
-    struct ceduo_block_class blocks;
+    struct ceduo_size_class blocks;
 } ground;
 
 static void make_ground(void)
@@ -56,18 +56,18 @@ static bool ask_of_blocks(void)
     make_ground();
     ground.volumes[0] = 0.1;
     ground.volumes[1] = 1;
-    ground.blocks = (struct ceduo_block_class){.per_year = 0.5, .exponent = 1.1, .volumes_count = 2, .volumes = ground.volumes};
+    ground.blocks = (struct ceduo_size_class){.per_year = 0.5, .exponent = 1.1, .volumes_count = 2, .volumes = ground.volumes};
     ground.of.scene.blocks = &ground.blocks;
     ground.of.scene.blocks_count = 1;
     ground.of.scene.rocks_per_year = 0.5;
-    struct ceduo_question q = ceduo_question_default(&ground.of.scene);
-    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+    struct ceduo_request q = ceduo_request_default(&ground.of.scene);
+    LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     q.rocks = ROCKS;
     q.run.threads = 1;
     q.run.other_energy = true;
     q.years = true;
     q.window = (struct ceduo_window){.last = 1, .step = 1};
-    enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
+    enum ceduo_status status = ceduo_simulate_request(&q, NULL, &answer);
     if (status == CEDUO_OK) {
         const struct ceduo_arrivals *a = ceduo_result_wooded(answer.result, 0, 0);
         assert_true(a->reach.mean > 0);
@@ -109,7 +109,7 @@ static bool look(void)
 {
     struct ceduo_observation seen[4];
     struct ceduo_observer *observer;
-    struct ceduo_counterpart to[4];
+    struct ceduo_observation_fit to[4];
     make_ground();
     see(seen);
     enum ceduo_status status = ceduo_observer_create(seen, 4, &observer);
@@ -117,7 +117,7 @@ static bool look(void)
         assert_null(observer);
         return false;
     }
-    status = ceduo_observer_look(observer, &ground.of.scene, ROCKS, NULL, to);
+    status = ceduo_observer_simulate(observer, &ground.of.scene, ROCKS, NULL, to);
     for (size_t i = 0; i < 4 && status == CEDUO_OK; i++)
         add(&to[i].log_likelihood, sizeof to[i].log_likelihood);
     for (size_t i = 1; i < 3 && status == CEDUO_OK; i++) {
@@ -137,7 +137,7 @@ static bool look_without_a_fit(void)
     make_ground();
     see(seen);
     const struct ceduo_calibration_scene scene = {.scene = &ground.of.scene, .observations_count = 4, .observations = seen};
-    enum ceduo_status status = ceduo_calibration_as_it_is(&scene, ROCKS, NULL, to);
+    enum ceduo_status status = ceduo_compare_with_observations(&scene, ROCKS, NULL, to);
     for (size_t i = 0; i < 4 && status == CEDUO_OK; i++)
         add(&to[i].p_value, sizeof to[i].p_value);
     return is_done(status);
@@ -323,8 +323,8 @@ static bool survey(void)
                                               .spacing = 0.3,
                                               .energy = NAN};
     const struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 1, .stems_count = 8, .stems = stems};
-    LOCAL_BY(ceduo_survey_free) struct ceduo_survey_answer answer;
-    enum ceduo_status status = ceduo_survey_ask(&s, &answer);
+    LOCAL_BY(ceduo_survey_free) struct ceduo_survey_result answer;
+    enum ceduo_status status = ceduo_survey_compute(&s, &answer);
     if (status == CEDUO_OK) {
         assert_int_equal(answer.shoots.from, CEDUO_HEIGHTS_CURVE);
         for (size_t i = 0; i < answer.classes_count; i++)

@@ -15,7 +15,7 @@ struct watch {
     struct ceduo_rock rock;
     double k; /* 0: no spin */
     bool smooth;
-    struct ceduo_piece last;
+    struct ceduo_trajectory_segment last;
     uint64_t pieces, flights, impacts;
     uint64_t in_crack;                               /* so many pieces flew from wall to wall of a crack */
     double size, under, energy_off, gain, crsp_gain; /* largest so far */
@@ -29,7 +29,7 @@ static double kinetic(const struct watch *w, double vx, double vz, double spin)
     return (vx * vx + vz * vz + w->k * (rim * rim)) / 2;
 }
 
-static double spin_at_end(const struct watch *w, const struct ceduo_piece *p)
+static double spin_at_end(const struct watch *w, const struct ceduo_trajectory_segment *p)
 {
     if (!p->rolls || !(w->k > 0))
         return p->spin;
@@ -37,7 +37,7 @@ static double spin_at_end(const struct watch *w, const struct ceduo_piece *p)
 }
 
 /* Height of a flight's parabola at x, from whichever end is nearer. */
-static double height_of_flight(const struct ceduo_piece *p, double g, double x)
+static double height_of_flight(const struct ceduo_trajectory_segment *p, double g, double x)
 {
     if (fabs(x - p->x) < fabs(x - p->x1)) {
         double t = (x - p->x) / p->vx;
@@ -70,7 +70,7 @@ static void look_under_roll(struct watch *w, size_t j, double x, double z)
 
 /* Above a straight segment the flight is concave: it is lowest over the ends of the segment or of its own. A vertex at
  * either end is on the segment that lies towards the rest of the flight. */
-static void look_under_flight(struct watch *w, const struct ceduo_piece *p)
+static void look_under_flight(struct watch *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
     double lo = fmin(p->x, p->x1), hi = fmax(p->x, p->x1), g = w->scene->scene.simulation.gravity;
@@ -87,7 +87,7 @@ static void look_under_flight(struct watch *w, const struct ceduo_piece *p)
     look_under(w, j, hi, z_hi);
 }
 
-static void look_at_flight(struct watch *w, const struct ceduo_piece *p)
+static void look_at_flight(struct watch *w, const struct ceduo_trajectory_segment *p)
 {
     double g = w->scene->scene.simulation.gravity;
     double v2 = (p->vx * p->vx + p->vz * p->vz) / 2, v2_end = (p->vx1 * p->vx1 + p->vz1 * p->vz1) / 2;
@@ -101,7 +101,7 @@ static void look_at_flight(struct watch *w, const struct ceduo_piece *p)
 
 /* A flight of less than a micrometre, or a hundredth of the radius, between two walls that face each other. A rock, which is
  * a point here, sinks down such a crack in ever so many contacts, and may well need more than are counted. */
-static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct ceduo_piece *p)
+static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct ceduo_trajectory_segment *p)
 {
     size_t j = ceduo_slope_segment(s, fmin(p->x, p->x1)), k = ceduo_slope_segment(s, fmax(p->x, p->x1));
     if (j > 0 && fmin(p->x, p->x1) == s->x[j]) /* on the vertex at the bottom, the wall is behind it */
@@ -112,7 +112,7 @@ static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct
 }
 
 /* On the ground a rock gains no more than what it drops. */
-static void look_at_roll(struct watch *w, const struct ceduo_piece *p)
+static void look_at_roll(struct watch *w, const struct ceduo_trajectory_segment *p)
 {
     double g = w->scene->scene.simulation.gravity, share = (1 + w->k) / 2;
     double before = share * (p->vx * p->vx + p->vz * p->vz), after = share * (p->vx1 * p->vx1 + p->vz1 * p->vz1);
@@ -127,7 +127,7 @@ static void look_at_roll(struct watch *w, const struct ceduo_piece *p)
 }
 
 /* crsp on a smooth segment: what was along the ground and in the spin becomes at most Rt(Rt + (1 - Rt)/1.2) of it. */
-static void look_at_crsp(struct watch *w, const struct ceduo_piece *p)
+static void look_at_crsp(struct watch *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
     const struct ceduo_simulation *simulation = &w->scene->scene.simulation;
@@ -149,7 +149,7 @@ static void look_at_crsp(struct watch *w, const struct ceduo_piece *p)
 
 /* With the friction bound a rock that goes on rolling keeps its speed, and one that flies from a smooth segment has lost at
  * most friction times the normal impulse along it. */
-static void look_at_bound(struct watch *w, const struct ceduo_piece *p)
+static void look_at_bound(struct watch *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_simulation *simulation = &w->scene->scene.simulation;
     const struct ceduo_slope *s = &w->scene->scene.slope;
@@ -172,7 +172,7 @@ static void look_at_bound(struct watch *w, const struct ceduo_piece *p)
     w->impacts++;
 }
 
-static void look_at_piece(void *context, const struct ceduo_piece *p)
+static void look_at_piece(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct watch *w = context;
     double sum = p->x + p->z + p->vx + p->vz + p->x1 + p->z1 + p->vx1 + p->vz1 + p->spin + p->seconds;
@@ -236,7 +236,8 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     }
     w.k = s->scene.simulation.law == CEDUO_LAW_LUMPED ? 0 : w.rock.k;
     assert_int_equal(ceduo_trajectory_follow(&s->scene, NULL, number % 11,
-                                             &(struct ceduo_watch){.piece = look_at_piece, .context = &w}, &way, &crossing),
+                                             &(struct ceduo_trajectory_callbacks){.piece = look_at_piece, .context = &w}, &way,
+                                             &crossing),
                      CEDUO_OK);
     if (w.bad || !isfinite(way.x + way.z) || (w.pieces > 0 && (way.x != w.last.x1 || way.z != w.last.z1)))
         fail_msg("scene %ju: not a number, or a gap in the way", (uintmax_t)number);

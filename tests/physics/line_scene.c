@@ -265,7 +265,7 @@ bool line_scene_lasts(const struct line_scene *s)
 
 /* ---- following ---- */
 
-void line_keep_piece(void *context, const struct ceduo_piece *piece)
+void line_keep_piece(void *context, const struct ceduo_trajectory_segment *piece)
 {
     struct line_way *to = context;
     if (to->count < LINE_PIECES_MAX)
@@ -275,6 +275,7 @@ void line_keep_piece(void *context, const struct ceduo_piece *piece)
 enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to)
 {
     to->count = 0;
-    return ceduo_trajectory_follow(&s->scene, NULL, 0, &(struct ceduo_watch){.piece = line_keep_piece, .context = to}, &to->way,
+    return ceduo_trajectory_follow(&s->scene, NULL, 0,
+                                   &(struct ceduo_trajectory_callbacks){.piece = line_keep_piece, .context = to}, &to->way,
                                    &to->crossing);
 }

@@ -66,9 +66,9 @@ struct line_way {
     struct ceduo_trajectory way;
     struct ceduo_crossing crossing;
     size_t count;
-    struct ceduo_piece pieces[LINE_PIECES_MAX];
+    struct ceduo_trajectory_segment pieces[LINE_PIECES_MAX];
 };
-void line_keep_piece(void *way, const struct ceduo_piece *piece);
+void line_keep_piece(void *way, const struct ceduo_trajectory_segment *piece);
 enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to);
 
 #endif

@@ -135,7 +135,7 @@ bool quarry_look(const struct quarry_trial *trial, double p[QUARRY_KINDS])
     double *values[QUARRY_KINDS] = {0}, truth[QUARRY_VALUES_MAX];
     bool good = make(trial, truth, &site, values, seen);
     struct ceduo_calibration_scene scene = {&site.scene, site.inputs, trial->kinds, seen};
-    good = good && ceduo_calibration_as_it_is(&scene, trial->rocks, NULL, found) == CEDUO_OK;
+    good = good && ceduo_compare_with_observations(&scene, trial->rocks, NULL, found) == CEDUO_OK;
     for (size_t k = 0; good && k < trial->kinds; k++)
         p[k] = found[k].p_value;
     forget(values);

@@ -79,7 +79,7 @@ struct hits {
     uint64_t all, before;
 };
 
-static void count_hit(void *context, const struct ceduo_stem_passed *stem)
+static void count_hit(void *context, const struct ceduo_stem_encounter *stem)
 {
     struct hits *hits = context;
     hits->all += stem->hit;
@@ -90,7 +90,7 @@ struct followed expect_as_followed(struct ceduo_run_def def, uint64_t rocks)
 {
     def.rocks_most = rocks;
     LOCAL(ceduo_run, run) = run_of(&def, rocks);
-    LOCAL(ceduo_follower, f) = ceduo_follower_create(def.scene, def.option);
+    LOCAL(ceduo_tracer, f) = ceduo_tracer_create(def.scene, def.option);
     const double *energies = ceduo_run_samples(run, 0, CEDUO_SAMPLE_ENERGY);
     const double *speeds = ceduo_run_samples(run, 0, CEDUO_SAMPLE_SPEED);
     const double *heights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_HEIGHT);
@@ -104,7 +104,7 @@ struct followed expect_as_followed(struct ceduo_run_def def, uint64_t rocks)
         struct ceduo_crossing c;
         struct hits hits = {.control = def.scene->controls[0].x};
         enum ceduo_status status =
-            ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = count_hit, .context = &hits}, &w, &c);
+            ceduo_tracer_run(f, rock, &(struct ceduo_trajectory_callbacks){.stem = count_hit, .context = &hits}, &w, &c);
         assert_true(status == CEDUO_OK || status == CEDUO_BAD_ROCK);
         found.bad += status == CEDUO_BAD_ROCK;
         if (status != CEDUO_OK)

@@ -72,7 +72,7 @@ double per_metre(double per_ha, double width)
     return per_ha * width / 1e4;
 }
 
-void note_stem(void *context, const struct ceduo_stem_passed *stem)
+void note_stem(void *context, const struct ceduo_stem_encounter *stem)
 {
     struct sweep *s = context;
     if (s->count == STEMS_MAX)
@@ -83,25 +83,25 @@ void note_stem(void *context, const struct ceduo_stem_passed *stem)
 void sweep_begin(void)
 {
     assert_int_equal(ceduo_scene_check(&plane.line.scene, NULL), CEDUO_OK);
-    sweep.follower = ceduo_follower_create(&plane.line.scene, &plane.line.option);
+    sweep.follower = ceduo_tracer_create(&plane.line.scene, &plane.line.option);
     assert_non_null(sweep.follower);
 }
 
 void sweep_end(void)
 {
-    ceduo_follower_free(sweep.follower);
+    ceduo_tracer_free(sweep.follower);
     sweep.follower = NULL;
 }
 
-void sweep_watched(uint64_t rock, const struct ceduo_watch *watch)
+void sweep_watched(uint64_t rock, const struct ceduo_trajectory_callbacks *watch)
 {
     sweep.count = 0;
-    assert_int_equal(ceduo_follower_follow(sweep.follower, rock, watch, &sweep.way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_tracer_run(sweep.follower, rock, watch, &sweep.way, NULL), CEDUO_OK);
 }
 
 void sweep_rock(uint64_t rock)
 {
-    sweep_watched(rock, &(struct ceduo_watch){.stem = note_stem, .context = &sweep});
+    sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.stem = note_stem, .context = &sweep});
 }
 
 void sweep_one(uint64_t rock)

@@ -41,18 +41,18 @@ double per_metre(double per_ha, double width);
 
 #define STEMS_MAX 4096
 struct sweep {
-    struct ceduo_follower *follower;
+    struct ceduo_tracer *follower;
     struct ceduo_trajectory way;
     size_t count;
-    struct ceduo_stem_passed stems[STEMS_MAX];
+    struct ceduo_stem_encounter stems[STEMS_MAX];
 };
 
 extern struct sweep sweep;
 
-void note_stem(void *context, const struct ceduo_stem_passed *stem);
+void note_stem(void *context, const struct ceduo_stem_encounter *stem);
 void sweep_begin(void);
 void sweep_end(void);
-void sweep_watched(uint64_t rock, const struct ceduo_watch *watch);
+void sweep_watched(uint64_t rock, const struct ceduo_trajectory_callbacks *watch);
 void sweep_rock(uint64_t rock);
 void sweep_one(uint64_t rock);
 /* for (SWEEP(rock, 5000)): rocks 0 to 4999, each of which has been swept; not to be left early. */

@@ -107,7 +107,7 @@ static void drop(struct ceduo_rock_def rock, double accepted)
     scene.scene.rock = rock;
 }
 
-static void size_up(const struct ceduo_arrivals *own, struct ceduo_block blocks[CEDUO_BLOCKS])
+static void size_up(const struct ceduo_arrivals *own, struct ceduo_size_result blocks[CEDUO_SIZES])
 {
     const struct ceduo_blocks_def def = {
         .scene = &scene.scene, .option = &scene.option, .rocks = BLOCKS_FLOWN, .effort = INFINITY, .own = own, .threads = 1};
@@ -128,11 +128,11 @@ static struct ceduo_rock_def slab(double volume)
  * stands before it. */
 static void expect_sizes(double own, size_t place)
 {
-    struct ceduo_block b[CEDUO_BLOCKS];
+    struct ceduo_size_result b[CEDUO_SIZES];
     drop(slab(own), NAN);
     scene.scene.simulation.contact_model = CEDUO_INDEX;
     size_up(NULL, b);
-    for (size_t i = 0, row = 0; i < CEDUO_BLOCKS; i++) {
+    for (size_t i = 0, row = 0; i < CEDUO_SIZES; i++) {
         if (b[i].own != (i == place))
             fail_msg("own volume %g: block %zu of %g m3 is %smarked", own, i, b[i].volume, b[i].own ? "" : "not ");
         assert_true(b[i].volume == (i == place ? own : volumes[row++]));
@@ -154,13 +154,13 @@ TEST(blocks_have_the_mass_and_width_of_their_volume)
 {
     for (size_t i = 0; i < LENGTH(rocks); i++) {
         struct ceduo_rock_def def = def_of(&rocks[i]);
-        struct ceduo_block b[CEDUO_BLOCKS];
+        struct ceduo_size_result b[CEDUO_SIZES];
         struct ceduo_rock own;
         assert_int_equal(ceduo_rock_of_means(&def, &own), CEDUO_OK);
         drop(def, NAN);
         scene.scene.simulation.contact_model = CEDUO_INDEX;
         size_up(NULL, b);
-        for (size_t k = 0; k < CEDUO_BLOCKS; k++) {
+        for (size_t k = 0; k < CEDUO_SIZES; k++) {
             expect_near(rocks[i].name, b[k].mass, own.mass / own.volume * b[k].volume);
             expect_near(rocks[i].name, b[k].diameter, own.mean_diameter * cbrt(b[k].volume / own.volume));
         }
@@ -171,10 +171,10 @@ TEST(blocks_have_the_mass_and_width_of_their_volume)
 TEST(blocks_fly_with_their_own_mass)
 {
     for (size_t bears = 0; bears < LENGTH(volumes); bears++) {
-        struct ceduo_block b[CEDUO_BLOCKS];
+        struct ceduo_size_result b[CEDUO_SIZES];
         drop(slab(.5), 1.1 * volumes[bears] * LIMESTONE * 25 / 2);
         size_up(NULL, b);
-        for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
+        for (size_t i = 0; i < CEDUO_SIZES; i++) {
             EXPECT_IS(b[i].arrivals, (released, BLOCKS_FLOWN), (reached, BLOCKS_FLOWN), (reach.mean, 1));
             bool exceeds = b[i].volume > 1.1 * volumes[bears];
             assert_int_equal(b[i].arrivals.exceeded, exceeds ? BLOCKS_FLOWN : 0);
@@ -186,12 +186,12 @@ TEST(blocks_fly_with_their_own_mass)
 /* What is known of the own block stands in its row as it is, if as many were simulated. */
 TEST(the_own_block_is_not_simulated_twice)
 {
-    struct ceduo_block blocks[CEDUO_BLOCKS];
+    struct ceduo_size_result blocks[CEDUO_SIZES];
     for (uint64_t released = BLOCKS_FLOWN - 1; released <= BLOCKS_FLOWN; released++) {
         const struct ceduo_arrivals own = {.released = released, .reached = 77};
         drop(slab(0.5), 1e3);
         size_up(&own, blocks);
-        for (size_t i = 0; i < CEDUO_BLOCKS; i++)
+        for (size_t i = 0; i < CEDUO_SIZES; i++)
             EXPECT(blocks[i].arrivals.reached == 77, ==, (blocks[i].own && released == BLOCKS_FLOWN));
     }
 }
@@ -202,7 +202,7 @@ TEST(the_own_block_is_not_simulated_twice)
 static struct ceduo_estimate rate_above_100_kj(double fall, double height)
 {
     static double ends[] = {.05, 1};
-    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = ends};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = ends};
     static struct ground g;
     ground_make(&g, 400, fall, height, .5, 0);
     struct ceduo_control road = {.x = 300, .x_given = 300, .accepted = 100e3, .measured_speed = NAN};

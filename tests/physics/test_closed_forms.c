@@ -45,7 +45,7 @@ TEST(free_fall)
 {
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
     release(500, 20, 0, 0, 0);
-    const struct ceduo_piece *p = &way.pieces[0];
+    const struct ceduo_trajectory_segment *p = &way.pieces[0];
     expect_relative(p->seconds, sqrt(2 * 20 / G), 1e-15);
     expect_relative(p->vz1, -sqrt(2 * G * 20), 1e-15);
     EXPECT_IS(*p, (x1, 500), (z1, 0), (vx1, 0));
@@ -58,7 +58,7 @@ TEST(projectiles_on_a_slope)
         straight(rises[i], (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
         release(500, 5, -4, 3, 0);
         double b = 3 + 4 * rises[i], t = (b + sqrt(b * b + 2 * G * 5)) / G; /* 5 + b t = g t2/2 */
-        const struct ceduo_piece *p = &way.pieces[0];
+        const struct ceduo_trajectory_segment *p = &way.pieces[0];
         ROWS(expect_relative, (p->seconds, t, 1e-14), (p->x1, 500 - 4 * t, 1e-14), (p->z1, rises[i] * (500 - 4 * t), 1e-14),
              (p->vz1, 3 - G * t, 1e-14));
     }
@@ -92,7 +92,7 @@ TEST(a_vertical_drop_rebounds_to_rn2_h)
     size_t i = 1;
     while ((h *= rn * rn) > radius) {
         EXPECT(i, <, way.count);
-        const struct ceduo_piece *p = &way.pieces[i++];
+        const struct ceduo_trajectory_segment *p = &way.pieces[i++];
         assert_false(p->rolls);
         expect_relative(p->vz * p->vz / (2 * G), h, 1e-13);
     }
@@ -105,7 +105,7 @@ TEST(an_oblique_impact_on_the_flat)
 {
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
     release(500, 0, 2, -4, 0);
-    const struct ceduo_piece *p = &way.pieces[0];
+    const struct ceduo_trajectory_segment *p = &way.pieces[0];
     assert_false(p->rolls);
     EXPECT_IS(*p, (x, 500), (vx, 1), (vz, 2), (contacts, 1));
     expect_relative(p->x1, 500 + 4 / G, 1e-15);
@@ -128,7 +128,7 @@ TEST(a_release_that_leaves_the_ground_has_no_contact)
 {
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
     release(500, 0, 2, 4, 0);
-    const struct ceduo_piece *p = &way.pieces[0];
+    const struct ceduo_trajectory_segment *p = &way.pieces[0];
     EXPECT_IS(*p, (contacts, 0), (vx, 2), (vz, 4));
     EXPECT_IS(p[1], (vx, 1), (contacts, 1));
     expect_relative(p[1].vz, 2, 1e-15);
@@ -182,7 +182,7 @@ static void roll_accelerates(enum ceduo_law law, double k, double rise, double m
     assert_int_equal(way.way.end, CEDUO_LEFT_SLOPE);
     EXPECT(way.way.x, ==, (rise < 0 ? 1000 : 0));
     for (size_t i = 0; i < way.count; i++) {
-        const struct ceduo_piece *p = &way.pieces[i];
+        const struct ceduo_trajectory_segment *p = &way.pieces[i];
         assert_true(p->rolls);
         double ds = hypot(p->x1 - 500, p->z1 - 500 * rise);
         expect_relative(p->vx1 * p->vx1 + p->vz1 * p->vz1, 2 * a * ds, 1e-11);
@@ -221,7 +221,7 @@ TEST(a_contact_in_a_roll_costs_the_same_for_any_rn)
             publish();
             release(1, 0, 3, -.025 * slope * 3, 3 / .34 * sqrt(1 + pow(.025 * slope, 2)));
             for (size_t j = 1; j < way.count && j < 40; j++) {
-                const struct ceduo_piece *before = &way.pieces[j - 1], *p = &way.pieces[j];
+                const struct ceduo_trajectory_segment *before = &way.pieces[j - 1], *p = &way.pieces[j];
                 double u2 = before->vx1 * before->vx1 + before->vz1 * before->vz1;
                 assert_true(p->rolls);
                 expect_relative(p->vx * p->vx + p->vz * p->vz, rt * (rt + (1 - rt) / 1.2) * u2, 1e-9);
@@ -359,7 +359,7 @@ TEST(a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along)
     assert_true(way.pieces[0].rolls);
     EXPECT_IS(way.pieces[0], (x1, 1), (vx, .5));
     for (size_t i = 1; i < way.count; i++) { /* Rt = 1/2 once more at x = 1, 1/4 from there on */
-        const struct ceduo_piece *p = &way.pieces[i];
+        const struct ceduo_trajectory_segment *p = &way.pieces[i];
         assert_true(p->contacts != 2 || (p->vx == .25 && p->x == 1));
         assert_true(p->contacts != 3 || (p->vx == .0625 && p->x == 1.5));
     }
@@ -401,7 +401,7 @@ static bool same_pieces(const struct line_way *a, const struct line_way *b, doub
 {
     bool same = a->count == b->count && a->way.end == b->way.end && a->way.contacts == b->way.contacts;
     for (size_t i = 0; same && i < a->count; i++) {
-        const struct ceduo_piece *p = &a->pieces[i], *q = &b->pieces[i];
+        const struct ceduo_trajectory_segment *p = &a->pieces[i], *q = &b->pieces[i];
         same = p->rolls == q->rolls && p->x * length == q->x && p->z * length == q->z && p->x1 * length == q->x1 &&
                p->z1 * length == q->z1 && p->vx * speed == q->vx && p->vz * speed == q->vz && p->vx1 * speed == q->vx1 &&
                p->vz1 * speed == q->vz1 && p->contacts == q->contacts && p->seconds * (length / speed) == q->seconds;

@@ -34,22 +34,22 @@ static void level_ground(enum ceduo_law law)
 /* The first two flights of a rock. */
 struct flights {
     size_t n;
-    struct ceduo_piece of[2];
+    struct ceduo_trajectory_segment of[2];
 };
 
-static void note(void *context, const struct ceduo_piece *piece)
+static void note(void *context, const struct ceduo_trajectory_segment *piece)
 {
     struct flights *f = context;
     if (f->n < 2)
         f->of[f->n++] = *piece;
 }
 
-static struct ceduo_trajectory follow(struct ceduo_follower *follower, uint64_t rock, struct flights *f)
+static struct ceduo_trajectory follow(struct ceduo_tracer *follower, uint64_t rock, struct flights *f)
 {
-    const struct ceduo_watch watch = {.piece = note, .context = f};
+    const struct ceduo_trajectory_callbacks watch = {.piece = note, .context = f};
     struct ceduo_trajectory way;
     f->n = 0;
-    assert_int_equal(ceduo_follower_follow(follower, rock, &watch, &way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_tracer_run(follower, rock, &watch, &way, NULL), CEDUO_OK);
     EXPECT(f->n, ==, 2);
     return way;
 }
@@ -80,7 +80,7 @@ TEST(no_two_numbers_of_a_rock_go_together)
         g.scene.rock.density = uniform(2600, 200);
         g.segment.rn = uniform(.5, .2);
         g.segment.rt = uniform(.8, .1);
-        LOCAL(ceduo_follower, follower) = ceduo_follower_create(&g.scene, NULL);
+        LOCAL(ceduo_tracer, follower) = ceduo_tracer_create(&g.scene, NULL);
         assert_non_null(follower);
         for (uint64_t r = 0; r < ROCKS; r++) {
             struct flights f;
@@ -135,7 +135,7 @@ TEST(a_facet_is_as_steep_as_the_radius_says)
                                              .z = z,
                                              .segments = segments,
                                              .segments_given = many ? MANY : 2};
-        LOCAL(ceduo_follower, follower) = ceduo_follower_create(&g.scene, NULL);
+        LOCAL(ceduo_tracer, follower) = ceduo_tracer_create(&g.scene, NULL);
         assert_non_null(follower);
         for (uint64_t r = 0; r < ROCKS; r++) {
             struct flights f;

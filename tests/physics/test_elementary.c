@@ -164,7 +164,7 @@ TEST(angles)
     for (uint64_t n = 1; n < 200; n++)
         for (uint64_t i = 0; i < n; i++) {
             double c, s;
-            ceduo_direction(i, n, &c, &s);
+            ceduo_sincos_turn(i, n, &c, &s);
             long double turn = 2 * acosl(-1) * (long double)i / (long double)n;
             assert_true(fabsl(c - cosl(turn)) <= 4e-16L && fabsl(s - sinl(turn)) <= 4e-16L);
         }
@@ -189,7 +189,7 @@ TEST(normal_law)
 {
     for (size_t i = 1; i < PLACES / 4; i++) {
         double z = place(i, -3, 3), p = place(i, 0, 1), small = exp2(place(i, -300, -1));
-        assert_true(fabs(ceduo_normal_chance(z) - gsl_cdf_ugaussian_P(z)) <= 1e-15);
+        assert_true(fabs(ceduo_normal_cdf(z) - gsl_cdf_ugaussian_P(z)) <= 1e-15);
         double q = ceduo_normal_quantile(p), tail = ceduo_normal_quantile(small);
         assert_true(fabsl(0.5L * erfcl(-q / sqrtl(2)) - p) <= 1e-15L * p + 3e-16L);
         assert_true(fabsl(0.5L * erfcl(-tail / sqrtl(2)) / small - 1) <= 2e-15L * (1 + (long double)(tail * tail)));

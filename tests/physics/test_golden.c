@@ -221,11 +221,11 @@ TEST_WITH(two_contacts_on_the_slope_of_table_3, open_paper, NULL)
     site.scene.release.vz = ceduo_number(0);
     walked.count = 0;
     assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0,
-                                             &(struct ceduo_watch){.piece = line_keep_piece, .context = &walked}, &walked.way,
-                                             NULL),
+                                             &(struct ceduo_trajectory_callbacks){.piece = line_keep_piece, .context = &walked},
+                                             &walked.way, NULL),
                      CEDUO_OK);
     EXPECT(walked.count, >=, 3);
-    const struct ceduo_piece *p = walked.pieces;
+    const struct ceduo_trajectory_segment *p = walked.pieces;
     assert_false(p[0].rolls || p[1].rolls || p[2].rolls);
     EXPECT_IS(p[0], (x, 5), (z, 117 - PAPER_TOP), (vx, 1), (vz, 0));
     ROWS(expect_decimals, (p[0].x1, 5.6993, 4), (p[0].z1 + PAPER_TOP, 114.6014, 4), (p[1].vx, 2.7930, 4), (p[1].vz, -4.1600, 4),

@@ -15,7 +15,7 @@
 
 static double first[] = {0.02, 0.5}, second[] = {0.5, 40};
 
-static struct ceduo_scene scene_of(struct ceduo_block_class *classes, size_t n)
+static struct ceduo_scene scene_of(struct ceduo_size_class *classes, size_t n)
 {
     struct ceduo_scene scene = ceduo_scene_default();
     scene.blocks = classes;
@@ -24,7 +24,7 @@ static struct ceduo_scene scene_of(struct ceduo_block_class *classes, size_t n)
 }
 
 /* Blocks a year of a class above v. */
-static double above(const struct ceduo_block_class *c, double v)
+static double above(const struct ceduo_size_class *c, double v)
 {
     double lo = c->volumes[0], hi = c->volumes[1], b = c->exponent;
     v = fmin(fmax(v, lo), hi);
@@ -35,7 +35,7 @@ static double above(const struct ceduo_block_class *c, double v)
 /* Weights sum to the blocks that come down, above any volume; volumes have even logarithms. */
 TEST(weights_sum_to_what_comes_down)
 {
-    struct ceduo_block_class classes[] = {{3, 1.1, 2, first}, {0.05, 0, 2, second}};
+    struct ceduo_size_class classes[] = {{3, 1.1, 2, first}, {0.05, 0, 2, second}};
     struct ceduo_scene scene = scene_of(classes, 2);
     LOCAL_BY(ceduo_sizes_release) struct sizes sizes;
     assert_true(ceduo_sizes_init(&sizes, &scene));
@@ -43,7 +43,7 @@ TEST(weights_sum_to_what_comes_down)
     for (double v = 0.02; v < 40; v *= 1.3) {
         double rate = 0, larger = 0;
         for (uint64_t r = 0; r < ROCKS; r++) {
-            struct size s = ceduo_size_of(&sizes, r);
+            struct size s = ceduo_size_find(&sizes, r);
             rate += s.volume > v ? s.weight * sizes.per_year / ROCKS : 0;
             larger += s.volume > v;
         }
@@ -55,7 +55,7 @@ TEST(weights_sum_to_what_comes_down)
 /* Of 100 rocks in a row, wherever they begin, some are of every tenth of the range. */
 TEST(every_few_rocks_have_all_sizes)
 {
-    struct ceduo_block_class class = {1, 1, 2, second};
+    struct ceduo_size_class class = {1, 1, 2, second};
     struct ceduo_scene scene = scene_of(&class, 1);
     struct sizes sizes;
     for (uint64_t seed = 1; seed < 20; seed++) {
@@ -64,7 +64,7 @@ TEST(every_few_rocks_have_all_sizes)
         for (uint64_t from = 0; from < 3000; from += 137) {
             int in[10] = {0};
             for (uint64_t r = from; r < from + 100; r++) {
-                double along = log(ceduo_size_of(&sizes, r).volume / 0.5) / log(80);
+                double along = log(ceduo_size_find(&sizes, r).volume / 0.5) / log(80);
                 EXPECT(along, >, 0);
                 EXPECT(along, <, 1);
                 in[(int)(10 * along)]++;
@@ -79,7 +79,7 @@ TEST(every_few_rocks_have_all_sizes)
 /* Typical rocks are of the sizes that come down. */
 TEST(typical_rocks_are_as_frequent_as_blocks)
 {
-    struct ceduo_block_class class = {1, 0.8, 2, second}, both[2] = {{3, 1.1, 2, first}, {0.5, 0.8, 2, second}};
+    struct ceduo_size_class class = {1, 0.8, 2, second}, both[2] = {{3, 1.1, 2, first}, {0.5, 0.8, 2, second}};
     struct ceduo_scene scene = scene_of(&class, 1);
     struct sizes sizes;
     assert_true(ceduo_sizes_init(&sizes, &scene));
@@ -87,7 +87,7 @@ TEST(typical_rocks_are_as_frequent_as_blocks)
     for (uint64_t r = 0; r < ROCKS; r++)
         if (ceduo_size_is_typical(&sizes, scene.simulation.seed, r)) {
             n++;
-            larger += ceduo_size_of(&sizes, r).volume > 2;
+            larger += ceduo_size_find(&sizes, r).volume > 2;
         }
     double p = above(&class, 2);
     EXPECT_NEAR(larger / n, p, 4 * sqrt(p * (1 - p) / n));
@@ -98,7 +98,7 @@ TEST(typical_rocks_are_as_frequent_as_blocks)
     for (uint64_t r = 0; r < ROCKS; r++)
         if (ceduo_size_is_typical(&sizes, scene.simulation.seed, r)) {
             n++;
-            larger += ceduo_size_of(&sizes, r).volume > 0.5;
+            larger += ceduo_size_find(&sizes, r).volume > 0.5;
         }
     EXPECT_NEAR(larger / n, 0.5 / 3.5, 4 * sqrt(0.5 / 3.5 * 3 / 3.5 / n));
     ceduo_sizes_release(&sizes);
@@ -234,7 +234,7 @@ TEST(energies_and_classes_are_what_they_are_called)
         int class;
     } rows[] = {{0, 0}, {29999, 0}, {30000, 1}, {299999, 1}, {3e5, 2}, {1e12, 2}, {NAN, -1}};
     for (size_t i = 0; i < LENGTH(rows); i++)
-        assert_int_equal(ceduo_intensity_of(rows[i].energy), rows[i].class);
+        assert_int_equal(ceduo_intensity_find(rows[i].energy), rows[i].class);
     ROWS(EXPECT_NEAR, (ceduo_hazard_energy(0), 100, 0), (ceduo_hazard_energy(15), 3000, 0),
          (ceduo_hazard_energy(CEDUO_HAZARD_ENERGIES - 1), 1e9, 0));
     for (size_t i = 1; i < CEDUO_HAZARD_ENERGIES; i++)

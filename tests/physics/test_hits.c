@@ -35,11 +35,11 @@ static void plant(double metres, double radius, bool shoots)
 
 static struct passed {
     size_t count;
-    struct ceduo_stem_passed stems[STEMS_MAX];
+    struct ceduo_stem_encounter stems[STEMS_MAX];
     struct ceduo_trajectory way;
 } passed;
 
-static void note_stem(void *context, const struct ceduo_stem_passed *stem)
+static void note_stem(void *context, const struct ceduo_stem_encounter *stem)
 {
     struct passed *to = context;
     EXPECT(to->count, <, STEMS_MAX);
@@ -48,7 +48,7 @@ static void note_stem(void *context, const struct ceduo_stem_passed *stem)
 
 static void follow(uint64_t rock)
 {
-    const struct ceduo_watch watch = {.stem = note_stem, .context = &passed};
+    const struct ceduo_trajectory_callbacks watch = {.stem = note_stem, .context = &passed};
     passed.count = 0;
     assert_int_equal(ceduo_trajectory_follow(&scene.scene, &scene.option, rock, &watch, &passed.way, NULL), CEDUO_OK);
 }
@@ -68,7 +68,7 @@ static void expect_mean_of_all_stems(bool shoots)
     for (uint64_t rock = 0; rock < 200; rock++) {
         follow(rock);
         for (size_t i = 0; i < passed.count; i++) {
-            const struct ceduo_stem_passed *s = &passed.stems[i];
+            const struct ceduo_stem_encounter *s = &passed.stems[i];
             double wanted = given * s->dbh * s->dbh / (.25 * .25 + sd * sd);
             assert_true(s->hit);
             EXPECT(s->shoot, ==, shoots);
@@ -95,7 +95,7 @@ TEST(stems_of_many_diameters_take_their_given_volume_on_the_mean)
 /* ---- heights ---- */
 
 /* Stem number i of the way of a rock, when all stems have this height. */
-static struct ceduo_stem_passed stem_of_height(uint64_t rock, size_t i, double height)
+static struct ceduo_stem_encounter stem_of_height(uint64_t rock, size_t i, double height)
 {
     uint64_t hits = 0;
     kind.height = height;
@@ -116,15 +116,15 @@ TEST(a_stem_as_high_as_the_rock_flies_is_not_hit)
             plant(200, .3, shoots);
             line_scene_release(&scene, 0, 30, 40, 0, 0);
             for (size_t i = 0; i < 5; i++) {
-                struct ceduo_stem_passed low = stem_of_height(rock, i, 1);
+                struct ceduo_stem_encounter low = stem_of_height(rock, i, 1);
                 assert_false(low.hit);
                 EXPECT(low.clearance, >, 1);
-                struct ceduo_stem_passed at = stem_of_height(rock, i, low.clearance);
+                struct ceduo_stem_encounter at = stem_of_height(rock, i, low.clearance);
                 EXPECT_SAME(at, low, x, clearance);
                 EXPECT(at.clearance, ==, at.height);
                 assert_false(at.hit);
                 EXPECT(at.taken, ==, 0);
-                struct ceduo_stem_passed higher = stem_of_height(rock, i, nextafter(low.clearance, INFINITY));
+                struct ceduo_stem_encounter higher = stem_of_height(rock, i, nextafter(low.clearance, INFINITY));
                 EXPECT_SAME(higher, low, x, clearance);
                 assert_true(higher.hit);
                 EXPECT(higher.taken, >, 0);

@@ -158,8 +158,8 @@ static const struct field rock_fields[] = {
 };
 
 static const struct field class_fields[] = {
-    FIELD(ceduo_block_class, per_year, NUMBER, FLIGHT),
-    FIELD(ceduo_block_class, exponent, NUMBER, FLIGHT),
+    FIELD(ceduo_size_class, per_year, NUMBER, FLIGHT),
+    FIELD(ceduo_size_class, exponent, NUMBER, FLIGHT),
 };
 
 static const struct field release_fields[] = {
@@ -322,7 +322,7 @@ TEST(whatever_decides_about_a_flight_makes_another_scene)
 TEST(whatever_blocks_come_down_makes_another_scene)
 {
     double volumes[] = {0.1, 1, 1, 5};
-    struct ceduo_block_class classes[] = {{2, 1, 2, volumes}, {1, 0, 2, volumes + 2}};
+    struct ceduo_size_class classes[] = {{2, 1, 2, volumes}, {1, 0, 2, volumes + 2}};
     open_site();
     uint64_t none = key_of(FLIGHT);
     site.scene.blocks = classes;

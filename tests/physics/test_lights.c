@@ -254,7 +254,7 @@ TEST(what_hangs_on_thin_stems)
         struct ceduo_index index = {.contact = lights[i & 1], .free_run = lights[i >> 1 & 1]};
         index.thick.contact = lights[i >> 2 & 1];
         index.thick.free_run = lights[i >> 3];
-        EXPECT(ceduo_index_hangs_on_thin(&index), ==, (i & 3) != i >> 2);
+        EXPECT(ceduo_index_depends_on_thin_stems(&index), ==, (i & 3) != i >> 2);
     }
 }
 
@@ -263,7 +263,7 @@ TEST(what_hangs_on_thin_stems)
 static bool says_nothing(uint64_t released, uint64_t reached, uint64_t unfinished)
 {
     const struct ceduo_arrivals a = {.released = released, .reached = reached, .unfinished = unfinished};
-    return ceduo_says_nothing(&a);
+    return ceduo_too_few_arrivals(&a);
 }
 
 /* None, or fewer than one of a thousand where a thousand were flown. */
@@ -296,9 +296,9 @@ TEST(what_a_bare_slope_keeps_needs_no_forest)
     const struct ceduo_arrivals many = {
         .released = 1000, .reached = 900, .exceed.mean = .8, .exceed.lo = .77, .exceed.hi = .83, .limit = .05};
     const struct ceduo_arrivals none = {.released = 1000, .exceed.hi = .004, .limit = .05};
-    assert_int_equal(ceduo_judge(&few, NULL), CEDUO_YES); /* by the index: through no forest more come */
-    ROWS(assert_int_equal, (ceduo_judge(&many, NULL), CEDUO_UNANSWERED), (ceduo_judge(&many, &few), CEDUO_YES),
-         (ceduo_judge(&many, &many), CEDUO_NO));
-    assert_int_equal(ceduo_judge(&many, &none), CEDUO_YES); /* the forest stops all of them */
-    assert_int_equal(ceduo_judge(&none, &none), CEDUO_NOTHING);
+    assert_int_equal(ceduo_judge_control(&few, NULL), CEDUO_YES); /* by the index: through no forest more come */
+    ROWS(assert_int_equal, (ceduo_judge_control(&many, NULL), CEDUO_UNANSWERED), (ceduo_judge_control(&many, &few), CEDUO_YES),
+         (ceduo_judge_control(&many, &many), CEDUO_NO));
+    assert_int_equal(ceduo_judge_control(&many, &none), CEDUO_YES); /* the forest stops all of them */
+    assert_int_equal(ceduo_judge_control(&none, &none), CEDUO_NOTHING);
 }

@@ -48,15 +48,15 @@ static void init_site(enum ceduo_law law, bool friction_bound)
 
 static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_scene *b)
 {
-    LOCAL(ceduo_follower, f) = ceduo_follower_create(a, NULL);
-    LOCAL(ceduo_follower, g) = ceduo_follower_create(b, NULL);
+    LOCAL(ceduo_tracer, f) = ceduo_tracer_create(a, NULL);
+    LOCAL(ceduo_tracer, g) = ceduo_tracer_create(b, NULL);
     assert_true(f);
     assert_true(g);
     for (uint64_t rock = 0; rock < ROCKS; rock++) {
         struct ceduo_trajectory v = {0}, w = {0};
         struct ceduo_crossing c = {0}, d = {0};
-        assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);
-        assert_int_equal(ceduo_follower_follow(g, rock, NULL, &w, &d), CEDUO_OK);
+        assert_int_equal(ceduo_tracer_run(f, rock, NULL, &v, &c), CEDUO_OK);
+        assert_int_equal(ceduo_tracer_run(g, rock, NULL, &w, &d), CEDUO_OK);
         EXPECT_SAME(v, w, end, contacts, x, z);
         EXPECT_SAME(c, d, reached, vx, vz, spin);
         EXPECT_NEAR(c.height, d.height, 1e-12); /* over a ground that was rounded when it was cut */
@@ -256,7 +256,7 @@ TEST(flights_along_teeth_touch_the_same_with_blocks)
 
 /* ---- rolls over many segments ---- */
 
-static void nobody_minds(void *context, const struct ceduo_piece *piece)
+static void nobody_minds(void *context, const struct ceduo_trajectory_segment *piece)
 {
     (void)context;
     (void)piece;
@@ -273,14 +273,14 @@ TEST(rolls_are_the_same_whoever_looks_on)
             move_vertices(&fine, pow(10, by), 3);
             struct ceduo_scene scene = site.scene;
             scene.slope = fine;
-            LOCAL(ceduo_follower, f) = ceduo_follower_create(&scene, NULL);
+            LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&scene, NULL);
             assert_non_null(f);
             for (uint64_t rock = 0; rock < 100; rock++) {
                 struct ceduo_trajectory v, w;
                 struct ceduo_crossing c, d;
-                struct ceduo_watch watch = {.piece = nobody_minds};
-                assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);
-                assert_int_equal(ceduo_follower_follow(f, rock, &watch, &w, &d), CEDUO_OK);
+                struct ceduo_trajectory_callbacks watch = {.piece = nobody_minds};
+                assert_int_equal(ceduo_tracer_run(f, rock, NULL, &v, &c), CEDUO_OK);
+                assert_int_equal(ceduo_tracer_run(f, rock, &watch, &w, &d), CEDUO_OK);
                 same += v.end == w.end && v.contacts == w.contacts && v.x == w.x && v.z == w.z && c.reached == d.reached &&
                         (!c.reached || c.vx == d.vx);
                 all++;

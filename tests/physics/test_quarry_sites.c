@@ -12,16 +12,16 @@
 #include "full.h"
 #include "quarry_site.h"
 
-#define SITES      20
-#define VALUES     2
-#define SELDOM     1e-4
-#define TRUE_SITES FULL_OR(400u, 200u)
+#define SITES         20
+#define VALUES        2
+#define NOINLINE_COLD 1e-4
+#define TRUE_SITES    FULL_OR(400u, 200u)
 
 /* How many of n are to be so at the least where each is with probability p. */
 static unsigned fewest(unsigned n, double p)
 {
     unsigned k = 0;
-    while (gsl_cdf_binomial_P(k, p, n) < SELDOM)
+    while (gsl_cdf_binomial_P(k, p, n) < NOINLINE_COLD)
         k++;
     return k;
 }

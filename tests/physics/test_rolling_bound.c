@@ -36,7 +36,7 @@ static void plane(double angle, double length, double radius, enum ceduo_law law
     scene.scene.simulation.friction_bound = true;
 }
 
-static double ground_way(const struct ceduo_piece *from, double x, double z)
+static double ground_way(const struct ceduo_trajectory_segment *from, double x, double z)
 {
     return hypot(x - from->x, z - from->z);
 }
@@ -47,7 +47,7 @@ static double ground_way(const struct ceduo_piece *from, double x, double z)
 static void expect_roll(double angle, double v0, double k, double friction)
 {
     assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
-    const struct ceduo_piece *first = &way.pieces[0];
+    const struct ceduo_trajectory_segment *first = &way.pieces[0];
     double pull = (v0 < 0 ? -sin(angle) : sin(angle)) - friction * cos(angle), size = v0 * v0 + 2 * G;
     double last = scene.x[1] - scene.scene.rock.diameter.mean / 2; /* less than a radius from the end a rock may fly out */
     size_t up = 0;                                                 /* pieces until it stands still */
@@ -55,7 +55,7 @@ static void expect_roll(double angle, double v0, double k, double friction)
         up++;
     EXPECT(up, >, 5);
     for (size_t i = 0; i < up; i++) {
-        const struct ceduo_piece *p = &way.pieces[i];
+        const struct ceduo_trajectory_segment *p = &way.pieces[i];
         assert_true(p->rolls);
         double gained = 2 * G * ground_way(first, p->x1, p->z1) * pull / (1 + k);
         EXPECT_NEAR(p->vx1 * p->vx1 + p->vz1 * p->vz1, v0 * v0 + gained, 1e-12 * (size + fabs(gained)));
@@ -151,7 +151,7 @@ TEST(the_first_contact_beyond_an_edge_is_an_impact)
         size_t flight = 0;
         while (way.pieces[flight].rolls && flight + 2 < way.count)
             flight++;
-        const struct ceduo_piece *before = &way.pieces[flight], *after = before + 1;
+        const struct ceduo_trajectory_segment *before = &way.pieces[flight], *after = before + 1;
         assert_true(flight > 10 && after->rolls);
         expect_relative(before->vx, v0, 1e-13);
         double impulse = mu * m * v0 * c, along = v0 * (1 + 2 * m * m) * c - impulse;

@@ -390,9 +390,11 @@ TEST(the_density_index)
     s.trees[0].dbh_sd = .02;
     expect_relative(ceduo_stems_sdi(s.trees, 2), index_by_hand(s.trees, 2), 1e-13);
     s.stand.growth.sdi_most = 800;
-    expect_relative(ceduo_space_of_trees(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 280, 1e-13);
+    expect_relative(ceduo_growing_space_used(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 280,
+                    1e-13);
     s.stand.growth.trees_sdi_most = 500;
-    expect_relative(ceduo_space_of_trees(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 500, 1e-13);
+    expect_relative(ceduo_growing_space_used(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 500,
+                    1e-13);
 }
 
 TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
@@ -429,7 +431,7 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     EXPECT(grown.stand.stools_per_ha, ==, 0);
     EXPECT(grown.stand.shoots_count, ==, 0);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
-    EXPECT(ceduo_space_of_trees(&s.stand.growth, &grown.stand), >, 1);
+    EXPECT(ceduo_growing_space_used(&s.stand.growth, &grown.stand), >, 1);
     ceduo_grown_stand_release(&grown);
 }
 

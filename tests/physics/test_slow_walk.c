@@ -43,7 +43,7 @@ static struct trace fast, slow, changed;
 
 /* ---- the program's walk ---- */
 
-static void note_piece(void *context, const struct ceduo_piece *p)
+static void note_piece(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct trace *t = context;
     if (p->contacts == 0 || p->contacts > CONTACTS || t->after[p->contacts].known)
@@ -56,9 +56,9 @@ static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct tr
     struct ceduo_trajectory way;
     struct ceduo_crossing c;
     memset(t, 0, sizeof *t);
-    assert_int_equal(
-        ceduo_trajectory_follow(scene, NULL, rock, &(struct ceduo_watch){.piece = note_piece, .context = t}, &way, &c),
-        CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_follow(scene, NULL, rock,
+                                             &(struct ceduo_trajectory_callbacks){.piece = note_piece, .context = t}, &way, &c),
+                     CEDUO_OK);
     t->contacts = way.contacts;
     t->end = way.contacts > CONTACTS ? -1 : (int)way.end;
     t->x = way.x;

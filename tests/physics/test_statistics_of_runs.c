@@ -189,7 +189,7 @@ static double rank_of(const double *values, size_t n, double p)
     return sorted[i];
 }
 
-static void expect_spread(const struct ceduo_spread_of_cell *s, const double *values, size_t n)
+static void expect_spread(const struct ceduo_cell_quantiles *s, const double *values, size_t n)
 {
     EXPECT_IS(*s, (p5, rank_of(values, n, .05)), (p50, rank_of(values, n, .5)), (p95, rank_of(values, n, .95)),
               (max, rank_of(values, n, 1)));
@@ -351,7 +351,7 @@ struct first_contact {
     bool seen;
 };
 
-static void look_at_first_contact(void *context, const struct ceduo_piece *p)
+static void look_at_first_contact(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct first_contact *f = context;
     if (p->contacts == 0)
@@ -367,7 +367,7 @@ static struct first_contact first_contacts(const struct ceduo_scene *scene)
 {
     struct first_contact f = {0};
     for (uint64_t rock = 0; rock < 20000; rock++) {
-        const struct ceduo_watch watch = {.piece = look_at_first_contact, .context = &f};
+        const struct ceduo_trajectory_callbacks watch = {.piece = look_at_first_contact, .context = &f};
         struct ceduo_trajectory w;
         f.seen = false;
         assert_int_equal(ceduo_trajectory_follow(scene, NULL, rock, &watch, &w, NULL), CEDUO_OK);
@@ -476,7 +476,7 @@ TEST(unfinished_blocks_count_by_their_weights)
     static struct line_scene flat;
     static double volumes[] = {.05, 5};
     const double x[] = {0, 100, 1000}, z[] = {0, 0, 0};
-    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     line_scene_init(&flat, 3, x, z, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
     flat.segments[0].rn = flat.segments[0].rt = ceduo_number(0);
     flat.segments[0].friction = 1;
@@ -487,14 +487,14 @@ TEST(unfinished_blocks_count_by_their_weights)
     flat.scene.blocks = &blocks;
     flat.scene.blocks_count = 1;
     LOCAL(ceduo_run, run) = run_scene(&flat.scene, ROCKS, 2);
-    LOCAL(ceduo_follower, f) = ceduo_follower_create(&flat.scene, NULL);
+    LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&flat.scene, NULL);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
     double all = 0, squares = 0, unfinished = 0;
     for (uint64_t r = 0; r < ROCKS; r++) {
         struct ceduo_trajectory way;
         struct ceduo_crossing crossing;
-        assert_int_equal(ceduo_follower_follow(f, r, NULL, &way, &crossing), CEDUO_OK);
+        assert_int_equal(ceduo_tracer_run(f, r, NULL, &way, &crossing), CEDUO_OK);
         all += weights[r];
         squares += weights[r] * weights[r];
         unfinished += way.end == CEDUO_UNFINISHED ? weights[r] : 0;

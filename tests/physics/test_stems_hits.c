@@ -26,7 +26,7 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
     for (SWEEP(rock, 5000)) {
         assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
         for (size_t i = 0; i < sweep.count; i++) {
-            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            const struct ceduo_stem_encounter *s = &sweep.stems[i];
             double most = 1.7 * 38.7 * pow(100 * s->dbh, 2.31), u = fabs(s->y) / ((B + s->dbh) / 2);
             double share = printed_share(u);
             if (!(fabs(s->taken / most - share) <= 1e-12 * fmax(share, 1e-3)))
@@ -57,7 +57,7 @@ TEST(hits_beside_the_middle_take_their_share)
     for (SWEEP(rock, 2000)) {
         ends[sweep.way.end]++;
         for (size_t i = 0; i < sweep.count; i++) {
-            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            const struct ceduo_stem_encounter *s = &sweep.stems[i];
             double u = fabs(s->y) / ((B + s->dbh) / 2), cost = printed_share(u) * volume * u_J_m3;
             if (s->hit)
                 expect_exact("taken", s->taken, fmin(cost, s->before), 1e-9 * s->before);
@@ -70,7 +70,7 @@ TEST(hits_beside_the_middle_take_their_share)
 
 /* A stem's hit between two pieces of the way, and what it does to the speed. */
 struct scaling {
-    struct ceduo_piece last;
+    struct ceduo_trajectory_segment last;
     double left; /* share of the energy that the hit before leaves; NaN: none */
     uint64_t hits, checked;
     double radius, mass, moment;
@@ -82,7 +82,7 @@ static double last_spin(const struct scaling *s)
     return !s->last.rolls ? s->last.spin : s->spins ? s->last.vx1 / s->radius : 0;
 }
 
-static void after_hit(void *context, const struct ceduo_piece *p)
+static void after_hit(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct scaling *s = context;
     if (!isnan(s->left)) {
@@ -98,7 +98,7 @@ static void after_hit(void *context, const struct ceduo_piece *p)
     s->last = *p;
 }
 
-static void at_hit(void *context, const struct ceduo_stem_passed *stem)
+static void at_hit(void *context, const struct ceduo_stem_encounter *stem)
 {
     struct scaling *s = context;
     double v2 = s->last.vx1 * s->last.vx1 + s->last.vz1 * s->last.vz1;
@@ -127,7 +127,7 @@ TEST(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy)
             s.mass = sweep.way.rock.mass;
             s.moment = spins ? sweep.way.rock.moment : 0;
             s.left = NAN;
-            sweep_watched(rock, &(struct ceduo_watch){.piece = after_hit, .stem = at_hit, .context = &s});
+            sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.piece = after_hit, .stem = at_hit, .context = &s});
             stopped += sweep.way.end == CEDUO_STOPPED_BY_STEMS;
         }
         sweep_end();
@@ -153,7 +153,7 @@ TEST(a_control_where_a_stem_stands_is_passed_before_the_hit)
         cross_at(400, rolls);
         sweep_one(rock);
         for (size_t i = 0; i < sweep.count && i < 4; i++) {
-            struct ceduo_stem_passed stem = sweep.stems[i];
+            struct ceduo_stem_encounter stem = sweep.stems[i];
             struct ceduo_trajectory way;
             struct ceduo_crossing c;
             cross_at(stem.x, rolls);
@@ -186,7 +186,7 @@ TEST(rocks_fly_over_stems_that_are_lower)
     for (SWEEP(rock, 6000)) {
         uint64_t hits = 0;
         for (size_t i = 0; i < sweep.count; i++) {
-            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            const struct ceduo_stem_encounter *s = &sweep.stems[i];
             double above = s->x < landing ? fall - g / 2 * (s->x / v) * (s->x / v) : 0;
             if (s->hit != (s->clearance < s->height) || fabs(s->clearance - above) > 1e-9 ||
                 (!s->hit && (s->taken != 0 || s->before != 0)))
@@ -208,17 +208,17 @@ TEST(rocks_fly_over_stems_that_are_lower)
 #define PIECES_MAX 4096
 struct pieces {
     size_t count;
-    struct ceduo_piece piece[PIECES_MAX];
+    struct ceduo_trajectory_segment piece[PIECES_MAX];
 };
 
-static void note_piece(void *context, const struct ceduo_piece *piece)
+static void note_piece(void *context, const struct ceduo_trajectory_segment *piece)
 {
     struct pieces *p = context;
     EXPECT(p->count, <, PIECES_MAX);
     p->piece[p->count++] = *piece;
 }
 
-static void stem_beside_pieces(void *context, const struct ceduo_stem_passed *stem)
+static void stem_beside_pieces(void *context, const struct ceduo_stem_encounter *stem)
 {
     (void)context;
     note_stem(&sweep, stem);
@@ -229,7 +229,7 @@ static double height_above_ground(const struct pieces *p, double x)
     size_t i = 0;
     while (i + 1 < p->count && x > p->piece[i].x1)
         i++;
-    const struct ceduo_piece *f = &p->piece[i];
+    const struct ceduo_trajectory_segment *f = &p->piece[i];
     EXPECT(x, >=, f->x);
     EXPECT(x, <=, f->x1);
     if (f->rolls)
@@ -251,9 +251,10 @@ TEST(a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope)
     sweep_begin();
     for (uint64_t rock = 0; rock < 1000; rock++) {
         pieces.count = 0;
-        sweep_watched(rock, &(struct ceduo_watch){.piece = note_piece, .stem = stem_beside_pieces, .context = &pieces});
+        sweep_watched(
+            rock, &(struct ceduo_trajectory_callbacks){.piece = note_piece, .stem = stem_beside_pieces, .context = &pieces});
         for (size_t i = 0; i < sweep.count; i++) {
-            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            const struct ceduo_stem_encounter *s = &sweep.stems[i];
             double above = height_above_ground(&pieces, s->x);
             if (s->hit != (s->clearance < s->height) || fabs(s->clearance - above) > 1e-9)
                 fail_msg("at %.17g: %.17g is not %.17g", s->x, s->clearance, above);
@@ -305,7 +306,7 @@ static void expect_stopped(const char *name, uint64_t rocks)
             assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
             continue;
         }
-        const struct ceduo_stem_passed *s = sweep.stems;
+        const struct ceduo_stem_encounter *s = sweep.stems;
         if (sweep.count != 1 || sweep.way.end != CEDUO_STOPPED_BY_STEMS || sweep.way.x != s->x || s->taken != s->before)
             fail_msg("%s: rock %ju is not stopped at %.17g", name, (uintmax_t)rock, s->x);
         sample_add(&stops, sweep.way.x);

@@ -58,7 +58,7 @@ static void sweep_ways(struct swept *to, uint64_t rocks)
     static struct map_stem stems[STEMS_MAX];
     for (SWEEP(rock, rocks)) {
         for (size_t i = 0; i < sweep.count; i++) {
-            const struct ceduo_stem_passed *p = &sweep.stems[i];
+            const struct ceduo_stem_encounter *p = &sweep.stems[i];
             stems[i] = (struct map_stem){p->x, p->y, p->dbh, p->shoot, p->stool};
             if (i > 0 && !(p->x >= p[-1].x))
                 fail_msg("rock %ju comes to stems in the wrong order", (uintmax_t)rock);

@@ -109,7 +109,7 @@ TEST(gaps_between_trees_are_exponential_and_offsets_uniform)
     for (SWEEP(rock, 7000)) {
         EXPECT(sweep.count, >, GAPS);
         for (size_t i = 0; i < GAPS; i++) {
-            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            const struct ceduo_stem_encounter *s = &sweep.stems[i];
             sample_add(&gaps, s->x - (i > 0 ? s[-1].x : 0));
             sample_add(&offsets, .5 + s->y / (B + s->dbh));
         }
@@ -247,7 +247,7 @@ static void expect_biased(const char *name, double per_ha, double mean, double s
     for (SWEEP(rock, rocks)) {
         spread_add(&per, (double)sweep.count / metres);
         for (size_t i = 0; i < sweep.count; i++) {
-            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            const struct ceduo_stem_encounter *s = &sweep.stems[i];
             if (!(fabs(s->y) <= (B + s->dbh) / 2))
                 fail_msg("%s: a stem %.17g m thick is met %.17g m off", name, s->dbh, s->y);
             spread_add(&dbh, s->dbh);
@@ -277,11 +277,11 @@ TEST(thick_stems_are_met_more_often)
     expect_biased("shoots .1 ± .04 m", 9000, .1, .04, 2900, 500);
 }
 
-static void expect_same_stems(const struct ceduo_stem_passed *a, size_t n)
+static void expect_same_stems(const struct ceduo_stem_encounter *a, size_t n)
 {
     assert_int_equal(n, sweep.count);
     for (size_t i = 0; i < n; i++) {
-        const struct ceduo_stem_passed *p = &a[i], *q = &sweep.stems[i];
+        const struct ceduo_stem_encounter *p = &a[i], *q = &sweep.stems[i];
         if (p->x != q->x || p->y != q->y || p->dbh != q->dbh || p->height != q->height || p->shoot != q->shoot ||
             p->stool != q->stool || p->hit != q->hit || p->before != q->before || p->taken != q->taken)
             fail_msg("stem %zu is another", i);
@@ -291,7 +291,7 @@ static void expect_same_stems(const struct ceduo_stem_passed *a, size_t n)
 /* A spread of 0 is none, and one of nearly nothing moves diameters and offsets by as little. */
 TEST(diameters_without_spread_change_nothing)
 {
-    static struct ceduo_stem_passed plain[STEMS_MAX];
+    static struct ceduo_stem_encounter plain[STEMS_MAX];
     for (uint64_t rock = 0; rock < 200; rock++) {
         clear_plane(520);
         plant_plot(1, 10, 510);
@@ -323,7 +323,7 @@ TEST(shoots_keep_their_diameters_beside_others)
         plant_shoots(plant_belt(30, 50, 2000, .5), 8000, .05);
         sweep_one(rock);
         for (size_t i = 0; i < sweep.count; i++) {
-            const struct ceduo_stem_passed *p = &sweep.stems[i];
+            const struct ceduo_stem_encounter *p = &sweep.stems[i];
             if (p->dbh == .1)
                 fail_msg("a stem at %g m of rock %d has the mean diameter", p->x, (int)rock);
             near += p->x > 29 && p->dbh != .05;
@@ -336,7 +336,7 @@ TEST(shoots_keep_their_diameters_beside_others)
  * do where each is put among the others by itself. */
 TEST(shoots_at_one_place_are_met_in_their_order)
 {
-    static struct ceduo_stem_passed plain[STEMS_MAX];
+    static struct ceduo_stem_encounter plain[STEMS_MAX];
     for (uint64_t rock = 0; rock < 200; rock++) {
         clear_plane(520);
         struct ceduo_belt *few = plant_belt(10, 260, 800, 0), *many = plant_belt(260, 510, 800, 0);
@@ -408,14 +408,14 @@ static double ring_reach(const struct ceduo_stand *stand)
     return fmax(ceduo_stool_radius(n, stand->spacing), ceduo_stool_radius(n + 1, stand->spacing));
 }
 
-static const struct planted *planted_as(const struct ceduo_stem_passed *stem)
+static const struct planted *planted_as(const struct ceduo_stem_encounter *stem)
 {
     size_t k = (size_t)(stem->height - 100);
     assert_true(k < planted_count);
     return &planted[k];
 }
 
-static void expect_one_of_those_planted(const struct ceduo_stem_passed *stem)
+static void expect_one_of_those_planted(const struct ceduo_stem_encounter *stem)
 {
     const struct planted *of = planted_as(stem);
     assert_int_equal(stem->shoot, of->shoots);
@@ -430,7 +430,7 @@ static void expect_one_of_those_planted(const struct ceduo_stem_passed *stem)
 static void expect_whole_stools(void)
 {
     for (size_t i = 0; i < sweep.count; i++) {
-        const struct ceduo_stem_passed *p = &sweep.stems[i];
+        const struct ceduo_stem_encounter *p = &sweep.stems[i];
         const struct planted *of = planted_as(p);
         size_t same = 0;
         for (size_t j = 0; j < sweep.count; j++)

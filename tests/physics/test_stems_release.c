@@ -71,7 +71,7 @@ struct cover {
     int dir;
 };
 
-static void cover_piece(void *context, const struct ceduo_piece *p)
+static void cover_piece(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct cover *c = context;
     c->lo = fmin(c->lo, p->x1);
@@ -81,7 +81,7 @@ static void cover_piece(void *context, const struct ceduo_piece *p)
     c->dir = dir;
 }
 
-static void cover_stem(void *context, const struct ceduo_stem_passed *stem)
+static void cover_stem(void *context, const struct ceduo_stem_encounter *stem)
 {
     const struct cover *c = context;
     if (stem->x > c->lo + 1e-9 && stem->x < c->hi - 1e-9)
@@ -91,7 +91,7 @@ static void cover_stem(void *context, const struct ceduo_stem_passed *stem)
 
 static int by_place(const void *a, const void *b)
 {
-    const struct ceduo_stem_passed *p = a, *q = b;
+    const struct ceduo_stem_encounter *p = a, *q = b;
     if (p->x != q->x)
         return p->x < q->x ? -1 : 1;
     if (p->y != q->y)
@@ -118,7 +118,7 @@ TEST(ground_that_is_covered_twice_holds_its_stems_once)
     sweep_begin();
     for (uint64_t rock = 0; rock < 2500; rock++) {
         struct cover c = {from, from, 0, 1};
-        sweep_watched(rock, &(struct ceduo_watch){.piece = cover_piece, .stem = cover_stem, .context = &c});
+        sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.piece = cover_piece, .stem = cover_stem, .context = &c});
         assert_int_equal(sweep.way.end, CEDUO_AT_REST);
         ROWS(EXPECT, (c.turns, >, 10), (c.lo, >, 200), (c.lo, <, 320), (c.hi, >, 500));
         size_t behind = 0;
@@ -191,7 +191,7 @@ TEST(stems_stand_as_dense_about_a_release_in_the_forest)
 /* A stool astride of the release is one stool, whichever way the rock goes first. */
 TEST(the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first)
 {
-    static struct ceduo_stem_passed ahead[STEMS_MAX];
+    static struct ceduo_stem_encounter ahead[STEMS_MAX];
     uint64_t astride = 0;
     for (uint64_t rock = 0; rock < 2000; rock++) {
         court_of_the_paper(AHEAD_AND_BACK);

@@ -63,11 +63,11 @@ static void open_sides(void)
 }
 
 /* Energy of each rock at the control, 0 where it does not arrive, whose `reached` is false. */
-static double energy_of_rock(struct ceduo_follower *f, uint64_t rock, bool *reached)
+static double energy_of_rock(struct ceduo_tracer *f, uint64_t rock, bool *reached)
 {
     struct ceduo_trajectory w;
     struct ceduo_crossing c;
-    assert_int_equal(ceduo_follower_follow(f, rock, NULL, &w, &c), CEDUO_OK);
+    assert_int_equal(ceduo_tracer_run(f, rock, NULL, &w, &c), CEDUO_OK);
     *reached = c.reached;
     return c.reached ? (w.rock.mass * (c.vx * c.vx + c.vz * c.vz) + w.rock.moment * c.spin * c.spin) / 2 : 0;
 }
@@ -79,7 +79,7 @@ struct pair_moments {
 static struct pair_moments pairs_of(const struct ceduo_option *a, const struct ceduo_option *b, uint64_t rocks)
 {
     struct pair_moments m = {0};
-    struct ceduo_follower *f = ceduo_follower_create(&site.scene, a), *g = ceduo_follower_create(&site.scene, b);
+    struct ceduo_tracer *f = ceduo_tracer_create(&site.scene, a), *g = ceduo_tracer_create(&site.scene, b);
     assert_true(f);
     assert_true(g);
     for (uint64_t rock = 0; rock < rocks; rock++) {
@@ -89,8 +89,8 @@ static struct pair_moments pairs_of(const struct ceduo_option *a, const struct c
         ceduo_moments_add(&m.exceed, (double)(e > site.control.accepted) - (double)(h > site.control.accepted));
         ceduo_moments_add(&m.energy, e - h);
     }
-    ceduo_follower_free(f);
-    ceduo_follower_free(g);
+    ceduo_tracer_free(f);
+    ceduo_tracer_free(g);
     return m;
 }
 
@@ -191,7 +191,7 @@ TEST(stems_hit_by_blocks)
 {
     enum { ROCKS = 400, SEEDS = 200 };
     static double volumes[] = {.05, 1}, own[ROCKS];
-    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     struct ceduo_moments over = {0}, errors = {0};
     struct ceduo_arrivals a;
     open_sides();
@@ -208,12 +208,12 @@ TEST(stems_hit_by_blocks)
             continue;
         }
         const double *w = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
-        LOCAL(ceduo_follower, f) = ceduo_follower_create(&site.scene, &sides.options[0]);
+        LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&site.scene, &sides.options[0]);
         double all = 0, reached = 0, sum = 0, mean = 0, ww = 0, wx = 0, xx = 0;
         for (uint64_t rock = 0; rock < ROCKS; rock++) {
             struct ceduo_trajectory way;
             struct ceduo_crossing c;
-            assert_int_equal(ceduo_follower_follow(f, rock, NULL, &way, &c), CEDUO_OK);
+            assert_int_equal(ceduo_tracer_run(f, rock, NULL, &way, &c), CEDUO_OK);
             own[rock] = c.reached ? (double)c.stems_hit : NAN;
             all += w[rock];
             reached += c.reached ? w[rock] : 0;
@@ -282,17 +282,18 @@ TEST(stems_that_take_nothing_leave_the_way_as_it_is)
         p->shoots.height = p->trees.height = 1e3;
     }
     site.belts[0].from = -5; /* stools before the release reach over it */
-    struct ceduo_follower *f = ceduo_follower_create(&site.scene, &site.option);
-    struct ceduo_follower *bare = ceduo_follower_create(&site.scene, NULL);
+    struct ceduo_tracer *f = ceduo_tracer_create(&site.scene, &site.option);
+    struct ceduo_tracer *bare = ceduo_tracer_create(&site.scene, NULL);
     assert_true(f);
     assert_true(bare);
     for (uint64_t rock = 0; rock < rocks; rock++) {
         struct ceduo_trajectory v, w;
         struct ceduo_crossing c, d;
-        assert_int_equal(ceduo_follower_follow(bare, rock, NULL, &v, &c), CEDUO_OK);
+        assert_int_equal(ceduo_tracer_run(bare, rock, NULL, &v, &c), CEDUO_OK);
         sweep.count = 0;
-        assert_int_equal(ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = note_stem, .context = &sweep}, &w, &d),
-                         CEDUO_OK);
+        assert_int_equal(
+            ceduo_tracer_run(f, rock, &(struct ceduo_trajectory_callbacks){.stem = note_stem, .context = &sweep}, &w, &d),
+            CEDUO_OK);
         same += v.end == w.end && v.contacts == w.contacts && fabs(v.x - w.x) < 1e-6 && c.reached == d.reached &&
                 fabs(c.vx - d.vx) < 1e-6 && fabs(c.vz - d.vz) < 1e-6 && fabs(c.height - d.height) < 1e-6;
         if (w.x < 137)
@@ -303,8 +304,8 @@ TEST(stems_that_take_nothing_leave_the_way_as_it_is)
         spread_add(&met[0], first / 67.5);
         spread_add(&met[1], ((double)sweep.count - first) / 67.5);
     }
-    ceduo_follower_free(f);
-    ceduo_follower_free(bare);
+    ceduo_tracer_free(f);
+    ceduo_tracer_free(bare);
     print_message("# %ju of %ju ways the same\n", (uintmax_t)same, (uintmax_t)rocks);
     EXPECT(same, >, rocks * 98 / 100); /* some turn elsewhere by rounding */
     expect_mean("stems per metre of ADS 1 on the paper's site", &met[0], per_metre(9076, B + .061));

@@ -22,7 +22,7 @@ TEST(stumps_are_met_as_low_trees)
         belt->stand.stumps = (struct ceduo_stumps){.per_ha = 900, .diameter = .25, .height = low ? .9 : 1.1, .energy = 1500};
         for (SWEEP(number, 800)) {
             for (size_t i = 0; i < sweep.count; i++) {
-                const struct ceduo_stem_passed *s = &sweep.stems[i];
+                const struct ceduo_stem_encounter *s = &sweep.stems[i];
                 EXPECT(s->hit, ==, !low);
                 EXPECT(fabs(s->y), <=, (B + .25) / 2);
                 expect_exact("taken", s->taken, low ? 0 : 1500, 1e-12);

@@ -46,10 +46,10 @@ struct result {
 static void follow(const struct line_scene *s, uint64_t rock, struct result *r)
 {
     memset(r, 0, sizeof *r);
-    LOCAL(ceduo_follower, follower) = ceduo_follower_create(&s->scene, NULL);
+    LOCAL(ceduo_tracer, follower) = ceduo_tracer_create(&s->scene, NULL);
     assert_non_null(follower);
     feclearexcept(FE_ALL_EXCEPT);
-    enum ceduo_status status = ceduo_follower_follow(follower, rock, NULL, &r->way, &r->crossing);
+    enum ceduo_status status = ceduo_tracer_run(follower, rock, NULL, &r->way, &r->crossing);
     int raised = fetestexcept(RAISED) & ~by_design;
     assert_int_equal(status, CEDUO_OK);
     if (raised)

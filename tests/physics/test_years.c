@@ -322,12 +322,12 @@ static void add_year(struct by_hand *to, const struct ceduo_years *years, size_t
 {
     const struct ceduo_scene *scene = &years->scene;
     double accepted = scene->controls[c].accepted, n = (double)years->count, reach = 0, exceed = 0, sum = 0, squares = 0;
-    LOCAL(ceduo_follower, f) = ceduo_follower_create(scene, &years->years[i].option);
+    LOCAL(ceduo_tracer, f) = ceduo_tracer_create(scene, &years->years[i].option);
     assert_non_null(f);
     for (uint64_t r = 0; r < SUMMED; r++) {
         struct ceduo_crossing at[CONTROLS];
         struct ceduo_trajectory way;
-        assert_int_equal(ceduo_follower_follow(f, r, NULL, &way, at), CEDUO_OK);
+        assert_int_equal(ceduo_tracer_run(f, r, NULL, &way, at), CEDUO_OK);
         double energy = at[c].reached ? energy_of(&way.rock, &at[c]) : 0;
         bool above = at[c].reached && energy > accepted;
         reach += at[c].reached;
@@ -408,7 +408,7 @@ TEST(years_of_blocks)
 {
     enum { FEW = 300 };
     static double volumes[] = {.05, 1}, marks[2][FEW];
-    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     struct ceduo_years *years[2];
     double weights[FEW];
     init();
@@ -528,7 +528,7 @@ TEST_WITH(nothing_is_hit_in_a_bare_year, fresh, NULL)
 
 static void expect_window(enum ceduo_window_kind kind, unsigned first, unsigned last)
 {
-    struct ceduo_window w = ceduo_window_of(&wood.option);
+    struct ceduo_window w = ceduo_window_compute(&wood.option);
     EXPECT_IS(w, (kind, kind), (first, first), (last, last), (step, 1));
 }
 
@@ -541,7 +541,7 @@ TEST_WITH(whole_rotations, fresh, NULL)
     for (int i = 0; i < 2; i++) { /* together they begin every 899 years: then the longer one counts */
         wood.belts[i].stand.cutting.rotation = 29;
         wood.belts[1 - i].stand.cutting.rotation = 31;
-        struct ceduo_window w = ceduo_window_of(&wood.option);
+        struct ceduo_window w = ceduo_window_compute(&wood.option);
         EXPECT(w.last - w.first, ==, 31 - 1);
     }
     wood.belts[1].stand.cutting.rotation = ROTATION;
@@ -566,9 +566,9 @@ TEST_WITH(whole_rotations, fresh, NULL)
     wood.belts[0].cut_year = wood.belts[1].cut_year = INFINITY; /* never */
     expect_window(CEDUO_WINDOW_AHEAD, 1, CEDUO_YEARS_AHEAD);
     wood.belts[0].stand.growth = wood.belts[1].stand.growth = (struct ceduo_growth){0};
-    expect_window(CEDUO_WINDOW_ALIKE, 0, 0);
+    expect_window(CEDUO_WINDOW_CONSTANT, 0, 0);
     wood.option.belts_count = 0;
-    expect_window(CEDUO_WINDOW_ALIKE, 0, 0);
+    expect_window(CEDUO_WINDOW_CONSTANT, 0, 0);
 }
 
 static void expect_ahead(enum ceduo_window_kind kind, unsigned first, unsigned last)
@@ -600,7 +600,7 @@ TEST_WITH(one_window_for_all_options, fresh, NULL)
     other.stand.growth = (struct ceduo_growth){0}; /* as long as anything grows */
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
     two[0] = two[1];
-    expect_ahead(CEDUO_WINDOW_ALIKE, 0, 0);
+    expect_ahead(CEDUO_WINDOW_CONSTANT, 0, 0);
 }
 
 /* ---- ends before its end ---- */

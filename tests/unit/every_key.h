@@ -18,7 +18,7 @@ static inline void first_place(const char *path, const struct field *f, const ch
         if (*path == '[')
             ceduo_text_char(to, '0');
     }
-    ceduo_text_put(to, f->type == FIELD_POINTS ? point : f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS ? "[0]" : "");
+    ceduo_text_append(to, f->type == FIELD_POINTS ? point : f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS ? "[0]" : "");
 }
 
 #endif

@@ -217,7 +217,7 @@ TEST(what_is_to_be_left_as_it_is)
         }
         a.correlation[1][0] = cases[i].together[0], a.correlation[2][0] = cases[i].together[1];
         a.correlation[2][1] = cases[i].together[2];
-        EXPECT(ceduo_calibration_loose(&a, loose), ==, n);
+        EXPECT(ceduo_calibration_unidentified(&a, loose), ==, n);
         for (size_t k = 0; k < 3; k++)
             EXPECT(loose[k], ==, cases[i].loose[k]);
     }
@@ -250,12 +250,12 @@ TEST(other_rocks_than_those_of_the_fit)
     input.places = &density;
     input.lo = 2500, input.hi = 2700;
     const struct ceduo_observation seen = speed(15, 1);
-    struct ceduo_counterpart own;
+    struct ceduo_observation_fit own;
     LOCAL(ceduo_observer, observer);
     EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
-    EXPECT(ceduo_observer_look(observer, &scene, 50, NULL, &own), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_simulate(observer, &scene, 50, NULL, &own), ==, CEDUO_OK);
     LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 50, NULL);
-    const struct ceduo_counterpart *at_best = &a.predicted[0].at_best;
+    const struct ceduo_observation_fit *at_best = &a.predicted[0].at_best;
     EXPECT(at_best->mean, !=, own.mean);
     EXPECT_NEAR(at_best->mean, own.mean, 5 * hypot(at_best->sd, own.sd) / sqrt(50));
 }
@@ -305,7 +305,7 @@ TEST(p_is_uniform_under_the_truth)
         EXPECT(squares, >, 1);
     }
     const struct ceduo_calibration_scene of = {.scene = &scene, .observations_count = 2 * SEEN, .observations = seen};
-    EXPECT(ceduo_calibration_as_it_is(&of, 20000, NULL, p), ==, CEDUO_OK);
+    EXPECT(ceduo_compare_with_observations(&of, 20000, NULL, p), ==, CEDUO_OK);
     for (size_t kind = 0; kind < 2; kind++) {
         double counts[10] = {0}, chi2 = 0;
         for (size_t i = 0; i < SEEN; i++)
@@ -342,7 +342,7 @@ TEST(p_of_lists_is_a_half_on_the_mean)
         seen[i].values = values + i * LONG;
     }
     const struct ceduo_calibration_scene of = {.scene = &scene, .observations_count = LISTS, .observations = seen};
-    EXPECT(ceduo_calibration_as_it_is(&of, 20000, NULL, p), ==, CEDUO_OK);
+    EXPECT(ceduo_compare_with_observations(&of, 20000, NULL, p), ==, CEDUO_OK);
     for (size_t i = 0; i < LISTS; i++)
         mean += p[i].p_value / LISTS;
     EXPECT_NEAR(mean, .5, 4 * sqrt(1. / 12 / LISTS));

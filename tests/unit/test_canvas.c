@@ -87,7 +87,7 @@ static void draw(struct drawing *d, char *command)
     else if (IS("right"))
         d->taken += ceduo_canvas_label_right(c, k[0], k[1], d->role, text);
     else if (IS("put"))
-        d->taken += ceduo_canvas_put(c, k[0], k[1], k[2], d->role, text);
+        d->taken += ceduo_canvas_draw_text(c, k[0], k[1], k[2], d->role, text);
     else if (IS("end"))
         d->taken += ceduo_cells_put_end(d->cells, k[0], k[1], k[2], d->role, text);
     else

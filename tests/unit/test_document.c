@@ -634,10 +634,10 @@ TEST(a_simplified_profile_is_taken_over)
     struct document own;
     struct problems found = {0};
     assert_true(ceduo_document_new(&own, text, &found));
-    assert_true(ceduo_notes_say(own.file.notes, "assumed", "slope.tolerance_m"));
+    assert_true(ceduo_notes_print(own.file.notes, "assumed", "slope.tolerance_m"));
     for (size_t i = 0; i < LENGTH(edits); i++) {
         assert_true(ceduo_document_set(&own, edits[i].path, edits[i].value, &found));
-        assert_int_equal(ceduo_notes_say(own.file.notes, "assumed", "slope.tolerance_m"), edits[i].assumed);
+        assert_int_equal(ceduo_notes_print(own.file.notes, "assumed", "slope.tolerance_m"), edits[i].assumed);
     }
     ceduo_problems_free(&found);
     ceduo_document_close(&own);

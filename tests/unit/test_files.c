@@ -313,7 +313,7 @@ TEST(an_interrupted_writer_goes_on_until_it_is_cancelled)
     const struct itimerval often = {{.tv_usec = 10000}, {.tv_usec = 10000}}, never = {.it_value = {0}};
     assert_int_equal(sigaction(SIGALRM, &action, NULL), 0);
     assert_int_equal(setitimer(ITIMER_REAL, &often, NULL), 0);
-    bool filled = ceduo_file_fill(ends[1], "y", 1, &gives_up);
+    bool filled = ceduo_file_write_all(ends[1], "y", 1, &gives_up);
     int why = errno;
     assert_int_equal(setitimer(ITIMER_REAL, &never, NULL), 0);
     assert_false(filled);

@@ -25,7 +25,7 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     (void)state;
-    ceduo_results_free(&results);
+    ceduo_result_list_free(&results);
     ceduo_jobs_free(jobs);
     ceduo_scene_release(&file);
     return 0;
@@ -38,7 +38,7 @@ static bool show(void)
 
 static struct jobs_state take(void)
 {
-    ceduo_results_free(&results);
+    ceduo_result_list_free(&results);
     return ceduo_jobs_take(jobs, &results);
 }
 
@@ -187,7 +187,7 @@ TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
     assert_true(u->answer.rotation);
     ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
     file.scene.controls_count = 0;
-    u = uncertainty(0, UNCERTAINTY_LEVELS); /* without a control there is nothing to be in uncertainty of */
+    u = uncertainty(0, UNCERTAINTY_LEVELS); /* without a control there is nothing to be uncertain of */
     assert_int_equal(u->inputs.n, 0);
     file.scene.controls_count = 1;
 }
@@ -208,24 +208,24 @@ static int set_up_options(void **state)
 TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_down)
 {
     const size_t shown = 1, n = 3;
-    const struct ceduo_uncertainty_answer *a = &uncertainty(shown, 1)->answer;
-    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
+    const struct ceduo_uncertainty_result *a = &uncertainty(shown, 1)->answer;
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
     double p5 = f->fit.p5, p95 = f->fit.p95, leaves = f->fit.left[f->order[0]];
     EXPECT(p5, <, p95);
     for (size_t i = 0; i < n; i++)
         if (i != shown)
-            EXPECT_NAN(ceduo_uncertainty_figure_of(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5);
-    EXPECT_NAN(ceduo_uncertainty_figure_of(a, shown, CEDUO_UNCERTAINTY_EXCEED, true)->fit.p95);
-    assert_int_equal(ceduo_uncertainty_verdict(a)->count, 0);
+            EXPECT_NAN(ceduo_uncertainty_find_figure(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5);
+    EXPECT_NAN(ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, true)->fit.p95);
+    assert_int_equal(ceduo_uncertainty_ranking_by(a)->count, 0);
     a = &uncertainty(shown, UNCERTAINTY_LEVELS)->answer;
-    f = ceduo_uncertainty_figure_of(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
+    f = ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
     EXPECT(f->fit.p5, ==, p5);
     EXPECT(f->fit.p95, ==, p95);
     EXPECT(f->fit.left[f->order[0]], ==, leaves);
     for (size_t i = 0; i < n; i++)
-        EXPECT(ceduo_uncertainty_figure_of(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5, >, 0);
-    assert_int_equal(ceduo_uncertainty_verdict(a)->count, n - 1);
-    assert_true(ceduo_uncertainty_verdict(a)->rotation);
+        EXPECT(ceduo_uncertainty_find_figure(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5, >, 0);
+    assert_int_equal(ceduo_uncertainty_ranking_by(a)->count, n - 1);
+    assert_true(ceduo_uncertainty_ranking_by(a)->rotation);
 }
 
 /* What is stopped ends soon, and nothing comes of it. */

@@ -95,7 +95,7 @@ static enum ceduo_status fit_surface(void)
     struct ceduo_input input = {.kind = CEDUO_INPUT_RANGE, .hi = 1};
     struct ceduo_surface_fit fit;
     struct ceduo_surface *surface;
-    static struct ceduo_groups y[POINTS];
+    static struct ceduo_replicates y[POINTS];
     double u[POINTS];
     for (int p = 0; p < POINTS; p++) {
         u[p] = (p + .5) / POINTS;
@@ -210,28 +210,28 @@ static const char scene[] = "ceduo: scene/1\ntitle: mill\nrock: {shape: sphere, 
 
 TEST(a_scene_is_read)
 {
-    struct ceduo_reading r;
+    struct ceduo_scene_file r;
     EXPECT(ceduo_scene_read("profiles/scenes/paper-site.yaml", NULL, &r), ==, CEDUO_OK);
     assert_string_equal(r.messages, "");
     EXPECT(r.scene.controls[0].x, ==, 135);
     EXPECT(r.scene.options[0].belts[0].stand.stools_per_ha, ==, 3688); /* Ciabocco et al. 2009, ADS 1 */
     EXPECT(ceduo_scene_check(&r.scene, NULL), ==, CEDUO_OK);
-    ceduo_reading_release(&r);
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
+    ceduo_scene_file_release(&r);
     const char *const sets[] = {"rock.diameter_m=1", "rock.diameter_m=2", NULL};
     EXPECT(ceduo_scene_read("profiles/scenes/paper-site.yaml", sets, &r), ==, CEDUO_OK);
     EXPECT(r.scene.rock.diameter.mean, ==, 2);
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
     EXPECT(ceduo_scene_read_text("mill.yaml", scene, &r), ==, CEDUO_OK);
     assert_string_equal(r.scene.title, "mill");
     EXPECT(r.scene.slope.z[1], ==, -80);
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
 }
 
 /* JSON writes what lies above U+FFFF as two halves. Places behind them are those of the file. */
 static void expect_title(const char *text, const char *title)
 {
-    struct ceduo_reading r;
+    struct ceduo_scene_file r;
     char whole[600];
     const char *const rest = "rock: {shape: sphere, diameter_m: 1}\nslope: {vertices_m: [[0, 100], [100, 20]], segments: "
                              "[{rn: 0.3, rt: 0.8, roughness_rad: 0.1}]}\ncontrols_m: [90]\nforest: []\n";
@@ -239,12 +239,12 @@ static void expect_title(const char *text, const char *title)
     EXPECT(ceduo_scene_read_text("mill.yaml", whole, &r), ==, title ? CEDUO_OK : CEDUO_BAD_FILE);
     if (title)
         assert_string_equal(r.scene.title, title);
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
 }
 
 TEST(halves_of_a_character_are_joined)
 {
-    struct ceduo_reading r;
+    struct ceduo_scene_file r;
     expect_title("\"a \\ud83d\\ude00 b\"", "a \xf0\x9f\x98\x80 b");
     expect_title("\"\\uD83D\\uDE00\\ud83d\\ude01\"", "\xf0\x9f\x98\x80\xf0\x9f\x98\x81");
     expect_title("\"\\u00e0 \\U0001f600\" # it's \"x", "\xc3\xa0 \xf0\x9f\x98\x80");
@@ -259,38 +259,38 @@ TEST(halves_of_a_character_are_joined)
     snprintf(place, sizeof place, "mill.json:1:%d: rock.diameter_m: -1", (int)(strstr(json, "-1") - json) + 1);
     EXPECT(ceduo_scene_read_text("mill.json", json, &r), ==, CEDUO_BAD_FILE);
     assert_non_null(strstr(r.messages, place));
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
 }
 
 TEST(what_is_wrong_is_said)
 {
-    struct ceduo_reading r;
+    struct ceduo_scene_file r;
     EXPECT(ceduo_scene_read_text("mill.yaml", "ceduo: scene/1\nrock: {shape: sphere, diameter_m: -1}\n", &r), ==,
            CEDUO_BAD_FILE);
     assert_ptr_equal(strstr(r.messages, "mill.yaml:2:35: rock.diameter_m: -1 is "), r.messages);
     assert_non_null(strstr(r.messages, "\n  rock: {shape: sphere, diameter_m: -1}\n"));
     assert_null(r.scene.slope.x);
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
     EXPECT(ceduo_scene_read("no/such.yaml", NULL, &r), ==, CEDUO_BAD_FILE);
     assert_non_null(strstr(r.messages, "no/such.yaml"));
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
     const char *const sets[] = {"rock.colour=red", NULL};
     EXPECT(ceduo_scene_read("profiles/scenes/paper-site.yaml", sets, &r), ==, CEDUO_BAD_FILE);
     assert_non_null(strstr(r.messages, "--set"));
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
 }
 
 static enum ceduo_status read_in_folder(void)
 {
     char path[256];
-    struct ceduo_reading r;
+    struct ceduo_scene_file r;
     in_folder(path, "scene.yaml");
     enum ceduo_status status = ceduo_scene_read(path, NULL, &r);
     if (status == CEDUO_OK)
         EXPECT(r.scene.slope.z[1], ==, -90);
     else if (status != CEDUO_NO_MEMORY)
         fail_msg("%s", r.messages);
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
     return status;
 }
 
@@ -334,8 +334,8 @@ struct figures {
 
 static struct figures take_figures(void)
 {
-    struct ceduo_reading r;
-    struct ceduo_answer a;
+    struct ceduo_scene_file r;
+    struct ceduo_results a;
     char path[256];
     const char *const sets[] = {"rock.diameter_m=0.75", NULL};
     in_folder(path, "scene.yaml");
@@ -351,17 +351,17 @@ static struct figures take_figures(void)
                         .default_gravity = ceduo_scene_default().simulation.gravity,
                         .default_friction = ceduo_segment_default().friction,
                         .key = ceduo_scene_key(s)};
-    struct ceduo_question q = ceduo_question_default(s);
+    struct ceduo_request q = ceduo_request_default(s);
     q.rocks = 300;
-    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_OK);
     f.reach = a.result->bare.arrivals[0].reach.mean;
     f.energy = a.result->bare.arrivals[0].energy.mean;
     f.speed = a.result->bare.arrivals[0].speed.p95;
-    ceduo_answer_release(&a);
-    ceduo_reading_release(&r);
+    ceduo_results_release(&a);
+    ceduo_scene_file_release(&r);
     EXPECT(ceduo_scene_read_text("mill.yaml", "ceduo: scene/1\nrock: {diameter_m: -1.5}\n", &r), ==, CEDUO_BAD_FILE);
     snprintf(f.message, sizeof f.message, "%s", r.messages);
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
     ceduo_number_shortest(0.1, f.number);
     LOCAL_TEXT(text);
     ceduo_text_format(&text, "%.2f %g", 1.5, 2.25);
@@ -444,18 +444,18 @@ static void expect_alone(void)
 
 TEST(one_thread_at_a_time_calls_the_caller)
 {
-    struct ceduo_reading r;
-    struct ceduo_answer a;
-    struct ceduo_uncertainty_answer uncertainty;
+    struct ceduo_scene_file r;
+    struct ceduo_results a;
+    struct ceduo_uncertainty_result uncertainty;
     struct ceduo_calibration fit;
     EXPECT(ceduo_scene_read("profiles/scenes/rotation.yaml", NULL, &r), ==, CEDUO_OK);
-    struct ceduo_question q = ceduo_question_default(&r.scene);
+    struct ceduo_request q = ceduo_request_default(&r.scene);
     q.rocks = 100;
     q.run.threads = 4;
     q.run.progress = on_rocks;
     q.years = q.rotations = q.years_apart = true;
-    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
-    ceduo_answer_release(&a);
+    EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_OK);
+    ceduo_results_release(&a);
     expect_alone();
     struct ceduo_uncertainty_def def = {.scene = &r.scene,
                                         .inputs_count = r.inputs_count,
@@ -467,10 +467,10 @@ TEST(one_thread_at_a_time_calls_the_caller)
                                         .years_max = 3,
                                         .threads = 4,
                                         .progress = on_points};
-    EXPECT(ceduo_uncertainty_ask(&def, &uncertainty), ==, CEDUO_OK);
+    EXPECT(ceduo_uncertainty_compute(&def, &uncertainty), ==, CEDUO_OK);
     ceduo_uncertainty_free(&uncertainty);
     expect_alone();
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
     EXPECT(ceduo_scene_read("profiles/scenes/vaujany.yaml", NULL, &r), ==, CEDUO_OK);
     const char *const place = "rock.density_kg_m3";
     struct ceduo_input input = {
@@ -486,7 +486,7 @@ TEST(one_thread_at_a_time_calls_the_caller)
     EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_OK);
     ceduo_calibration_free(&fit);
     expect_alone();
-    ceduo_reading_release(&r);
+    ceduo_scene_file_release(&r);
 }
 
 enum { YEARS = 20 };
@@ -494,22 +494,22 @@ enum { YEARS = 20 };
 /* Set the energies that arrive in the years of the first option, each with rocks of its own. */
 static void take_years(const char *seed, double *energies)
 {
-    struct ceduo_reading r;
-    struct ceduo_answer a;
+    struct ceduo_scene_file r;
+    struct ceduo_results a;
     const char *const sets[] = {seed, NULL};
     EXPECT(ceduo_scene_read("profiles/scenes/rotation.yaml", sets, &r), ==, CEDUO_OK);
-    struct ceduo_question q = ceduo_question_default(&r.scene);
+    struct ceduo_request q = ceduo_request_default(&r.scene);
     q.rocks = 50;
     q.years = q.years_apart = true;
     q.window = (struct ceduo_window){CEDUO_WINDOW_GIVEN, 1, YEARS, 1};
     for (size_t i = 0; i < r.scene.options_count; i++) /* with a forest no two years are equal */
         r.scene.options[i].belts_count = 0;
-    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_OK);
     EXPECT(a.years[0]->count, ==, YEARS);
     for (size_t i = 0; i < YEARS; i++)
         energies[i] = a.years[0]->years[i].wooded.arrivals[0].energy_per_released.mean;
-    ceduo_answer_release(&a);
-    ceduo_reading_release(&r);
+    ceduo_results_release(&a);
+    ceduo_scene_file_release(&r);
 }
 
 TEST(no_seed_has_the_rocks_of_another_one_in_another_year)
@@ -526,7 +526,7 @@ TEST(no_seed_has_the_rocks_of_another_one_in_another_year)
 
 TEST(defaults_need_no_more_than_what_has_none)
 {
-    struct ceduo_reading r;
+    struct ceduo_scene_file r;
     assert_int_equal(ceduo_scene_read_text("mill.yaml", scene, &r), CEDUO_OK);
     struct ceduo_stems stems = ceduo_stems_default();
     struct ceduo_stand stand = ceduo_stand_default();
@@ -551,12 +551,12 @@ TEST(defaults_need_no_more_than_what_has_none)
     r.scene.options = &option;
     r.scene.controls = &control;
     EXPECT(ceduo_scene_check(&r.scene, NULL), ==, CEDUO_OK);
-    struct ceduo_question q = ceduo_question_default(&r.scene);
-    struct ceduo_answer a;
-    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    struct ceduo_request q = ceduo_request_default(&r.scene);
+    struct ceduo_results a;
+    EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_OK);
     EXPECT(a.result->options[0].stands[0].contacts, >, 0);
-    ceduo_answer_release(&a);
-    ceduo_reading_release(&r);
+    ceduo_results_release(&a);
+    ceduo_scene_file_release(&r);
 }
 
 TEST(each_status_has_a_text)

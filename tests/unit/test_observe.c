@@ -24,12 +24,12 @@ static void make_ground(double fall, double height, double vx, double vz)
     ground_make(&g, 200, fall, height, vx, vz);
 }
 
-static struct ceduo_counterpart look(struct ceduo_observation seen)
+static struct ceduo_observation_fit look(struct ceduo_observation seen)
 {
     LOCAL(ceduo_observer, observer);
-    struct ceduo_counterpart c;
+    struct ceduo_observation_fit c;
     EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
-    EXPECT(ceduo_observer_look(observer, &g.scene, ROCKS, NULL, &c), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_simulate(observer, &g.scene, ROCKS, NULL, &c), ==, CEDUO_OK);
     return c;
 }
 
@@ -102,7 +102,7 @@ TEST(a_count_is_binomial)
     struct ceduo_observation o = at(CEDUO_OBSERVED_PASSED, 10);
     o.count = 3;
     o.of = 4;
-    struct ceduo_counterpart c = look(o);
+    struct ceduo_observation_fit c = look(o);
     double p = 100.5 / 101;
     EXPECT(c.classes, ==, 2);
     EXPECT_NEAR(c.log_likelihood, log(4) + 3 * log(p) + log(1 - p), 1e-12);
@@ -123,7 +123,7 @@ TEST(stops_are_multinomial)
     for (int i = 0; i < 10; i++) /* five before it, five behind; the median is 4 m behind it */
         values[i] = at + (i < 5 ? i - 5 : 5 + i);
     struct ceduo_observation o = stops(10, values);
-    struct ceduo_counterpart c = look(o);
+    struct ceduo_observation_fit c = look(o);
     double p[2] = {100.5 / 101, 0.5 / 101};
     EXPECT(c.classes, ==, 2);
     EXPECT(c.count[0], ==, 100);
@@ -155,7 +155,7 @@ TEST(a_list_has_classes_of_its_own)
         double values[200];
         for (size_t k = 0; k < cases[i].n; k++)
             values[k] = 20 + (double)k;
-        struct ceduo_counterpart c = look(stops(cases[i].n, values));
+        struct ceduo_observation_fit c = look(stops(cases[i].n, values));
         EXPECT(c.classes, ==, cases[i].classes);
         EXPECT(c.seen[0], ==, (double)cases[i].first);
         EXPECT(c.seen[c.classes - 1], ==, (double)cases[i].last);
@@ -165,7 +165,7 @@ TEST(a_list_has_classes_of_its_own)
     double mostly[20];
     for (int i = 0; i < 20; i++)
         mostly[i] = i < 18 ? 30 : 31;
-    struct ceduo_counterpart c = look(stops(20, mostly)); /* of four classes those with a bound of their own */
+    struct ceduo_observation_fit c = look(stops(20, mostly)); /* of four classes those with a bound of their own */
     EXPECT(c.classes, ==, 2);
     EXPECT(c.seen[0], ==, 18);
     EXPECT(c.seen[1], ==, 2);
@@ -176,7 +176,7 @@ TEST(a_list_has_classes_of_its_own)
 /* Seen with an error that equals its distance to the simulated mean, which has none: z = 1. */
 static void expect_mean(struct ceduo_observation o, double mean, double within)
 {
-    struct ceduo_counterpart c = look(measured(o, 4, mean + 1, 2));
+    struct ceduo_observation_fit c = look(measured(o, 4, mean + 1, 2));
     EXPECT(c.classes, ==, 0);
     EXPECT(c.rocks, ==, ROCKS);
     EXPECT_NEAR(c.mean, mean, within);
@@ -206,7 +206,7 @@ TEST(a_mean_has_the_error_of_both_sides)
     make_ground(0, HIGH, FAST, 0);
     g.scene.release.vx.spread = 2;
     struct ceduo_observation o = measured(at(CEDUO_OBSERVED_SPEED, 10), 400, 15, 2);
-    struct ceduo_counterpart c = look(o);
+    struct ceduo_observation_fit c = look(o);
     LOCAL_BYTES double *values = values_of(&o, 1);
     double mean = gsl_stats_mean(values, 1, ROCKS), variance = 0.01 + gsl_stats_variance(values, 1, ROCKS) / ROCKS;
     EXPECT(variance, >, 0.011);
@@ -217,7 +217,7 @@ TEST(a_mean_has_the_error_of_both_sides)
 TEST(no_rock_there_is_impossible)
 {
     make_ground(0, HIGH, FAST, 0);
-    struct ceduo_counterpart c = look(measured(at(CEDUO_OBSERVED_SPEED, 190), 4, 10, 2));
+    struct ceduo_observation_fit c = look(measured(at(CEDUO_OBSERVED_SPEED, 190), 4, 10, 2));
     EXPECT(c.rocks, ==, 0);
     EXPECT(c.log_likelihood, <, -1000);
 }
@@ -362,7 +362,7 @@ TEST(what_is_of_its_own)
     struct ceduo_rock_def small = g.scene.rock;
     struct ceduo_release slow = g.scene.release;
     struct ceduo_observation o[6];
-    struct ceduo_counterpart c[6];
+    struct ceduo_observation_fit c[6];
     struct ceduo_option options[2] = {g.option, g.option};
     small.diameter = ceduo_number(0.5);
     slow.vx = ceduo_number(FAST / 2);
@@ -381,7 +381,7 @@ TEST(what_is_of_its_own)
         if (way == 1)
             g.scene.simulation.contact_model = CEDUO_INDEX;
         EXPECT(ceduo_observer_create(o, 6, &observer), ==, CEDUO_OK);
-        EXPECT(ceduo_observer_look(observer, &g.scene, ROCKS, NULL, c), ==, CEDUO_OK);
+        EXPECT(ceduo_observer_simulate(observer, &g.scene, ROCKS, NULL, c), ==, CEDUO_OK);
         for (int i = 0; i < 6; i++) {
             double v = i == 2 ? FAST / 2 : FAST, speed2 = v * v + GRAVITY * GRAVITY * seconds[i] * seconds[i];
             if (i == 5 && way == 0)
@@ -400,13 +400,13 @@ TEST(what_is_of_its_own)
 TEST(blocks_are_not_observed)
 {
     static double volumes[] = {.05, 1};
-    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     make_ground(0, HIGH, FAST, 0);
     g.scene.blocks = &blocks;
     g.scene.blocks_count = 1;
     struct ceduo_observation o = measured(at(CEDUO_OBSERVED_ENERGY, 10), 2, 1, 1);
     o.rock = &g.scene.rock;
-    struct ceduo_counterpart c = look(o);
+    struct ceduo_observation_fit c = look(o);
     EXPECT_NEAR(c.mean, mass() * (FAST * FAST + GRAVITY * GRAVITY) / 2, 1e-6); /* after 1 s of free fall */
     EXPECT_NEAR(c.sd, 0, 1e-6);
 }
@@ -417,13 +417,13 @@ TEST(what_cannot_be_looked_at)
     make_ground(0, HIGH, FAST, 0);
     struct ceduo_observation o[2] = {at(CEDUO_OBSERVED_SPEED, 10), something(CEDUO_OBSERVED_LARGEST_SPEED)};
     struct ceduo_observer *observer;
-    struct ceduo_counterpart c[2];
+    struct ceduo_observation_fit c[2];
     const atomic_bool cancelled = true;
     for (size_t i = 0; i < 2; i++) {
         double *values;
         size_t n;
         EXPECT(ceduo_observer_create(&o[i], 1, &observer), ==, CEDUO_OK);
-        EXPECT(ceduo_observer_look(observer, &g.scene, ROCKS, &cancelled, c), ==, CEDUO_CANCELLED);
+        EXPECT(ceduo_observer_simulate(observer, &g.scene, ROCKS, &cancelled, c), ==, CEDUO_CANCELLED);
         g.scene.slope.vertices = 1;
         EXPECT(ceduo_observer_values(observer, &g.scene, 0, ROCKS, &values, &n), !=, CEDUO_OK);
         assert_null(values);
@@ -455,14 +455,14 @@ TEST(scars_are_counted_and_measured)
         sum += of[i];
         square += of[i] * of[i];
     }
-    struct ceduo_counterpart heights_alone = look(o);
+    struct ceduo_observation_fit heights_alone = look(o);
     EXPECT(sum, >, 20);
     EXPECT((double)heights_alone.rocks, ==, sum);
     EXPECT_NEAR(heights_alone.mean, 0.5, 0.05); /* rocks roll: their centre is half a metre above the ground */
     assert_true(isnan(heights_alone.scars));
     o.of = 10;
     o.share_seen = 0.75;
-    struct ceduo_counterpart c = look(o);
+    struct ceduo_observation_fit c = look(o);
     double mean = sum / ROCKS, variance = (square - sum * mean) / (ROCKS - 1);
     double expected = 10 * mean * 0.75, spread = 0.75 * 0.75 * variance * 10 * 1.1 + 10 * mean * 0.75 * 0.25;
     EXPECT_NEAR(c.scars, expected, 1e-9);

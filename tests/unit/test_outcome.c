@@ -16,7 +16,7 @@ static struct ceduo_scene scene;
 static struct ceduo_control control;
 static struct ceduo_option option;
 static struct ceduo_belt belt;
-static struct ceduo_block_class blocks;
+static struct ceduo_size_class blocks;
 static struct ceduo_arrivals bare, wooded;
 static struct ceduo_stand_result stand;
 static struct ceduo_index index_;
@@ -26,7 +26,7 @@ static struct ceduo_years_summary years;
 static struct ceduo_choice choice;
 static struct ceduo_verdict verdict;
 static struct ceduo_uncertainty_figure figures[CEDUO_UNCERTAINTY_KINDS];
-static struct ceduo_uncertainty_answer answer;
+static struct ceduo_uncertainty_result answer;
 
 static void set_share(struct ceduo_arrivals *a, double share, double lo, double hi)
 {
@@ -49,7 +49,7 @@ static int open_site(void **state)
     control = (struct ceduo_control){.x = 80, .x_given = 80, .accepted = 50e3, .measured_speed = NAN};
     belt = (struct ceduo_belt){.to = 80};
     option = (struct ceduo_option){.name = name, .belts_count = 1, .belts = &belt};
-    blocks = (struct ceduo_block_class){.per_year = 2, .volumes_count = 2, .volumes = volumes};
+    blocks = (struct ceduo_size_class){.per_year = 2, .volumes_count = 2, .volumes = volumes};
     scene = (struct ceduo_scene){.controls = &control, .controls_count = 1, .options = &option, .options_count = 1};
     scene.simulation.contact_model = CEDUO_STEMS;
     set_share(&bare, .3, .28, .32);
@@ -66,7 +66,7 @@ static int open_site(void **state)
     choice = (struct ceduo_choice){.ahead = &years, .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}, .energy_known = true};
     verdict = (struct ceduo_verdict){.wooded = true, .accepted = true, .n = 1, .choices = &choice};
     memset(figures, 0, sizeof figures);
-    answer = (struct ceduo_uncertainty_answer){.figures = figures, .figures_count = CEDUO_UNCERTAINTY_KINDS, .rotation = true};
+    answer = (struct ceduo_uncertainty_result){.figures = figures, .figures_count = CEDUO_UNCERTAINTY_KINDS, .rotation = true};
     return 0;
 }
 
@@ -86,7 +86,7 @@ static void set_range(enum ceduo_uncertainty_kind kind, double p5, double p95)
 
 static struct ceduo_outcome judge(bool uncertainty)
 {
-    return ceduo_outcome_of(&result, &verdict, uncertainty ? &answer : NULL, 0, 0);
+    return ceduo_outcome_compute(&result, &verdict, uncertainty ? &answer : NULL, 0, 0);
 }
 
 TEST_WITH(the_years_decide_not_today, open_site, NULL)
@@ -100,9 +100,9 @@ TEST_WITH(the_years_decide_not_today, open_site, NULL)
     assert_int_equal(judge(false).answer, CEDUO_NOT_DECIDED);
     set_failing(1, 0, 2);
     assert_int_equal(judge(false).answer, CEDUO_NOT_DECIDED);
-    o = ceduo_outcome_of(&result, NULL, NULL, 0, 0); /* today is all that is known */
+    o = ceduo_outcome_compute(&result, NULL, NULL, 0, 0); /* today is all that is known */
     EXPECT_IS(o, (answer, CEDUO_YES), (ahead, false));
-    choice.window.kind = CEDUO_WINDOW_ALIKE;
+    choice.window.kind = CEDUO_WINDOW_CONSTANT;
     set_failing(1, 1, 1);
     o = judge(false);
     EXPECT_IS(o, (answer, CEDUO_YES), (ahead, false));
@@ -167,7 +167,7 @@ TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
 static void say_answer(struct text *text, size_t at, size_t width)
 {
     const struct ceduo_report report = {.result = &result, .verdict = &verdict};
-    const struct ceduo_subject subject = ceduo_subject_of(&report, 0, at);
+    const struct ceduo_subject subject = ceduo_subject_find(&report, 0, at);
     ceduo_words_answer(text, &subject, width);
 }
 

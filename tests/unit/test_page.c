@@ -31,10 +31,10 @@ static void expect_page(struct ceduo_page *page, bool plain, const char *wanted)
 TEST(paragraphs_are_wrapped)
 {
     struct ceduo_page page = {.width = 24};
-    ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_TITLE), "A title that is   too long for a line ");
-    ceduo_text_put(ceduo_page_label(&page, CEDUO_PAGE_FACT, "Rock"), "cylinder, 512.3 kg");
-    ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_SECTION), "option");
-    ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_WARNING), "a bell \a is never rung");
+    ceduo_text_append(ceduo_page_add(&page, CEDUO_PAGE_TITLE), "A title that is   too long for a line ");
+    ceduo_text_append(ceduo_page_item(&page, CEDUO_PAGE_FACT, "Rock"), "cylinder, 512.3 kg");
+    ceduo_text_append(ceduo_page_add(&page, CEDUO_PAGE_SECTION), "option");
+    ceduo_text_append(ceduo_page_add(&page, CEDUO_PAGE_WARNING), "a bell \a is never rung");
     expect_page(&page, false,
                 "A title that is too long\n"
                 "for a line\n"
@@ -51,10 +51,10 @@ static const struct ceduo_page_column columns[] = {
 
 static void add_row(struct ceduo_page *page, const char *place, const char *name, double value)
 {
-    ceduo_text_put(ceduo_page_text(page), place);
-    ceduo_text_put(ceduo_page_text(page), name);
+    ceduo_text_append(ceduo_page_text(page), place);
+    ceduo_text_append(ceduo_page_text(page), name);
     ceduo_page_number(page, value, 3);
-    ceduo_text_put(ceduo_page_text(page), "yes");
+    ceduo_text_append(ceduo_page_text(page), "yes");
     struct ceduo_page_cell *mean = ceduo_page_cell(page);
     mean->kind = CEDUO_CELL_MEAN;
     mean->value = value;
@@ -65,8 +65,8 @@ static struct ceduo_page table(void)
 {
     struct ceduo_page page = {.width = 40};
     ceduo_page_table(&page, columns, 5);
-    ceduo_text_put(&ceduo_page_head(&page)->text, "> 1234567 kJ");
-    ceduo_text_put(&ceduo_page_head(&page)->shorter, "> 1 GJ");
+    ceduo_text_append(&ceduo_page_head(&page)->text, "> 1234567 kJ");
+    ceduo_text_append(&ceduo_page_head(&page)->shorter, "> 1 GJ");
     add_row(&page, "0–20", "oak", 12.34);
     add_row(&page, "1000–2000", "hornbeam", 1234567);
     add_row(&page, "5", "\xe6\xa3\xae\xe6\x9e\x97", 0.00001234);
@@ -128,10 +128,10 @@ TEST(a_pane_shows_lines_in_roles)
 {
     LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 12};
     LOCAL(ceduo_cells, cells) = ceduo_cells_create(16, 5, CEDUO_CHARSET_BRAILLE);
-    ceduo_page_say(&page, CEDUO_PAGE_TITLE, "%s", "hidden");
-    ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", "option");
-    ceduo_page_say(&page, CEDUO_PAGE_WARNING, "%s", "a b");
-    ceduo_page_say(&page, CEDUO_PAGE_NOTE, "%s", "one");
+    ceduo_page_para(&page, CEDUO_PAGE_TITLE, "%s", "hidden");
+    ceduo_page_para(&page, CEDUO_PAGE_SECTION, "%s", "option");
+    ceduo_page_para(&page, CEDUO_PAGE_WARNING, "%s", "a b");
+    ceduo_page_para(&page, CEDUO_PAGE_NOTE, "%s", "one");
     page.last->role = CEDUO_ROLE_DIM;
     assert_int_equal(ceduo_page_draw(&page, &cells->canvas, (struct ceduo_area){2, 1, 12, 3}, 2), 5);
     LOCAL_BYTES char *text = ceduo_cells_dump(cells), *roles = ceduo_cells_roles(cells);
@@ -150,12 +150,12 @@ static struct ceduo_page bars(size_t width)
     struct ceduo_page page = {.width = width};
     CEDUO_PAGE_TABLE_OF(&page, fitted);
     for (int i = 0; i < 2; i++) {
-        ceduo_page_write(&page, "%s", names[i]);
+        ceduo_page_cell_format(&page, "%s", names[i]);
         ceduo_page_number(&page, i ? 123.4 : 7, 4);
         struct ceduo_page_bar *bar = ceduo_page_bar(&page, i ? .5 : 1, CEDUO_ROLE_GOOD);
         bar->limit = .75;
         bar->from = i ? .25 : 0;
-        ceduo_page_write(&page, "%s", "\xc2\xb1\x31");
+        ceduo_page_cell_format(&page, "%s", "\xc2\xb1\x31");
     }
     return page;
 }
@@ -166,7 +166,7 @@ TEST(a_mean_makes_its_column_no_wider_than_eleven)
     static const struct ceduo_page_column means[] = {{"", 4, 0, CEDUO_FILLS}, {"", -6, 1, CEDUO_FITS}};
     struct ceduo_page page = {.width = 40};
     CEDUO_PAGE_TABLE_OF(&page, means);
-    ceduo_page_write(&page, "name");
+    ceduo_page_cell_format(&page, "name");
     struct ceduo_page_cell *mean = ceduo_page_cell(&page);
     mean->kind = CEDUO_CELL_MEAN;
     mean->value = 9.8764;
@@ -236,7 +236,7 @@ TEST(every_figure_says_what_it_is)
 /* ---- a result ---- */
 
 static struct scene_file file;
-static struct ceduo_answer answer;
+static struct ceduo_results answer;
 static struct ceduo_verdict verdict;
 static struct ceduo_report report;
 static int set_up(void **state)
@@ -245,12 +245,12 @@ static int set_up(void **state)
     static const char *const sets[] = {"simulation.rocks=60", "rocks_per_year=2"};
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     bool good = ceduo_scene_load(&file, "profiles/scenes/rotation.yaml", sets, 2, &problems);
-    struct ceduo_question question = ceduo_question_default(&file.scene);
+    struct ceduo_request question = ceduo_request_default(&file.scene);
     question.years = true;
     question.window = (struct ceduo_window){.last = 1, .step = 1};
     question.block_rocks = 20;
-    if (!good || ceduo_ask(&question, NULL, &answer) != CEDUO_OK ||
-        ceduo_verdict_make(answer.result, answer.years, NULL, &verdict) != CEDUO_OK)
+    if (!good || ceduo_simulate_request(&question, NULL, &answer) != CEDUO_OK ||
+        ceduo_compare_options(answer.result, answer.years, NULL, &verdict) != CEDUO_OK)
         return 1;
     report = (struct ceduo_report){.file = &file,
                                    .result = answer.result,
@@ -265,7 +265,7 @@ static int tear_down(void **state)
 {
     (void)state;
     ceduo_verdict_release(&verdict);
-    ceduo_answer_release(&answer);
+    ceduo_results_release(&answer);
     ceduo_scene_release(&file);
     return 0;
 }

@@ -92,7 +92,7 @@ static int cells_of(const struct ceduo_cells *cells, enum ceduo_role role)
 }
 
 /* Two of the upper half hit, one flown over; one in the lower half. */
-static const struct ceduo_stem_passed passed[] = {
+static const struct ceduo_stem_encounter passed[] = {
     {.x = 22, .y = 0.3, .dbh = 0.3, .height = 20, .hit = true},
     {.x = 27, .y = -0.1, .dbh = 0.08, .height = 8, .shoot = true, .hit = true},
     {.x = 32, .y = 0.2, .dbh = 0.08, .height = 8, .shoot = true},
@@ -287,9 +287,9 @@ TEST_WOODED(stems_that_the_rock_came_to_stand_where_they_are)
 /* A lying log has a place along the way, but none in the plane. */
 TEST_WOODED(logs_stand_in_no_plan)
 {
-    struct ceduo_stem_passed logs[] = {{.x = 30, .y = NAN, .dbh = NAN, .height = 2, .hit = true},
-                                       {.x = 90, .y = NAN, .dbh = NAN, .height = 2, .hit = true},
-                                       {.x = 200, .y = NAN, .dbh = NAN, .height = 2, .hit = true}};
+    struct ceduo_stem_encounter logs[] = {{.x = 30, .y = NAN, .dbh = NAN, .height = 2, .hit = true},
+                                          {.x = 90, .y = NAN, .dbh = NAN, .height = 2, .hit = true},
+                                          {.x = 200, .y = NAN, .dbh = NAN, .height = 2, .hit = true}};
     p.stems = logs;
     p.stems_count = 3;
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, 84, 40, BRAILLE);

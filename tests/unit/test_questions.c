@@ -9,10 +9,10 @@
 
 static struct paper_site site;
 
-static struct ceduo_question question_of(uint64_t rocks)
+static struct ceduo_request question_of(uint64_t rocks)
 {
     paper_site_init(&site);
-    struct ceduo_question q = ceduo_question_default(&site.scene);
+    struct ceduo_request q = ceduo_request_default(&site.scene);
     q.rocks = q.run.rocks_most = rocks;
     return q;
 }
@@ -20,13 +20,13 @@ static struct ceduo_question question_of(uint64_t rocks)
 /* Stands and index are assessed without a rock, be its precision asked for or not. */
 TEST(no_rocks_are_not_precise)
 {
-    struct ceduo_question q = question_of(0);
-    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+    struct ceduo_request q = question_of(0);
+    LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     q.tolerance = .1;
     q.years = true;
     q.window = (struct ceduo_window){.last = 2, .step = 1};
     q.years_apart = true;
-    assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
+    assert_int_equal(ceduo_simulate_request(&q, NULL, &answer), CEDUO_OK);
     assert_int_equal(ceduo_result_rocks(answer.result), 0);
     assert_int_equal(answer.years[0]->rocks, 0);
     assert_null(ceduo_result_wooded(answer.result, 0, 0));
@@ -36,10 +36,10 @@ TEST(no_rocks_are_not_precise)
 }
 
 /* Without a control nothing is known of what arrives, today or over years; what the stands yield is. */
-static void expect_yields_alone(const struct ceduo_answer *answer)
+static void expect_yields_alone(const struct ceduo_results *answer)
 {
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v;
-    assert_int_equal(ceduo_verdict_make(answer->result, answer->years, NULL, &v), CEDUO_OK);
+    assert_int_equal(ceduo_compare_options(answer->result, answer->years, NULL, &v), CEDUO_OK);
     assert_false(v.wooded || v.accepted || v.today.known || v.rotation.known || v.choices[0].energy_known);
     assert_true(isnan(v.choices[0].today.mean) && isnan(v.choices[0].mean.mean));
     EXPECT(v.choices[0].yield.volume_today, >, 0);
@@ -50,14 +50,14 @@ static void expect_yields_alone(const struct ceduo_answer *answer)
 TEST(nothing_is_counted_without_a_control)
 {
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
-        struct ceduo_question q = question_of(20);
-        LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+        struct ceduo_request q = question_of(20);
+        LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
         site.scene.controls_count = 0;
         q.block_rocks = 20;
         q.years = true;
         q.window = (struct ceduo_window){.last = 1, .step = 1};
-        assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
+        assert_int_equal(ceduo_simulate_request(&q, NULL, &answer), CEDUO_OK);
         assert_null(answer.blocks);
         expect_yields_alone(&answer);
         assert_int_equal(ceduo_result_rocks(answer.result), 20);
@@ -69,42 +69,42 @@ TEST(nothing_is_counted_without_a_control)
 /* All runs are there from the question before: only the other sizes fly, and nobody waits for them. */
 TEST(other_sizes_are_cancelled)
 {
-    struct ceduo_question q = question_of(20);
+    struct ceduo_request q = question_of(20);
     LOCAL(ceduo_pool, pool) = NULL;
-    struct ceduo_answer answer;
+    struct ceduo_results answer;
     atomic_bool cancel = true;
-    assert_int_equal(ceduo_ask(&q, &pool, &answer), CEDUO_OK);
-    ceduo_answer_release(&answer);
+    assert_int_equal(ceduo_simulate_request(&q, &pool, &answer), CEDUO_OK);
+    ceduo_results_release(&answer);
     q.run.cancel = &cancel;
-    assert_int_equal(ceduo_ask(&q, &pool, &answer), CEDUO_OK);
-    ceduo_answer_release(&answer);
+    assert_int_equal(ceduo_simulate_request(&q, &pool, &answer), CEDUO_OK);
+    ceduo_results_release(&answer);
     q.block_rocks = 20;
-    assert_int_equal(ceduo_ask(&q, &pool, &answer), CEDUO_CANCELLED);
+    assert_int_equal(ceduo_simulate_request(&q, &pool, &answer), CEDUO_CANCELLED);
     assert_null(answer.result);
     assert_null(answer.blocks);
     cancel = false;
-    assert_int_equal(ceduo_ask(&q, &pool, &answer), CEDUO_OK);
+    assert_int_equal(ceduo_simulate_request(&q, &pool, &answer), CEDUO_OK);
     assert_non_null(answer.blocks);
-    ceduo_answer_release(&answer);
+    ceduo_results_release(&answer);
 }
 
 /* Of two options one is asked for, and nothing is known of what the other's rocks cost. */
 TEST(other_sizes_of_one_option)
 {
-    struct ceduo_question q = question_of(50);
+    struct ceduo_request q = question_of(50);
     struct ceduo_option options[2] = {site.option, site.option};
-    struct ceduo_answer answers[2];
+    struct ceduo_results answers[2];
     site.scene.options = options;
     q.block_rocks = 50;
     q.only = 0;
     for (size_t i = 0; i < 2; i++) {
         site.scene.options_count = i + 1;
-        assert_int_equal(ceduo_ask(&q, NULL, &answers[i]), CEDUO_OK);
+        assert_int_equal(ceduo_simulate_request(&q, NULL, &answers[i]), CEDUO_OK);
     }
-    for (size_t b = 0; b < CEDUO_BLOCKS; b++)
+    for (size_t b = 0; b < CEDUO_SIZES; b++)
         EXPECT(answers[0].blocks[b].arrivals.reached, ==, answers[1].blocks[b].arrivals.reached);
-    ceduo_answer_release(&answers[0]);
-    ceduo_answer_release(&answers[1]);
+    ceduo_results_release(&answers[0]);
+    ceduo_results_release(&answers[1]);
 }
 
 /* At the worst of two controls; not known where it is not of one of them, whichever comes first. */
@@ -112,15 +112,15 @@ TEST(a_goal_is_reached_at_the_worst_control)
 {
     const double accepted[][2] = {{50e3, 50e3}, {NAN, 50e3}, {50e3, NAN}};
     for (size_t i = 0; i < LENGTH(accepted); i++) {
-        struct ceduo_question q = question_of(200);
-        LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+        struct ceduo_request q = question_of(200);
+        LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
         struct ceduo_control controls[2] = {site.control, site.control};
         controls[0].x = controls[0].x_given = 20;
         for (int c = 0; c < 2; c++)
             controls[c].accepted = accepted[i][c];
         site.scene.controls = controls;
         site.scene.controls_count = 2;
-        assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
+        assert_int_equal(ceduo_simulate_request(&q, NULL, &answer), CEDUO_OK);
         double reached = ceduo_goal_reached(CEDUO_GOAL_EXCEED, answer.result, 0, NULL);
         const struct ceduo_arrivals *a = answer.result->options[0].wooded.arrivals;
         EXPECT(ceduo_goal_reached(CEDUO_GOAL_ARRIVE, answer.result, 0, NULL), ==, fmax(a[0].reach.mean, a[1].reach.mean));
@@ -134,13 +134,13 @@ TEST(a_goal_is_reached_at_the_worst_control)
 /* Of two options that are the same the difference is 0, without an error. */
 TEST(options_that_are_the_same)
 {
-    struct ceduo_question q = question_of(200);
-    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+    struct ceduo_request q = question_of(200);
+    LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     struct ceduo_option options[2] = {site.option, site.option};
     site.control.accepted = 1e12;
     site.scene.options = options;
     site.scene.options_count = 2;
-    assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
+    assert_int_equal(ceduo_simulate_request(&q, NULL, &answer), CEDUO_OK);
     struct ceduo_estimate difference = ceduo_share_to_first(answer.result, 1);
     EXPECT(difference.mean, ==, 0);
     EXPECT(difference.se, ==, 0);
@@ -150,13 +150,13 @@ TEST(options_that_are_the_same)
 /* Two things at one place: the same rocks come, and each has its own limit. */
 TEST(controls_at_one_place)
 {
-    struct ceduo_question q = question_of(200);
-    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+    struct ceduo_request q = question_of(200);
+    LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     struct ceduo_control controls[2] = {site.control, site.control};
     controls[1].accepted = 0;
     site.scene.controls = controls;
     site.scene.controls_count = 2;
-    assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
+    assert_int_equal(ceduo_simulate_request(&q, NULL, &answer), CEDUO_OK);
     const struct ceduo_arrivals *a = ceduo_result_wooded(answer.result, 0, 0), *b = ceduo_result_wooded(answer.result, 0, 1);
     EXPECT(a->reached, >, 0);
     EXPECT(a->reached, ==, b->reached);
@@ -167,12 +167,12 @@ TEST(controls_at_one_place)
 /* Years in which no rock was simulated have no share that could be less. */
 TEST(years_without_rocks_differ_by_nothing_known)
 {
-    struct ceduo_question q = question_of(50);
-    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+    struct ceduo_request q = question_of(50);
+    LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     LOCAL(ceduo_years, none);
     q.years = true;
     q.window = (struct ceduo_window){.last = 1, .step = 1};
-    assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
+    assert_int_equal(ceduo_simulate_request(&q, NULL, &answer), CEDUO_OK);
     assert_int_equal(ceduo_years_create(&site.scene, &site.option, q.window, &none), CEDUO_OK);
     EXPECT(ceduo_years_difference(answer.years[0], answer.years[0]).mean, ==, 0);
     assert_true(isnan(ceduo_years_difference(answer.years[0], none).mean));
@@ -192,7 +192,7 @@ TEST(fellings_are_in_order)
         belts[i].stand.cutting = (struct ceduo_cutting){.rotation = 10};
         belts[i].cut_year = 2;
     }
-    assert_int_equal(ceduo_yield_of(&option, 25, &yield), CEDUO_OK);
+    assert_int_equal(ceduo_yield_compute(&option, 25, &yield), CEDUO_OK);
     EXPECT(yield.fellings_count, ==, 9);
     for (size_t i = 0; i < 9; i++) {
         EXPECT(yield.fellings[i].year, ==, 2 + i / 3 * 10);
@@ -220,11 +220,11 @@ TEST(a_stand_just_cut_yields)
     belts[0].cut_year = 10;
     belts[1] = belts[0];
     belts[1].stand = (struct ceduo_stand){.species = -1, .fracture_ratio = NAN};
-    assert_int_equal(ceduo_yield_of(&option, 25, &alone), CEDUO_OK);
+    assert_int_equal(ceduo_yield_compute(&option, 25, &alone), CEDUO_OK);
     EXPECT(alone.volume_today, ==, 0);
     EXPECT(alone.cut_per_year, >, 0);
     option.belts_count = 2;
-    assert_int_equal(ceduo_yield_of(&option, 25, &beside), CEDUO_OK);
+    assert_int_equal(ceduo_yield_compute(&option, 25, &beside), CEDUO_OK);
     EXPECT(beside.cut_per_year, ==, alone.cut_per_year);
 }
 
@@ -241,6 +241,6 @@ TEST(volumes_of_belts_are_weighed_by_their_lengths)
         trees->per_ha = 100;
         trees->volume = i == 0 ? 0.5 : 1;
     }
-    assert_int_equal(ceduo_yield_of(&site.option, 0, &yield), CEDUO_OK);
+    assert_int_equal(ceduo_yield_compute(&site.option, 0, &yield), CEDUO_OK);
     EXPECT_NEAR(yield.volume_today, (30. * 50 + 90 * 100) / 120, 1e-12);
 }

@@ -126,7 +126,7 @@ TEST(scenes_are_refused)
 TEST(blocks_are_refused)
 {
     double volumes[2] = {0.1, 2};
-    struct ceduo_block_class b[2] = {{1, 1, 2, volumes}, {1, 1, 2, volumes}};
+    struct ceduo_size_class b[2] = {{1, 1, 2, volumes}, {1, 1, 2, volumes}};
     const struct change rows[] = {{&volumes[0], 0, CEDUO_BAD_ROCK, 0},      {&volumes[0], NAN, CEDUO_BAD_ROCK, 0},
                                   {&volumes[0], 2, CEDUO_BAD_ROCK, 0},      {&b[1].per_year, 0, CEDUO_BAD_ROCK, 0},
                                   {&b[1].per_year, NAN, CEDUO_BAD_ROCK, 0}, {&b[1].exponent, -1, CEDUO_BAD_ROCK, 0}};
@@ -141,7 +141,7 @@ TEST(blocks_are_refused)
 /* Of other sizes of the rock none is flown, whatever the contact model. */
 static void expect_no_blocks(void)
 {
-    struct ceduo_block blocks[CEDUO_BLOCKS];
+    struct ceduo_size_result blocks[CEDUO_SIZES];
     const struct ceduo_blocks_def def = {
         .scene = &site.scene, .option = &site.option, .rocks = 10, .effort = INFINITY, .threads = 1};
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
@@ -165,7 +165,7 @@ TEST(no_rock_no_figures)
     assert_true(isnan(index.measured));
     EXPECT(index.contact, !=, CEDUO_PASS);
     assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
-    assert_null(ceduo_follower_create(&site.scene, NULL));
+    assert_null(ceduo_tracer_create(&site.scene, NULL));
     expect_no_blocks();
     /* good itself, but too heavy when it is as large as the others */
     site.scene.rock = ceduo_scene_default().rock;

@@ -40,13 +40,13 @@ TEST(each_spread_is_drawn)
     }
 }
 
-static void count_piece(void *context, const struct ceduo_piece *piece)
+static void count_piece(void *context, const struct ceduo_trajectory_segment *piece)
 {
     (void)piece;
     ++*(unsigned *)context;
 }
 
-static void count_stem(void *context, const struct ceduo_stem_passed *stem)
+static void count_stem(void *context, const struct ceduo_stem_encounter *stem)
 {
     (void)stem;
     *(unsigned *)context += 1000000;
@@ -56,10 +56,10 @@ static void count_stem(void *context, const struct ceduo_stem_passed *stem)
 TEST(looking_on_changes_nothing)
 {
     unsigned seen;
-    const struct ceduo_watch watches[] = {{NULL, count_piece, count_stem, &seen},
-                                          {NULL, count_piece, NULL, &seen},
-                                          {NULL, NULL, count_stem, &seen},
-                                          {NULL, NULL, NULL, &seen}};
+    const struct ceduo_trajectory_callbacks watches[] = {{NULL, count_piece, count_stem, &seen},
+                                                         {NULL, count_piece, NULL, &seen},
+                                                         {NULL, NULL, count_stem, &seen},
+                                                         {NULL, NULL, NULL, &seen}};
     paper_site_init(&site);
     site.plots[0].shoots.height = site.plots[1].trees.height = .3; /* some are flown over */
     for (uint64_t rock = 0; rock < 60; rock++) {
@@ -151,7 +151,7 @@ TEST(what_is_alike_is_simulated_once)
 TEST(differences_of_blocks)
 {
     static double volumes[] = {0.05, 1};
-    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     paper_site_init(&site);
     site.scene.blocks = &blocks;
     site.scene.blocks_count = 1;
@@ -180,7 +180,7 @@ TEST(energies_of_blocks_are_even_quantiles)
 {
     enum { ROCKS = 900, MOST = 100 };
     static double volumes[] = {0.05, 1}, some[MOST];
-    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     paper_site_init(&site);
     site.scene.blocks = &blocks;
     site.scene.blocks_count = 1;
@@ -206,7 +206,7 @@ TEST(energies_of_blocks_are_even_quantiles)
 TEST(a_run_in_brief)
 {
     static double volumes[] = {0.05, 1};
-    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     for (int i = 0; i < 4; i++) {
         paper_site_init(&site);
         site.control.x = 20;
@@ -215,9 +215,9 @@ TEST(a_run_in_brief)
         site.scene.blocks_count = i / 2 == 1;
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
         LOCAL(ceduo_run, run) = run_of(&def, 300);
-        struct ceduo_brief brief;
+        struct ceduo_group_means brief;
         struct ceduo_arrivals a;
-        ceduo_run_briefs(run, 0, 1, &brief);
+        ceduo_run_group_means(run, 0, 1, &brief);
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
         EXPECT_NEAR(brief.reach_probability, a.reach.mean, 1e-12);
         EXPECT(isnan(brief.exceed_probability), ==, i % 2);
@@ -377,7 +377,7 @@ TEST(a_pool_forgets_what_is_old)
     assert_int_equal(ceduo_pool_run(pool, &site.option, &run), CEDUO_OK);
     assert_int_equal(ceduo_pool_work(pool).reused, 1);
     site.belts[1].to = to;
-    ceduo_pool_turn(pool, &site.scene);
+    ceduo_pool_set_scene(pool, &site.scene);
     assert_int_equal(ceduo_pool_work(pool).runs, 2 + MORE); /* made; those that are forgotten count */
     assert_non_null(ceduo_pool_find(pool, NULL));
     assert_non_null(ceduo_pool_find(pool, &site.option));

@@ -23,7 +23,7 @@ static struct text scene_with(const char *lines)
         char key[32];
         snprintf(key, sizeof key, "\n%.*s", (int)strcspn(plain[i], ":"), plain[i]);
         bool other = strncmp(lines, key + 1, strlen(key) - 1) == 0 || strstr(lines, key);
-        ceduo_text_put(&text, other ? "" : plain[i]);
+        ceduo_text_append(&text, other ? "" : plain[i]);
     }
     ceduo_text_format(&text, "%s\n", lines);
     return text;
@@ -57,10 +57,10 @@ TEST_WITH(rows_of_uncertainty_are_told, folder_set_up, folder_tear_down)
 {
     LOCAL_TEXT(many);
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    ceduo_text_put(&many, "uncertainty: [");
+    ceduo_text_append(&many, "uncertainty: [");
     for (int i = 0; i <= CEDUO_ITEMS_MAX; i++)
-        ceduo_text_put(&many, "{path: rock.density_kg_m3, lo: 1, hi: 2},");
-    ceduo_text_put(&many, "]");
+        ceduo_text_append(&many, "{path: rock.density_kg_m3, lo: 1, hi: 2},");
+    ceduo_text_append(&many, "]");
     read_scene(&file, many.bytes, NULL, 0, "uncertainty: 1001 items; at most 1000 can be computed");
 }
 
@@ -88,7 +88,7 @@ TEST_WITH(rows_of_uncertainty_mean_places, folder_set_up, folder_tear_down)
     expect_places("uncertainty: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]\n"
                   "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}, {name: cut}]",
                   "options[1].forest[0].to_m");
-    /* one stand says it, the other that nothing is in uncertainty */
+    /* one stand says it, the other that nothing is uncertain */
     expect_places("forest: [{" BELT ", uncertainty: none}}, {from_m: 80, to_m: 90, stand: {trees: [{per_ha: 10, " TREE "}], "
                   "uncertainty: [{path: 'trees[0].per_ha', lo: 1, hi: 90}]}}]",
                   "forest[1].stand.trees[0].per_ha");
@@ -111,7 +111,7 @@ TEST_WITH(places_by_name, folder_set_up, folder_tear_down)
                           "trees: [{per_ha: 80, " TREE "}], energy: {model: brauner, u_J_m3: 1e5}, %s}}]}]",
                           more[i]);
         read_scene(&file, lines.bytes, NULL, 0, NULL);
-        assert_true(ceduo_inputs_of(&file, &inputs));
+        assert_true(ceduo_inputs_collect(&file, &inputs));
         for (size_t k = 0; k < inputs.n; k++)
             for (size_t n = 0; n < inputs.items[k].places_count; n++)
                 found += strcmp(inputs.items[k].places[n], place) == 0;
@@ -131,13 +131,13 @@ TEST_WITH(all_places_are_meant, folder_set_up, folder_tear_down)
 {
     LOCAL_TEXT(lines);
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    ceduo_text_put(&lines, "uncertainty: [{path: 'options[*].forest[*].stand.energy.u_J_m3', lo: 80000, hi: 120000}]\n"
-                           "options:\n");
+    ceduo_text_append(&lines, "uncertainty: [{path: 'options[*].forest[*].stand.energy.u_J_m3', lo: 80000, hi: 120000}]\n"
+                              "options:\n");
     for (int i = 0; i < 4; i++) {
         ceduo_text_format(&lines, "  - name: n%d\n    forest: [", i);
         for (int k = 0; k < 400; k++)
             ceduo_text_format(&lines, "{from_m: %g, to_m: %g, stand: {}},", k * 0.125, (k + 1) * 0.125);
-        ceduo_text_put(&lines, "]\n");
+        ceduo_text_append(&lines, "]\n");
     }
     read_scene(&file, lines.bytes, NULL, 0, NULL);
     assert_int_equal(file.inputs_count, 1);
@@ -209,14 +209,14 @@ TEST_WITH(draws_of_many_columns, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_text_free) struct text profile = {0}, heads = {0}, draws = {0};
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    ceduo_text_put(&profile, "x,z\n");
+    ceduo_text_append(&profile, "x,z\n");
     for (int i = 0; i <= 3000; i++)
         ceduo_text_format(&profile, "%d,%d\n", i, 3000 - i);
     for (int c = 0; c < 6000; c++) {
         ceduo_text_format(&heads, "%sslope.segments[%d].r%c", c > 0 ? "," : "", c / 2, "nt"[c % 2]);
         ceduo_text_format(&draws, "%s0.%04d", c > 0 ? "," : "\n", c);
     }
-    ceduo_text_put(&heads, draws.bytes);
+    ceduo_text_append(&heads, draws.bytes);
     put("profile.csv", profile.bytes);
     put("draws.csv", heads.bytes);
     read_scene(&file, "slope: {csv: profile.csv, tolerance_m: 0}\nuncertainty: {draws: draws.csv}", NULL, 0, NULL);
@@ -258,15 +258,15 @@ TEST_WITH(strength_is_of_a_species, folder_set_up, folder_tear_down)
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     struct scene_inputs inputs;
     LOCAL_TEXT(lines);
-    ceduo_text_put(&lines, "rock: {diameter_m: 0.5, density_kg_m3: 2600, "
-                           "source: {kind: assumed, except: [diameter_m]}}\noptions:\n");
+    ceduo_text_append(&lines, "rock: {diameter_m: 0.5, density_kg_m3: 2600, "
+                              "source: {kind: assumed, except: [diameter_m]}}\noptions:\n");
     for (int i = 0; i < 2; i++)
         ceduo_text_format(&lines,
                           "  - {name: n%d, forest: [{from_m: 10, to_m: 20, stand: {species: acer, %s}}, "
                           "{from_m: 30, to_m: 40, stand: {species: fagus-sylvatica, %s}}]}\n",
                           i, wood, wood);
     read_scene(&file, lines.bytes, NULL, 0, NULL);
-    assert_true(ceduo_inputs_of(&file, &inputs));
+    assert_true(ceduo_inputs_collect(&file, &inputs));
     size_t strengths = 0;
     for (size_t i = 0; i < inputs.n; i++)
         if (strstr(inputs.items[i].path, "fracture_ratio")) {
@@ -386,7 +386,7 @@ TEST(problems_are_put_together)
         for (int i = 0; i < shift; i++)
             ceduo_text_char(&word, 'x');
         for (int i = 0; i < 600; i++)
-            ceduo_text_put(&word, "\xe2\x80\xa6");
+            ceduo_text_append(&word, "\xe2\x80\xa6");
         ceduo_problem(&problems, NULL, 0, 0, "%s end", word.bytes);
         assert_null(strstr(problems.text.bytes, "\\x"));
         assert_non_null(strstr(problems.text.bytes, "\xe2\x80\xa6 end\n"));
@@ -401,14 +401,14 @@ TEST(problems_are_put_together)
     ceduo_problems_free(&problems);
     for (int i = 0; i < 5000; i++)
         ceduo_problem(&problems, NULL, 0, 0, "kind %c%c%c", 'a' + i / 676, 'a' + i / 26 % 26, 'a' + i % 26);
-    ceduo_problems_close(&problems);
+    ceduo_problems_finish(&problems);
     assert_non_null(strstr(problems.text.bytes, "kind aat\n"));
     assert_null(strstr(problems.text.bytes, "kind aau\n"));
     assert_non_null(strstr(problems.text.bytes, "4980 more problems\n"));
     ceduo_problems_free(&problems);
     for (int i = 0; i < 8; i++) /* of one kind, and on no line */
         ceduo_problem(&problems, NULL, 0, 0, "kind %d", i);
-    ceduo_problems_close(&problems);
+    ceduo_problems_finish(&problems);
     assert_string_equal(problems.text.bytes, "kind 0\n  and 7 more of this kind\n");
     ceduo_problems_free(&problems);
 }
@@ -435,10 +435,10 @@ TEST(notes_are_found)
         assert_string_equal(note ? note->text : "none", row.at[1]);
         assert_int_equal(ceduo_scene_assumes_value(&file, row.at[0]), strcmp(row.at[2], "assumed") == 0);
     }
-    assert_true(ceduo_notes_say(file.notes, "assumed", "forest[0].stand"));
-    assert_true(ceduo_notes_say(file.notes, "assumed", "forest"));
-    assert_false(ceduo_notes_say(file.notes, "assumed", "forest[0].stand.shoots") ||
-                 ceduo_notes_say(file.notes, "assumed", "forest[0].sta"));
+    assert_true(ceduo_notes_print(file.notes, "assumed", "forest[0].stand"));
+    assert_true(ceduo_notes_print(file.notes, "assumed", "forest"));
+    assert_false(ceduo_notes_print(file.notes, "assumed", "forest[0].stand.shoots") ||
+                 ceduo_notes_print(file.notes, "assumed", "forest[0].sta"));
 }
 
 /* ---- the table of parameters ---- */

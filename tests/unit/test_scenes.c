@@ -111,7 +111,7 @@ static void expect_cut(double x, double z, const char *materials, const struct v
                z);
     LOCAL_TEXT(profile);
     if (csv)
-        ceduo_text_put(&profile, "csv: line.csv");
+        ceduo_text_append(&profile, "csv: line.csv");
     else
         ceduo_text_format(&profile, "vertices_m: [[%.17g, %.17g], [%.17g, %.17g], [%.17g, %.17g]]", x, z + 50, x + 40, z + 20,
                           x + 100, z);

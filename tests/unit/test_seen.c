@@ -20,8 +20,8 @@ TEST(half_of_ten)
 {
     double seen[10] = {0, 1, 1, 1, 1, 1, 9, 9, 9, 10}, simulated[4] = {0, 1, 9, 10};
     const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 10, .values = seen};
-    struct ceduo_seen_stops s = {0};
-    ceduo_seen_stops_of(&o, simulated, 4, 4, &s);
+    struct ceduo_observed_stops s = {0};
+    ceduo_observed_stops_find(&o, simulated, 4, 4, &s);
     size_t middle = CEDUO_SEEN_PLACES / 2;
     EXPECT(s.known, ==, true);
     EXPECT_NEAR(s.x[FIRST], 0, 1e-12);
@@ -33,7 +33,7 @@ TEST(half_of_ten)
     EXPECT_NEAR(s.hi[middle], 0.8, 1e-12);
     EXPECT_NEAR(s.hi[LAST], 0, 1e-12);
     const struct ceduo_observation five = {.kind = CEDUO_OBSERVED_STOPS, .n = 5, .values = (double[]){0, 1, 1, 9, 10}};
-    ceduo_seen_stops_of(&five, simulated, 4, 4, &s); /* none and all of them have chances of 1/32: above 2.5 % */
+    ceduo_observed_stops_find(&five, simulated, 4, 4, &s); /* none and all of them have chances of 1/32: above 2.5 % */
     EXPECT_NEAR(s.lo[middle], 0, 1e-12);
     EXPECT_NEAR(s.hi[middle], 1, 1e-12);
 }
@@ -43,8 +43,8 @@ TEST(those_that_go_on_lie_farther)
 {
     double seen[4] = {2, 3, 4, 5}, simulated[4] = {1, 2, 3, 6};
     const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .of = 10, .values = seen};
-    struct ceduo_seen_stops s = {0};
-    ceduo_seen_stops_of(&o, simulated, 4, 8, &s);
+    struct ceduo_observed_stops s = {0};
+    ceduo_observed_stops_find(&o, simulated, 4, 8, &s);
     EXPECT_NEAR(s.x[FIRST], 1, 1e-12);
     EXPECT_NEAR(s.x[LAST], 6, 1e-12);
     EXPECT_NEAR(s.seen[FIRST], 1, 1e-12);
@@ -59,8 +59,8 @@ TEST(one_place_has_no_picture)
 {
     double one = 5;
     const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 1, .values = &one};
-    struct ceduo_seen_stops s = {.known = true};
-    ceduo_seen_stops_of(&o, &one, 1, 1, &s);
+    struct ceduo_observed_stops s = {.known = true};
+    ceduo_observed_stops_find(&o, &one, 1, 1, &s);
     EXPECT(s.known, ==, false);
 }
 
@@ -77,7 +77,7 @@ TEST(a_flight_as_it_is)
     };
     const struct ceduo_calibration_scene asked = {.scene = &g.scene, .observations_count = 3, .observations = o};
     struct ceduo_predicted p[3];
-    EXPECT(ceduo_calibration_as_it_is(&asked, 2000, NULL, p), ==, CEDUO_OK);
+    EXPECT(ceduo_compare_with_observations(&asked, 2000, NULL, p), ==, CEDUO_OK);
     double speed = hypot(10, 9.81 * 2), half = 1.96 * 0.5 / sqrt(5);
     for (size_t i = 0; i < 2; i++) {
         EXPECT_NEAR(p[i].lo, speed - half, 0.06);
@@ -89,7 +89,7 @@ TEST(a_flight_as_it_is)
     EXPECT_NEAR(p[2].lo, 10, 1e-12);
     EXPECT(p[2].inside, ==, true);
     g.scene.slope.vertices = 1;
-    EXPECT(ceduo_calibration_as_it_is(&asked, 100, NULL, p), !=, CEDUO_OK);
+    EXPECT(ceduo_compare_with_observations(&asked, 100, NULL, p), !=, CEDUO_OK);
 }
 
 /* Two shapes, both to be fitted, under the law that knows a shape. */
@@ -109,15 +109,15 @@ TEST(two_shapes_tell_mu)
     const struct ceduo_calibration_scene scenes[2] = {{.scene = &scene, .observations_count = 3, .observations = o},
                                                       {.scene = &scene, .observations_count = 1, .observations = o}};
     o[1].rock = &larger;
-    assert_false(ceduo_calibration_tells_mu(scenes, 2)); /* of one shape */
+    assert_false(ceduo_calibration_identifies_mu(scenes, 2)); /* of one shape */
     o[2].rock = &plate;
-    assert_true(ceduo_calibration_tells_mu(scenes, 2));
-    assert_false(ceduo_calibration_tells_mu(scenes, 0));
+    assert_true(ceduo_calibration_identifies_mu(scenes, 2));
+    assert_false(ceduo_calibration_identifies_mu(scenes, 0));
     o[2].use = CEDUO_OBSERVED_CHECK;
-    assert_false(ceduo_calibration_tells_mu(scenes, 2)); /* the other is not fitted */
+    assert_false(ceduo_calibration_identifies_mu(scenes, 2)); /* the other is not fitted */
     o[2].use = CEDUO_OBSERVED_FIT;
     scene.simulation.law = CEDUO_LAW_LUMPED;
-    assert_false(ceduo_calibration_tells_mu(scenes, 2));
+    assert_false(ceduo_calibration_identifies_mu(scenes, 2));
 }
 
 /* ---- a fit that is ended ---- */

@@ -37,16 +37,16 @@ static void check_scene(const char *path)
     struct scene_file file;
     struct problems problems = {0};
     assert_true(ceduo_scene_load(&file, path, NULL, 0, &problems));
-    struct ceduo_question question = ceduo_question_default(&file.scene);
-    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+    struct ceduo_request question = ceduo_request_default(&file.scene);
+    LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict;
     question.rocks = question.run.rocks_most = ROCKS;
     question.years = true;
     question.years_apart = true;
     question.year_rocks = 50;
     question.years_most = 60;
-    assert_int_equal(ceduo_ask(&question, NULL, &answer), CEDUO_OK);
-    assert_int_equal(ceduo_verdict_make(answer.result, answer.years, NULL, &verdict), CEDUO_OK);
+    assert_int_equal(ceduo_simulate_request(&question, NULL, &answer), CEDUO_OK);
+    assert_int_equal(ceduo_compare_options(answer.result, answer.years, NULL, &verdict), CEDUO_OK);
     const struct ceduo_report report = {.file = &file, .result = answer.result, .verdict = &verdict};
     size_t options = file.scene.options_count;
     for (size_t width = WIDTH_MIN; width <= WIDTH_MAX; width++) {

@@ -94,9 +94,9 @@ TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
     EXPECT(o->wooded[0]->flown.arrivals[1].reached, <, o->bare->flown.arrivals[1].reached);
     assert_int_equal(o->bare->trajectories_count, 20);
     assert_int_equal(o->wooded[0]->trajectories_count, 20);
-    assert_ptr_equal(ceduo_snapshot_of(o, &s.scene, 0), o->wooded[0]);
-    assert_null(ceduo_snapshot_of(o, &s.scene, 2));
-    assert_null(ceduo_snapshot_of(NULL, &s.scene, 0));
+    assert_ptr_equal(ceduo_snapshot_find(o, &s.scene, 0), o->wooded[0]);
+    assert_null(ceduo_snapshot_find(o, &s.scene, 2));
+    assert_null(ceduo_snapshot_find(NULL, &s.scene, 0));
     ceduo_snapshot_free(NULL);
 }
 
@@ -123,8 +123,8 @@ TEST_WITH(the_index_looks_at_the_bare_slope, by_index, NULL)
     assert_int_equal(ceduo_pool_work(pool).runs, 1);
     assert_null(o->wooded[0]);
     assert_null(o->wooded[1]);
-    assert_ptr_equal(ceduo_snapshot_of(o, &s.scene, 0), o->bare);
-    assert_ptr_equal(ceduo_snapshot_of(o, &s.scene, 1), o->bare);
+    assert_ptr_equal(ceduo_snapshot_find(o, &s.scene, 0), o->bare);
+    assert_ptr_equal(ceduo_snapshot_find(o, &s.scene, 1), o->bare);
 }
 
 /* Runs that are not there yet leave gaps. */
@@ -180,12 +180,12 @@ TEST_WITH(a_changed_forest_shows_what_it_was, wooded, NULL)
     struct ceduo_option options[4] = {b.options[0], b.options[1], s.options[0], b.options[0]};
     b.scene.options = options;
     b.belts[0].stand.u = 50e3;
-    assert_ptr_equal(ceduo_snapshot_of(o, &b.scene, 0), o->wooded[0]);
-    assert_ptr_equal(ceduo_snapshot_of(o, &b.scene, 1), o->wooded[1]);
+    assert_ptr_equal(ceduo_snapshot_find(o, &b.scene, 0), o->wooded[0]);
+    assert_ptr_equal(ceduo_snapshot_find(o, &b.scene, 1), o->wooded[1]);
     b.scene.options_count = 4;
-    assert_null(ceduo_snapshot_of(o, &b.scene, 0));
-    assert_ptr_equal(ceduo_snapshot_of(o, &b.scene, 2), o->wooded[0]);
-    assert_null(ceduo_snapshot_of(o, &b.scene, 3));
+    assert_null(ceduo_snapshot_find(o, &b.scene, 0));
+    assert_ptr_equal(ceduo_snapshot_find(o, &b.scene, 2), o->wooded[0]);
+    assert_null(ceduo_snapshot_find(o, &b.scene, 3));
 }
 
 /* What has not changed since the last snapshot is not read again but shared; who is freed first does not matter. */
@@ -200,7 +200,7 @@ TEST(sights_are_taken_over)
         struct ceduo_pool *pool = pool_of(300);
         struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .trajectories = 5};
         struct ceduo_snapshot *first = snapshot_of(&def);
-        ceduo_pool_turn(pool, &b.scene);
+        ceduo_pool_set_scene(pool, &b.scene);
         def.scene = &b.scene;
         def.last = first;
         struct ceduo_snapshot *early = snapshot_of(&def);

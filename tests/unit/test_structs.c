@@ -103,19 +103,19 @@ TEST(any_struct_is_refused_or_computed)
 {
     uint64_t computed = 0, asked = (uint64_t)ASKED;
     for (uint64_t i = 0; i < asked; i++) {
-        struct ceduo_question q;
-        struct ceduo_answer a;
+        struct ceduo_request q;
+        struct ceduo_results a;
         open_site();
         for (uint64_t k = 1 + draw(3); k > 0; k--)
             change(ceduo_schema_scene(), (char *)&site.scene);
-        q = ceduo_question_default(&site.scene);
+        q = ceduo_request_default(&site.scene);
         q.rocks = 1 + draw(10);
         q.run.threads = 1;
         q.years = draw(4) == 0;
         q.year_rocks = 2;
         q.years_most = 5;
         alarm(SECONDS); /* ends the test */
-        enum ceduo_status status = ceduo_ask(&q, NULL, &a);
+        enum ceduo_status status = ceduo_simulate_request(&q, NULL, &a);
         alarm(0);
         if (status == CEDUO_OK) {
             double share = a.result->bare.arrivals[0].reach.mean;
@@ -123,7 +123,7 @@ TEST(any_struct_is_refused_or_computed)
             computed++;
         }
         EXPECT(status, !=, CEDUO_NO_MEMORY);
-        ceduo_answer_release(&a);
+        ceduo_results_release(&a);
     }
     EXPECT(computed, >, asked / 4); /* and not all is refused */
     EXPECT(computed, <, asked * 9 / 10);
@@ -198,8 +198,8 @@ static struct ceduo_input any_input(void)
 
 static enum ceduo_status ask_any(void)
 {
-    struct ceduo_question q = ceduo_question_default(&site.scene);
-    struct ceduo_answer a;
+    struct ceduo_request q = ceduo_request_default(&site.scene);
+    struct ceduo_results a;
     q.run.scene = draw(64) ? &site.scene : NULL;
     q.rocks = any_count(8);
     q.run.rocks_most = any_count(8);
@@ -215,10 +215,10 @@ static enum ceduo_status ask_any(void)
     q.year_rocks = 1 + draw(2);
     q.block_rocks = draw(4) ? 0 : any_count(5);
     q.tolerance = draw(4) ? 0 : .5;
-    enum ceduo_status status = ceduo_ask(&q, NULL, &a);
+    enum ceduo_status status = ceduo_simulate_request(&q, NULL, &a);
     for (size_t i = 0; status == CEDUO_OK && i < 2; i++) /* indices beyond what there is */
         ceduo_result_wooded(a.result, any_count(1), any_count(1));
-    ceduo_answer_release(&a);
+    ceduo_results_release(&a);
     return status;
 }
 
@@ -227,7 +227,7 @@ static enum ceduo_status ask_any_uncertainty(void)
     struct ceduo_input inputs[2] = {any_input(), any_input()};
     struct ceduo_uncertainty_def def =
         draw(8) ? ceduo_uncertainty_def_default(&site.scene) : (struct ceduo_uncertainty_def){.scene = &site.scene};
-    struct ceduo_uncertainty_answer a;
+    struct ceduo_uncertainty_result a;
     def.inputs = draw(32) ? inputs : NULL;
     def.inputs_count = draw(16) ? 1 + draw(2) : 0;
     def.points = draw(8) ? 2 + draw(4) : any_count(4);
@@ -241,7 +241,7 @@ static enum ceduo_status ask_any_uncertainty(void)
     def.brief = draw(2);
     def.alone = draw(3) == 0;
     def.option = any_count(1);
-    enum ceduo_status status = ceduo_uncertainty_ask(&def, &a);
+    enum ceduo_status status = ceduo_uncertainty_compute(&def, &a);
     if (status == CEDUO_OK)
         ceduo_uncertainty_free(&a);
     return status;
@@ -249,7 +249,7 @@ static enum ceduo_status ask_any_uncertainty(void)
 
 static enum ceduo_status ask_any_other(void)
 {
-    struct ceduo_block blocks[CEDUO_BLOCKS];
+    struct ceduo_size_result blocks[CEDUO_SIZES];
     struct ceduo_record record;
     struct ceduo_yield yield;
     struct ceduo_years *years = NULL;
@@ -262,7 +262,7 @@ static enum ceduo_status ask_any_other(void)
                                      .spacing = NAN,
                                      .energy = NAN,
                                      .kind = (enum ceduo_survey_kind)any_count(3)};
-    struct ceduo_survey_answer answer;
+    struct ceduo_survey_result answer;
     enum ceduo_status status = CEDUO_OK;
     struct ceduo_blocks_def sizes = ceduo_blocks_def_default(&site.scene);
     struct ceduo_record_def followed = ceduo_record_def_default(&site.scene);
@@ -279,7 +279,7 @@ static enum ceduo_status ask_any_other(void)
         ceduo_record_release(&record);
         return status;
     case 2:
-        status = ceduo_yield_of(&site.option, (unsigned)any_count(50), &yield);
+        status = ceduo_yield_compute(&site.option, (unsigned)any_count(50), &yield);
         ceduo_yield_release(&yield);
         return status;
     case 3:
@@ -292,7 +292,7 @@ static enum ceduo_status ask_any_other(void)
         survey.stools_count = any_count(1);
         survey.stems_count = draw(4) ? 1 : 0;
         survey.stems = draw(8) ? &stem : NULL;
-        status = ceduo_survey_ask(&survey, &answer);
+        status = ceduo_survey_compute(&survey, &answer);
         if (status == CEDUO_OK)
             ceduo_survey_free(&answer);
         return status;
@@ -325,17 +325,17 @@ TEST(any_question_is_refused_or_computed)
 TEST(each_bad_argument_is_refused)
 {
     open_site();
-    struct ceduo_question q = ceduo_question_default(&site.scene);
+    struct ceduo_request q = ceduo_request_default(&site.scene);
     q.rocks = q.run.rocks_most = 10;
-    struct ceduo_answer a;
+    struct ceduo_results a;
 #define REFUSED(member, value)                                                                                                 \
     do {                                                                                                                       \
-        struct ceduo_question bad = q;                                                                                         \
+        struct ceduo_request bad = q;                                                                                          \
         bad.member = value;                                                                                                    \
-        EXPECT(ceduo_ask(&bad, NULL, &a), ==, CEDUO_BAD_ARGUMENT);                                                             \
+        EXPECT(ceduo_simulate_request(&bad, NULL, &a), ==, CEDUO_BAD_ARGUMENT);                                                \
     } while (0)
-    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
-    ceduo_answer_release(&a);
+    EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_OK);
+    ceduo_results_release(&a);
     REFUSED(only, site.scene.options_count);
     REFUSED(rocks, CEDUO_ROCKS_MAX + 1);
     REFUSED(run.rocks_most, UINT64_MAX);
@@ -345,10 +345,10 @@ TEST(each_bad_argument_is_refused)
     REFUSED(window, ((struct ceduo_window){CEDUO_WINDOW_GIVEN, 1, 2000000000, 1}));
     REFUSED(window, ((struct ceduo_window){CEDUO_WINDOW_GIVEN, 2, 1, 1}));
     site.belts[0].stand.trees->per_ha = DBL_MAX;
-    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_BAD_STAND);
+    EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_BAD_STAND);
     open_site();
     site.belts[0].stand.cutting.stay_per_ha = NULL;
-    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_BAD_STAND);
+    EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_BAD_STAND);
     struct ceduo_years *years;
     EXPECT(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 5, .step = 1}, &years), ==,
            CEDUO_BAD_STAND);
@@ -360,25 +360,25 @@ TEST(each_bad_argument_is_refused)
     input.places = &place;
     input.places_count = 1;
     struct ceduo_uncertainty_def def = ceduo_uncertainty_def_default(&site.scene), bad;
-    struct ceduo_uncertainty_answer uncertainty;
+    struct ceduo_uncertainty_result uncertainty;
     def.inputs = &input;
     def.inputs_count = 1;
     def.points = def.points_max = 4;
     def.rocks = 20;
     def.threads = 0; /* one */
-    EXPECT(ceduo_uncertainty_ask(&def, &uncertainty), ==, CEDUO_OK);
+    EXPECT(ceduo_uncertainty_compute(&def, &uncertainty), ==, CEDUO_OK);
     EXPECT(uncertainty.points, ==, 4);
     ceduo_uncertainty_free(&uncertainty);
     bad = def, bad.alone = true, bad.option = 9;
-    EXPECT(ceduo_uncertainty_ask(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_uncertainty_compute(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     bad = def, bad.years_max = 1000;
-    EXPECT(ceduo_uncertainty_ask(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_uncertainty_compute(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     place = "controls[3].accepted_kJ";
-    EXPECT(ceduo_uncertainty_ask(&def, &uncertainty), ==, CEDUO_BAD_PLACE);
+    EXPECT(ceduo_uncertainty_compute(&def, &uncertainty), ==, CEDUO_BAD_PLACE);
     input.kind = CEDUO_INPUT_WORDS;
-    EXPECT(ceduo_uncertainty_ask(&def, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_uncertainty_compute(&def, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     input.kind = CEDUO_INPUT_DRAWS;
-    EXPECT(ceduo_uncertainty_ask(&def, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_uncertainty_compute(&def, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     struct ceduo_calibration fit;
     struct ceduo_calibration_def how = ceduo_calibration_def_default();
     struct ceduo_calibration_scene fitted = {.scene = &site.scene, .inputs = &input};
@@ -388,7 +388,7 @@ TEST(each_bad_argument_is_refused)
     how.parameters_count = CEDUO_CALIBRATION_MAX + 1;
     EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_BAD_ARGUMENT);
     struct ceduo_blocks_def sizes = ceduo_blocks_def_default(&site.scene);
-    struct ceduo_block blocks[CEDUO_BLOCKS];
+    struct ceduo_size_result blocks[CEDUO_SIZES];
     sizes.control = 7;
     EXPECT(ceduo_blocks(&sizes, blocks), ==, CEDUO_BAD_ARGUMENT);
     struct ceduo_found found;
@@ -403,7 +403,7 @@ TEST(missing_lists_are_refused)
 {
     open_site();
     double volumes[] = {1, 2};
-    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     struct ceduo_scene *s = &site.scene;
     s->blocks = &blocks;
     s->blocks_count = 1;
@@ -435,10 +435,10 @@ TEST(missing_lists_are_refused)
 TEST(as_many_rocks_as_are_asked_for)
 {
     open_site();
-    struct ceduo_question q = ceduo_question_default(&site.scene);
-    struct ceduo_answer a;
+    struct ceduo_request q = ceduo_request_default(&site.scene);
+    struct ceduo_results a;
     q.rocks = 5000;
-    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_OK);
     EXPECT(ceduo_result_rocks(a.result), ==, 5000);
-    ceduo_answer_release(&a);
+    ceduo_results_release(&a);
 }

@@ -34,7 +34,7 @@ static bool still;   /* the last input is the same at all points */
 static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uint64_t seed, double noise)
 {
     double *u = malloc(points * n * sizeof *u);
-    struct ceduo_groups *y = malloc(points * sizeof *y);
+    struct ceduo_replicates *y = malloc(points * sizeof *y);
     struct ceduo_surface *surface;
     struct ceduo_surface_fit fit;
     struct line_random random = {.state = seed + 1000};
@@ -229,7 +229,7 @@ static struct ceduo_surface *of_few_points(const double *u)
 TEST(figures_of_one_surface)
 {
     static double u[FEW_POINTS * FEW_INPUTS];
-    static struct ceduo_groups y[FEW_POINTS];
+    static struct ceduo_replicates y[FEW_POINTS];
     make_inputs(FEW_INPUTS, 0, 0);
     EXPECT(ceduo_surface_points(1, FEW_POINTS, FEW_INPUTS, u), ==, CEDUO_OK);
     for (size_t p = 0; p < FEW_POINTS; p++)
@@ -545,7 +545,7 @@ TEST(values_have_no_noise_of_their_rocks)
 {
     enum { POINTS = 256, FIGURES = 2 };
     static double u[2 * POINTS], values[FIGURES * POINTS];
-    static struct ceduo_groups y[FIGURES * POINTS], changes[FIGURES * POINTS];
+    static struct ceduo_replicates y[FIGURES * POINTS], changes[FIGURES * POINTS];
     const double noise = .4;
     struct ceduo_surface *surface;
     struct line_random random = {.state = 1};

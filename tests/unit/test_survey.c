@@ -76,9 +76,9 @@ TEST(intervals_hold_the_truth)
         areas[p] = M_PI * RADIUS * RADIUS;
     for (int i = 0; i < SAMPLES; i++) {
         struct ceduo_survey s = {.plots_count = PLOTS, .areas = areas, .stems = stems};
-        LOCAL_BY(ceduo_survey_free) struct ceduo_survey_answer a;
+        LOCAL_BY(ceduo_survey_free) struct ceduo_survey_result a;
         s.stems_count = visit(f, stems, &s.stools_count);
-        assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+        assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
         const struct ceduo_estimate *n = &a.per_ha[CEDUO_SURVEY_SHOOT];
         shoots += n->lo <= f->shoots_per_ha && f->shoots_per_ha <= n->hi;
         stools += a.stools.lo <= f->stools_per_ha && f->stools_per_ha <= a.stools.hi;
@@ -103,8 +103,8 @@ TEST(densities_by_hand)
             stems[n++] = (struct ceduo_survey_stem){
                 .plot = p, .kind = CEDUO_SURVEY_TREE, .species = -1, .dbh = .12, .height = 9, .spacing = NAN};
     struct ceduo_survey s = {.plots_count = 3, .areas = areas, .stems_count = n, .stems = stems};
-    struct ceduo_survey_answer a;
-    assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+    struct ceduo_survey_result a;
+    assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
     const struct ceduo_estimate *e = &a.per_ha[CEDUO_SURVEY_TREE];
     EXPECT_NEAR(e->mean, 200, 1e-12);
     EXPECT_NEAR(e->se, 100 / sqrt(3), 1e-12);
@@ -119,7 +119,7 @@ TEST(densities_by_hand)
     ceduo_survey_free(&a);
     s.plots_count = 1;
     s.stems_count = 2;
-    assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+    assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
     EXPECT_NEAR(a.per_ha[CEDUO_SURVEY_TREE].mean, 200, 1e-12);
     assert_true(isnan(a.per_ha[CEDUO_SURVEY_TREE].se));
     ceduo_survey_free(&a);
@@ -210,8 +210,8 @@ TEST(classes_by_hand)
     stems[4].spacing = .3;
     stems[5].energy = 3000;
     struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 1, .stems_count = 7, .stems = stems};
-    LOCAL_BY(ceduo_survey_free) struct ceduo_survey_answer a;
-    assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+    LOCAL_BY(ceduo_survey_free) struct ceduo_survey_result a;
+    assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
     assert_int_equal(a.species, cerris);
     assert_int_equal(a.classes_count, 5);
     const struct ceduo_survey_class *c = a.classes;
@@ -255,8 +255,8 @@ TEST(heights_that_are_missing)
     stems[7] = stem(CEDUO_SURVEY_STANDARD, 0, .3, 15);
     stems[8] = stem(CEDUO_SURVEY_TREE, 0, .4, NAN);
     struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 6, .stems_count = 9, .stems = stems};
-    struct ceduo_survey_answer a;
-    assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+    struct ceduo_survey_result a;
+    assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
     assert_int_equal(a.shoots.from, CEDUO_HEIGHTS_CURVE);
     assert_int_equal(a.shoots.given, 5);
     assert_int_equal(a.shoots.missing, 1);
@@ -269,7 +269,7 @@ TEST(heights_that_are_missing)
     EXPECT_NEAR(a.classes[a.classes_count - 1].height, 13.5, 1e-12);
     ceduo_survey_free(&a);
     s.stems_count = 5;
-    assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+    assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
     assert_int_equal(a.shoots.from, CEDUO_HEIGHTS_MEASURED);
     assert_true(isnan(a.trees.mean));
     ceduo_survey_free(&a);

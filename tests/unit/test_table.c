@@ -351,7 +351,7 @@ static void check_put(void *context, const char *path, const struct field *f)
                 number = ceduo_choice_find(f->choices, values[k]);
             else
                 assert_int_equal(ceduo_number_read(values[k], &number), CEDUO_NUMBER_GOOD);
-            bool good = ceduo_value_put(&v, number);
+            bool good = ceduo_value_set(&v, number);
             if (!good)
                 assert_true(ceduo_value_get(&v) == was || isnan(was));
             else
@@ -359,7 +359,7 @@ static void check_put(void *context, const char *path, const struct field *f)
             if (!keys_with(scenes[i], place.bytes, values[k], &set))
                 continue;
             if (strcmp(f->key, "per_stool") == 0)
-                ceduo_stand_count_shoots(&file.scene.options[0].belts[0].stand);
+                ceduo_stand_update_shoot_density(&file.scene.options[0].belts[0].stand);
             struct keys now = keys_of(&file.scene);
             if (!good || now.flight != set.flight || now.years != set.years)
                 fail_msg("%s=%s: set is another scene than put", place.bytes, values[k]);
@@ -396,7 +396,7 @@ static struct value put_at(struct ceduo_scene *scene, const char *path, double n
 {
     struct value v;
     assert_true(ceduo_value_find(scene, path, &v));
-    assert_true(ceduo_value_put(&v, number));
+    assert_true(ceduo_value_set(&v, number));
     return v;
 }
 
@@ -408,27 +408,27 @@ TEST(paths_of_numbers)
     struct ceduo_scene *s = &file.scene;
     v = found(s, "options[a].forest[wood].stand.trees[0].per_ha", 80);
     v = found(s, "controls[road].accepted_kJ", 80);
-    assert_true(ceduo_value_put(&v, 90));
+    assert_true(ceduo_value_set(&v, 90));
     EXPECT(s->controls[0].accepted, ==, 90e3);
     v = put_at(s, "controls[0].x_m", 185);
     EXPECT(s->controls[0].x_given, ==, 185);
     EXPECT(s->controls[0].x, ==, 85);
     v = found(s, "release.x_m", 101);
-    assert_true(ceduo_value_put(&v, 102));
+    assert_true(ceduo_value_set(&v, 102));
     EXPECT(s->release.x.mean, ==, 2);
     v = put_at(s, "release.vx_m_s.spread", .25);
     EXPECT(s->release.vx.spread, ==, .25);
     v = put_at(s, "release.vx_m_s.mean", 2);
     EXPECT(s->release.vx.mean, ==, 2);
     assert_true(ceduo_value_find(s, "release.height_m.spread", &v));
-    assert_false(ceduo_value_put(&v, 5)); /* it would reach below 0 */
+    assert_false(ceduo_value_set(&v, 5)); /* it would reach below 0 */
     EXPECT(s->release.height.spread, ==, 0);
     v = put_at(s, "slope.segments[0].rn", .25); /* it is for all */
     for (size_t j = 0; j < 3; j++)
         EXPECT(s->slope.segments[j].rn.mean, ==, .25);
     v = put_at(s, "simulation.seed", 7);
     EXPECT(s->simulation.seed, ==, 7);
-    assert_false(ceduo_value_put(&v, 7.5) || ceduo_value_put(&v, -1) || ceduo_value_put(&v, NAN) || ceduo_value_put(&v, 1e17));
+    assert_false(ceduo_value_set(&v, 7.5) || ceduo_value_set(&v, -1) || ceduo_value_set(&v, NAN) || ceduo_value_set(&v, 1e17));
     assert_false(ceduo_value_find(s, "", &v));
     expect_none(s, "rock|rock.|rock.size|title|slope.segments[1].rn|slope.vertices_m[0][0]|slope.vertices_m[1]|"
                    "slope.vertices_m[1][2]|controls[1].x_m|controls.x_m|options[c].forest[0].from_m|forest[0].from_m|"
@@ -445,19 +445,19 @@ TEST(paths_of_numbers_in_lists)
     read_scene(&file, scenes[4]);
     struct ceduo_scene *s = &file.scene;
     v = found(s, "slope.vertices_m[1][0]", 130);
-    assert_true(ceduo_value_put(&v, 140));
+    assert_true(ceduo_value_set(&v, 140));
     EXPECT(s->slope.x[1], ==, 40);
     v = found(s, "slope.vertices_m[1][1]", 30);
-    assert_true(ceduo_value_put(&v, 35));
+    assert_true(ceduo_value_set(&v, 35));
     EXPECT(s->slope.z[1], ==, -25);
     v = put_at(s, "rock.axes_m[1].spread", .125);
-    assert_false(ceduo_value_put(&v, -.125) || ceduo_value_put(&v, INFINITY) || ceduo_value_put(&v, NAN));
+    assert_false(ceduo_value_set(&v, -.125) || ceduo_value_set(&v, INFINITY) || ceduo_value_set(&v, NAN));
     EXPECT(ceduo_value_get(&v), ==, .125);
     EXPECT(s->rock.axes[1].mean, ==, .5);
     EXPECT(s->rock.axes[1].spread, ==, .125);
     assert_true(ceduo_value_find(s, "slope.segments[0].rn.spread", &v));
-    assert_false(ceduo_value_put(&v, INFINITY)); /* though what is drawn is cut at 0 and 1 */
-    assert_true(ceduo_value_put(&v, 2));
+    assert_false(ceduo_value_set(&v, INFINITY)); /* though what is drawn is cut at 0 and 1 */
+    assert_true(ceduo_value_set(&v, 2));
     v = found(s, "forest[0].stand.cutting.stay_per_ha[1]", 20);
     expect_none(s, "slope.vertices_m[4][1]|slope.vertices_m[a][1]|slope.vertices_m.1[1]|slope.vertices_m[1][1].x|"
                    "rock.axes_m[1].kind|forest[0].stand.cutting.stay_per_ha[2]|forest[0].stand.cutting.stay_per_ha[1].x|"
@@ -472,11 +472,11 @@ TEST(words_are_put_by_their_index)
     read_scene(&file, scenes[0]);
     assert_true(ceduo_value_find(&file.scene, "simulation.contact_model", &v));
     EXPECT(ceduo_value_get(&v), ==, CEDUO_STEMS);
-    assert_true(ceduo_value_put(&v, CEDUO_INDEX));
+    assert_true(ceduo_value_set(&v, CEDUO_INDEX));
     assert_int_equal(file.scene.simulation.contact_model, CEDUO_INDEX);
     const double none[] = {-2, .5, (double)v.field->choices->n, NAN};
     for (size_t i = 0; i < LENGTH(none); i++)
-        assert_false(ceduo_value_put(&v, none[i]));
+        assert_false(ceduo_value_set(&v, none[i]));
     assert_int_equal(file.scene.simulation.contact_model, CEDUO_INDEX);
 }
 
@@ -493,8 +493,8 @@ TEST(puts_take_no_memory)
     def.rocks_most = 10;
     size_t before = 0, arena = file.arena.bytes;
     for (int i = 0; i < 100000; i++) {
-        assert_true(ceduo_value_put(&per_ha, 50 + i % 100));
-        assert_true(ceduo_value_put(&diameter, .5 + 1e-6 * i));
+        assert_true(ceduo_value_set(&per_ha, 50 + i % 100));
+        assert_true(ceduo_value_set(&diameter, .5 + 1e-6 * i));
         if (i % 100 != 0)
             continue;
         LOCAL(ceduo_run, run);

@@ -19,7 +19,7 @@ TEST(no_character_does_anything)
     for (TABLE(row, "unit/texts.txt", "characters")) {
         LOCAL_BY(ceduo_text_free) struct text safe = {0}, line = {0};
         struct json json = {.text = &line};
-        ceduo_text_safe(&safe, row.at[0]);
+        ceduo_text_append_escaped(&safe, row.at[0]);
         ceduo_json_string(&json, NULL, row.at[0]);
         assert_string_equal(safe.bytes, row.at[1]);
         assert_string_equal(line.bytes, row.at[2]);
@@ -147,10 +147,10 @@ TEST(no_word_is_near_a_long_one)
 TEST(an_arena_says_that_it_is_full)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
-    assert_non_null(ceduo_arena_take(&arena, 8));
+    assert_non_null(ceduo_arena_alloc(&arena, 8));
     size_t before = arena.bytes;
     assert_false(arena.failed);
-    assert_null(ceduo_arena_take(&arena, SIZE_MAX)); /* rounded up it would be 0 */
+    assert_null(ceduo_arena_alloc(&arena, SIZE_MAX)); /* rounded up it would be 0 */
     assert_true(arena.failed);
     EXPECT(arena.bytes, ==, before);
 }

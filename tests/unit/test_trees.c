@@ -11,7 +11,7 @@
 
 static const struct node *parse(struct arena *arena, const struct text *text)
 {
-    struct source *source = ceduo_arena_take(arena, sizeof *source);
+    struct source *source = ceduo_arena_alloc(arena, sizeof *source);
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     *source =
         (struct source){.name = "test", .bytes = ceduo_arena_copy(arena, text->bytes, text->length), .length = text->length};

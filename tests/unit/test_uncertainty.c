@@ -68,12 +68,12 @@ TEST(uncertainty_of_a_known_law)
                                          "rock.density_kg_m3"};
     const struct ceduo_input inputs[] = {range_of(&places[2], 2400, 2700), range_of(&places[0], 1000, 2000),
                                          range_of(&places[1], 1000, 2000)};
-    struct ceduo_uncertainty_answer a;
+    struct ceduo_uncertainty_result a;
     open_wood();
     const struct ceduo_uncertainty_def def = {
         .scene = &file.scene, .inputs_count = 3, .inputs = inputs, .points = 1024, .rocks = 2, .threads = 2};
-    EXPECT(ceduo_uncertainty_ask(&def, &a), ==, CEDUO_OK);
-    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(&a, 0, CEDUO_UNCERTAINTY_CONTACT, false);
+    EXPECT(ceduo_uncertainty_compute(&def, &a), ==, CEDUO_OK);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(&a, 0, CEDUO_UNCERTAINTY_CONTACT, false);
     double root = sqrt(.1);
     EXPECT_NEAR(f->fit.p5, .2 + .1 * root, .002);
     EXPECT_NEAR(f->fit.p50, .3, .002);
@@ -95,7 +95,7 @@ TEST(more_points_where_inputs_are_many)
     enum { MANY = 60 };
     static const char *const places[] = {"rock.density_kg_m3", "forest[0].stand.trees[0].height_m"};
     struct ceduo_input inputs[MANY];
-    struct ceduo_uncertainty_answer a;
+    struct ceduo_uncertainty_result a;
     for (size_t i = 0; i < MANY; i++)
         inputs[i] = i == 0 ? range_of(&places[0], 2400, 2700) : range_of(&places[1], 11, 13);
     open_wood();
@@ -106,9 +106,9 @@ TEST(more_points_where_inputs_are_many)
                                               .points = CEDUO_UNCERTAINTY_POINTS,
                                               .rocks = CEDUO_SURFACE_GROUPS,
                                               .threads = 2};
-    EXPECT(ceduo_uncertainty_ask(&def, &a), ==, CEDUO_OK);
+    EXPECT(ceduo_uncertainty_compute(&def, &a), ==, CEDUO_OK);
     EXPECT(a.points, ==, 2 * CEDUO_UNCERTAINTY_POINTS);
-    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(&a, 0, CEDUO_UNCERTAINTY_ENERGY, false);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(&a, 0, CEDUO_UNCERTAINTY_ENERGY, false);
     assert_true(f->fit.enough);
     EXPECT_NEAR(f->fit.total[0].value, 1, 1e-6);
     EXPECT_NEAR(f->fit.p5 / f->fit.p95, 2415. / 2685, .002);
@@ -121,14 +121,14 @@ TEST(too_much_work_is_given_up)
 {
     static const char *const place = "slope.segments[0].rn";
     const struct ceduo_input input = range_of(&place, .2, .6);
-    struct ceduo_uncertainty_answer a;
+    struct ceduo_uncertainty_result a;
     open_wood();
     struct ceduo_uncertainty_def def = {
         .scene = &file.scene, .inputs_count = 1, .inputs = &input, .points = 64, .points_max = 64, .rocks = 8, .threads = 1};
     uint64_t few = 1, enough = 1 << 20; /* contacts */
     while (enough - few > 1) {
         def.effort_max = (few + enough) / 2;
-        *(ceduo_uncertainty_ask(&def, &a) == CEDUO_OK ? &enough : &few) = def.effort_max;
+        *(ceduo_uncertainty_compute(&def, &a) == CEDUO_OK ? &enough : &few) = def.effort_max;
         ceduo_uncertainty_free(&a);
     }
     EXPECT(enough, >, 64 * 8); /* each rock touches the ground */
@@ -136,7 +136,7 @@ TEST(too_much_work_is_given_up)
     def.threads = 2;
     for (int i = 0; i < 20; i++) {
         def.effort_max = enough - (uint64_t)i % 2;
-        EXPECT(ceduo_uncertainty_ask(&def, &a), ==, (i % 2 == 0 ? CEDUO_OK : CEDUO_CANCELLED));
+        EXPECT(ceduo_uncertainty_compute(&def, &a), ==, (i % 2 == 0 ? CEDUO_OK : CEDUO_CANCELLED));
         ceduo_uncertainty_free(&a);
     }
     ceduo_scene_release(&file);
@@ -162,14 +162,14 @@ TEST(a_year_of_a_point_stands_for_several)
 {
     static const char *const place = "rocks_per_year";
     const struct ceduo_input input = range_of(&place, 1, 2);
-    struct ceduo_uncertainty_answer a;
+    struct ceduo_uncertainty_result a;
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
     file.scene.options[0].belts_count = 0;
     file.scene.controls[0].accepted = 1;
     const struct ceduo_uncertainty_def def = over_long_years(&input);
-    EXPECT(ceduo_uncertainty_ask(&def, &a), ==, CEDUO_OK);
-    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_figure_of(&a, 0, CEDUO_UNCERTAINTY_FAILING, false);
+    EXPECT(ceduo_uncertainty_compute(&def, &a), ==, CEDUO_OK);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(&a, 0, CEDUO_UNCERTAINTY_FAILING, false);
     EXPECT(f->value, ==, LONG);
     for (int p = 0; p < 2; p++)
         EXPECT_NEAR(f->fit.values[p], LONG, 1e-9);
@@ -179,7 +179,7 @@ TEST(a_year_of_a_point_stands_for_several)
 
 #define TREE_MAX .5 /* m: a tree of 0.2 m becomes as thick by 0.01 a year of what is left */
 
-static void read_year(void *context, const struct point *point, const struct brought *at)
+static void read_year(void *context, const struct point *point, const struct control_means *at)
 {
     double *years = context;
     (void)at;
@@ -207,7 +207,7 @@ TEST(years_of_a_point_are_of_all_its_years)
     ceduo_scene_release(&file);
 }
 
-static void read_nothing(void *context, const struct point *point, const struct brought *at)
+static void read_nothing(void *context, const struct point *point, const struct control_means *at)
 {
     (void)context, (void)point, (void)at;
 }
@@ -221,8 +221,8 @@ static double effort_of(const struct ceduo_uncertainty_def *def)
     const struct points points = {.def = def, .u = u, .today = true, .read = read_nothing, .effort = &met};
     EXPECT(ceduo_points_run(&points, 0, def->points, 0), ==, CEDUO_OK);
     free(u);
-    return ceduo_effort_of(def->scene,
-                           &(struct ceduo_work){.rocks = def->points * def->rocks, .contacts = met, .runs = def->points});
+    return ceduo_effort_compute(def->scene,
+                                &(struct ceduo_work){.rocks = def->points * def->rocks, .contacts = met, .runs = def->points});
 }
 
 /* The uncertainty of a page keeps within 30 times the effort of its scene, or what is always granted, and within the largest bound,
@@ -244,13 +244,13 @@ TEST(the_effort_of_a_page_is_bounded)
     for (int k = 0; k < 2; k++) /* they stop no rock */
         file.scene.options[0].belts[0].stand.trees[k].volume = 1e-9;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct ceduo_answer own;
+        struct ceduo_results own;
         size_t points = 0;
         file.scene.options[0].belts[0].stand.trees[0].per_ha = cases[i].per_ha;
         file.scene.rock.diameter = ceduo_number(cases[i].diameter);
-        struct ceduo_question q = ceduo_question_default(&file.scene);
+        struct ceduo_request q = ceduo_request_default(&file.scene);
         q.rocks = q.run.rocks_most = cases[i].own;
-        EXPECT(ceduo_ask(&q, NULL, &own), ==, CEDUO_OK);
+        EXPECT(ceduo_simulate_request(&q, NULL, &own), ==, CEDUO_OK);
         for (unsigned threads = 1; threads <= 2; threads++) {
             struct ceduo_uncertainty_def def = {.scene = &file.scene,
                                                 .inputs_count = 1,
@@ -266,12 +266,12 @@ TEST(the_effort_of_a_page_is_bounded)
             if (def.points > 0) {
                 EXPECT(effort_of(&def), <=, CEDUO_EFFORT_MAX);
                 EXPECT(effort_of(&def), <=,
-                       fmax(CEDUO_EFFORT_MIN, CEDUO_EFFORT_TIMES * ceduo_effort_of(&file.scene, &own.work)));
+                       fmax(CEDUO_EFFORT_MIN, CEDUO_EFFORT_TIMES * ceduo_effort_compute(&file.scene, &own.work)));
             }
             assert_true(threads == 1 || def.points == points);
             points = def.points;
         }
-        ceduo_answer_release(&own);
+        ceduo_results_release(&own);
     }
     ceduo_scene_release(&file);
 }
@@ -284,11 +284,11 @@ TEST(no_rock_brings_no_energy)
     file.scene.slope.segments[0].rt = ceduo_number(0);
     file.scene.slope.segments[0].friction = 100;
     for (int i = 0; i < 2; i++) {
-        struct sure_answer answer;
-        const struct sure_def def = {
+        struct reliability_result answer;
+        const struct reliability_def def = {
             .of = {.scene = &file.scene, .points = 2, .rocks = 16, .threads = 1}, .goal = CEDUO_GOAL_ENERGY, .target = 5};
         file.scene.simulation.contact_model = models[i];
-        EXPECT(ceduo_sure_ask(&def, &answer), ==, CEDUO_OK);
+        EXPECT(ceduo_reliability_compute(&def, &answer), ==, CEDUO_OK);
         EXPECT(answer.above, ==, -5);
         EXPECT(answer.share.value, ==, 1);
     }
@@ -306,7 +306,7 @@ TEST(what_a_light_depends_on)
     } cases[] = {{.01, .2, .3, true, 2},  {.01, .2, .299, true, 1}, {.05, .2, .6, true, 2},
                  {.01, .05, .6, true, 0}, {.051, .2, .6, true, 0},  {.01, .2, .3, false, 0}};
     struct ceduo_uncertainty_figure figures[CEDUO_UNCERTAINTY_KINDS] = {0}, *f = &figures[CEDUO_UNCERTAINTY_EXCEED];
-    const struct ceduo_uncertainty_answer a = {.figures_count = CEDUO_UNCERTAINTY_KINDS, .figures = figures};
+    const struct ceduo_uncertainty_result a = {.figures_count = CEDUO_UNCERTAINTY_KINDS, .figures = figures};
     struct ceduo_share total[3] = {{0}};
     size_t order[] = {0, 1, 2}, inputs[2];
     f->uses = 3, f->order = order, f->fit.total = total;
@@ -314,7 +314,7 @@ TEST(what_a_light_depends_on)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         f->fit.p5 = cases[i].p5, f->fit.p95 = cases[i].p95, f->fit.enough = cases[i].enough;
         total[0].value = .1, total[1].value = cases[i].second, total[2].value = .6;
-        EXPECT(ceduo_uncertainty_depends(&file.scene, &a, 0, CEDUO_UNCERTAINTY_EXCEED, inputs), ==, cases[i].named);
+        EXPECT(ceduo_uncertainty_dominant_inputs(&file.scene, &a, 0, CEDUO_UNCERTAINTY_EXCEED, inputs), ==, cases[i].named);
         if (cases[i].named > 0 && cases[i].second < .6)
             EXPECT(inputs[0], ==, 2);
         if (cases[i].named > 1 && cases[i].second < .6)
@@ -368,7 +368,7 @@ TEST(a_normal_input_at_its_ends)
     EXPECT_NEAR(erfc(-z / sqrt(2)) / 2, least + (1 - 2 * least) / 4, 1e-12);
 }
 
-/* Stools in uncertainty above their shoots are as many as these; the next look begins with those of the scene. */
+/* Stools uncertain above their shoots are as many as these; the next look begins with those of the scene. */
 TEST(stools_are_not_more_than_their_shoots)
 {
     static const char *const places[] = {"forest[0].stand.stools.per_ha", "forest[0].stand.shoots[0].per_ha"};

@@ -28,7 +28,7 @@ static const char scene[] = "ceduo: scene/1\n"
 
 static struct scene_file file;
 static struct scene_inputs inputs;
-static struct ceduo_uncertainty_answer answer;
+static struct ceduo_uncertainty_result answer;
 
 /* Of each point by itself: the mean of the years of each option and of the difference; the years that fail, and the variance of
  * their number by the rocks of both: those of the point by itself, and the few that it has in a year among others. */
@@ -54,14 +54,14 @@ static double variance_of_failing(const struct ceduo_years *years)
 
 static void look_at_point(struct input_scene *copy, const double *u, size_t point)
 {
-    struct ceduo_answer own;
+    struct ceduo_results own;
     ceduo_inputs_set(copy, u);
-    struct ceduo_question q = ceduo_question_default(&copy->scene);
+    struct ceduo_request q = ceduo_request_default(&copy->scene);
     q.rocks = q.run.rocks_most = ROCKS;
     q.run.threads = 2;
     q.run.arrivals_only = true;
     q.years = true;
-    EXPECT(ceduo_ask(&q, NULL, &own), ==, CEDUO_OK);
+    EXPECT(ceduo_simulate_request(&q, NULL, &own), ==, CEDUO_OK);
     for (size_t i = 0; i < OPTIONS; i++) {
         struct ceduo_years_summary s = ceduo_years_sum(own.years[i], own.years[i]->last_control);
         means[i][point] = s.exceed.mean;
@@ -70,7 +70,7 @@ static void look_at_point(struct input_scene *copy, const double *u, size_t poin
         years_count = own.years[i]->count;
     }
     means[OPTIONS][point] = means[1][point] - means[0][point];
-    ceduo_answer_release(&own);
+    ceduo_results_release(&own);
 }
 
 static struct ceduo_uncertainty_def def_of(unsigned threads, size_t points)
@@ -85,10 +85,10 @@ static struct ceduo_uncertainty_def def_of(unsigned threads, size_t points)
                                           .threads = threads};
 }
 
-static void ask(unsigned threads, size_t points, struct ceduo_uncertainty_answer *to)
+static void ask(unsigned threads, size_t points, struct ceduo_uncertainty_result *to)
 {
     const struct ceduo_uncertainty_def def = def_of(threads, points);
-    EXPECT(ceduo_uncertainty_ask(&def, to), ==, CEDUO_OK);
+    EXPECT(ceduo_uncertainty_compute(&def, to), ==, CEDUO_OK);
 }
 
 static void open_scene(void)
@@ -97,7 +97,7 @@ static void open_scene(void)
     bool good = ceduo_scene_load_text(&file, "profiles/wood.yaml", scene, &problems) && ceduo_scene_bind(&file, &problems);
     if (!good || problems.count > 0)
         fail_msg("%s", ceduo_text_string(&problems.text));
-    assert_true(ceduo_inputs_of(&file, &inputs));
+    assert_true(ceduo_inputs_collect(&file, &inputs));
 }
 
 /* Every point by itself. */
@@ -115,7 +115,7 @@ static void look_at_points(void)
 
 static const struct ceduo_uncertainty_figure *mean_of(size_t i)
 {
-    return ceduo_uncertainty_figure_of(&answer, i < OPTIONS ? i : 1, CEDUO_UNCERTAINTY_MEAN, i == OPTIONS);
+    return ceduo_uncertainty_find_figure(&answer, i < OPTIONS ? i : 1, CEDUO_UNCERTAINTY_MEAN, i == OPTIONS);
 }
 
 static double mean(const double *values)
@@ -167,7 +167,7 @@ static double percentile(const double *values, double share)
 static void expect_failing(void)
 {
     for (size_t i = 0; i < OPTIONS; i++) {
-        const struct ceduo_surface_fit *fit = &ceduo_uncertainty_figure_of(&answer, i, CEDUO_UNCERTAINTY_FAILING, false)->fit;
+        const struct ceduo_surface_fit *fit = &ceduo_uncertainty_find_figure(&answer, i, CEDUO_UNCERTAINTY_FAILING, false)->fit;
         double error = sqrt(mean(failing_variance[i])), shift = mean(fit->values) - mean(failing[i]), off = 0, spread = 0;
         for (size_t p = 0; p < POINTS; p++) {
             off += pow(fit->values[p] - failing[i][p] - shift, 2) / POINTS;
@@ -186,7 +186,7 @@ static void expect_order(void)
     double better = 0;
     for (size_t p = 0; p < POINTS; p++)
         better += (means[OPTIONS][p] < 0) / (double)POINTS;
-    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_verdict(&answer);
+    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_ranking_by(&answer);
     assert_true(ranking->rotation);
     EXPECT(ranking->count, ==, 1);
     const struct ceduo_uncertainty_order *o = ranking->orders;
@@ -214,7 +214,7 @@ TEST(over_a_rotation_bits_do_not_depend_on_threads)
 {
     open_scene();
     for (unsigned threads = 1; threads <= 3; threads++) {
-        struct ceduo_uncertainty_answer other;
+        struct ceduo_uncertainty_result other;
         ask(threads, 16, threads == 1 ? &answer : &other);
         for (size_t i = 0; threads > 1 && i < answer.figures_count; i++) {
             const struct ceduo_uncertainty_figure *f = &answer.figures[i], *g = &other.figures[i];
@@ -231,23 +231,23 @@ TEST(over_a_rotation_bits_do_not_depend_on_threads)
 /* One option alone has the bits that it has among others, of which there are no surfaces; also of points that may not grow. */
 TEST(one_option_alone_over_a_rotation)
 {
-    struct ceduo_uncertainty_answer alone;
+    struct ceduo_uncertainty_result alone;
     open_scene();
     struct ceduo_uncertainty_def def = def_of(2, 16);
     ask(2, 16, &answer);
     def.alone = true;
     def.option = 1;
     def.points_max = 8;
-    EXPECT(ceduo_uncertainty_ask(&def, &alone), ==, CEDUO_OK);
+    EXPECT(ceduo_uncertainty_compute(&def, &alone), ==, CEDUO_OK);
     EXPECT(alone.points, ==, 16);
     for (int kind = 0; kind < CEDUO_UNCERTAINTY_KINDS; kind++) {
         const struct ceduo_surface_fit
-            *f = &ceduo_uncertainty_figure_of(&answer, 1, (enum ceduo_uncertainty_kind)kind, false)->fit,
-            *g = &ceduo_uncertainty_figure_of(&alone, 1, (enum ceduo_uncertainty_kind)kind, false)->fit;
+            *f = &ceduo_uncertainty_find_figure(&answer, 1, (enum ceduo_uncertainty_kind)kind, false)->fit,
+            *g = &ceduo_uncertainty_find_figure(&alone, 1, (enum ceduo_uncertainty_kind)kind, false)->fit;
         assert_memory_equal(f->values, g->values, 16 * sizeof *f->values);
-        assert_null(ceduo_uncertainty_figure_of(&alone, 0, (enum ceduo_uncertainty_kind)kind, false)->fit.values);
+        assert_null(ceduo_uncertainty_find_figure(&alone, 0, (enum ceduo_uncertainty_kind)kind, false)->fit.values);
     }
-    EXPECT(ceduo_uncertainty_verdict(&alone)->count, ==, 0);
+    EXPECT(ceduo_uncertainty_ranking_by(&alone)->count, ==, 0);
     ceduo_uncertainty_free(&alone);
     ceduo_uncertainty_free(&answer);
     ceduo_scene_release(&file);
@@ -260,10 +260,10 @@ TEST(failing_years_differ_by_both_intervals)
     open_scene();
     file.scene.controls[0].accepted = 150e3;
     ask(2, 4, &answer);
-    const struct ceduo_uncertainty_figure *first = ceduo_uncertainty_figure_of(&answer, 0, CEDUO_UNCERTAINTY_FAILING, false),
-                                          *second = ceduo_uncertainty_figure_of(&answer, 1, CEDUO_UNCERTAINTY_FAILING, false),
+    const struct ceduo_uncertainty_figure *first = ceduo_uncertainty_find_figure(&answer, 0, CEDUO_UNCERTAINTY_FAILING, false),
+                                          *second = ceduo_uncertainty_find_figure(&answer, 1, CEDUO_UNCERTAINTY_FAILING, false),
                                           *difference =
-                                              ceduo_uncertainty_figure_of(&answer, 1, CEDUO_UNCERTAINTY_FAILING, true);
+                                              ceduo_uncertainty_find_figure(&answer, 1, CEDUO_UNCERTAINTY_FAILING, true);
     EXPECT(first->sampling_lo, <, first->sampling_hi); /* some years are near the limit */
     EXPECT_NEAR(difference->sampling_lo, second->sampling_lo - first->sampling_hi, 1e-12);
     EXPECT_NEAR(difference->sampling_hi, second->sampling_hi - first->sampling_lo, 1e-12);
@@ -278,8 +278,8 @@ TEST(what_there_is_over_a_rotation)
     open_scene();
     file.scene.controls[0].accepted = NAN;
     ask(2, 24, &answer);
-    const struct ceduo_uncertainty_figure *mean = ceduo_uncertainty_figure_of(&answer, 0, CEDUO_UNCERTAINTY_MEAN, false),
-                                          *years = ceduo_uncertainty_figure_of(&answer, 0, CEDUO_UNCERTAINTY_FAILING, false);
+    const struct ceduo_uncertainty_figure *mean = ceduo_uncertainty_find_figure(&answer, 0, CEDUO_UNCERTAINTY_MEAN, false),
+                                          *years = ceduo_uncertainty_find_figure(&answer, 0, CEDUO_UNCERTAINTY_FAILING, false);
     EXPECT(mean->value, >, .5); /* most arrive just after the cut */
     EXPECT_NEAR(mean->value, mean->fit.p50, .2);
     assert_true(isnan(years->value));
@@ -288,8 +288,8 @@ TEST(what_there_is_over_a_rotation)
     file.scene.simulation.contact_model = CEDUO_INDEX;
     ask(2, 8, &answer);
     assert_false(answer.rotation);
-    assert_false(ceduo_uncertainty_verdict(&answer)->rotation);
-    assert_null(ceduo_uncertainty_figure_of(&answer, 0, CEDUO_UNCERTAINTY_MEAN, false)->fit.values);
+    assert_false(ceduo_uncertainty_ranking_by(&answer)->rotation);
+    assert_null(ceduo_uncertainty_find_figure(&answer, 0, CEDUO_UNCERTAINTY_MEAN, false)->fit.values);
     ceduo_uncertainty_free(&answer);
     ceduo_scene_release(&file);
 }

@@ -77,7 +77,7 @@ TEST(what_is_clear_stays)
     while (live.busy) {
         struct pollfd fd = {.fd = ceduo_jobs_fd(live.jobs), .events = POLLIN};
         poll(&fd, 1, 1000);
-        if (!ceduo_live_news(&live, &file.scene) || !live.result)
+        if (!ceduo_live_poll(&live, &file.scene) || !live.result)
             continue;
         size_t known = 0;
         for (size_t i = 0; i < live.verdict.n; i++)
@@ -106,7 +106,7 @@ TEST(an_edit_asks_for_its_years_alone)
     file.scene.options_count = 2;
     ceduo_live_follow(&live, &file, 0);
     ceduo_jobs_wait(live.jobs);
-    ceduo_live_news(&live, &file.scene);
+    ceduo_live_poll(&live, &file.scene);
     assert_true(live.verdict.rotation.known);
     struct ceduo_belt *belt = &file.scene.options[1].belts[0];
     double before = live.verdict.choices[1].mean.mean;
@@ -116,7 +116,7 @@ TEST(an_edit_asks_for_its_years_alone)
     assert_true(isnan(live.verdict.choices[1].mean.mean)); /* not that of the stand before */
     assert_false(live.verdict.rotation.known);
     ceduo_jobs_wait(live.jobs);
-    ceduo_live_news(&live, &file.scene);
+    ceduo_live_poll(&live, &file.scene);
     assert_true(live.verdict.rotation.known);
     EXPECT(live.verdict.choices[1].mean.mean, <, before); /* four times as many of the second oldest */
     close_scene();
@@ -126,7 +126,7 @@ static void follow_to_the_end(void)
 {
     ceduo_live_follow(&live, &file, 0);
     ceduo_jobs_wait(live.jobs);
-    ceduo_live_news(&live, &file.scene);
+    ceduo_live_poll(&live, &file.scene);
 }
 
 /* An edit of the energy law: what was known by the other law is now known by the scene's own, and no longer stands for the other. */
@@ -134,7 +134,7 @@ TEST(an_edit_of_the_law_leaves_no_figures_of_the_other)
 {
     open_scene("profiles/scenes/paper-site.yaml");
     follow_to_the_end();
-    const struct ceduo_other_energy *other = &live.result->options[0].others[0];
+    const struct ceduo_alternative_energy *other = &live.result->options[0].others[0];
     assert_true(other->known);
     EXPECT(other->model, ==, CEDUO_DORREN);
     for (size_t i = 0; i < file.scene.options[0].belts_count; i++)
@@ -174,7 +174,7 @@ struct made {
     struct ceduo_option options[OPTIONS];
     struct ceduo_arrivals bare, wooded[OPTIONS];
     struct ceduo_difference differences[OPTIONS];
-    struct ceduo_other_energy others[OPTIONS];
+    struct ceduo_alternative_energy others[OPTIONS];
     struct ceduo_option_result found[OPTIONS];
     struct ceduo_stand_result stands[2]; /* of the belts of each */
     struct ceduo_result result;
@@ -200,7 +200,7 @@ static void make_alike(void)
         made.wooded[i] = (struct ceduo_arrivals){
             .released = ROCKS, .reached = ROCKS / 2, .reach.mean = .5, .exceed.mean = .5, .hazard = {.per_year = NAN}};
         made.differences[i] = ceduo_no_difference(50e3);
-        made.others[i] = (struct ceduo_other_energy){.known = true, .stems = true, .to_first = ceduo_no_difference(50e3)};
+        made.others[i] = (struct ceduo_alternative_energy){.known = true, .stems = true, .to_first = ceduo_no_difference(50e3)};
         made.found[i] = (struct ceduo_option_result){.wooded = {.rocks = ROCKS, .controls = 1, .arrivals = &made.wooded[i]},
                                                      .stands = made.stands,
                                                      .differences = &made.differences[i],
@@ -220,7 +220,7 @@ static void make_alike(void)
 static struct ceduo_verdict verdict_of_made(struct ceduo_years *const *years)
 {
     struct ceduo_verdict v;
-    EXPECT(ceduo_verdict_make(&made.result, years, NULL, &v), ==, CEDUO_OK);
+    EXPECT(ceduo_compare_options(&made.result, years, NULL, &v), ==, CEDUO_OK);
     return v;
 }
 
@@ -340,7 +340,7 @@ TEST_WITH(the_worst_is_apart_from_all_others, open_made, close_made)
     v.rotation = (struct ceduo_leader){.known = true, .best = 1, .rival = v.rotation.rival};
     for (size_t c = 0; c < LENGTH(cases); c++) {
         for (size_t i = 0; i < OPTIONS; i++)
-            v.choices[i].mean = (struct ceduo_portion){cases[c].mean[i], cases[c].half[i]};
+            v.choices[i].mean = (struct ceduo_mean_share){cases[c].mean[i], cases[c].half[i]};
         assert_int_equal(count_worst(&v), 1 + cases[c].worst);
     }
     ceduo_verdict_release(&v);

@@ -104,14 +104,14 @@ static struct ceduo_result *assess(void)
 /* The figures by the other law may be there before those of the scene's own, of all options or of some. */
 TEST(the_other_law_is_compared_with_what_is_known)
 {
-    struct ceduo_other_energy others[OPTIONS];
+    struct ceduo_alternative_energy others[OPTIONS];
     for (int known = 0; known <= OPTIONS; known++) {
         open_scene(50e3);
         memset(others, 0, sizeof others);
         struct ceduo_simulated simulated[OPTIONS];
         const struct ceduo_simulated *wooded[OPTIONS];
         for (int i = 0; i < OPTIONS; i++) {
-            others[i] = (struct ceduo_other_energy){.known = true, .stems = true, .model = CEDUO_DORREN};
+            others[i] = (struct ceduo_alternative_energy){.known = true, .stems = true, .model = CEDUO_DORREN};
             simulated[i] = (struct ceduo_simulated){.rocks = i < known ? 1000 : 0, .controls = 1, .arrivals = &arrivals[i]};
             wooded[i] = &simulated[i];
         }
@@ -142,14 +142,14 @@ TEST(an_answer_depends_where_the_laws_differ)
         {yes, yes, CEDUO_YES},  {yes, no, CEDUO_DEPENDS}, {no, yes, CEDUO_DEPENDS},       {no, no, CEDUO_NO},
         {open, yes, CEDUO_YES}, {open, no, CEDUO_NO},     {yes, open, CEDUO_NOT_DECIDED}, {no, open, CEDUO_NOT_DECIDED}};
     for (size_t i = 0; i < LENGTH(cases); i++) {
-        struct ceduo_other_energy others[OPTIONS] = {0};
+        struct ceduo_alternative_energy others[OPTIONS] = {0};
         struct ceduo_simulated simulated[OPTIONS];
         const struct ceduo_simulated *wooded[OPTIONS];
         struct ceduo_result *result;
         open_scene(50e3);
         for (int k = 0; k < OPTIONS; k++) {
             const double *own = cases[i].own, *other = cases[i].other;
-            others[k] = (struct ceduo_other_energy){.known = true, .stems = true, .arrivals = arrivals[k]};
+            others[k] = (struct ceduo_alternative_energy){.known = true, .stems = true, .arrivals = arrivals[k]};
             arrivals[k].exceed.mean = own[0], arrivals[k].exceed.lo = own[1], arrivals[k].exceed.hi = own[2];
             others[k].arrivals.exceed.mean = other[0];
             others[k].arrivals.exceed.lo = other[1], others[k].arrivals.exceed.hi = other[2];
@@ -192,7 +192,7 @@ static void expect_answer(double share, double may_lo, double may_hi, size_t wid
 {
     LOCAL_TEXT(text);
     struct ceduo_uncertainty_figure figures[(2 * OPTIONS - 1) * CEDUO_UNCERTAINTY_KINDS] = {0};
-    struct ceduo_uncertainty_answer answer = {.figures = figures, .figures_count = sizeof figures / sizeof figures[0]};
+    struct ceduo_uncertainty_result answer = {.figures = figures, .figures_count = sizeof figures / sizeof figures[0]};
     struct scene_file file = {.scene = scene.scene};
     const struct ceduo_uncertainty_report uncertainty = {.file = &file, .answer = isnan(may_lo) ? NULL : &answer};
     for (size_t i = 0; i < answer.figures_count; i++)
@@ -202,7 +202,7 @@ static void expect_answer(double share, double may_lo, double may_hi, size_t wid
     arrivals[0].reach.hi = arrivals[0].exceed.hi = share + .01;
     LOCAL(ceduo_result, result) = assess();
     const struct ceduo_report report = {.result = result, .uncertainty = &uncertainty};
-    const struct ceduo_subject subject = ceduo_subject_of(&report, 0, 0);
+    const struct ceduo_subject subject = ceduo_subject_find(&report, 0, 0);
     ceduo_words_answer(&text, &subject, width);
     assert_string_equal(ceduo_text_string(&text), wanted);
 }
@@ -242,7 +242,7 @@ static void expect_best(const char *wanted)
     LOCAL_TEXT(text);
     LOCAL(ceduo_result, result) = assess();
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict;
-    assert_int_equal(ceduo_verdict_make(result, NULL, NULL, &verdict), CEDUO_OK);
+    assert_int_equal(ceduo_compare_options(result, NULL, NULL, &verdict), CEDUO_OK);
     ceduo_words_best(&text, result->scene, &verdict);
     assert_string_equal(ceduo_text_string(&text), wanted);
 }
@@ -345,7 +345,7 @@ TEST(a_sentence_for_the_years_and_one_for_today)
     expect_made("Today 'c' lets the fewest dangerous rocks through: 277 of 1000.");
     make_verdict(mean, today, 2, 0);
     for (size_t i = 0; i < OPTIONS; i++)
-        choices[i].window.kind = CEDUO_WINDOW_ALIKE; /* every year is as today */
+        choices[i].window.kind = CEDUO_WINDOW_CONSTANT; /* every year is as today */
     expect_made("Today 'a' lets the fewest dangerous rocks through: 127 of 1000.");
 }
 

@@ -67,7 +67,7 @@ static struct met meet(const struct ceduo_scene *scene, const struct ceduo_stand
 }
 
 static void add_meeting(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh,
-                        struct ceduo_meeting *meeting)
+                        struct ceduo_contact_check *meeting)
 {
     struct met met = meet(scene, stand, dbh);
     meeting->worst_adc = fmax(meeting->worst_adc, met.adc);
@@ -76,10 +76,10 @@ static void add_meeting(const struct ceduo_scene *scene, const struct ceduo_stan
         meeting->contact = CEDUO_FAIL;
 }
 
-static void judge_meeting(const struct ceduo_scene *scene, bool forest, double longest_gap, struct ceduo_meeting *meeting)
+static void judge_meeting(const struct ceduo_scene *scene, bool forest, double longest_gap, struct ceduo_contact_check *meeting)
 {
     if (!forest)
-        *meeting = (struct ceduo_meeting){.worst_adc = INFINITY, .worst_free_run = 1};
+        *meeting = (struct ceduo_contact_check){.worst_adc = INFINITY, .worst_free_run = 1};
     double threshold = scene->simulation.threshold;
     if (!forest || longest_gap > threshold)
         meeting->contact = CEDUO_FAIL;
@@ -87,7 +87,7 @@ static void judge_meeting(const struct ceduo_scene *scene, bool forest, double l
     meeting->free_run = rare ? CEDUO_PASS : CEDUO_FAIL;
 }
 
-bool ceduo_index_hangs_on_thin(const struct ceduo_index *index)
+bool ceduo_index_depends_on_thin_stems(const struct ceduo_index *index)
 {
     return index->contact != index->thick.contact || index->free_run != index->thick.free_run;
 }
@@ -156,7 +156,7 @@ enum ceduo_terrain ceduo_terrain(const struct ceduo_arrivals *bare)
     return many && beyond && t->shadow * DEGREES < CEDUO_SHADOW_FLAT ? CEDUO_TERRAIN_FAR : CEDUO_TERRAIN_AGREES;
 }
 
-bool ceduo_says_nothing(const struct ceduo_arrivals *bare)
+bool ceduo_too_few_arrivals(const struct ceduo_arrivals *bare)
 {
     uint64_t may_arrive = bare->reached + bare->unfinished;
     bool few = bare->released >= CEDUO_ARRIVE_MIN && may_arrive * CEDUO_ARRIVE_MIN < bare->released;
@@ -177,9 +177,9 @@ static enum ceduo_judgement judge_arrivals(const struct ceduo_arrivals *a)
     return ceduo_judge_share(a->exceed, a->limit);
 }
 
-enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded)
+enum ceduo_judgement ceduo_judge_control(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded)
 {
-    if (ceduo_says_nothing(bare))
+    if (ceduo_too_few_arrivals(bare))
         return CEDUO_NOTHING;
     if (wooded)
         return judge_arrivals(wooded);
@@ -192,7 +192,7 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
     const struct ceduo_rock rock = ceduo_rock_mean(&scene->rock);
     double start = scene->release.x.mean, at = start, min = scene->simulation.contact_dbh;
     struct ceduo_index index = {.meet_nothing_probability = 1, .thick = {.contact = CEDUO_PASS}};
-    struct ceduo_meeting all = {.contact = CEDUO_PASS};
+    struct ceduo_contact_check all = {.contact = CEDUO_PASS};
     bool forest = false;
     for (size_t i = 0; i < option->belts_count; i++) {
         struct ceduo_belt within = option->belts[i];

@@ -39,7 +39,7 @@ struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double
 /* Sizes as variants of a scene. */
 struct sizes_run {
     const struct ceduo_blocks_def *def;
-    struct ceduo_block *blocks;
+    struct ceduo_size_result *blocks;
     struct ceduo_scene scene; /* with the size at hand */
     double volume, contacts;  /* of the scene's own rock */
 };
@@ -48,7 +48,7 @@ static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant
 {
     struct sizes_run *r = context;
     const struct ceduo_blocks_def *def = r->def;
-    struct ceduo_block *b = &r->blocks[i];
+    struct ceduo_size_result *b = &r->blocks[i];
     struct ceduo_rock rock;
     r->scene = *def->scene;
     r->scene.blocks_count = 0;
@@ -101,9 +101,9 @@ struct ceduo_blocks_def ceduo_blocks_def_default(const struct ceduo_scene *scene
                                      .threads = 1};
 }
 
-enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_block blocks[CEDUO_BLOCKS])
+enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_size_result blocks[CEDUO_SIZES])
 {
-    static const double volumes[CEDUO_BLOCKS - 1] = {0.05, 0.2, 1, 5};
+    static const double volumes[CEDUO_SIZES - 1] = {0.05, 0.2, 1, 5};
     struct ceduo_rock mean;
     size_t own = 0; /* its place among them, which rise */
     enum ceduo_status status = ceduo_check_blocks_def(def);
@@ -111,12 +111,12 @@ enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_
         status = ceduo_rock_of_means(&def->scene->rock, &mean);
     if (status != CEDUO_OK)
         return status;
-    while (own < CEDUO_BLOCKS - 1 && !(mean.volume <= volumes[own]))
+    while (own < CEDUO_SIZES - 1 && !(mean.volume <= volumes[own]))
         own++;
-    for (size_t i = 0; i < CEDUO_BLOCKS; i++)
-        blocks[i] = (struct ceduo_block){.volume = i == own ? mean.volume : volumes[i - (i > own)], .own = i == own};
+    for (size_t i = 0; i < CEDUO_SIZES; i++)
+        blocks[i] = (struct ceduo_size_result){.volume = i == own ? mean.volume : volumes[i - (i > own)], .own = i == own};
     struct sizes_run r = {.def = def, .blocks = blocks, .volume = mean.volume};
     r.contacts = ceduo_assess_index(def->scene, def->option, &def->scene->controls[def->control], NAN).contacts;
     return ceduo_variants_run(
-        &(const struct ceduo_variants){.n = CEDUO_BLOCKS, .make = make_size, .read = read_size, .context = &r});
+        &(const struct ceduo_variants){.n = CEDUO_SIZES, .make = make_size, .read = read_size, .context = &r});
 }

@@ -24,7 +24,7 @@ enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def)
     return status == CEDUO_OK && !is_run_good(def) ? CEDUO_BAD_ARGUMENT : status;
 }
 
-enum ceduo_status ceduo_check_question(const struct ceduo_question *q)
+enum ceduo_status ceduo_check_request(const struct ceduo_request *q)
 {
     enum ceduo_status status = ceduo_check_run_def(&q->run);
     if (status != CEDUO_OK)

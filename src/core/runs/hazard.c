@@ -12,7 +12,7 @@
 const double ceduo_intensity_from[CEDUO_INTENSITIES + 1] = {0, 30e3, 300e3, INFINITY};
 const unsigned ceduo_return_years[CEDUO_RETURNS] = {10, 30, 100, 300};
 
-int ceduo_intensity_of(double energy)
+int ceduo_intensity_find(double energy)
 {
     for (int i = 0; i < CEDUO_INTENSITIES; i++)
         if (energy < ceduo_intensity_from[i + 1])
@@ -124,7 +124,7 @@ static void read_curve(const struct curve *c, double accepted, struct ceduo_haza
         const struct weighted_sum *b = &c->sums[above(c, nextafter(to, 0))];
         h->intensity[i].within = rate_of(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw}, from);
         for (size_t r = 0; r < CEDUO_RETURNS; r++)
-            h->intensity[i].of_return[r] = ceduo_intensity_of(h->returns[r].energy.mean) == (int)i;
+            h->intensity[i].of_return[r] = ceduo_intensity_find(h->returns[r].energy.mean) == (int)i;
     }
 }
 

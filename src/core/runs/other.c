@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-enum ceduo_energy_model ceduo_other_law(const struct ceduo_option *option)
+enum ceduo_energy_model ceduo_alternative_law(const struct ceduo_option *option)
 {
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_stand *stand = &option->belts[i].stand;
@@ -13,7 +13,7 @@ enum ceduo_energy_model ceduo_other_law(const struct ceduo_option *option)
     return CEDUO_BRAUNER;
 }
 
-bool ceduo_other_scene(const struct ceduo_scene *scene, struct ceduo_scene *other)
+bool ceduo_alternative_scene(const struct ceduo_scene *scene, struct ceduo_scene *other)
 {
     size_t n = scene->options_count, belts = 0;
     for (size_t i = 0; i < n; i++)
@@ -29,22 +29,23 @@ bool ceduo_other_scene(const struct ceduo_scene *scene, struct ceduo_scene *othe
         other->options[i].belts = to;
         for (size_t k = 0; k < option->belts_count; k++) {
             *to = option->belts[k];
-            to++->stand.energy = ceduo_other_law(option);
+            to++->stand.energy = ceduo_alternative_law(option);
         }
     }
     return true;
 }
 
-void ceduo_other_scene_release(struct ceduo_scene *other)
+void ceduo_alternative_scene_release(struct ceduo_scene *other)
 {
     free(other->options);
     *other = (struct ceduo_scene){0};
 }
 
-enum ceduo_status ceduo_other_read(const struct ceduo_option *option, const struct ceduo_run *run,
-                                   const struct ceduo_run *first, size_t control, struct ceduo_other_energy *other)
+enum ceduo_status ceduo_alternative_read(const struct ceduo_option *option, const struct ceduo_run *run,
+                                         const struct ceduo_run *first, size_t control, struct ceduo_alternative_energy *other)
 {
-    *other = (struct ceduo_other_energy){.known = run && ceduo_run_rocks(run) > 0, .model = ceduo_other_law(option)};
+    *other =
+        (struct ceduo_alternative_energy){.known = run && ceduo_run_rocks(run) > 0, .model = ceduo_alternative_law(option)};
     for (size_t i = 0; i < option->belts_count; i++)
         other->stems |= !ceduo_stand_is_bare(&option->belts[i].stand);
     if (!other->known)

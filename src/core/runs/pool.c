@@ -56,10 +56,10 @@ void ceduo_pool_free(struct ceduo_pool *pool)
     free(pool);
 }
 
-enum ceduo_status ceduo_pool_for(const struct ceduo_run_def *def, struct ceduo_pool **pool)
+enum ceduo_status ceduo_pool_reuse_or_create(const struct ceduo_run_def *def, struct ceduo_pool **pool)
 {
     if (*pool && (*pool)->scene_key == ceduo_scene_key(def->scene)) {
-        ceduo_pool_turn(*pool, def->scene);
+        ceduo_pool_set_scene(*pool, def->scene);
         return CEDUO_OK;
     }
     ceduo_pool_free(*pool);
@@ -154,7 +154,7 @@ static void drop_spare(struct ceduo_pool *pool, size_t most, size_t bytes_most)
     }
 }
 
-void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene)
+void ceduo_pool_set_scene(struct ceduo_pool *pool, const struct ceduo_scene *scene)
 {
     pool->scene = *scene;
     for (size_t i = 0; i < scene->options_count && scene->simulation.contact_model != CEDUO_INDEX; i++)
@@ -184,7 +184,7 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
     def.rocks_most = def.rocks_most > CEDUO_OTHER_ROCKS ? CEDUO_OTHER_ROCKS : def.rocks_most;
     struct ceduo_scene other = {0};
     if (status == CEDUO_OK && !pool->filled && wooded && def.other_energy)
-        status = ceduo_other_scene(&pool->scene, &other) ? CEDUO_OK : CEDUO_NO_MEMORY;
+        status = ceduo_alternative_scene(&pool->scene, &other) ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; status == CEDUO_OK && i < other.options_count; i++) {
         uint64_t key = ceduo_option_key(&pool->scene, &other.options[i]);
         if (key == 0 || find(pool, key))
@@ -193,7 +193,7 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
         if (status == CEDUO_OK)
             pool->runs[pool->count - 1].beside = true;
     }
-    ceduo_other_scene_release(&other);
+    ceduo_alternative_scene_release(&other);
     pool->filled = status == CEDUO_OK;
     return status;
 }
@@ -208,14 +208,14 @@ enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks)
 
 bool ceduo_mean_is_precise(uint64_t reached, struct ceduo_estimate mean, double tolerance)
 {
-    return reached < CEDUO_FEW_ROCKS || CEDUO_Z95 * mean.se <= tolerance * mean.mean;
+    return reached < CEDUO_ARRIVALS_MIN || CEDUO_Z95 * mean.se <= tolerance * mean.mean;
 }
 
 /* The counts are fixed, and near to each other: few rocks are simulated in vain. */
-enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t max, bool *met)
+enum ceduo_status ceduo_pool_run_to_tolerance(struct ceduo_pool *pool, double tolerance, uint64_t max, bool *met)
 {
     *met = false;
-    for (uint64_t rocks = CEDUO_BLOCK_ROCKS; !*met; rocks += rocks / 8) {
+    for (uint64_t rocks = CEDUO_BATCH_ROCKS; !*met; rocks += rocks / 8) {
         enum ceduo_status status = ceduo_pool_extend(pool, rocks < max ? rocks : max);
         if (status != CEDUO_OK)
             return status;

@@ -5,17 +5,17 @@
 
 #include "check.h"
 
-struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene)
+struct ceduo_request ceduo_request_default(const struct ceduo_scene *scene)
 {
-    return (struct ceduo_question){
+    return (struct ceduo_request){
         .run = ceduo_run_def_default(scene), .rocks = scene->simulation.rocks, .only = CEDUO_ALL_OPTIONS};
 }
 
 /* ---- simulating ---- */
 
 /* The years of each option asked for; of each its whole rotation if `rotation`. */
-static enum ceduo_status simulate_years(const struct ceduo_question *q, struct ceduo_pool *pool, bool rotation,
-                                        struct ceduo_answer *a)
+static enum ceduo_status simulate_years(const struct ceduo_request *q, struct ceduo_pool *pool, bool rotation,
+                                        struct ceduo_results *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
     const struct ceduo_simulated *bare = &a->result->bare;
@@ -29,14 +29,15 @@ static enum ceduo_status simulate_years(const struct ceduo_question *q, struct c
         const struct ceduo_option *option = &scene->options[i];
         if (q->only != CEDUO_ALL_OPTIONS && q->only != i)
             continue;
-        struct ceduo_window window = rotation             ? ceduo_window_of(option)
+        struct ceduo_window window = rotation             ? ceduo_window_compute(option)
                                      : q->window.step > 0 ? q->window
                                                           : ceduo_window_in(scene);
-        window = q->years_most > 0 ? ceduo_window_of_most(window, q->years_most) : window;
+        window = q->years_most > 0 ? ceduo_window_thinned(window, q->years_most) : window;
         status = ceduo_years_create(scene, option, window, &years[i]);
         if (status == CEDUO_OK) /* year 0 alone is today: its run is there */
-            status = apart && window.kind != CEDUO_WINDOW_ALIKE ? ceduo_years_simulate_apart(years[i], &q->run, bare, rocks)
-                                                                : ceduo_years_simulate(years[i], pool, bare, rocks);
+            status = apart && window.kind != CEDUO_WINDOW_CONSTANT
+                         ? ceduo_years_simulate_independent(years[i], &q->run, bare, rocks)
+                         : ceduo_years_simulate(years[i], pool, bare, rocks);
     }
     return status;
 }
@@ -49,11 +50,11 @@ static double effort_of(const struct ceduo_pool *pool, const struct ceduo_option
 }
 
 /* Each size may cost as much as the two runs beside it. So thin a splinter that a smaller one is no rock has no other sizes. */
-static enum ceduo_status simulate_sizes(const struct ceduo_question *q, const struct ceduo_pool *pool, struct ceduo_answer *a)
+static enum ceduo_status simulate_sizes(const struct ceduo_request *q, const struct ceduo_pool *pool, struct ceduo_results *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
     uint64_t all = ceduo_result_rocks(a->result), rocks = all < q->block_rocks ? all : q->block_rocks;
-    a->blocks = calloc(scene->options_count * CEDUO_BLOCKS + 1, sizeof *a->blocks);
+    a->blocks = calloc(scene->options_count * CEDUO_SIZES + 1, sizeof *a->blocks);
     enum ceduo_status status = a->blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
         status =
@@ -65,7 +66,7 @@ static enum ceduo_status simulate_sizes(const struct ceduo_question *q, const st
                                                           .own = ceduo_result_wooded(a->result, i, a->result->last_control),
                                                           .threads = q->run.threads,
                                                           .cancel = q->run.cancel},
-                         &a->blocks[i * CEDUO_BLOCKS]);
+                         &a->blocks[i * CEDUO_SIZES]);
     if (status == CEDUO_OK || status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED)
         return status;
     free(a->blocks);
@@ -73,10 +74,10 @@ static enum ceduo_status simulate_sizes(const struct ceduo_question *q, const st
     return CEDUO_OK;
 }
 
-enum ceduo_status ceduo_ask(const struct ceduo_question *q, struct ceduo_pool **kept, struct ceduo_answer *a)
+enum ceduo_status ceduo_simulate_request(const struct ceduo_request *q, struct ceduo_pool **kept, struct ceduo_results *a)
 {
-    *a = (struct ceduo_answer){0};
-    enum ceduo_status status = ceduo_check_question(q);
+    *a = (struct ceduo_results){0};
+    enum ceduo_status status = ceduo_check_request(q);
     if (status != CEDUO_OK)
         return status;
     const struct ceduo_scene *scene = q->run.scene;
@@ -84,13 +85,14 @@ enum ceduo_status ceduo_ask(const struct ceduo_question *q, struct ceduo_pool **
     struct ceduo_run *run;
     struct ceduo_run_def def = q->run;
     def.rocks_most = def.rocks_most < q->rocks ? q->rocks : def.rocks_most;
-    status = ceduo_pool_for(&def, pool);
+    status = ceduo_pool_reuse_or_create(&def, pool);
     if (status == CEDUO_OK && q->only != CEDUO_ALL_OPTIONS) {
         if (q->rocks > 0)
             status = ceduo_pool_simulate(*pool, &scene->options[q->only], q->rocks, &run);
     } else if (status == CEDUO_OK && (status = ceduo_pool_fill(*pool)) == CEDUO_OK) {
-        status = q->tolerance > 0 && q->rocks > 0 ? ceduo_pool_until(*pool, q->tolerance, q->rocks, &a->tolerance_met)
-                                                  : ceduo_pool_extend(*pool, q->rocks);
+        status = q->tolerance > 0 && q->rocks > 0
+                     ? ceduo_pool_run_to_tolerance(*pool, q->tolerance, q->rocks, &a->tolerance_met)
+                     : ceduo_pool_extend(*pool, q->rocks);
     }
     if (status == CEDUO_OK)
         status = ceduo_result_create(scene, *pool, &a->result);
@@ -105,11 +107,11 @@ enum ceduo_status ceduo_ask(const struct ceduo_question *q, struct ceduo_pool **
         status = simulate_sizes(q, *pool, a);
     ceduo_pool_free(own);
     if (status != CEDUO_OK)
-        ceduo_answer_release(a);
+        ceduo_results_release(a);
     return status;
 }
 
-void ceduo_answer_release(struct ceduo_answer *a)
+void ceduo_results_release(struct ceduo_results *a)
 {
     for (size_t i = 0; i < a->years_count; i++) {
         ceduo_years_free(a->years ? a->years[i] : NULL);
@@ -119,5 +121,5 @@ void ceduo_answer_release(struct ceduo_answer *a)
     free(a->rotations);
     free(a->blocks);
     ceduo_result_free(a->result);
-    *a = (struct ceduo_answer){0};
+    *a = (struct ceduo_results){0};
 }

@@ -79,7 +79,7 @@ void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_optio
     for (size_t c = 0; c < scene->controls_count; c++) {
         controls[c] = ceduo_assess_index(scene, option, &scene->controls[c], bare->arrivals[c].energy.mean);
         controls[c].energy = ceduo_energy_light(wooded->rocks > 0 ? &wooded->arrivals[c] : NULL);
-        if (!ceduo_says_nothing(&bare->arrivals[c]))
+        if (!ceduo_too_few_arrivals(&bare->arrivals[c]))
             continue;
         /* where rocks do not arrive anyhow a light that passes would be a promise of the forest */
         controls[c].contact = controls[c].free_run = controls[c].energy = CEDUO_UNKNOWN;
@@ -126,12 +126,12 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
             status = copy(&r->bare, &o->wooded);
         ceduo_simulated_compare(&o->wooded, &r->bare);
         for (size_t c = 0; c < scene->controls_count; c++) {
-            struct ceduo_other_energy *other = &o->others[c];
+            struct ceduo_alternative_energy *other = &o->others[c];
             if (!r->wooded)
                 o->differences[c] = ceduo_no_difference(scene->controls[c].accepted);
             if (!r->wooded || !other->known)
                 continue;
-            enum ceduo_judgement one = ceduo_judge(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c));
+            enum ceduo_judgement one = ceduo_judge_control(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c));
             const struct ceduo_arrivals *a = &other->arrivals;
             enum ceduo_judgement two = ceduo_judge_share(a->exceed, a->limit);
             bool differ = (one == CEDUO_YES && two == CEDUO_NO) || (one == CEDUO_NO && two == CEDUO_YES);
@@ -148,7 +148,7 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
 
 enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_simulated *bare,
                                       const struct ceduo_simulated *const *wooded, const struct ceduo_difference *differences,
-                                      const struct ceduo_other_energy *others, struct ceduo_result **result)
+                                      const struct ceduo_alternative_energy *others, struct ceduo_result **result)
 {
     size_t controls = scene->controls_count;
     struct ceduo_result *r = allocate(scene);
@@ -191,15 +191,15 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
                                  : ceduo_simulated_read(run, controls, &r->options[i].wooded);
     }
     struct ceduo_scene other = {0}; /* with the other energy law */
-    if (r->wooded && status == CEDUO_OK && !ceduo_other_scene(scene, &other))
+    if (r->wooded && status == CEDUO_OK && !ceduo_alternative_scene(scene, &other))
         status = CEDUO_NO_MEMORY;
     for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
         const struct ceduo_run *first = ceduo_pool_find(pool, &other.options[0]);
         const struct ceduo_run *run = ceduo_pool_find(pool, &other.options[i]);
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
-            status = ceduo_other_read(&scene->options[i], run, first, c, &r->options[i].others[c]);
+            status = ceduo_alternative_read(&scene->options[i], run, first, c, &r->options[i].others[c]);
     }
-    ceduo_other_scene_release(&other);
+    ceduo_alternative_scene_release(&other);
     return finish(r, status, result);
 }
 

@@ -24,14 +24,14 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
     if (!ceduo_run_samples_reserve(run, rocks))
         return CEDUO_NO_MEMORY;
     while (run->rocks < rocks) {
-        uint64_t block = run->rocks / CEDUO_BLOCK_ROCKS, end = (block + run->chunk) * CEDUO_BLOCK_ROCKS;
+        uint64_t block = run->rocks / CEDUO_BATCH_ROCKS, end = (block + run->chunk) * CEDUO_BATCH_ROCKS;
         double start = ceduo_clock();
         enum ceduo_status status = ceduo_run_simulate_chunk(run, end < rocks ? end : rocks);
         if (status != CEDUO_OK)
             return status;
         /* The next chunk has as many blocks as take CHUNK_SECONDS by the speed of this one, at most twice as many, and as many for
          * each thread, so that none waits long for the others at its end. What is found does not depend on it. */
-        size_t blocks = (size_t)(run->rocks / CEDUO_BLOCK_ROCKS - block), threads = run->def.threads, max = 2 * run->chunk;
+        size_t blocks = (size_t)(run->rocks / CEDUO_BATCH_ROCKS - block), threads = run->def.threads, max = 2 * run->chunk;
         double seconds = ceduo_clock() - start;
         double wanted = seconds > 0 ? (double)blocks * CHUNK_SECONDS / seconds : (double)max; /* untaken: system */
         size_t next = wanted < (double)max ? (size_t)wanted : max;
@@ -63,7 +63,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_scene_rock_varies(def->scene);
     run->kept = one_energy ? ENERGY + 1 : QUANTITIES;
     run->columns = run->controls * (size_t)run->kept + 1;
-    uint64_t blocks = run->def.rocks_most / CEDUO_BLOCK_ROCKS + 1;
+    uint64_t blocks = run->def.rocks_most / CEDUO_BATCH_ROCKS + 1;
     run->slots_count = blocks < CHUNK_BLOCKS ? (size_t)blocks : CHUNK_BLOCKS;
     run->chunk = run->def.threads < CHUNK_BLOCKS ? run->def.threads : CHUNK_BLOCKS;
     run->lanes_walk = ceduo_kernel(def->kernel)->walk;
@@ -79,7 +79,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
         ceduo_run_free(run);
         return CEDUO_NO_MEMORY;
     }
-    run->alike = run->ready.wood.bare && ceduo_walk_alike(&run->ready);
+    run->alike = run->ready.wood.bare && ceduo_walk_is_equal(&run->ready);
     *out = run;
     return status;
 }

@@ -208,7 +208,7 @@ enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, 
         /* one mass and no spin make energy follow from speed */
         struct ceduo_distribution d = a->speed;
         for (size_t k = 0; k < PERCENTILES; k++) {
-            struct percentile at = ceduo_percentile_of(&d, k);
+            struct percentile at = ceduo_percentile_compute(&d, k);
             double *const values_of[] = {at.value, at.lo, at.hi};
             for (size_t i = 0; i < 3; i++)
                 *values_of[i] = 0.5 * run->ready.mean.mass * (*values_of[i] * *values_of[i]);
@@ -224,7 +224,7 @@ enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, 
     return CEDUO_OK;
 }
 
-void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_brief *briefs)
+void ceduo_run_group_means(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_group_means *briefs)
 {
     const double *energies = ceduo_run_samples(run, control, CEDUO_SAMPLE_ENERGY);
     double accepted = energies ? run->ready.scene.controls[control].accepted : NAN;
@@ -237,10 +237,10 @@ void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups
             exceeded += energies[r] > accepted ? w : 0;
             sum += isnan(energies[r]) ? 0 : w * energies[r];
         }
-        briefs[g] = (struct ceduo_brief){.reach_probability = reached / all,
-                                         .exceed_probability = isnan(accepted) ? NAN : exceeded / all,
-                                         .energy = reached > 0 ? sum / reached : NAN,
-                                         .energy_per_released = sum / all};
+        briefs[g] = (struct ceduo_group_means){.reach_probability = reached / all,
+                                               .exceed_probability = isnan(accepted) ? NAN : exceeded / all,
+                                               .energy = reached > 0 ? sum / reached : NAN,
+                                               .energy_per_released = sum / all};
     }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One chunk of a run, on several threads. Workers take blocks of CEDUO_BLOCK_ROCKS from a common counter. Each owns its
+/* One chunk of a run, on several threads. Workers take blocks of CEDUO_BATCH_ROCKS from a common counter. Each owns its
  * walkers and stems, and writes samples of its rocks into the columns of the run, where no two rocks share a place.
  * A block is summed in the order of its rocks, blocks are merged in their order: the result does not depend on threads. */
 #include <math.h>
@@ -25,9 +25,9 @@ struct worker {
     struct walker first;    /* a rock at its release: where all are alike, they are as this one */
     struct block *block;
     uint64_t from, next, to;               /* rocks of the block: the first, the next to begin, behind the last */
-    struct arrival *arrivals;              /* [control][CEDUO_BLOCK_ROCKS] */
-    double stops[CEDUO_BLOCK_ROCKS];       /* NaN: it did not stop */
-    unsigned char ends[CEDUO_BLOCK_ROCKS]; /* enum ceduo_end, where rocks have weights */
+    struct arrival *arrivals;              /* [control][CEDUO_BATCH_ROCKS] */
+    double stops[CEDUO_BATCH_ROCKS];       /* NaN: it did not stop */
+    unsigned char ends[CEDUO_BATCH_ROCKS]; /* enum ceduo_end, where rocks have weights */
     bool no_memory;
     struct chunk *chunk;
 };
@@ -50,7 +50,7 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
     double translation = 0.5 * rock->mass * (speed * speed);
     double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
     bool exceeds = energy > w->run->ready.scene.controls[control].accepted; /* never, where that is NaN */
-    w->arrivals[control * CEDUO_BLOCK_ROCKS + (walker->number - w->from)] =
+    w->arrivals[control * CEDUO_BATCH_ROCKS + (walker->number - w->from)] =
         (struct arrival){.of = {[SPEED] = speed, [HEIGHT] = c->height, [ENERGY] = energy, [TRANSLATION] = translation},
                          .stems_hit = (double)c->stems_hit,
                          .arrives = true,
@@ -116,7 +116,7 @@ static bool next_rock(void *context, size_t lane)
 static void sum_arrivals(struct worker *w, size_t control)
 {
     struct ceduo_run *run = w->run;
-    const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
+    const struct arrival *arrivals = &w->arrivals[control * CEDUO_BATCH_ROCKS];
     struct sums *to = &w->block->controls[control];
     size_t n = (size_t)(w->to - w->from), from = (size_t)w->from;
     bool spins = run->kept == QUANTITIES; /* otherwise all energy is translation */
@@ -146,7 +146,7 @@ static void sum_block(struct worker *w)
         double weight = run->weights[w->from + i];
         w->block->ended[w->ends[i]] += weight;
         for (size_t c = 0; c < run->controls; c++) {
-            const struct arrival *a = &w->arrivals[c * CEDUO_BLOCK_ROCKS + i];
+            const struct arrival *a = &w->arrivals[c * CEDUO_BATCH_ROCKS + i];
             if (a->arrives)
                 weighted_sum_add(&w->block->controls[c].hits, weight, a->stems_hit);
             else
@@ -168,13 +168,13 @@ static int take_block(void *context, size_t i, size_t worker)
     struct worker *w = &chunk->workers[worker];
     struct ceduo_run *run = w->run;
     enum ceduo_law law = run->ready.scene.simulation.law;
-    uint64_t from = (chunk->first / CEDUO_BLOCK_ROCKS + i) * CEDUO_BLOCK_ROCKS, to = from + CEDUO_BLOCK_ROCKS;
+    uint64_t from = (chunk->first / CEDUO_BATCH_ROCKS + i) * CEDUO_BATCH_ROCKS, to = from + CEDUO_BATCH_ROCKS;
     w->from = w->next = from < chunk->first ? chunk->first : from;
     w->to = to > chunk->end ? chunk->end : to;
     w->block = &run->slots[i];
-    memset(w->arrivals, 0, run->controls * CEDUO_BLOCK_ROCKS * sizeof *w->arrivals);
+    memset(w->arrivals, 0, run->controls * CEDUO_BATCH_ROCKS * sizeof *w->arrivals);
     memset(w->ends, CEDUO_UNFINISHED, sizeof w->ends);
-    for (size_t k = 0; k < CEDUO_BLOCK_ROCKS; k++)
+    for (size_t k = 0; k < CEDUO_BATCH_ROCKS; k++)
         w->stops[k] = NAN;
     const struct lanes_job job = {.ground = run->ground_of_lanes,
                                   .law = law,
@@ -200,7 +200,7 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
 {
     *w = (struct worker){.run = run, .chunk = chunk};
     w->walkers = calloc(run->lanes, sizeof *w->walkers);
-    w->arrivals = malloc((run->controls + 1) * CEDUO_BLOCK_ROCKS * sizeof *w->arrivals);
+    w->arrivals = malloc((run->controls + 1) * CEDUO_BATCH_ROCKS * sizeof *w->arrivals);
     if (!w->walkers || !w->arrivals)
         return false;
     for (size_t i = 0; i < run->lanes; i++)
@@ -228,7 +228,7 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
         return CEDUO_CANCELLED;
     /* nothing fails from here on: a chunk is there or leaves no trace */
     for (size_t i = 0; i < chunk->blocks; i++) {
-        bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BLOCK_ROCKS == 0;
+        bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BATCH_ROCKS == 0;
         struct block tail = run->tail;
         if (full) {
             ceduo_run_block_merge(&run->whole, &run->slots[i], run->controls);
@@ -244,8 +244,8 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
 
 enum ceduo_status ceduo_run_simulate_chunk(struct ceduo_run *run, uint64_t end)
 {
-    uint64_t first_block = run->rocks / CEDUO_BLOCK_ROCKS;
-    uint64_t last_block = (end - 1) / CEDUO_BLOCK_ROCKS;
+    uint64_t first_block = run->rocks / CEDUO_BATCH_ROCKS;
+    uint64_t last_block = (end - 1) / CEDUO_BATCH_ROCKS;
     struct chunk chunk = {.first = run->rocks, .end = end, .blocks = (size_t)(last_block - first_block + 1)};
     unsigned n = run->def.threads < chunk.blocks ? run->def.threads : (unsigned)chunk.blocks;
     struct worker *workers = chunk.workers = calloc(n, sizeof *workers);
@@ -256,7 +256,7 @@ enum ceduo_status ceduo_run_simulate_chunk(struct ceduo_run *run, uint64_t end)
         ready &= worker_init(&workers[i], run, &chunk);
     /* the first block goes on where the tail stands; a copy, so that a cancelled chunk leaves no trace */
     ceduo_run_block_clear(&run->slots[0], run->controls);
-    if (run->rocks % CEDUO_BLOCK_ROCKS != 0)
+    if (run->rocks % CEDUO_BATCH_ROCKS != 0)
         ceduo_run_block_merge(&run->slots[0], &run->tail, run->controls);
     enum ceduo_status status = CEDUO_NO_MEMORY;
     if (ready) {

@@ -51,7 +51,7 @@ struct ceduo_estimate ceduo_wilson(double share, double max, double n)
 double ceduo_half_width(double se, uint64_t n)
 {
     GSL_RETURNS_ERRORS;
-    return n < CEDUO_FEW ? NAN : se * gsl_cdf_tdist_Pinv(0.975, (double)(n - 1));
+    return n < CEDUO_INTERVAL_MIN_N ? NAN : se * gsl_cdf_tdist_Pinv(0.975, (double)(n - 1));
 }
 
 double ceduo_half_width_of_share(double share, double se, uint64_t n)
@@ -117,7 +117,7 @@ struct ceduo_distribution ceduo_distribution_none(void)
     return (struct ceduo_distribution){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
-struct percentile ceduo_percentile_of(struct ceduo_distribution *d, size_t k)
+struct percentile ceduo_percentile_compute(struct ceduo_distribution *d, size_t k)
 {
     const struct percentile all[PERCENTILES] = {{0.5, &d->p50, &d->p50_lo, &d->p50_hi},
                                                 {0.95, &d->p95, &d->p95_lo, &d->p95_hi},
@@ -148,7 +148,7 @@ struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, con
     struct wanted wanted[3 * PERCENTILES]; /* each percentile with its interval */
     size_t count = 0;
     for (size_t k = 0; k < PERCENTILES; k++) {
-        struct percentile at = ceduo_percentile_of(&d, k);
+        struct percentile at = ceduo_percentile_compute(&d, k);
         size_t lo, hi;
         ceduo_quantile_interval(n, at.p, &lo, &hi);
         wanted[count++] = (struct wanted){ceduo_quantile_rank(n, at.p), at.value};

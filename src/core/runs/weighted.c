@@ -129,7 +129,7 @@ struct ceduo_distribution ceduo_weighted_distribution(const struct released *all
     d.max = values[n - 1].value;
     for (size_t k = 0; k < PERCENTILES;
          k++) { /* the share below one is a mean over the n values, whose error moves it up and down */
-        struct percentile to = ceduo_percentile_of(&d, k);
+        struct percentile to = ceduo_percentile_compute(&d, k);
         double p = to.p, at = ceduo_weighted_quantile(values, n, p);
         struct weighted_sum below = {0};
         for (size_t i = 0; i < n; i++)

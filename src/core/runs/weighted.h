@@ -15,7 +15,7 @@
 struct percentile {
     double p, *value, *lo, *hi;
 };
-struct percentile ceduo_percentile_of(struct ceduo_distribution *distribution, size_t k);
+struct percentile ceduo_percentile_compute(struct ceduo_distribution *distribution, size_t k);
 
 /* All rocks released. */
 struct released {

@@ -14,15 +14,15 @@
 
 /* ---- windows ---- */
 
-struct ceduo_window ceduo_window_of(const struct ceduo_option *option)
+struct ceduo_window ceduo_window_compute(const struct ceduo_option *option)
 {
-    struct ceduo_window w = {.kind = CEDUO_WINDOW_ALIKE, .step = 1};
+    struct ceduo_window w = {.kind = CEDUO_WINDOW_CONSTANT, .step = 1};
     unsigned period = 1;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         unsigned first = ceduo_first_cut(&belt->stand, belt->cut_year);
         if (first == CEDUO_NEVER) {
-            if (w.kind == CEDUO_WINDOW_ALIKE && ceduo_stand_grows(&belt->stand))
+            if (w.kind == CEDUO_WINDOW_CONSTANT && ceduo_stand_grows(&belt->stand))
                 w.kind = CEDUO_WINDOW_AHEAD;
             continue;
         }
@@ -39,7 +39,7 @@ struct ceduo_window ceduo_window_of(const struct ceduo_option *option)
     return w;
 }
 
-struct ceduo_window ceduo_window_of_most(struct ceduo_window w, unsigned max)
+struct ceduo_window ceduo_window_thinned(struct ceduo_window w, unsigned max)
 {
     unsigned count = (w.last - w.first) / w.step + 1;
     w.step *= (count + max - 1) / max;
@@ -61,7 +61,7 @@ static struct ceduo_window window_ahead(const struct ceduo_scene *scene)
             alike = false;
         }
     w.last = w.last < CEDUO_AHEAD_MAX ? w.last : CEDUO_AHEAD_MAX;
-    return alike ? (struct ceduo_window){CEDUO_WINDOW_ALIKE, 0, 0, 1} : w;
+    return alike ? (struct ceduo_window){CEDUO_WINDOW_CONSTANT, 0, 0, 1} : w;
 }
 
 struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene)
@@ -75,7 +75,7 @@ struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene)
     w.first = isnan(first) ? w.first : (unsigned)first;
     w.last = isnan(last) ? w.first + period : (unsigned)last;
     w.last = w.last < w.first ? w.first : w.last;
-    return ceduo_window_of_most(w, CEDUO_YEARS_MAX);
+    return ceduo_window_thinned(w, CEDUO_YEARS_MAX);
 }
 
 /* ---- growing ---- */
@@ -284,8 +284,8 @@ static int simulate_apart(void *context, size_t i, size_t worker)
     return (int)(status == CEDUO_OK ? ceduo_run_extend(r->runs[i], r->rocks) : status);
 }
 
-enum ceduo_status ceduo_years_simulate_apart(struct ceduo_years *years, const struct ceduo_run_def *def,
-                                             const struct ceduo_simulated *bare, uint64_t rocks)
+enum ceduo_status ceduo_years_simulate_independent(struct ceduo_years *years, const struct ceduo_run_def *def,
+                                                   const struct ceduo_simulated *bare, uint64_t rocks)
 {
     struct years_run r = {.years = years, .bare = bare, .rocks = rocks, .def = *def};
     r.runs = calloc(years->count, sizeof *r.runs);

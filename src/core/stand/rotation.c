@@ -78,7 +78,7 @@ double ceduo_stems_sdi(const struct ceduo_stems *stems, size_t n)
     return per_ha > 0 ? per_ha * ceduo_pow(100 * sqrt(squares / per_ha) / 25.4, 1.605) : 0;
 }
 
-double ceduo_space_of_trees(const struct ceduo_growth *growth, const struct ceduo_stand *grown)
+double ceduo_growing_space_used(const struct ceduo_growth *growth, const struct ceduo_stand *grown)
 {
     if (!(growth->sdi_most > 0))
         return 0;
@@ -102,7 +102,7 @@ static void keep_shoots(struct ceduo_stand *stand, double min)
 /* The shoots are thinned to the growing space that the trees leave. Stools on which none is left die. */
 static void share_space(struct ceduo_stand *stand, const struct ceduo_growth *growth)
 {
-    double max = growth->sdi_most * fmax(0, 1 - ceduo_space_of_trees(growth, stand));
+    double max = growth->sdi_most * fmax(0, 1 - ceduo_growing_space_used(growth, stand));
     double sdi = ceduo_stems_sdi(stand->shoots, stand->shoots_count);
     if (growth->sdi_most > 0 && sdi > max) /* the index goes with their number */
         multiply_shoots(stand, max / sdi);

@@ -53,7 +53,7 @@ static enum ceduo_status sum_rotation(const struct ceduo_belt *belt, unsigned fi
         }
     }
     sum->felled = ceduo_stand_volume(&now.stand) - after_cut;
-    sum->space = ceduo_space_of_trees(&stand->growth, &now.stand);
+    sum->space = ceduo_growing_space_used(&stand->growth, &now.stand);
     ceduo_grown_stand_release(&now);
     return status;
 }
@@ -105,7 +105,7 @@ static enum ceduo_status list_fellings(const struct ceduo_option *option, unsign
     return status;
 }
 
-enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield)
+enum ceduo_status ceduo_yield_compute(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield)
 {
     double length = 0, felled = 0, died = 0, standing = 0, today = 0;
     enum ceduo_status status = last <= CEDUO_YEAR_MAX ? ceduo_check_stands(option) : CEDUO_BAD_ARGUMENT;

@@ -25,14 +25,14 @@ static void add_rock(struct passed *to, const struct ceduo_rock *rock, const str
 }
 
 /* Return the values of the ranks p n, rounded up. Each selection leaves smaller values before its rank and larger ones after. */
-static struct ceduo_spread_of_cell select_ranks(double *values, size_t n)
+static struct ceduo_cell_quantiles select_ranks(double *values, size_t n)
 {
     if (n == 0)
-        return (struct ceduo_spread_of_cell){NAN, NAN, NAN, NAN};
+        return (struct ceduo_cell_quantiles){NAN, NAN, NAN, NAN};
     size_t low = (size_t)ceil(0.05 * (double)n) - 1, middle = (n + 1) / 2 - 1, high = (size_t)ceil(0.95 * (double)n) - 1;
     double p50 = gsl_stats_select(values, 1, n, middle), p5 = gsl_stats_select(values, 1, middle + 1, low);
     double p95 = gsl_stats_select(values + middle, 1, n - middle, high - middle);
-    return (struct ceduo_spread_of_cell){p5, p50, p95, gsl_stats_max(values + high, 1, n - high)};
+    return (struct ceduo_cell_quantiles){p5, p50, p95, gsl_stats_max(values + high, 1, n - high)};
 }
 
 static bool is_cancelled(void *flag)
@@ -41,11 +41,10 @@ static bool is_cancelled(void *flag)
 }
 
 /* Follow rocks, of blocks those whose sizes are as frequent as those that come down, and add what they bring to each place. */
-static enum ceduo_status follow_rocks(struct ceduo_follower *f, const struct sizes *sizes,
-                                      const struct ceduo_envelopes_def *def, struct ceduo_crossing *crossings,
-                                      struct passed *places)
+static enum ceduo_status follow_rocks(struct ceduo_tracer *f, const struct sizes *sizes, const struct ceduo_envelopes_def *def,
+                                      struct ceduo_crossing *crossings, struct passed *places)
 {
-    const struct ceduo_watch watch = {.enough = is_cancelled, .context = (void *)def->cancel};
+    const struct ceduo_trajectory_callbacks watch = {.enough = is_cancelled, .context = (void *)def->cancel};
     enum ceduo_status status = CEDUO_OK;
     uint64_t followed = 0;
     for (uint64_t rock = 0; followed < def->rocks && status == CEDUO_OK; rock++) {
@@ -55,7 +54,7 @@ static enum ceduo_status follow_rocks(struct ceduo_follower *f, const struct siz
         if (sizes->n > 0 && !ceduo_size_is_typical(sizes, def->scene->simulation.seed, rock))
             continue;
         followed++;
-        status = ceduo_follower_follow(f, rock, &watch, &way, crossings);
+        status = ceduo_tracer_run(f, rock, &watch, &way, crossings);
         for (size_t i = 0; i < def->places && status == CEDUO_OK; i++)
             add_rock(&places[i], &way.rock, &crossings[i]);
     }
@@ -70,7 +69,7 @@ enum ceduo_status ceduo_envelopes(const struct ceduo_envelopes_def *def, struct 
     struct ceduo_crossing *crossings = calloc(n + 1, sizeof *crossings);
     struct passed *places = calloc(n + 1, sizeof *places);
     double *values = malloc((2 * n * each + 1) * sizeof *values);
-    struct ceduo_follower *follower = NULL;
+    struct ceduo_tracer *follower = NULL;
     struct sizes sizes = {0};
     enum ceduo_status status = CEDUO_NO_MEMORY;
     if (!controls || !crossings || !places || !values || !ceduo_sizes_init(&sizes, def->scene))
@@ -82,7 +81,7 @@ enum ceduo_status ceduo_envelopes(const struct ceduo_envelopes_def *def, struct 
     }
     scene.controls = controls;
     scene.controls_count = n;
-    follower = ceduo_follower_create(&scene, def->option);
+    follower = ceduo_tracer_create(&scene, def->option);
     if (follower)
         status = follow_rocks(follower, &sizes, def, crossings, places);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
@@ -93,7 +92,7 @@ enum ceduo_status ceduo_envelopes(const struct ceduo_envelopes_def *def, struct 
                                                .energy = select_ranks(p->energy, p->n)};
     }
 done:
-    ceduo_follower_free(follower);
+    ceduo_tracer_free(follower);
     ceduo_sizes_release(&sizes);
     free(controls);
     free(crossings);

@@ -21,13 +21,13 @@ struct ceduo_envelopes_def {
 };
 
 /* Values that 5, 50, 95 and 100 % of the rocks that pass a place do not exceed; NaN if none passes. */
-struct ceduo_spread_of_cell {
+struct ceduo_cell_quantiles {
     double p5, p50, p95, max;
 };
 struct ceduo_envelope {
     uint64_t passed;                            /* rocks of those followed */
     double mean_energy;                         /* J, of those that pass; NaN: none */
-    struct ceduo_spread_of_cell height, energy; /* m, J */
+    struct ceduo_cell_quantiles height, energy; /* m, J */
 };
 
 /* Follow rocks and write an envelope for each place. If the scene has blocks, follow those that are as frequent as blocks of their size.

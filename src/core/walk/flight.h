@@ -28,13 +28,13 @@ struct chord {
     real x0, z0, x1, z1, m;
 };
 
-HOT real height_after(real z, real vz, double half_g, real t)
+FORCE_INLINE real height_after(real z, real vz, double half_g, real t)
 {
     return z + (vz - half_g * t) * t;
 }
 
 /* The later root of c + b t - g/2 t2, in the form that does not cancel; c >= 0 but for rounding. */
-HOT real later_root(real c, real b, double g)
+FORCE_INLINE real later_root(real c, real b, double g)
 {
     real zero = all(0), d = b * b + 2 * g * c, root = pick(less(zero, d), root_of(d), zero);
     mask up = at_least(b, zero);
@@ -43,14 +43,14 @@ HOT real later_root(real c, real b, double g)
 }
 
 /* The height of a chord at x on it. */
-HOT real chord_height(const struct chord *s, real x)
+FORCE_INLINE real chord_height(const struct chord *s, real x)
 {
     return pick(at_least(x, s->x1), s->z1, s->z0 + s->m * (x - s->x0));
 }
 
 /* Onto the chord from nearby: where that is steeper than 45 degrees z is kept and x follows, elsewhere the other way. `some`
  * of them are `steep`; these end in their upper vertex, exactly, where `ends`. */
-HOT void onto_chord(const struct chord *s, mask steep, bool some, bool ends, real *x, real *z)
+FORCE_INLINE void onto_chord(const struct chord *s, mask steep, bool some, bool ends, real *x, real *z)
 {
     real flat_x = clamp(*x, s->x0, s->x1), flat_z = chord_height(s, flat_x);
     if (some) {
@@ -65,13 +65,13 @@ HOT void onto_chord(const struct chord *s, mask steep, bool some, bool ends, rea
     *z = flat_z;
 }
 
-HOT mask is_steep(real m)
+FORCE_INLINE mask is_steep(real m)
 {
     return less(all(1), absolute(m));
 }
 
 /* The speed along the ground once a rock that comes with speed `along` rolls without slip. */
-HOT real rolling_speed(real along, real k, real spin, real radius)
+FORCE_INLINE real rolling_speed(real along, real k, real spin, real radius)
 {
     return (along + k * spin * radius) / (1 + k);
 }

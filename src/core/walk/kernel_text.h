@@ -25,7 +25,7 @@
 
 /* ---- all contacts ---- */
 
-HOT void step_lanes(struct form form, struct lanes *k, bool even)
+FORCE_INLINE void step_lanes(struct form form, struct lanes *k, bool even)
 {
     unsigned pass, leave, alone = form.wood ? pass_stems(form, k) : 0;
     alone |= disturbed(form, k, &pass, &leave);
@@ -96,13 +96,13 @@ static void finish_alone(struct lanes *k)
             c.off = c.at.vz * s->c - c.at.vx * s->s;
         }
         enum ceduo_end end;
-        if (!c.aloft || ceduo_walk_come_down(w, &c, &end))
-            end = ceduo_walk_on(w, &c, k->job->law);
+        if (!c.aloft || ceduo_walk_land(w, &c, &end))
+            end = ceduo_walk_continue(w, &c, k->job->law);
         k->job->ended(k->job->context, i, end);
     }
 }
 
-HOT void walk_lanes(struct form form, struct lanes *k)
+FORCE_INLINE void walk_lanes(struct form form, struct lanes *k)
 {
     for (uint64_t step = 0;; step++) {
         if (k->empty && __builtin_popcount(k->live) <= LANES / 4)

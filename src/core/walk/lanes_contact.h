@@ -8,13 +8,13 @@
 
 /* ---- random numbers ---- */
 
-HOT real unit(ints p)
+FORCE_INLINE real unit(ints p)
 {
     return real_of(p >> 11) * 0x1p-53;
 }
 
 /* Draws two contacts ahead for every lane, in every second step. A lane at an odd contact has its next draw already. */
-HOT void draw_ahead(struct lanes *k, enum random_kind kind, double draws[3][LANES])
+FORCE_INLINE void draw_ahead(struct lanes *k, enum random_kind kind, double draws[3][LANES])
 {
     const uint64_t seed = k->seed;
     EACH_REGISTER(i) {
@@ -31,7 +31,7 @@ HOT void draw_ahead(struct lanes *k, enum random_kind kind, double draws[3][LANE
 }
 
 /* The next draw of each lane; those in the air keep theirs. */
-HOT real next_draw(struct form form, const struct lanes *k, double draws[3][LANES], size_t i)
+FORCE_INLINE real next_draw(struct form form, const struct lanes *k, double draws[3][LANES], size_t i)
 {
     real u = load(&draws[0][i]), v = load(&draws[1][i]), w = load(&draws[2][i]);
     if (in_the_air(form, k)) {
@@ -47,7 +47,7 @@ HOT real next_draw(struct form form, const struct lanes *k, double draws[3][LANE
 /* ---- one contact in every lane ---- */
 
 /* Those that the scalar walk brings to the next contact. Of the others: which pass a mark, which leave the slope. */
-HOT unsigned disturbed(struct form form, const struct lanes *k, unsigned *pass, unsigned *leave)
+FORCE_INLINE unsigned disturbed(struct form form, const struct lanes *k, unsigned *pass, unsigned *leave)
 {
     unsigned mark = 0, stem = 0, many = 0;
     EACH_REGISTER(i) {
@@ -64,7 +64,7 @@ HOT unsigned disturbed(struct form form, const struct lanes *k, unsigned *pass, 
 }
 
 /* The ground that each rock strikes, where that varies from rock to rock. */
-SELDOM void ground_alone(struct form form, struct lanes *k)
+NOINLINE_COLD void ground_alone(struct form form, struct lanes *k)
 {
     for (size_t i = 0; i < LANES; i++)
         if ((k->live & ~in_the_air(form, k)) >> i & 1)
@@ -72,7 +72,7 @@ SELDOM void ground_alone(struct form form, struct lanes *k)
 }
 
 /* The largest facet angle where only that varies, with the rock's radius. */
-HOT void theta_alone(struct lanes *k)
+FORCE_INLINE void theta_alone(struct lanes *k)
 {
     const unsigned char *rough = k->g->rough;
     for (size_t i = 0; i < LANES; i++)
@@ -81,7 +81,7 @@ HOT void theta_alone(struct lanes *k)
 }
 
 /* How the facets and sections of the lanes from i on are turned. */
-HOT void turn_lanes(struct form form, struct lanes *k, size_t i)
+FORCE_INLINE void turn_lanes(struct form form, struct lanes *k, size_t i)
 {
     real sine, cosine, largest = load(&k->theta[i]);
     real angle = facet_angle(k->against, largest, next_draw(form, k, k->draw, i));
@@ -98,7 +98,7 @@ HOT void turn_lanes(struct form form, struct lanes *k, size_t i)
 }
 
 /* What a law needs to know of the lanes from i on. */
-HOT struct ground_point ground_points(struct form form, struct lanes *k, size_t i, ints segment)
+FORCE_INLINE struct ground_point ground_points(struct form form, struct lanes *k, size_t i, ints segment)
 {
     struct ground_point at = {.radius = load(&k->radius[i]), .k = load(&k->k[i]), .scale_rn = k->scale_rn};
     at.bound = k->friction_bound;
@@ -122,7 +122,7 @@ HOT struct ground_point ground_points(struct form form, struct lanes *k, size_t 
 }
 
 /* The lanes from i on come down and are struck, but for those in the air. */
-HOT void strike_lanes(struct form form, struct lanes *k, size_t i)
+FORCE_INLINE void strike_lanes(struct form form, struct lanes *k, size_t i)
 {
     real c, s, sine, cosine, vx = load(&k->vx[i]), vz = load(&k->vz[i]) - k->g->gravity * load(&k->t[i]);
     ints segment = load_ints(&k->to[i]);

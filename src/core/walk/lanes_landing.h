@@ -14,7 +14,7 @@ struct search {
     mask going;
 };
 
-HOT void search_on(struct form form, const struct lanes *k, struct search *s)
+FORCE_INLINE void search_on(struct form form, const struct lanes *k, struct search *s)
 {
     ints next = s->vertex + s->step;
     real x, z;
@@ -25,7 +25,7 @@ HOT void search_on(struct form form, const struct lanes *k, struct search *s)
 }
 
 /* A search as it stands, of the lanes from i on; `going` of them still are above theirs. */
-HOT struct search search_of(const struct lanes *k, size_t i, unsigned going)
+FORCE_INLINE struct search search_of(const struct lanes *k, size_t i, unsigned going)
 {
     mask forth = less(all(0), load(&k->vx[i]));
     return (struct search){.vertex = load_ints(&k->vertex[i]),
@@ -39,7 +39,7 @@ HOT struct search search_of(const struct lanes *k, size_t i, unsigned going)
 
 /* The vertex that each flight of the lanes from i on comes to, if it is on the ground before that the end of its segment; as
  * land_towards(). Returns which may go on; *far: to be looked for by the scalar walk. */
-HOT mask begin_search(struct form form, struct lanes *k, size_t i, unsigned *far)
+FORCE_INLINE mask begin_search(struct form form, struct lanes *k, size_t i, unsigned *far)
 {
     const ints one = all_ints(1);
     real zero = all(0), x = load(&k->x[i]), vx = load(&k->vx[i]), vz = load(&k->vz[i]), inv = 1 / vx;
@@ -64,7 +64,7 @@ HOT mask begin_search(struct form form, struct lanes *k, size_t i, unsigned *far
 
 /* Takes those that are going on from vertex to vertex. Where the ground has `blocks`, those that come back along -x to where
  * one begins are left to the scalar walk, which *far then has. */
-HOT void search_further(struct form form, struct lanes *k, unsigned going, bool blocks, unsigned *far)
+FORCE_INLINE void search_further(struct form form, struct lanes *k, unsigned going, bool blocks, unsigned *far)
 {
     while (going) {
         unsigned on = 0;
@@ -85,7 +85,7 @@ HOT void search_further(struct form form, struct lanes *k, unsigned going, bool 
 
 /* Which segments the flights land on, not yet where; as land_beyond(). Mostly a flight passes no more than two vertices: so
  * many are looked at without a branch that the processor might guess wrongly. Returns those left to the scalar walk. */
-HOT unsigned find_segments(struct form form, struct lanes *k)
+FORCE_INLINE unsigned find_segments(struct form form, struct lanes *k)
 {
     unsigned going = 0, far = 0;
     EACH_REGISTER(i) {
@@ -102,7 +102,7 @@ HOT unsigned find_segments(struct form form, struct lanes *k)
 }
 
 /* The same where the ground has blocks. */
-HOT unsigned find_segments_far(struct form form, struct lanes *k)
+FORCE_INLINE unsigned find_segments_far(struct form form, struct lanes *k)
 {
     unsigned going = 0, forth = 0, far = 0;
     EACH_REGISTER(i) {
@@ -116,7 +116,7 @@ HOT unsigned find_segments_far(struct form form, struct lanes *k)
 
 /* Where the flights of the lanes from i on land on their segments, or leave the profile; as land_on() and land_nowhere().
  * Returns those that leave; *roll: those that land as near and with so little speed off the ground that they may roll. */
-HOT unsigned land_lanes(struct form form, struct lanes *k, size_t i, unsigned *roll)
+FORCE_INLINE unsigned land_lanes(struct form form, struct lanes *k, size_t i, unsigned *roll)
 {
     const ints one = all_ints(1);
     real zero = all(0), x = load(&k->x[i]), z = load(&k->z[i]), vx = load(&k->vx[i]), vz = load(&k->vz[i]);
@@ -160,7 +160,7 @@ HOT unsigned land_lanes(struct form form, struct lanes *k, size_t i, unsigned *r
 
 /* Whether what is d away, along x or where that is steep along z, is nearer than `reach`, surely, or farther, surely: without a
  * division, and not told where rounding might matter. As ground_length() against the radius. */
-HOT void is_within(real d, real reach, mask *less_far, mask *farther)
+FORCE_INLINE void is_within(real d, real reach, mask *less_far, mask *farther)
 {
     const double margin = 0x1p-48;
     *less_far = less(d, reach * (1 - margin));
@@ -170,7 +170,7 @@ HOT void is_within(real d, real reach, mask *less_far, mask *farther)
 /* Of the lanes from i on that land `near`, those that roll, as is_roll(), and stay on their segment, do not stop and meet
  * nothing: for a radius to the next contact, as roll_on(). Returns them; *others: which the scalar walk looks at again, as those
  * that land on another segment. */
-HOT unsigned roll_lanes(struct form form, struct lanes *k, size_t i, unsigned near, unsigned *others)
+FORCE_INLINE unsigned roll_lanes(struct form form, struct lanes *k, size_t i, unsigned near, unsigned *others)
 {
     const bool spins = form.law->spins;
     const struct chord on = load_chord(&k->on, i);

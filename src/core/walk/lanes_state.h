@@ -21,7 +21,7 @@
 #endif
 
 /* The two numbers at i of a table for each lane; `small`: it has no more than 16. */
-HOT void look_up(const struct lanes_table *table, ints i, bool small, real *first, real *second)
+FORCE_INLINE void look_up(const struct lanes_table *table, ints i, bool small, real *first, real *second)
 {
 #ifdef LOOK_UP_16
     /* untaken 2: machine */
@@ -42,12 +42,12 @@ struct chords {
     double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES];
 };
 
-HOT struct chord load_chord(const struct chords *from, size_t i)
+FORCE_INLINE struct chord load_chord(const struct chords *from, size_t i)
 {
     return (struct chord){load(&from->x0[i]), load(&from->z0[i]), load(&from->x1[i]), load(&from->z1[i]), load(&from->m[i])};
 }
 
-HOT void store_chord(struct chords *to, size_t i, struct chord on)
+FORCE_INLINE void store_chord(struct chords *to, size_t i, struct chord on)
 {
     store(&to->x0[i], on.x0);
     store(&to->z0[i], on.z0);
@@ -56,7 +56,7 @@ HOT void store_chord(struct chords *to, size_t i, struct chord on)
     store(&to->m[i], on.m);
 }
 
-HOT struct chord pick_chord(mask m, struct chord p, struct chord q)
+FORCE_INLINE struct chord pick_chord(mask m, struct chord p, struct chord q)
 {
     return (struct chord){pick(m, p.x0, q.x0), pick(m, p.z0, q.z0), pick(m, p.x1, q.x1), pick(m, p.z1, q.z1),
                           pick(m, p.m, q.m)};
@@ -139,7 +139,7 @@ struct lanes {
 _Static_assert(offsetof(struct lanes, contacts) % 64 == 0, "what is for lanes is loaded from whole lines of the cache");
 
 /* Segments, and their largest facet angles. */
-HOT struct chord look_up_chord(struct form form, const struct lanes *k, ints segment, real *theta)
+FORCE_INLINE struct chord look_up_chord(struct form form, const struct lanes *k, ints segment, real *theta)
 {
     struct chord on;
     look_up(&k->ground->place, segment, form.small, &on.x0, &on.z0);
@@ -149,7 +149,7 @@ HOT struct chord look_up_chord(struct form form, const struct lanes *k, ints seg
 }
 
 /* Lanes that come to no contact in this step. */
-HOT unsigned in_the_air(struct form form, const struct lanes *k)
+FORCE_INLINE unsigned in_the_air(struct form form, const struct lanes *k)
 {
     return form.wood ? k->aloft | k->waits : 0;
 }
@@ -249,7 +249,7 @@ static void load_course(struct lanes *k, size_t i, const struct course *c)
     k->theta[i] = slope[1];
 }
 
-/* The walker brought up to date, and the lane's course. */
+/* The walker control_means up to date, and the lane's course. */
 static struct course course_of(struct lanes *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
@@ -324,12 +324,12 @@ static void finish(struct lanes *k, size_t i, enum ceduo_end end)
 /* ---- what happens seldom ---- */
 
 /* A flight that comes to stems which are left to the scalar walk, or a rock of many contacts. */
-SELDOM void come_down_alone(struct lanes *k, size_t i)
+NOINLINE_COLD void come_down_alone(struct lanes *k, size_t i)
 {
     struct course c = course_of(k, i);
     unsigned bit = 1u << i;
     enum ceduo_end end;
-    if (!ceduo_walk_come_down(&k->job->walkers[i], &c, &end)) {
+    if (!ceduo_walk_land(&k->job->walkers[i], &c, &end)) {
         k->aloft &= ~bit;
         finish(k, i, end);
         return;
@@ -341,7 +341,7 @@ SELDOM void come_down_alone(struct lanes *k, size_t i)
 }
 
 /* A flight that ends at (x, z). */
-SELDOM void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_end end)
+NOINLINE_COLD void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_end end)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
@@ -352,7 +352,7 @@ SELDOM void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_
 }
 
 /* A flight passes marks up to x, which it reaches after t. */
-HOT void pass_marks(struct lanes *k, size_t i, const struct flight *at, double x, double t, double spin)
+FORCE_INLINE void pass_marks(struct lanes *k, size_t i, const struct flight *at, double x, double t, double spin)
 {
     struct walker *w = &k->job->walkers[i];
     w->spin = spin;
@@ -363,14 +363,14 @@ HOT void pass_marks(struct lanes *k, size_t i, const struct flight *at, double x
 }
 
 /* A flight that passes marks and goes on in its lane. */
-SELDOM void pass_marks_alone(struct lanes *k, size_t i)
+NOINLINE_COLD void pass_marks_alone(struct lanes *k, size_t i)
 {
     struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
     pass_marks(k, i, &at, k->to_x[i], k->t[i], k->spin[i]);
 }
 
 /* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */
-SELDOM void go_off_alone(struct lanes *k, size_t i, bool knows_landing)
+NOINLINE_COLD void go_off_alone(struct lanes *k, size_t i, bool knows_landing)
 {
     struct walker *w = &k->job->walkers[i];
     struct course c = course_of(k, i);

@@ -31,7 +31,7 @@ struct passing {
 
 /* Go on, in the lanes `further` from i on, to the segment under their next stem by bisection: of a long profile it may be hundreds
  * of segments away. */
-SELDOM void search_segments(const struct lanes *k, struct passing *p, size_t i, mask further)
+NOINLINE_COLD void search_segments(const struct lanes *k, struct passing *p, size_t i, mask further)
 {
     for (unsigned left = lanes_of(further) << i; left; left &= left - 1) {
         size_t lane = (size_t)__builtin_ctz(left);
@@ -40,7 +40,7 @@ SELDOM void search_segments(const struct lanes *k, struct passing *p, size_t i, 
 }
 
 /* The segment under each stem at `to`, for flights that know where they land; as fly_past_stems(). */
-HOT void go_to_segment(struct form form, const struct lanes *k, struct passing *p, size_t i, real to, struct chord *on)
+FORCE_INLINE void go_to_segment(struct form form, const struct lanes *k, struct passing *p, size_t i, real to, struct chord *on)
 {
     unsigned far = (p->under_way & p->knows) >> i & REGISTER & ~lanes_of(at_least(load(&p->end[i]), to));
     ints here = load_ints(&p->here[i]), last = load_ints(&p->last[i]);
@@ -62,7 +62,7 @@ HOT void go_to_segment(struct form form, const struct lanes *k, struct passing *
 
 /* The scalar walk takes the stem that is before each of `lanes`, past the marks up to it where it is hit or the rock
  * is given up. */
-SELDOM void take_stems_alone(struct lanes *k, struct passing *p, unsigned lanes, unsigned hit)
+NOINLINE_COLD void take_stems_alone(struct lanes *k, struct passing *p, unsigned lanes, unsigned hit)
 {
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
@@ -70,7 +70,7 @@ SELDOM void take_stems_alone(struct lanes *k, struct passing *p, unsigned lanes,
         struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
         w->spin = k->spin[i];
         show_stems_met(k, i);
-        if (!ceduo_walk_take_stem(w, hit >> i & 1, at, p->t[i]))
+        if (!ceduo_walk_hit_stem(w, hit >> i & 1, at, p->t[i]))
             p->ended |= 1u << i;
         load_stem(k, i);
         k->next_x[i] = w->next_x;
@@ -80,7 +80,8 @@ SELDOM void take_stems_alone(struct lanes *k, struct passing *p, unsigned lanes,
 
 /* Which flights are above all that may wait when they pass `to` after t, and go on so over some of them: up to the end
  * of the segment, or to where the parabola comes down so far. */
-HOT unsigned fly_over(struct lanes *k, size_t i, unsigned under_way, real to, real t, real clearance, const struct chord *on)
+FORCE_INLINE unsigned fly_over(struct lanes *k, size_t i, unsigned under_way, real to, real t, real clearance,
+                               const struct chord *on)
 {
     real zero = all(0), over_all = clearance - k->tallest;
     mask high = less(zero, over_all) & less(zero, t) & less(load(&k->stem.after[i]), on->x1) & mask_of(under_way >> i);
@@ -95,7 +96,7 @@ HOT unsigned fly_over(struct lanes *k, size_t i, unsigned under_way, real to, re
 
 /* Takes the stem that is before each of `lanes`, where the one behind it waits and is next; of those that are `above`
  * all, more of them. No branch depends on what is hit. */
-HOT void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned above)
+FORCE_INLINE void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned above)
 {
     uint64_t places = k->job->walkers[0].stems->wood->places;
     for (above &= lanes; above; above &= above - 1) {
@@ -121,9 +122,9 @@ HOT void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned ab
     }
 }
 
-/* Each flight under way takes the stem that is before it: as ceduo_walk_take_stem(), at once where the one after it
+/* Each flight under way takes the stem that is before it: as ceduo_walk_hit_stem(), at once where the one after it
  * waits already, no mark is passed and no stool stands around the release. */
-HOT void take_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned above)
+FORCE_INLINE void take_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned above)
 {
     unsigned marks = 0, waits = 0;
     EACH_REGISTER(i) {
@@ -140,7 +141,7 @@ HOT void take_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned a
 
 /* How the flights from lane i on pass their next stem. Returns which hit it; those that are in the ground before have no way
  * on; *above: see fly_over(). */
-HOT unsigned come_to_stem(struct form form, struct lanes *k, struct passing *p, size_t i, unsigned *above)
+FORCE_INLINE unsigned come_to_stem(struct form form, struct lanes *k, struct passing *p, size_t i, unsigned *above)
 {
     real zero = all(0), to = load(&k->stem_ahead[i]), vz = load(&k->vz[i]), latest = load(&k->t[i]);
     struct chord on = load_chord(&p->on, i);
@@ -161,7 +162,7 @@ HOT unsigned come_to_stem(struct form form, struct lanes *k, struct passing *p, 
 }
 
 /* What a hit does to those of the lanes from i on that are `hit`. */
-HOT void hit_stem_lanes(struct lanes *k, struct passing *p, size_t i, unsigned hit)
+FORCE_INLINE void hit_stem_lanes(struct lanes *k, struct passing *p, size_t i, unsigned hit)
 {
     mask h = mask_of(hit >> i);
     real vx = load(&k->vx[i]), vz = load(&k->vz[i]) - k->g->gravity * load(&p->t[i]), spin = load(&k->spin[i]);
@@ -179,7 +180,7 @@ HOT void hit_stem_lanes(struct lanes *k, struct passing *p, size_t i, unsigned h
 }
 
 /* The next stem of each flight under way, whose landing comes behind it or is not known. */
-HOT void pass_stem(struct form form, struct lanes *k, struct passing *p)
+FORCE_INLINE void pass_stem(struct form form, struct lanes *k, struct passing *p)
 {
     unsigned hit = 0, above = 0, forth = 0, before = 0;
     EACH_REGISTER(i)
@@ -202,7 +203,7 @@ HOT void pass_stem(struct form form, struct lanes *k, struct passing *p)
 }
 
 /* Behind a hit a lane stands where it was hit, as if it had landed there. */
-HOT void land_at_stems(struct form form, struct lanes *k, unsigned moved)
+FORCE_INLINE void land_at_stems(struct form form, struct lanes *k, unsigned moved)
 {
     EACH_REGISTER(i) {
         mask m = mask_of(moved >> i);
@@ -220,7 +221,7 @@ HOT void land_at_stems(struct form form, struct lanes *k, unsigned moved)
 
 /* All flights along +x that come to a stem before they land, up to their landing, or to where it must be known.
  * Returns those of which the scalar walk does the rest. */
-HOT unsigned pass_stems(struct form form, struct lanes *k)
+FORCE_INLINE unsigned pass_stems(struct form form, struct lanes *k)
 {
     struct passing p;
     const ints n = all_ints(k->g->n);

@@ -19,13 +19,13 @@ struct arm_impulse {
     real normal, along;
 };
 
-HOT real arm_within(real p, real lo, real hi)
+FORCE_INLINE real arm_within(real p, real lo, real hi)
 {
     return pick(less(p, lo), lo, pick(less(hi, p), hi, p));
 }
 
 /* The arm to the point of contact: that of the ellipse, or straight down, where its end does not go into the ground. */
-HOT void arm_of(const struct ground_point *at, const struct arm_state *in, real *r, real *h)
+FORCE_INLINE void arm_of(const struct ground_point *at, const struct arm_state *in, real *r, real *h)
 {
     real wide = at->section.wide, high = at->section.high, zero = all(0);
     real h2 = wide * (at->sine * at->sine) + high * (at->cosine * at->cosine);
@@ -44,7 +44,7 @@ struct arm_course {
 
 /* The impulse from `stop` to the end of a blow that does not end before. The work of the normal impulse up to where the point no
  * longer goes down comes back times e2 (Stronge 1990). */
-HOT real arm_after_stop(const struct arm_course *c, real e)
+FORCE_INLINE real arm_after_stop(const struct arm_course *c, real e)
 {
     real zero = all(0), stop2 = c->un_stop * c->un_stop, e2 = e * e;
     /* what went in is 2 (un + un_stop) stop, and un_stop2/after more; or all within the slip */
@@ -56,7 +56,7 @@ HOT real arm_after_stop(const struct arm_course *c, real e)
 
 /* Routh's phases: the point slips, against which friction acts, until it stops or the blow is over; then it sticks, if
  * friction can hold it, or slips the other way. */
-HOT struct arm_impulse arm_strike(const struct ground_point *at, const struct arm_state *in, real r, real h)
+FORCE_INLINE struct arm_impulse arm_strike(const struct ground_point *at, const struct arm_state *in, real r, real h)
 {
     real zero = all(0), mu = at->mu, ut = in->along + in->turn * h, forth = pick(less(ut, zero), all(-1), all(1));
     real nn = 1 + r * r, tt = 1 + h * h, nt = forth * (r * h);
@@ -74,7 +74,7 @@ HOT struct arm_impulse arm_strike(const struct ground_point *at, const struct ar
 }
 
 /* Rolling friction: a moment of at most friction R times the normal impulse, against the spin. */
-HOT real arm_slow(const struct ground_point *at, real normal, real turn)
+FORCE_INLINE real arm_slow(const struct ground_point *at, real normal, real turn)
 {
     real max = at->friction * at->section.reach * normal;
     return turn - arm_within(turn, 0 - max, max);
@@ -82,7 +82,7 @@ HOT real arm_slow(const struct ground_point *at, real normal, real turn)
 
 /* The centre still goes down: a second blow without bounce, straight below it. Here friction and moment are one question:
  * the impulses within their bounds that leave the least energy. */
-HOT struct arm_state arm_stop(const struct ground_point *at, struct arm_state s)
+FORCE_INLINE struct arm_state arm_stop(const struct ground_point *at, struct arm_state s)
 {
     real h = at->section.reach, normal = 0 - s.off, hold = at->mu * normal;
     real max = at->friction * h * normal, slip = s.along + h * s.turn;
@@ -91,7 +91,7 @@ HOT struct arm_state arm_stop(const struct ground_point *at, struct arm_state s)
     return (struct arm_state){.along = s.along + along, .off = all(0), .turn = arm_slow(at, normal, s.turn + h * along)};
 }
 
-HOT struct impact arm_struck(struct impact in, const struct ground_point *at)
+FORCE_INLINE struct impact arm_struck(struct impact in, const struct ground_point *at)
 {
     real r, h, gyration = at->section.gyration;
     struct arm_state s = {.along = in.vt, .off = -1 * in.vn, .turn = -1 * (in.spin * gyration)};

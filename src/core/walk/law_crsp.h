@@ -9,20 +9,20 @@
 #define CRSP_K 9.144
 #define CRSP_C 76.2
 
-HOT real crsp_friction(real rt, real slip)
+FORCE_INLINE real crsp_friction(real rt, real slip)
 {
     real s = slip / CRSP_A;
     return rt + (1 - rt) / (s * s + 1.2);
 }
 
-HOT real crsp_scaling(real rn, real rt, real vn)
+FORCE_INLINE real crsp_scaling(real rn, real rt, real vn)
 {
     real s = vn / (CRSP_C * rn), zero = all(0);
     return pick(equal(rn, zero), pick(equal(vn, zero), rt, zero), rt / (s * s + 1)); /* where Rn is 0, its limit */
 }
 
 /* Pfeiffer & Higgins 1990; CRSP 3.0 (Pfeiffer et al. 1993). */
-HOT struct impact crsp_struck(struct impact in, const struct ground_point *at)
+FORCE_INLINE struct impact crsp_struck(struct impact in, const struct ground_point *at)
 {
     real roll = in.spin * at->radius; /* speed of the rock's rim */
     real f = crsp_friction(at->rt, in.vt - roll), sf = crsp_scaling(at->rn, at->rt, in.vn), s = in.vn / CRSP_K;

@@ -7,7 +7,7 @@
 #define LUMPED_K 9.144 /* m/s, 30 ft/s: the speed that scales Rn in Pfeiffer & Higgins 1990 */
 
 /* A point mass: each part of the velocity keeps its own share; no spin. */
-HOT struct impact lumped_struck(struct impact in, const struct ground_point *at)
+FORCE_INLINE struct impact lumped_struck(struct impact in, const struct ground_point *at)
 {
     real rn = at->rn, s = in.vn / LUMPED_K;
     if (at->scale_rn)

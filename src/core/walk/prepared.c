@@ -23,7 +23,7 @@ bool ceduo_sizes_init(struct sizes *s, const struct ceduo_scene *scene)
     if (!s->classes)
         return false;
     for (size_t i = 0; i < s->n; i++) {
-        const struct ceduo_block_class *b = &scene->blocks[i];
+        const struct ceduo_size_class *b = &scene->blocks[i];
         double from = ceduo_log(b->volumes[0]), length = ceduo_log(b->volumes[1]) - from;
         double at_start = b->exponent > 0 ? b->exponent / (1 - ceduo_exp(-b->exponent * length)) : 1 / length; /* density */
         s->classes[i] = (struct size_class){from, length, b->exponent, b->per_year * at_start};
@@ -40,7 +40,7 @@ void ceduo_sizes_release(struct sizes *s)
     free(s->classes);
 }
 
-struct size ceduo_size_of(const struct sizes *s, uint64_t rock)
+struct size ceduo_size_find(const struct sizes *s, uint64_t rock)
 {
     uint64_t place = s->start + rock * GOLDEN;
     double along = ((double)(place >> 11) * 0x1p-53 + 0x1p-54) * s->length;
@@ -56,7 +56,7 @@ bool ceduo_size_is_typical(const struct sizes *s, uint64_t seed, uint64_t rock)
     double most = 0;
     for (size_t i = 0; i < s->n; i++)
         most = s->classes[i].weight > most ? s->classes[i].weight : most;
-    return random_pair(seed, rock, 1, RANDOM_SIZE).u[0] * most < ceduo_size_of(s, rock).weight;
+    return random_pair(seed, rock, 1, RANDOM_SIZE).u[0] * most < ceduo_size_find(s, rock).weight;
 }
 
 void ceduo_rock_resize(struct ceduo_rock *rock, double volume)
@@ -129,7 +129,7 @@ enum ceduo_status ceduo_prepared_rock(const struct prepared *ready, uint64_t num
         status = ceduo_rock_draw(def, u, rock);
     }
     if (ready->sizes.n > 0)
-        ceduo_rock_resize(rock, ceduo_size_of(&ready->sizes, number).volume);
+        ceduo_rock_resize(rock, ceduo_size_find(&ready->sizes, number).volume);
     return status;
 }
 

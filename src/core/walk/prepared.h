@@ -37,7 +37,7 @@ void ceduo_sizes_release(struct sizes *sizes);
  * time, so many of each size as its weight is to the largest. */
 bool ceduo_size_is_typical(const struct sizes *sizes, uint64_t seed, uint64_t rock);
 
-struct size ceduo_size_of(const struct sizes *sizes, uint64_t rock);
+struct size ceduo_size_find(const struct sizes *sizes, uint64_t rock);
 
 /* Scales a rock to a volume; shape and density stay. */
 void ceduo_rock_resize(struct ceduo_rock *rock, double volume);

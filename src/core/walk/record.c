@@ -34,7 +34,8 @@ static double square(double x)
 /* ---- the height of a flight above the ground ---- */
 
 /* The part of a flight above segment j, between `from` and `to`: from t[0] to t[1]; false where there is none. */
-static bool part_above(const struct ceduo_slope *s, const struct ceduo_piece *p, size_t j, double from, double to, double t[2])
+static bool part_above(const struct ceduo_slope *s, const struct ceduo_trajectory_segment *p, size_t j, double from, double to,
+                       double t[2])
 {
     double lo = max(s->x[j], from), hi = fmin(s->x[j + 1], to);
     double first = p->vx > 0 ? lo : hi, last = p->vx > 0 ? hi : lo;
@@ -43,14 +44,15 @@ static bool part_above(const struct ceduo_slope *s, const struct ceduo_piece *p,
     return hi > lo && t[1] > t[0]; /* untaken: rounding */
 }
 
-static double height_in(const struct ceduo_slope *s, const struct ceduo_piece *p, double gravity, size_t j, double t)
+static double height_in(const struct ceduo_slope *s, const struct ceduo_trajectory_segment *p, double gravity, size_t j,
+                        double t)
 {
     double m = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]), x = p->x + p->vx * t;
     return p->z + t * (p->vz - gravity / 2 * t) - (s->z[j] + m * (x - s->x[j]));
 }
 
 /* Over one segment it is largest at an end, or where the flight is parallel to the ground. */
-static double largest_height(const struct ceduo_scene *scene, const struct ceduo_piece *p)
+static double largest_height(const struct ceduo_scene *scene, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_slope *s = &scene->slope;
     double t[2], gravity = scene->simulation.gravity;
@@ -75,7 +77,8 @@ static double speed_integral(double vx, double s)
     return (s * sqrt(vx * vx + s * s) + vx * vx * asinh(s / fabs(vx))) / 2;
 }
 
-static void add_flight(const struct ceduo_scene *scene, const struct ceduo_piece *p, double lo, double hi, struct along *a)
+static void add_flight(const struct ceduo_scene *scene, const struct ceduo_trajectory_segment *p, double lo, double hi,
+                       struct along *a)
 {
     double gravity = scene->simulation.gravity, v = fabs(p->vx);
     double first = ((p->vx > 0 ? lo : hi) - p->x) / p->vx, last = ((p->vx > 0 ? hi : lo) - p->x) / p->vx;
@@ -94,7 +97,7 @@ static void add_flight(const struct ceduo_scene *scene, const struct ceduo_piece
     a->height += v * height;
 }
 
-static void add_roll(const struct ceduo_piece *p, double lo, double hi, struct along *a)
+static void add_roll(const struct ceduo_trajectory_segment *p, double lo, double hi, struct along *a)
 {
     double start = square(p->vx) + square(p->vz), rate = (square(p->vx1) + square(p->vz1) - start) / (p->x1 - p->x);
     double a2 = fmax(0, start + rate * (lo - p->x)), b2 = fmax(0, start + rate * (hi - p->x));
@@ -106,7 +109,7 @@ static void add_roll(const struct ceduo_piece *p, double lo, double hi, struct a
 
 /* ---- one rock ---- */
 
-static void on_piece(void *context, const struct ceduo_piece *p)
+static void on_piece(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct recorder *r = context;
     const struct ceduo_record_def *def = r->def;
@@ -124,19 +127,20 @@ static void on_piece(void *context, const struct ceduo_piece *p)
     }
 }
 
-static void on_stem(void *context, const struct ceduo_stem_passed *stem)
+static void on_stem(void *context, const struct ceduo_stem_encounter *stem)
 {
     struct recorder *r = context;
     struct ceduo_record *record = r->record;
     if (!stem->hit)
         return;
-    struct ceduo_blow *grown = ceduo_grow(record->blows, record->blows_count, &r->blows_room, sizeof *grown);
+    struct ceduo_stem_impact *grown = ceduo_grow(record->blows, record->blows_count, &r->blows_room, sizeof *grown);
     if (!grown) {
         r->no_memory = true;
         return;
     }
     record->blows = grown;
-    record->blows[record->blows_count++] = (struct ceduo_blow){(uint64_t)(r->rock - record->rocks), stem->x, stem->clearance};
+    record->blows[record->blows_count++] =
+        (struct ceduo_stem_impact){(uint64_t)(r->rock - record->rocks), stem->x, stem->clearance};
 }
 
 static bool is_cancelled(void *context)
@@ -145,10 +149,10 @@ static bool is_cancelled(void *context)
     return r->no_memory || ceduo_cancelled(r->def->cancel);
 }
 
-static enum ceduo_status record_rock(struct recorder *r, struct ceduo_follower *follower, uint64_t rock)
+static enum ceduo_status record_rock(struct recorder *r, struct ceduo_tracer *follower, uint64_t rock)
 {
     const struct ceduo_record_def *def = r->def;
-    const struct ceduo_watch watch = {
+    const struct ceduo_trajectory_callbacks watch = {
         .enough = is_cancelled, .piece = on_piece, .stem = def->blows ? on_stem : NULL, .context = r};
     struct ceduo_trajectory way;
     size_t first = r->record->blows_count;
@@ -159,7 +163,7 @@ static enum ceduo_status record_rock(struct recorder *r, struct ceduo_follower *
     for (size_t i = 0; i < def->stretches_count; i++)
         r->along[i] = (struct along){0};
     enum ceduo_status status =
-        ceduo_follower_follow(follower, rock, &watch, &way, &r->record->crossings[rock * def->scene->controls_count]);
+        ceduo_tracer_run(follower, rock, &watch, &way, &r->record->crossings[rock * def->scene->controls_count]);
     if (status != CEDUO_OK || r->no_memory)
         return r->no_memory ? CEDUO_NO_MEMORY : status;
     r->rock->mass = way.rock.mass;
@@ -194,7 +198,7 @@ enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_
         status = CEDUO_BAD_ARGUMENT;
     if (status != CEDUO_OK)
         return status;
-    struct ceduo_follower *follower = ceduo_follower_create(def->scene, def->option);
+    struct ceduo_tracer *follower = ceduo_tracer_create(def->scene, def->option);
     size_t n = (size_t)def->rocks;
     *record = (struct ceduo_record){.rocks_count = def->rocks};
     record->rocks = calloc(n + 1, sizeof *record->rocks);
@@ -206,7 +210,7 @@ enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_
     for (uint64_t i = 0; status == CEDUO_OK && i < def->rocks; i++)
         status = record_rock(&r, follower, i);
     free(r.along);
-    ceduo_follower_free(follower);
+    ceduo_tracer_free(follower);
     if (status != CEDUO_OK)
         ceduo_record_release(record);
     return status;

@@ -21,25 +21,25 @@ static void note_crossing(void *context, const struct walker *w, size_t mark, co
         noter->crossings[noter->marks->at[mark].what] = *crossing;
 }
 
-struct ceduo_follower {
+struct ceduo_tracer {
     struct prepared ready;
     struct stems stems;
 };
 
-struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, const struct ceduo_option *option)
+struct ceduo_tracer *ceduo_tracer_create(const struct ceduo_scene *scene, const struct ceduo_option *option)
 {
-    struct ceduo_follower *f = calloc(1, sizeof *f);
+    struct ceduo_tracer *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
     if (ceduo_prepared_init(&f->ready, scene, option) == CEDUO_OK &&
         ceduo_stems_init(&f->stems, &f->ready.wood, CEDUO_KERNEL_BEST))
         return f;
-    ceduo_follower_free(f);
+    ceduo_tracer_free(f);
     return NULL;
 }
 
-enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock, const struct ceduo_watch *watch,
-                                        struct ceduo_trajectory *to, struct ceduo_crossing *crossings)
+enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *f, uint64_t rock, const struct ceduo_trajectory_callbacks *watch,
+                                   struct ceduo_trajectory *to, struct ceduo_crossing *crossings)
 {
     const struct ceduo_scene *scene = &f->ready.scene;
     struct noter noter = {&f->ready.marks, crossings};
@@ -64,7 +64,7 @@ enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock,
     return w.cancelled ? CEDUO_CANCELLED : CEDUO_OK;
 }
 
-void ceduo_follower_free(struct ceduo_follower *f)
+void ceduo_tracer_free(struct ceduo_tracer *f)
 {
     if (!f)
         return;
@@ -74,15 +74,15 @@ void ceduo_follower_free(struct ceduo_follower *f)
 }
 
 enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                          const struct ceduo_watch *watch, struct ceduo_trajectory *to,
+                                          const struct ceduo_trajectory_callbacks *watch, struct ceduo_trajectory *to,
                                           struct ceduo_crossing *crossings)
 {
     if (isnan(ceduo_rock_mean(&scene->rock).mass))
         return CEDUO_BAD_ROCK;
-    struct ceduo_follower *f = ceduo_follower_create(scene, option);
+    struct ceduo_tracer *f = ceduo_tracer_create(scene, option);
     if (!f)
         return CEDUO_NO_MEMORY;
-    enum ceduo_status status = ceduo_follower_follow(f, rock, watch, to, crossings);
-    ceduo_follower_free(f);
+    enum ceduo_status status = ceduo_tracer_run(f, rock, watch, to, crossings);
+    ceduo_tracer_free(f);
     return status;
 }

@@ -72,7 +72,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     return CEDUO_OK;
 }
 
-bool ceduo_walk_alike(const struct prepared *ready)
+bool ceduo_walk_is_equal(const struct prepared *ready)
 {
     const struct ground *g = &ready->ground;
     const struct ceduo_release *r = &ready->scene.release;
@@ -98,7 +98,7 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
 /* ---- the whole trajectory ---- */
 
 /* Whether a long trajectory is to end here: too many contacts, or nobody waits for it any more. */
-SELDOM bool has_enough(struct walker *w)
+NOINLINE_COLD bool has_enough(struct walker *w)
 {
     if (w->arrivals_only && is_behind_marks(w))
         return true;
@@ -108,7 +108,7 @@ SELDOM bool has_enough(struct walker *w)
 }
 
 /* Lands at `l`, which may not be known yet, past the stems before it; false where that ends it. */
-HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, bool knows_landing, enum ceduo_end *end)
+FORCE_INLINE bool come_down(struct walker *w, struct flight *at, struct landing *l, bool knows_landing, enum ceduo_end *end)
 {
     if ((!knows_landing || stem_on_way(w, l->x)) && fly_past_stems(w, at, l, knows_landing)) {
         w->at = *at;
@@ -151,14 +151,14 @@ bool ceduo_walk_roll(struct walker *w, struct course *c, const struct rolling *b
     return then == TOOK_OFF || then == ROLLED;
 }
 
-HOT void set_velocity(const struct walker *w, struct course *c)
+FORCE_INLINE void set_velocity(const struct walker *w, struct course *c)
 {
     struct velocity v = velocity_at(w, &c->at);
     c->along = v.along;
     c->off = v.off;
 }
 
-HOT void start(const struct walker *w, struct course *c)
+FORCE_INLINE void start(const struct walker *w, struct course *c)
 {
     c->at = w->at;
     set_velocity(w, c);
@@ -167,9 +167,9 @@ HOT void start(const struct walker *w, struct course *c)
         c->l = next_landing(w->g, &c->at);
 }
 
-HOT enum ceduo_end walk_over(struct walker *w, struct course c, const struct contact_law *law, bool blocks)
+FORCE_INLINE enum ceduo_end walk_over(struct walker *w, struct course c, const struct contact_law *law, bool blocks)
 {
-    struct flight at = c.at; /* w->at is brought up to date for those who are called */
+    struct flight at = c.at; /* w->at is control_means up to date for those who are called */
     struct velocity v = {c.along, c.off};
     struct facet facet = {.angle = 0, .sine = 0, .cosine = 1};
     struct landing l = c.l;
@@ -216,7 +216,7 @@ HOT enum ceduo_end walk_over(struct walker *w, struct course c, const struct con
 CEDUO_LAWS(X)
 #undef X
 
-enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law)
+enum ceduo_end ceduo_walk_continue(struct walker *w, const struct course *c, enum ceduo_law law)
 {
     static enum ceduo_end (*const walks[])(struct walker *, const struct course *) = {
 #define X(NAME, name) walk_##name,
@@ -230,12 +230,12 @@ enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
 {
     struct course c = {.flies = false};
     start(w, &c);
-    return ceduo_walk_on(w, &c, law);
+    return ceduo_walk_continue(w, &c, law);
 }
 
 /* ---- the trajectory in pieces ---- */
 
-bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t)
+bool ceduo_walk_hit_stem(struct walker *w, bool hit, struct flight at, double t)
 {
     const struct stem stem = *ceduo_stems_next(&w->stems->side[0]);
     go_to_next_stem(w, 0);
@@ -246,7 +246,7 @@ bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t
     return !w->gives_up;
 }
 
-bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end)
+bool ceduo_walk_land(struct walker *w, struct course *c, enum ceduo_end *end)
 {
     if (c->flies) {
         if (!come_down(w, &c->at, &c->l, !c->aloft, end))
@@ -265,7 +265,7 @@ bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *en
 bool ceduo_walk_start(struct walker *w, struct course *c, enum ceduo_end *end)
 {
     start(w, c);
-    return ceduo_walk_come_down(w, c, end);
+    return ceduo_walk_land(w, c, end);
 }
 
 bool ceduo_walk_rolls(const struct walker *w, struct course *c, bool knows_landing)

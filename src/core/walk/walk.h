@@ -61,12 +61,12 @@ struct walker {
     } facets, turns;             /* turns: of the section */
     /* at a control */
     void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
-    const struct ceduo_watch *watch; /* NULL: nobody looks */
-    void *context;                   /* of cross */
-    bool arrivals_only;              /* nothing is asked behind the last mark: it stops soon after, CEDUO_UNFINISHED */
-    const atomic_bool *cancel;       /* looked at now and then on long trajectories; may be NULL */
-    bool cancelled;                  /* it was raised, or memory ran out: the trajectory is not at its end */
-    bool gives_up;                   /* among stems: cancelled, or there were too many */
+    const struct ceduo_trajectory_callbacks *watch; /* NULL: nobody looks */
+    void *context;                                  /* of cross */
+    bool arrivals_only;        /* nothing is asked behind the last mark: it stops soon after, CEDUO_UNFINISHED */
+    const atomic_bool *cancel; /* looked at now and then on long trajectories; may be NULL */
+    bool cancelled;            /* it was raised, or memory ran out: the trajectory is not at its end */
+    bool gives_up;             /* among stems: cancelled, or there were too many */
 };
 
 /* Where a rock stands between two contacts: in flight to `l`, or on the ground at its next contact. */
@@ -101,7 +101,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
 
 /* Whether all rocks of a scene without forest start alike; another such rock, from one at its release and a walker that
  * was released before. */
-bool ceduo_walk_alike(const struct prepared *ready);
+bool ceduo_walk_is_equal(const struct prepared *ready);
 void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint64_t number);
 
 /* Follows it to its end. */
@@ -117,10 +117,10 @@ void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double 
 
 /* Takes the next stem ahead. False where the rock is not to be followed further; there, and if it is hit, the marks up to it are
  * passed by the flight that leads there in t. */
-bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t);
+bool ceduo_walk_hit_stem(struct walker *w, bool hit, struct flight at, double t);
 
 /* To the next contact. */
-bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end);
+bool ceduo_walk_land(struct walker *w, struct course *c, enum ceduo_end *end);
 
 /* Whether a rock rolls behind a contact, which leaves it with velocity v; else it flies to l, which may be known. */
 bool ceduo_walk_rolls(const struct walker *w, struct course *c, bool knows_landing);
@@ -133,7 +133,7 @@ struct rolling {
 bool ceduo_walk_roll(struct walker *w, struct course *c, const struct rolling *before, enum ceduo_end *end);
 
 /* From between two contacts to the end. */
-enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law);
+enum ceduo_end ceduo_walk_continue(struct walker *w, const struct course *c, enum ceduo_law law);
 
 /* The ground of a segment as this rock meets it. */
 void ceduo_walk_ground(const struct walker *w, size_t segment, double *rn, double *rt, double *largest_angle);

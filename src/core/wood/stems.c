@@ -336,7 +336,7 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     s->side[1].next_known = false;
 }
 
-void ceduo_stems_look_on(struct stems *s, int i)
+void ceduo_stems_advance(struct stems *s, int i)
 {
     struct stems_side *side = &s->side[i];
     s->pause = s->effort + PAUSE_STEMS;
@@ -363,7 +363,7 @@ void ceduo_stems_look_on(struct stems *s, int i)
     find_next(s, i);
 }
 
-void ceduo_stems_meet_behind(struct stems *s, uint64_t stool)
+void ceduo_stems_next_hit_behind(struct stems *s, uint64_t stool)
 {
     const struct stems_side *behind = &s->side[1];
     for (size_t i = behind->first; i < behind->end; i++)

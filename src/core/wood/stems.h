@@ -36,24 +36,24 @@ static inline struct stem *ceduo_stems_next(struct stems_side *side)
 
 /* Takes that stem away and looks for the one after it. Where it was not known, no stem is taken, and side[].next has
  * moved on. Each call does a bounded amount of work. */
-void ceduo_stems_look_on(struct stems *stems, int side);
+void ceduo_stems_advance(struct stems *stems, int side);
 
-static inline void ceduo_stems_take(struct stems *stems, int i)
+static inline void ceduo_stems_consume(struct stems *stems, int i)
 {
     struct stems_side *side = &stems->side[i];
     size_t second = side->first + 1; /* mostly both it and the first wait already */
     if (side->next_known && side->next_waits && second < side->end && side->waiting[second].along < side->sure)
         side->next = side->waiting[++side->first].along;
     else
-        ceduo_stems_look_on(stems, i);
+        ceduo_stems_advance(stems, i);
 }
 
 /* A stool astride of the release was hit: its shoots that wait behind know of it, however late the rock comes to them.
  * */
-void ceduo_stems_meet_behind(struct stems *stems, uint64_t stool);
+void ceduo_stems_next_hit_behind(struct stems *stems, uint64_t stool);
 
 /* Notes that a stem was hit; whether its stool or tree was not hit before. */
-static inline bool ceduo_stems_meet(struct stems *stems, const struct stem *stem)
+static inline bool ceduo_stems_next_hit(struct stems *stems, const struct stem *stem)
 {
     if (!stem->shoot)
         return true;
@@ -61,7 +61,7 @@ static inline bool ceduo_stems_meet(struct stems *stems, const struct stem *stem
     bool first = (*place != stem->stool) & !stem->met; /* as likely as not: no branch depends on it */
     *place = stem->stool;
     if (stem->along <= stems->start + 2 * stems->wood->reach && first && !(stem->stool & 1))
-        ceduo_stems_meet_behind(stems, stem->stool);
+        ceduo_stems_next_hit_behind(stems, stem->stool);
     return first;
 }
 

@@ -329,7 +329,7 @@ static inline uint64_t rank_among(const struct shoots *t, bool equal, uint64_t r
 }
 
 /* What those shoots take of which it depends on the eccentricity, with ceduo_dorren_share() of many at once. */
-SELDOM void set_energies(const struct stems *s, struct shoots *t, const uint64_t *rank, struct stem *waiting)
+NOINLINE_COLD void set_energies(const struct stems *s, struct shoots *t, const uint64_t *rank, struct stem *waiting)
 {
     double dbh[SHOOTS_AT_ONCE + REAL_LANES], share[SHOOTS_AT_ONCE + REAL_LANES];
     store(&t->y[t->n], all(0)); /* those behind the last are of no stem */

@@ -115,7 +115,7 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
         if (!ring)
             return false;
         for (unsigned k = 0; k < s->n + i; k++)
-            ceduo_direction(k, s->n + i, &ring[k], &ring[s->ring_room + k]);
+            ceduo_sincos_turn(k, s->n + i, &ring[k], &ring[s->ring_room + k]);
         s->ring[i] = ring;
         s->radius[i] = ceduo_stool_radius(s->n + i, stand->spacing);
         s->turn[i] = s->n + i > 1 ? 2 * M_PI / (s->n + i) : 0;
