@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# tags: quick
+"""The English of comments, names and messages: tests/language.txt has the patterns that are counted.
+
+With --show PATTERN-WORD: prints each place where a pattern with that word is found.
+"""
+import re
+import subprocess
+import sys
+
+import harness
+from harness import ROOT, expect
+
+PATTERNS = ROOT / "tests" / "language.txt"
+COMMENT = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|/\*(.*?)\*/|//([^\n]*)', re.S)
+MESSAGE = re.compile(r'\b(?:N?P?_|ngettext|ngettext_)\(\s*((?:"(?:\\.|[^"\\])*"\s*(?:PRI\w+\s*)?,?\s*)+)')
+
+
+def files(*folders):
+    listed = subprocess.run(["git", "ls-files", *folders], cwd=ROOT, capture_output=True, text=True).stdout.split()
+    found = listed or [str(p.relative_to(ROOT)) for folder in folders for p in sorted((ROOT / folder).rglob("*.[ch]"))]
+    return [ROOT / name for name in found if name.endswith((".c", ".h"))]
+
+
+def comments(text):
+    """Position and words of each comment, in one line."""
+    for found in COMMENT.finditer(text):
+        body = found[1] or found[2]
+        if body and "untaken:" not in body and "SPDX" not in body:
+            yield found.start(), " ".join(re.sub(r"^\s*\*", "", line).strip() for line in body.splitlines()).strip()
+
+
+def names(text):
+    """Position and identifier, of what is no comment and no string."""
+    bare = COMMENT.sub(lambda found: " " * len(found[0]), text)
+    for found in re.finditer(r"[A-Za-z_]\w*", bare):
+        yield found.start(), found[0]
+
+
+def messages(text):
+    """Position and English of each text that people read."""
+    for found in MESSAGE.finditer(COMMENT.sub(lambda f: f[0] if f[0][0] in "\"'" else " " * len(f[0]), text)):
+        yield found.start(), "".join(re.findall(r'"((?:\\.|[^"\\])*)"', found[1]))
+
+
+READERS = {"comment": (comments, ("src", "include", "tests", "man")), "name": (names, ("src", "include")),
+           "message": (messages, ("src",))}
+
+
+def patterns():
+    for number, line in enumerate(PATTERNS.read_text(encoding="utf-8").splitlines(), 1):
+        if line.strip() and not line.startswith("#"):
+            kind, allowed, pattern = line.split(" ", 2)
+            yield number, kind, int(allowed), re.compile(pattern, re.I)
+
+
+def found():
+    """For each pattern its line, what it allows, and the places where it is found."""
+    texts = {path: path.read_text(encoding="utf-8") for path in files("src", "include", "tests", "man")}
+    read = {}
+    for kind, (reader, folders) in READERS.items():
+        read[kind] = [(path, text, list(reader(text))) for path, text in texts.items()
+                      if str(path.relative_to(ROOT)).startswith(folders)]
+    for number, kind, allowed, pattern in patterns():
+        places = [f"{path.relative_to(ROOT)}:{text.count(chr(10), 0, at) + 1}: {words}"
+                  for path, text, items in read[kind] for at, words in items if pattern.search(words)]
+        yield number, kind, allowed, pattern.pattern, places
+
+
+def test_patterns():
+    """Each pattern of language.txt is found exactly where it is allowed"""
+    wrong = [f"language.txt:{number}: {kind} {pattern!r}: {len(places)}, allowed {allowed}" + "".join(f"\n#   {p}" for p in places[:8])
+             for number, kind, allowed, pattern, places in found() if len(places) != allowed]
+    expect(not wrong, *wrong)
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["--show"]:
+        for number, kind, allowed, pattern, places in found():
+            if all(word in pattern for word in sys.argv[2:]):
+                print(f"{kind} {len(places)} (allowed {allowed}) {pattern}", *places, sep="\n    ")
+        sys.exit()
+    if sys.argv[1:] == ["--count"]:
+        for number, kind, allowed, pattern, places in found():
+            print(f"{len(places):6} {kind} {pattern}")
+        sys.exit()
+    suite = harness.Suite()
+    suite.run(harness.tests_of(sys.modules[__name__]))
+    suite.end()
