@@ -41,7 +41,8 @@ def names(text):
 def messages(text):
     """Position and English of each text that people read."""
     for found in MESSAGE.finditer(COMMENT.sub(lambda f: f[0] if f[0][0] in "\"'" else " " * len(f[0]), text)):
-        yield found.start(), "".join(re.findall(r'"((?:\\.|[^"\\])*)"', found[1]))
+        strings = re.findall(r'"((?:\\.|[^"\\])*)"', found[1])
+        yield found.start(), "".join(strings[found[0].startswith(("P_", "NP_")):])
 
 
 READERS = {"comment": (comments, ("src", "include", "tests", "man")), "name": (names, ("src", "include")),
