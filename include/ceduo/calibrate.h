@@ -6,23 +6,23 @@
 #include "observe.h"
 #include "uncertainty.h"
 
-/* Values of scenes that are fitted to what was seen there. The likelihood of a list is multinomial, of a count binomial, of a
- * mean normal (observe.h); their logarithms add. Every evaluation simulates the same rocks. A search over Sobol' points and by
- * the simplex of Nelder and Mead finds the best values; then adaptive Metropolis chains (Haario, Saksman and Tamminen 2001)
- * draw from the posterior, with a uniform prior within the bounds. */
+/* Fit of scene values to observations. The likelihood of a list is multinomial, of a count binomial, of a
+ * mean normal (observe.h); their logarithms add. Every evaluation simulates the same rocks. Adaptive Metropolis
+ * chains (Haario, Saksman and Tamminen 2001) start at the best Sobol' points and draw from the posterior. The prior is uniform
+ * within the bounds. */
 
 #define CEDUO_CALIBRATION_MAX    12 /* values fitted at once */
 #define CEDUO_CALIBRATION_CHAINS 4
-#define CEDUO_CALIBRATION_DRAWS  200 /* that predictions are made from */
+#define CEDUO_CALIBRATION_DRAWS  200 /* for predictions */
 #define CEDUO_CALIBRATION_ROCKS  2000
-#define CEDUO_CALIBRATION_STEPS  1000000 /* of a chain, at most */
-#define CEDUO_RHAT_MAX           1.05    /* chains agree (Gelman and Rubin 1992) */
-#define CEDUO_EFFECTIVE_MIN      200     /* independent draws that theirs are worth */
-#define CEDUO_NOT_DETERMINED     0.8     /* of the bounds: a wider range says nothing */
-#define CEDUO_MISFIT             0.05    /* p below it: the model cannot give what was seen */
+#define CEDUO_CALIBRATION_STEPS  1000000 /* of a chain */
+#define CEDUO_RHAT_MAX           1.05    /* convergence of the chains (Gelman and Rubin 1992) */
+#define CEDUO_EFFECTIVE_MIN      200     /* effective sample size that the chains must reach */
+#define CEDUO_NOT_DETERMINED     0.8     /* of the bounds: a value with a wider range is not identified */
+#define CEDUO_MISFIT             0.05    /* p-value below which the model cannot reproduce an observation */
 
-/* One scene, with the places of the fitted values in it: inputs of kind CEDUO_INPUT_RANGE, the same number in each scene, of
- * the same bounds. One that the scene does not have has no places. */
+/* One scene, with the places of the fitted values in it: inputs of kind CEDUO_INPUT_RANGE. Number and bounds are the same in each
+ * scene. A value that the scene does not have has no places. */
 struct ceduo_calibration_scene {
     const struct ceduo_scene *scene;
     const struct ceduo_input *inputs;
@@ -32,7 +32,7 @@ struct ceduo_calibration_scene {
 
 enum ceduo_calibration_stage { CEDUO_SEARCH, CEDUO_REFINE, CEDUO_CHAINS };
 
-/* How far it is: the best values so far, in the files' units. */
+/* Progress: the best values up to now, in the units of files. */
 struct ceduo_calibration_state {
     enum ceduo_calibration_stage stage;
     uint64_t evaluations;
@@ -47,9 +47,10 @@ struct ceduo_calibration_def {
     uint64_t rocks;          /* of each evaluation and setting */
     uint64_t seed;
     unsigned threads;         /* at most CEDUO_THREADS_MAX; 0: one */
-    size_t steps_most;        /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: the usual number */
+    size_t steps_most;        /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: default */
     const ceduo_flag *cancel; /* may be NULL */
-    void (*progress)(void *context, const struct ceduo_calibration_state *state); /* may be NULL; by one thread at a time */
+    void (*progress)(void *context,
+                     const struct ceduo_calibration_state *state); /* may be NULL; called by one thread at a time */
     void *context;
 };
 
@@ -57,19 +58,19 @@ struct ceduo_calibration_def {
 struct ceduo_calibration_def ceduo_calibration_def_default(void);
 
 struct ceduo_fitted {
-    double lo, hi, best, p2_5, p50, p97_5; /* in the file's unit; NaN: not known yet */
+    double lo, hi, best, p2_5, p50, p97_5; /* in the unit of files; NaN: not computed yet */
     bool determined, at_bound;
 };
 
-/* One observation beside what the fit says of it. */
+/* An observation and its prediction by the fit. */
 struct ceduo_predicted {
     size_t scene, observation;
     struct ceduo_observation_fit at_best;
-    double p_value;      /* share of samples from the fit that lie as far from it as what was seen, or further */
-    double seen, lo, hi; /* the mean that was seen, or the count; 95 % of what the fit predicts of it */
+    double p_value;      /* share of predicted samples that deviate at least as much as the observation */
+    double seen, lo, hi; /* observed mean or count; its predicted 95 % interval */
     bool inside;
-    double one_lo, one_hi; /* 95 % of the values of single rocks; NaN: not known */
-    size_t one_inside;     /* of the values that were seen */
+    double one_lo, one_hi; /* predicted 95 % interval of single rocks; NaN: not computed */
+    size_t one_inside;     /* observed values within it */
 };
 
 struct ceduo_calibration {
@@ -78,32 +79,31 @@ struct ceduo_calibration {
     double correlation[CEDUO_CALIBRATION_MAX][CEDUO_CALIBRATION_MAX];
     size_t predicted_count;
     struct ceduo_predicted *predicted; /* of all scenes */
-    bool misfit;                       /* of something that was to be fitted */
-    bool refuted;                      /* something that was to check the fit is not as predicted */
-    bool
-        settled; /* the chains agree and are long enough; otherwise they were ended, early where they would not have come to that */
+    bool misfit;                       /* a fitted observation contradicts the fit */
+    bool refuted;                      /* an observation held back for checking contradicts the fit */
+    bool settled; /* converged; otherwise stopped at the step limit, or early if convergence was out of reach */
     uint64_t evaluations;
     double rhat, effective_size;
     size_t draws_count;
-    double *draws; /* [draw][parameter], in the file's unit */
+    double *draws; /* [draw][parameter], in the unit of files */
 };
 
-/* Whether the rocks that were seen, to be fitted, are of two shapes: only then does what was seen tell mu of the law arm, as that
- * acts through the shape. */
+/* True if the fitted observations cover two or more rock shapes. In the law arm mu acts only through the shape, so one shape
+ * cannot identify it. */
 bool ceduo_calibration_identifies_mu(const struct ceduo_calibration_scene *scenes, size_t n);
 
-/* What a scene as it is says of what was seen there, without any fit: `to` has one for each observation, p_value and range of new
- * samples as large as those seen. Simulates `rocks` rocks of each setting on this thread. CEDUO_NO_MEMORY, CEDUO_CANCELLED, or what
- * ceduo_scene_check() says. */
+/* Compare a scene with its observations without fitting it. Sets to[] for each observation, with the p-value and the interval of
+ * new samples of the observed size. Simulates `rocks` rocks for each setting on this thread. Return CEDUO_OK, CEDUO_NO_MEMORY,
+ * CEDUO_CANCELLED or the status of ceduo_scene_check(). */
 enum ceduo_status ceduo_compare_with_observations(const struct ceduo_calibration_scene *scene, uint64_t rocks,
                                                   const ceduo_flag *cancel, struct ceduo_predicted *to);
 
-/* Which values to leave as they are, so that what was seen tells the others: first those that may be anything within their bounds,
- * then one of each two that are known only together. One value stays. Returns how many. */
+/* Select parameters to fix so that the observations identify the rest: first those that are not identified, then one of each
+ * strongly correlated pair. At least one parameter stays. Return the number of selected parameters. */
 size_t ceduo_calibration_unidentified(const struct ceduo_calibration *answer, bool loose[CEDUO_CALIBRATION_MAX]);
 
-/* CEDUO_NO_MEMORY, CEDUO_CANCELLED (at once, of whatever is known), CEDUO_BAD_ARGUMENT, or what ceduo_scene_check() says; then nothing
- * is to be freed. */
+/* Fit. Return CEDUO_OK, CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or the status of ceduo_scene_check(). The caller
+ * frees *answer after CEDUO_OK only. */
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *answer);
 void ceduo_calibration_free(struct ceduo_calibration *answer);
 

@@ -7,7 +7,7 @@
 #include "status.h"
 
 #define CEDUO_BREAST_HEIGHT 1.3 /* m */
-#define CEDUO_NASLUND_MIN   5   /* heights that a curve is fitted to */
+#define CEDUO_NASLUND_MIN   5   /* heights that a fit requires */
 
 /* Näslund's curve of height over diameter: h = 1.3 + d2/(a + b d)2, h in m, d in cm. */
 struct ceduo_naslund {
@@ -15,11 +15,11 @@ struct ceduo_naslund {
     double rmse; /* m */
 };
 
-/* Fits the curve to n pairs of dbh (m) and height (m, above 1.3) by least squares of the heights. CEDUO_NO_MEMORY;
- * CEDUO_NO_FIT where no curve that rises and stays finite fits: too few pairs, dbh all alike, heights that fall. */
+/* Fit the curve to n pairs of dbh (m) and height (m, above 1.3) by least squares of the heights. Return CEDUO_OK,
+ * CEDUO_NO_MEMORY, or CEDUO_NO_FIT if no rising, finite curve fits: too few pairs, equal dbh, falling heights. */
 enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *height, struct ceduo_naslund *curve);
 
-/* Height (m) at a dbh (m). */
+/* Return the height (m) at a dbh (m). */
 double ceduo_naslund_height(const struct ceduo_naslund *curve, double dbh);
 
 #endif

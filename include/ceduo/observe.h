@@ -5,8 +5,7 @@
 #include "flag.h"
 #include "scene.h"
 
-/* What was seen of real rocks on a slope, and what simulated rocks do there: the ground between them is fitted to the one
- * by the other, see calibrate.h. */
+/* Observations of real rocks on a slope, and their comparison with simulated rocks. calibrate.h fits values to them. */
 
 struct ceduo_observed_row {
     const char *path, *list;
@@ -15,61 +14,61 @@ struct ceduo_observed_row {
 };
 
 struct ceduo_quantity_row {
-    const char *unit;          /* in files and for people; "": of a count */
+    const char *unit;          /* in files and for people; "": a count */
     double scale;              /* SI per unit */
-    const char *column, *also; /* name of the column of a table that holds the values; other names, separated by | */
+    const char *column, *also; /* head of the column in a table of values; other heads, separated by | */
 };
 
 const struct ceduo_observed_row *ceduo_observed_row(enum ceduo_observed_kind kind);
 const struct ceduo_quantity_row *ceduo_observed_quantity(enum ceduo_observed_kind kind);
 
-/* One thing that was seen. Places are relative to the slope's first vertex, all is SI. */
+/* One observation. Positions are relative to the first vertex of the slope, in SI. */
 struct ceduo_observation {
     enum ceduo_observed_kind kind;
     enum ceduo_observed_use use;
-    const char *name_given;              /* as the scene has it, or made from what it is */
+    const char *name_given;              /* as in the scene, or made from its kind */
     const char *name;                    /* in the language of pages */
-    size_t option;                       /* through whose forest */
+    size_t option;                       /* whose forest the rocks passed */
     const struct ceduo_rock_def *rock;   /* NULL: the scene's */
     const struct ceduo_release *release; /* NULL: the scene's */
-    double x;                            /* of passed, speed, height, energy */
-    double from, to;      /* of a stretch; `from` of stops: what stopped before it was not looked for; NaN: everywhere */
-    size_t n;             /* values, or what the mean is of */
-    const double *values; /* NULL: only their mean and sd are known */
+    double x;                            /* m; of passed, speed, height, energy */
+    double from, to;                     /* m; of a stretch; stops before `from` were not surveyed; NaN: all were */
+    size_t n;                            /* number of values, or of rocks that `mean` covers */
+    const double *values;                /* NULL: only mean and sd are given */
     double mean, sd;
     uint64_t count;    /* of passed */
-    uint64_t of;       /* rocks released; 0: not known */
-    double share_seen; /* of scars; NaN: not known */
+    uint64_t of;       /* rocks released; 0: not given */
+    double share_seen; /* of scars; NaN: not given */
 };
 
-/* Places where one rock stopped, to be fitted; all numbers are unknown. */
+/* An observation of stops, to be fitted; all numbers are NaN or 0. */
 struct ceduo_observation ceduo_observation_default(void);
 
-/* A list is compared in classes between its own quantiles: as many as there are times five values, at most ten, at least
- * two. One more is for rocks that have no value: those that did not stop, where it is known how many were released. */
+/* A list of n values is binned at its own quantiles into n/5 classes, at least 2 and at most 10. If the number released is given,
+ * one more class holds the rocks without a value. */
 #define CEDUO_CLASSES_MAX     11
-#define CEDUO_CLASS_ROCKS_MIN 10 /* simulated rocks for each class, below which a list counts as rarer than it is */
+#define CEDUO_CLASS_ROCKS_MIN 10 /* simulated rocks per class; fewer overstate the deviance */
 
-/* What simulated rocks say of one observation. */
+/* Simulated rocks compared with one observation. */
 #define CEDUO_SOME_VALUES 40
 struct ceduo_observation_fit {
-    uint64_t rocks;                                           /* simulated rocks that it is of */
-    size_t classes;                                           /* 0: compared by their means */
-    double seen[CEDUO_CLASSES_MAX], count[CEDUO_CLASSES_MAX]; /* in each class: seen, simulated */
+    uint64_t rocks;                                           /* simulated rocks */
+    size_t classes;                                           /* 0: means are compared */
+    double seen[CEDUO_CLASSES_MAX], count[CEDUO_CLASSES_MAX]; /* in each class: observed, simulated */
     double mean, sd;                                          /* of the simulated values */
-    size_t some_count; /* the first of them: rocks are alike, so that they stand for all */
+    size_t some_count; /* the first values; rocks are exchangeable, so these are a random sample */
     double some[CEDUO_SOME_VALUES];
     double seen_mean;
-    double variance;                 /* of the difference of the means: the error of both sides */
-    double scars, scars_variance;    /* expected, of the rocks released; NaN: not asked for */
-    double log_likelihood, deviance; /* deviance: twice the logarithm that is missing to a model that fits perfectly */
+    double variance;                 /* of the difference of the means, with the errors of both */
+    double scars, scars_variance;    /* expected number for the rocks released; NaN: not a count of scars */
+    double log_likelihood, deviance; /* deviance: twice the log-likelihood ratio against the saturated model */
 };
 
-/* Twice the logarithm that a multinomial law with shares as the simulated rocks misses to one with shares as seen. `seen`,
- * `simulated`: numbers in each class. */
+/* Return the deviance of a multinomial law with the simulated shares against one with the observed shares. `seen`, `simulated`:
+ * numbers in each class. */
 double ceduo_classes_deviance(const double *seen, const double *simulated, size_t classes);
 
-/* Observations made ready: what differs in nothing but what was seen of it shares its rocks. */
+/* Prepared observations. Observations with the same rock, release and option share one simulation. */
 struct ceduo_observer;
 
 /* The lists of the observations must outlive the observer. CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK. */
@@ -77,13 +76,13 @@ enum ceduo_status ceduo_observer_create(const struct ceduo_observation *observat
                                         struct ceduo_observer **observer);
 void ceduo_observer_free(struct ceduo_observer *observer);
 
-/* Simulates `rocks` rocks of each kind in a scene, always the same, on this thread, and fills `to`, one counterpart for each
- * observation. `cancel` may be NULL. CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
+/* Simulate `rocks` rocks for each setting on this thread, always the same rocks. Sets to[] for each observation. `cancel` may be
+ * NULL. Return CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or the status of ceduo_scene_check(). */
 enum ceduo_status ceduo_observer_simulate(const struct ceduo_observer *observer, const struct ceduo_scene *scene,
                                           uint64_t rocks, const ceduo_flag *cancel, struct ceduo_observation_fit *to);
 
-/* The same of one observation, value by value: *values is the caller's to free, NaN where a rock has none. Of scars one value
- * for each blow. */
+/* Simulate one observation and return its values; NaN: the rock has no value. Scars have one value for each impact on a stem. The
+ * caller frees *values. */
 enum ceduo_status ceduo_observer_values(const struct ceduo_observer *observer, const struct ceduo_scene *scene, size_t which,
                                         uint64_t rocks, double **values, size_t *n);
 

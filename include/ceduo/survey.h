@@ -10,8 +10,8 @@
 #include "statistics.h"
 #include "status.h"
 
-/* From the stems on sample plots to a stand. Each plot gives its own figures per hectare; a stand has their mean, and the
- * standard error of that mean over the plots. */
+/* Stand from the stems on sample plots. Each plot has its own figures per hectare. The stand has their mean, and the standard
+ * error of the mean over the plots. */
 
 #define CEDUO_SURVEY_KINDS(X)                                                                                                  \
     X(SHOOT, "shoot")                                                                                                          \
@@ -31,12 +31,12 @@ enum ceduo_survey_kind {
 struct ceduo_survey_stem {
     size_t plot;
     enum ceduo_survey_kind kind;
-    int species;    /* index into ceduo_species_list(); -1: not said */
-    size_t stool;   /* of a shoot: which one of all plots */
-    double dbh;     /* m, > 0; of a stump: its diameter */
+    int species;    /* index into ceduo_species_list(); -1: not given */
+    size_t stool;   /* of a shoot: index among the stools of all plots */
+    double dbh;     /* m, > 0; of a stump its diameter */
     double height;  /* m; NaN: not measured */
-    double spacing; /* m, of a shoot: between neighbouring shoots of its stool; NaN: not measured */
-    double energy;  /* J, of a stump: what it takes from a rock; NaN: not said */
+    double spacing; /* m; of a shoot: to the next shoots of its stool; NaN: not measured */
+    double energy;  /* J; of a stump: energy that it absorbs; NaN: not given */
 };
 
 struct ceduo_survey {
@@ -47,65 +47,65 @@ struct ceduo_survey {
     const struct ceduo_survey_stem *stems;
 };
 
-/* A plot of `area` m2 laid along a slope covers this on the map. */
+/* Return the horizontal area (m2) of a plot of `area` m2 measured along a slope. */
 double ceduo_survey_horizontal(double area, double slope_rad);
 
 #define CEDUO_SURVEY_ALL (-2)
 
-/* The basal area per hectare of a species (-1: not said), or of CEDUO_SURVEY_ALL, stumps left out, summed over the plots: for shares
- * of it. In m2 of the squares of the diameters, per m2. */
+/* Return the basal area of a species (-1: not given) or of CEDUO_SURVEY_ALL, summed over the plots, without stumps. For shares
+ * only: squared diameters (m2) per m2. */
 double ceduo_survey_basal_area(const struct ceduo_survey *survey, int species);
 
 #define CEDUO_SURVEY_CLASS   0.05 /* m of dbh: the width of a class */
-#define CEDUO_SURVEY_SPACING 0.35 /* m between the shoots of a stool where nobody measured it: assumed, as in the presets */
+#define CEDUO_SURVEY_SPACING 0.35 /* m between the shoots of a stool if not measured; assumed, as in the presets */
 
 /* Stems of one kind and one class of dbh. */
 struct ceduo_survey_class {
     enum ceduo_survey_kind kind;
-    double from; /* m: its lower end, which is in it */
+    double from; /* m: lower end, inclusive */
     size_t stems;
     struct ceduo_estimate per_ha;
-    double dbh, dbh_sd;      /* m; sd: 0 with one stem */
+    double dbh, dbh_sd;      /* m; sd is 0 for one stem */
     double height;           /* m */
-    double volume;           /* m3, mean of each stem's by its own species; NaN: of stumps */
-    size_t form_factor;      /* stems whose volume is outside of the equation of their species, */
-    size_t form_factor_main; /* of these of the main species */
+    double volume;           /* m3, mean over the stems, each by its species; NaN: stumps */
+    size_t form_factor;      /* stems outside the range of the equation of their species, */
+    size_t form_factor_main; /* and those of the main species among them */
 };
 
 enum ceduo_survey_heights_from {
-    CEDUO_HEIGHTS_MEASURED, /* all of them */
-    CEDUO_HEIGHTS_CURVE,    /* those that are missing lie on Näslund's curve */
-    CEDUO_HEIGHTS_MEAN,     /* those that are missing are the mean of those given: assumed */
-    CEDUO_HEIGHTS_SHOOTS,   /* none is given, and all lie on the curve of the shoots: assumed */
-    CEDUO_HEIGHTS_USUAL     /* none is given, and all are as usual: assumed */
+    CEDUO_HEIGHTS_MEASURED, /* all */
+    CEDUO_HEIGHTS_CURVE,    /* missing heights by Näslund's curve */
+    CEDUO_HEIGHTS_MEAN,     /* missing heights are the mean of the given ones; assumed */
+    CEDUO_HEIGHTS_SHOOTS,   /* none given; all by the curve of the shoots; assumed */
+    CEDUO_HEIGHTS_USUAL     /* none given; all by a default curve; assumed */
 };
 
 /* Heights of shoots, and of standards and trees together. */
 struct ceduo_survey_heights {
     size_t given, missing;
     enum ceduo_survey_heights_from from;
-    struct ceduo_naslund curve; /* CEDUO_HEIGHTS_CURVE, _SHOOTS, _USUAL; of the first two also: */
-    size_t beyond;              /* of those that are missing: stems thicker than any that was measured */
-    double thickest;            /* m, the largest dbh of those on the curve, which is of the tallest, too */
-    double mean;                /* m, of those given; NaN: none is */
+    struct ceduo_naslund curve; /* of CEDUO_HEIGHTS_CURVE, _SHOOTS, _USUAL; the first two also set: */
+    size_t beyond;              /* stems without height that are thicker than all with height */
+    double thickest;            /* m, largest dbh of the stems whose height is by the curve */
+    double mean;                /* m, of the given heights; NaN: none given */
 };
 
-/* Heights are not known better than that where none was measured: so much less or more, assumed. */
+/* Relative uncertainty of heights if none was measured (assumed). */
 #define CEDUO_SURVEY_HEIGHT_UNCERTAINTY 0.3
 
 struct ceduo_survey_result {
     struct ceduo_estimate per_ha[CEDUO_SURVEY_KINDS_COUNT], stools;
-    struct ceduo_estimate spacing; /* m, over the stools where it was measured; its mean is NaN where it was not */
-    size_t stools_measured;        /* those stools */
-    int species;                   /* that has most basal area; -1: none is said */
+    struct ceduo_estimate spacing; /* m, over the stools with a measurement; mean NaN: no measurement */
+    size_t stools_measured;        /* stools with a measurement */
+    int species;                   /* with the largest basal area; -1: not given */
     struct ceduo_survey_heights shoots, trees;
     size_t classes_count; /* by kind, then by dbh */
     struct ceduo_survey_class *classes;
-    double stump_diameter, stump_height; /* m, the mean; NaN: there are none, not measured */
-    double stump_energy;                 /* J, the mean; NaN: not said */
+    double stump_diameter, stump_height; /* m, mean; NaN: no stumps, or not measured */
+    double stump_energy;                 /* J, mean; NaN: not given */
 };
 
-/* CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK; release it in the latter case. */
+/* Compute the stand. Return CEDUO_OK, CEDUO_NO_MEMORY or CEDUO_BAD_ARGUMENT. The caller frees *answer after CEDUO_OK only. */
 enum ceduo_status ceduo_survey_compute(const struct ceduo_survey *survey, struct ceduo_survey_result *answer);
 void ceduo_survey_free(struct ceduo_survey_result *answer);
 

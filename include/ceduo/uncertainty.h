@@ -7,59 +7,59 @@
 #include "surface.h"
 #include "years.h"
 
-/* Uncertainty: what is not known of a scene's values, and what that does to its figures. It is not the error of the sample,
- * which more rocks reduce; only measuring reduces it. Every value that is uncertain is an input with a range; many scenes are
- * drawn from the ranges, and each is computed with the same rocks. */
+/* Uncertainty of inputs, and its effect on results. Sampling error shrinks with more rocks; this uncertainty shrinks only with
+ * measurement. Each uncertain value is an input with a range. Many scenes are drawn from the ranges. All are computed with the
+ * same rocks. */
 
-/* One thing that is not known. It may stand at several places of the scene, which then change together. */
+/* One uncertain input. It may stand at several places of the scene, which then change together. */
 struct ceduo_input {
-    const char *path; /* of its first place, or what its places have in common */
+    const char *path; /* of its first place, or the common part of its places */
     enum ceduo_input_kind kind;
-    double lo, hi;   /* in the unit of the file */
+    double lo, hi;   /* in the unit of files */
     double mean, sd; /* CEDUO_INPUT_NORMAL, CEDUO_INPUT_GAMMA: sd at most CEDUO_GAMMA_MAX of the mean */
     size_t words_count;
     const int *words; /* values of the choice */
     size_t places_count;
     size_t draws_count;
-    /* CEDUO_INPUT_DRAWS: of each place its values, row by row; the places are sorted by their names */
+    /* CEDUO_INPUT_DRAWS: the values of each place, row by row; places are sorted by name */
     const double *const *draws;
-    const char *const *places; /* paths, each with its place in brackets: forest[0].stand.trees[0].per_ha */
-    const char *source;        /* where its range comes from, marked for translation; NULL: not said */
+    const char *const *places; /* paths with indices: forest[0].stand.trees[0].per_ha */
+    const char *source;        /* origin of the range, marked for translation; NULL: not given */
 };
 
 #define CEDUO_GAMMA_MAX 2.0
 
-/* The quantile u (0…1) of an input that is a range, normal or gamma. */
+/* Return the quantile u (0…1) of an input that is a range, normal or gamma. */
 double ceduo_input_quantile(const struct ceduo_input *input, double u);
 
-/* What is asked for at the last control, of the rocks through the forest (without forest where the contact model is
- * index). The share that a place is judged by is EXCEED where an accepted energy is given, otherwise REACH. */
+/* Figures at the last control, with forest (without forest if the contact model is index). The judged share is EXCEED if an
+ * accepted energy is given, otherwise REACH. */
 enum ceduo_uncertainty_kind {
     CEDUO_UNCERTAINTY_REACH,
     CEDUO_UNCERTAINTY_EXCEED,
     CEDUO_UNCERTAINTY_ENERGY,
-    CEDUO_UNCERTAINTY_MEAN,                              /* the share that the place is judged by, in the mean of a rotation */
-    CEDUO_UNCERTAINTY_FAILING,                           /* years of a rotation in which it is above CEDUO_EXCEED_MAX */
-    CEDUO_UNCERTAINTY_SHOWN,                             /* so many are figures of a report; the lights hang on the others: */
-    CEDUO_UNCERTAINTY_CONTACT = CEDUO_UNCERTAINTY_SHOWN, /* 1 over the longest ADC of a belt, 1/m */
-    CEDUO_UNCERTAINTY_FREE_RUN,                          /* the largest chance of a free run */
+    CEDUO_UNCERTAINTY_MEAN,                              /* mean of the judged share over a rotation */
+    CEDUO_UNCERTAINTY_FAILING,                           /* years of a rotation whose judged share exceeds CEDUO_EXCEED_MAX */
+    CEDUO_UNCERTAINTY_SHOWN,                             /* kinds below this are reported; the lights depend on the others: */
+    CEDUO_UNCERTAINTY_CONTACT = CEDUO_UNCERTAINTY_SHOWN, /* 1/m, reciprocal of the longest ADC of a belt */
+    CEDUO_UNCERTAINTY_FREE_RUN,                          /* highest probability of a free run */
     CEDUO_UNCERTAINTY_KINDS
 };
 
-/* Points of a surface (ceduo/surface.h). As many as are asked for; where they explain less than CEDUO_UNCERTAINTY_EXPLAINED of what
- * varies, twice as many, and so on. */
+/* Points of a surface (ceduo/surface.h). Their number is doubled until the surface explains CEDUO_UNCERTAINTY_EXPLAINED of the
+ * variance. */
 #define CEDUO_UNCERTAINTY_POINTS     256
 #define CEDUO_UNCERTAINTY_POINTS_MAX 1024
 #define CEDUO_UNCERTAINTY_EXPLAINED  0.9
-#define CEDUO_UNCERTAINTY_ROCKS      400 /* of each, where they are not said */
-#define CEDUO_UNCERTAINTY_MIN        20  /* points; of fewer there is no 90 % range */
+#define CEDUO_UNCERTAINTY_ROCKS      400 /* per point, by default */
+#define CEDUO_UNCERTAINTY_MIN        20  /* points that a 90 % range requires */
 
-/* Two options are equal if their shares differ by at most this, or with blocks by at most a tenth of ceduo_exceed_limit(). Two
- * mean energies per released rock are equal if they differ by at most this share of the energy without forest. */
+/* Two options are equal if their shares differ by at most this. With blocks the limit is a tenth of ceduo_exceed_limit(). Mean
+ * energies per released rock are equal if they differ by at most this share of the energy without forest. */
 #define CEDUO_UNCERTAINTY_EQUAL 0.005
 
-/* Over a rotation each point has so many rocks in each of its years, others in each year; of an option with more years these many
- * are taken. In the scene as it is each year has more. */
+/* Rocks of each year of a rotation at a point, different in each year. An option with more than YEARS_MAX years is thinned to
+ * them. The scene as given has OWN_YEAR_ROCKS in each year. */
 #define CEDUO_UNCERTAINTY_YEAR_ROCKS     32
 #define CEDUO_UNCERTAINTY_YEARS_MAX      60
 #define CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS 1000
@@ -71,28 +71,28 @@ struct ceduo_uncertainty_def {
     size_t inputs_count; /* >= 1 */
     const struct ceduo_input *inputs;
     size_t points;      /* 2…CEDUO_UNCERTAINTY_POINTS_MAX */
-    size_t points_max;  /* no more are taken where these explain too little; 0: CEDUO_UNCERTAINTY_POINTS_MAX */
-    uint64_t rocks;     /* of each evaluation; CEDUO_SURFACE_GROUPS at least are taken */
-    uint64_t own_rocks; /* of the scene as it is; 0: as many */
-    /* The scene as it is, computed before; with the years of each option if `rotation` is true. Requires `brief`. NULL: computed
-     * here, from own_rocks. */
+    size_t points_max;  /* limit of the doubling; 0: CEDUO_UNCERTAINTY_POINTS_MAX */
+    uint64_t rocks;     /* of each evaluation; raised to CEDUO_SURFACE_GROUPS */
+    uint64_t own_rocks; /* of the scene as given; 0: `rocks` */
+    /* Results of the scene as given, with the years of each option if `rotation` is true. Requires `brief`. NULL: computed here
+     * with own_rocks. */
     const struct ceduo_results *own;
-    size_t years_max; /* years of each option at a point, at most CEDUO_UNCERTAINTY_YEARS_MAX; 0: as many */
-    /* Neither differences between options nor values at the ends of the inputs; of each option only the figures that pages
-     * show. The others have fit.p5 and fit.p95 NaN. */
+    size_t years_max; /* years of each option at a point, at most CEDUO_UNCERTAINTY_YEARS_MAX; 0: that number */
+    /* Leave out differences between options, values at the ends of inputs, and figures that pages do not show: their fit.p5 and
+     * fit.p95 are NaN. */
     bool brief;
-    bool rotation;              /* each option over its rotation as well; not with the contact model index */
-    bool alone;                 /* of one option alone: the surfaces of the others are not there (p5, p95 NaN), nor ranks */
-    size_t option;              /* alone: this one */
-    struct ceduo_window window; /* these years instead; step 0: those of ceduo_window_in() */
-    uint64_t effort_max; /* contacts, stems and twice the stems hit, of all points: beyond, CEDUO_CANCELLED; 0: unlimited */
-    unsigned threads;    /* at most CEDUO_THREADS_MAX; 0: one */
-    const ceduo_flag *cancel;                                     /* may be NULL */
-    void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */
+    bool rotation;              /* compute each option over its rotation, too; not with the contact model index */
+    bool alone;                 /* evaluate only `option`; the other options have p5, p95 NaN, and there is no ranking */
+    size_t option;              /* if `alone` */
+    struct ceduo_window window; /* years; step 0: those of ceduo_window_in() */
+    uint64_t effort_max;        /* contacts + stems + 2 * stems hit of all points; above it CEDUO_CANCELLED; 0: unlimited */
+    unsigned threads;           /* at most CEDUO_THREADS_MAX; 0: one */
+    const ceduo_flag *cancel;   /* may be NULL */
+    void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; called by one thread at a time */
     void *context;
 };
 
-/* All inputs of `scene` are the caller's to set: inputs_count and inputs. CEDUO_UNCERTAINTY_POINTS of CEDUO_UNCERTAINTY_ROCKS, one thread. */
+/* CEDUO_UNCERTAINTY_POINTS points of CEDUO_UNCERTAINTY_ROCKS rocks, one thread. The caller sets inputs_count and inputs. */
 struct ceduo_uncertainty_def ceduo_uncertainty_def_default(const struct ceduo_scene *scene);
 
 /* A range from 0 to 1 without places. */
@@ -103,28 +103,26 @@ struct ceduo_uncertainty_figure {
     size_t option;
     enum ceduo_uncertainty_kind kind;
     bool difference;
-    double value, sampling_lo, sampling_hi; /* of the scene as it is, with the error of the rocks; NaN: not known */
-    struct ceduo_surface_fit fit; /* over what may be true; `below`: of the share that the place is judged by, how much
-                                             * of that keeps within CEDUO_EXCEED_MAX. p5 and p95 are widened until they hold
-                                             * `value`; NaN if there are fewer than CEDUO_UNCERTAINTY_MIN points */
-    double (*at)[2];              /* of each input: with it at its lower, at its upper end, all others as they are;
-                                             * over a rotation NaN */
-    size_t uses;                  /* inputs that the figure's options have */
-    size_t *order;                /* these by what is left of p95 - p5 if they are known, least first */
+    double value, sampling_lo, sampling_hi; /* of the scene as given, with sampling error; NaN: not computed */
+    /* Over the plausible cases. fit.below is the share of them whose judged share is at most CEDUO_EXCEED_MAX. p5 and p95 are
+     * widened to include `value`; NaN with fewer than CEDUO_UNCERTAINTY_MIN points. */
+    struct ceduo_surface_fit fit;
+    double (*at)[2]; /* for each input the figure at its lower and upper end, all others as given; over a rotation NaN */
+    size_t uses;     /* inputs of the figure's options */
+    size_t *order;   /* these inputs, sorted by the width of p5…p95 that remains if the input were known, smallest first */
 };
 
-/* Of two options: the share of plausible cases in which the first is better, in which it is worse, and in which they are equal
- * (CEDUO_UNCERTAINTY_EQUAL). The three add up to 1. */
+/* Probabilities that one option is better than another, worse, or equal (CEDUO_UNCERTAINTY_EQUAL). They add up to 1. */
 struct ceduo_uncertainty_order {
     size_t better, than; /* options */
     double probability, equal, worse;
-    double p5, p95; /* uncertainty of the figure that ranks them, the one less the other; as those of a figure */
+    double p5, p95; /* of the difference of the figure that ranks them */
 };
 
-/* The options in rank by the scene as it is. */
+/* The options, ranked by the scene as given. */
 struct ceduo_uncertainty_ranking {
-    bool rotation;                          /* by the mean over a rotation, otherwise by today's main figure */
-    size_t count;                           /* pairs: one less than options; 0: there is one option alone, or it is not known */
+    bool rotation;                          /* ranked by the mean over a rotation, otherwise by today's main figure */
+    size_t count;                           /* pairs: options - 1; 0: one option, or not computed */
     struct ceduo_uncertainty_order *orders; /* each option and the next one */
 };
 
@@ -132,32 +130,32 @@ struct ceduo_uncertainty_result {
     size_t points;
     uint64_t rocks; /* of each point */
     uint64_t own_rocks;
-    bool rotation; /* figures over a rotation are there */
+    bool rotation; /* figures over a rotation were computed */
     size_t figures_count;
     struct ceduo_uncertainty_figure
         *figures;                     /* by option and kind, then the differences; see ceduo_uncertainty_find_figure() */
-    enum ceduo_uncertainty_kind main; /* too much energy where that is known, otherwise energy */
+    enum ceduo_uncertainty_kind main; /* EXCEED if an accepted energy is given, otherwise ENERGY */
     struct ceduo_uncertainty_ranking today, over_rotation;
-    uint64_t evaluations; /* scenes computed; each is of all options, and of their years */
+    uint64_t evaluations; /* scenes computed, each with all options and their years */
 };
 
-/* Computes all. Bits do not depend on the number of threads. CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT (a number of the
- * def outside its range, an input without words or draws, a scene without control) or what ceduo_scene_check() says: then nothing
- * is to be freed. */
+/* Compute the uncertainty of all figures. The result does not depend on the number of threads, bit for bit. Return CEDUO_OK,
+ * CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT (a member of the def out of range, an input without words or draws, a
+ * scene without control) or the status of ceduo_scene_check(). The caller frees *answer after CEDUO_OK only. */
 enum ceduo_status ceduo_uncertainty_compute(const struct ceduo_uncertainty_def *def, struct ceduo_uncertainty_result *answer);
 void ceduo_uncertainty_free(struct ceduo_uncertainty_result *answer);
 
-/* The figures over a rotation are there if answer->rotation is true. NULL: there is no such option or figure. */
+/* Return a figure; NULL if there is no such option or figure. Figures over a rotation require answer->rotation. */
 const struct ceduo_uncertainty_figure *ceduo_uncertainty_find_figure(const struct ceduo_uncertainty_result *answer,
                                                                      size_t option, enum ceduo_uncertainty_kind kind,
                                                                      bool difference);
 
-/* The order of the options that pages and views give: over the rotation where that is known, otherwise today's. */
+/* Return the ranking that pages and views show: over the rotation if computed, otherwise today's. */
 const struct ceduo_uncertainty_ranking *ceduo_uncertainty_ranking_by(const struct ceduo_uncertainty_result *answer);
 
-/* Whether a light of the last control changes within the 90 % band of uncertainty: contact, free run, or energy
- * (CEDUO_UNCERTAINTY_EXCEED). Returns how many inputs it depends on above all, 1 or 2, the heaviest first; 0: it does not change, or
- * there are too few points to say by what. */
+/* Find the inputs that decide a light of the last control: contact, free run, or energy (CEDUO_UNCERTAINTY_EXCEED). Return the
+ * number of dominant inputs, 1 or 2, the largest share first. Return 0 if the light does not change within the 90 % range, or
+ * if there are too few points. */
 size_t ceduo_uncertainty_dominant_inputs(const struct ceduo_scene *scene, const struct ceduo_uncertainty_result *answer,
                                          size_t option, enum ceduo_uncertainty_kind light, size_t inputs[2]);
 
