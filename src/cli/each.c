@@ -26,8 +26,8 @@ static void append_names(const struct each *e, bool set, struct text *text)
     size_t n = 0;
     for (size_t i = 0; i < e->heads_count; i++)
         if (is_wanted(&e->heads[i], set))
-            ceduo_csv_list(text, &n, e->heads[i].name, strlen(e->heads[i].name));
-    ceduo_csv_list_end(text, n);
+            ceduo_csv_append_name(text, &n, e->heads[i].name, strlen(e->heads[i].name));
+    ceduo_csv_append_rest(text, n);
     if (n == 0)
         ceduo_text_append(text, _("none"));
 }
@@ -78,9 +78,9 @@ static bool check_numbers(const struct each *e)
         struct csv_cell cell = ceduo_csv_next_cell(&e->table, i);
         if (e->heads[i].sets != PATH_NUMBER || is_yaml(cell) || ceduo_csv_is_empty(cell))
             continue;
-        enum csv_numeral how = ceduo_csv_numeral(&e->table, cell, number);
+        enum csv_numeral how = ceduo_csv_normalize_number(&e->table, cell, number);
         if (how != CSV_NUMERAL_GOOD && how != CSV_NUMERAL_NONE)
-            good = ceduo_csv_no_number(&e->table, cell, how);
+            good = ceduo_csv_report_number(&e->table, cell, how);
     }
     return good;
 }
@@ -111,7 +111,7 @@ static enum exit_status read_table(struct each *e)
     bool good = ceduo_csv_open(&e->table, &e->arena, e->given->each, &problems);
     if (good) {
         e->table.source->foreign = false; /* its name was given for this */
-        good = ceduo_csv_first(&e->table) && read_heads(e);
+        good = ceduo_csv_read_head(&e->table) && read_heads(e);
     }
     if (good)
         announce(e);
@@ -154,7 +154,8 @@ static const char *make_change(struct each *e, size_t column)
     ceduo_text_format(&change, "%s=", head->name);
     if (head->sets == PATH_TEXT || (head->sets == PATH_FILE && !is_yaml(cell)))
         append_quoted(&change, e->cells[column]);
-    else if (head->sets == PATH_NUMBER && !is_yaml(cell) && ceduo_csv_numeral(&e->table, cell, number) == CSV_NUMERAL_GOOD)
+    else if (head->sets == PATH_NUMBER && !is_yaml(cell) &&
+             ceduo_csv_normalize_number(&e->table, cell, number) == CSV_NUMERAL_GOOD)
         ceduo_text_append(&change, number);
     else
         ceduo_text_append(&change, e->cells[column]);
@@ -165,7 +166,7 @@ static const char *make_change(struct each *e, size_t column)
 static void read_row(struct each *e, const struct each_row *row)
 {
     struct word_list *sets = &e->arguments.sets;
-    ceduo_csv_return(&e->table, row->place);
+    ceduo_csv_reread(&e->table, row->place);
     e->arguments.label = e->name;
     for (size_t i = e->heads_count; i-- > 0;) {
         struct csv_cell cell = ceduo_csv_next_cell(&e->table, i);

@@ -112,13 +112,13 @@ static bool read_coordinate(struct reader *r, enum column c, double *value)
     struct csv_cell cell = ceduo_csv_next_cell(&r->csv, r->columns[c]);
     bool none = ceduo_csv_is_empty(cell);
     if (c == ELEVATION && cell.n > 0 && none)
-        return ceduo_csv_report_error(
-            &r->csv, cell, _("'%.*s' is no height; remove the row, or fill the gap in the terrain model"), (int)cell.n, cell.p);
+        return ceduo_csv_error(&r->csv, cell, _("'%.*s' is no height; remove the row, or fill the gap in the terrain model"),
+                               (int)cell.n, cell.p);
     char text[CSV_NUMERAL_CAPACITY];
-    if (c == ELEVATION && ceduo_csv_numeral(&r->csv, cell, text) == CSV_NUMERAL_GOOD &&
+    if (c == ELEVATION && ceduo_csv_normalize_number(&r->csv, cell, text) == CSV_NUMERAL_GOOD &&
         (ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE || is_no_data(*value)))
-        return ceduo_csv_report_error(&r->csv, cell,
-                                      _("'%s' stands for no data; remove the row, or fill the gap in the terrain model"), text);
+        return ceduo_csv_error(&r->csv, cell,
+                               _("'%s' stands for no data; remove the row, or fill the gap in the terrain model"), text);
     return ceduo_csv_number(&r->csv, cell, vertex->lo, vertex->hi, "m", value);
 }
 
@@ -241,7 +241,7 @@ static bool are_numbers(const struct csv *csv)
     double value;
     bool good = true;
     for (size_t i = 0; good && i < csv->cells_count; i++) {
-        enum csv_numeral how = ceduo_csv_numeral(csv, csv->cells[i], text);
+        enum csv_numeral how = ceduo_csv_normalize_number(csv, csv->cells[i], text);
         good = how == CSV_NUMERAL_GOOD ? ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD : how != CSV_NUMERAL_NONE;
     }
     return good;
@@ -255,7 +255,7 @@ static bool take_headless(struct reader *r, struct csv_place begin)
         struct problems *problems = csv->problems;
         csv->next = begin;
         csv->problems = NULL;
-        ceduo_csv_headless(csv, *s);
+        ceduo_csv_begin_headless(csv, *s);
         ceduo_csv_scan(csv);
         bool good = ceduo_csv_next_row(csv) && csv->cells_count >= 2 && are_numbers(csv);
         csv->problems = problems;
@@ -288,10 +288,10 @@ static bool check_units(struct reader *r)
         if (column >= CEDUO_CSV_DUPLICATE || (c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NOT_FOUND))
             continue;
         r->csv.source->foreign = false;
-        good = ceduo_csv_report_error(&r->csv, r->csv.heads[column],
-                                      _("its values must be in m; convert them and name the "
-                                        "column '%s'"),
-                                      heads[c].name);
+        good = ceduo_csv_error(&r->csv, r->csv.heads[column],
+                               _("its values must be in m; convert them and name the "
+                                 "column '%s'"),
+                               heads[c].name);
     }
     return good;
 }
@@ -351,7 +351,7 @@ static bool read_rows(struct reader *r)
     size_t before = r->problems->met, layer = 0, length = 0;
     for (enum column c = DISTANCE; c <= NORTH; c++)
         if (c == ELEVATION || (c == DISTANCE ? !r->map : has_places(r)))
-            ceduo_csv_has_numbers(csv, r->columns[c]);
+            ceduo_csv_mark_numeric(csv, r->columns[c]);
     ceduo_csv_scan(csv);
     for (size_t from = csv->next.at; ceduo_csv_next_row(csv); from = csv->next.at) {
         const struct csv_cell name = ceduo_csv_next_cell(csv, r->columns[LAYER]);
@@ -365,7 +365,7 @@ static bool read_rows(struct reader *r)
             if (is_wkt(wkt.p, wkt.n))
                 read_wkt(r, wkt.p, wkt.p + wkt.n, ceduo_csv_line(csv, wkt), name.n > 0 ? name : label);
             else if (!csv->headless)
-                ceduo_csv_report_error(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
+                ceduo_csv_error(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
             continue;
         }
         if (r->columns[LAYER] != CEDUO_CSV_NOT_FOUND)
@@ -672,7 +672,7 @@ static bool read_points(struct reader *r)
     for (size_t c = 0; c < COLUMNS; c++)
         r->columns[c] = c == WKT ? 0 : CEDUO_CSV_NOT_FOUND;
     r->csv.source->foreign = false;
-    ceduo_csv_headless(&r->csv, '\n'); /* each line is one cell */
+    ceduo_csv_begin_headless(&r->csv, '\n'); /* each line is one cell */
     return read_rows(r);
 }
 

@@ -203,7 +203,7 @@ static bool has_unit(struct csv_cell head, const char *units)
 bool ceduo_survey_is_vague(const struct csv *csv, size_t column)
 {
     struct csv_cell head = csv->heads[column];
-    return ceduo_csv_among(head.p, head.n, VAGUE);
+    return ceduo_csv_matches(head.p, head.n, VAGUE);
 }
 
 /* Refuse a column with a known name and an unknown unit. */
@@ -218,12 +218,12 @@ static bool check_foreign_unit(const struct csv *csv, enum column c)
     size_t n = 0;
     while (n < cell.n && !strchr(" ([_.", cell.p[n]))
         n++;
-    if (ceduo_csv_among(cell.p, n, VAGUE))
+    if (ceduo_csv_matches(cell.p, n, VAGUE))
         return true; /* h (hours) */
     LOCAL_TEXT(name);
     ceduo_text_append_escaped_n(&name, cell.p, cell.n);
-    return ceduo_csv_report_error(csv, cell, _("'%s': its values must be in %s; convert them and name the column '%s'"),
-                                  ceduo_text_string(&name), _(head->unit), _(head->name));
+    return ceduo_csv_error(csv, cell, _("'%s': its values must be in %s; convert them and name the column '%s'"),
+                           ceduo_text_string(&name), _(head->unit), _(head->name));
 }
 
 /* Refuse a table without a column, with the names of the columns that it has unless it is foreign. */
@@ -231,7 +231,7 @@ static bool refuse_head(const struct csv *csv, const char *missing)
 {
     const struct problem_place place = {csv->source, csv->head_place.line, 1, NULL, true};
     LOCAL_TEXT(names);
-    ceduo_csv_names(csv, &names);
+    ceduo_csv_append_heads(csv, &names);
     if (csv->source->foreign)
         return ceduo_problem_at(csv->problems, place, _("the first line must name the column %s"), missing);
     return ceduo_problem_at(csv->problems, place, _("the first line must name the column %s; it has: %s"), missing,
