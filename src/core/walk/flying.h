@@ -61,7 +61,7 @@ void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double 
     }
 }
 
-NOINLINE_COLD void show_flight(const struct walker *w, struct flight at, double x1, double z1, double vz1, double seconds)
+NOINLINE void show_flight(const struct walker *w, struct flight at, double x1, double z1, double vz1, double seconds)
 {
     const struct ceduo_trajectory_segment p = {false, at.x,  at.z, at.vx,   at.vz,   x1,
                                                z1,    at.vx, vz1,  w->spin, seconds, w->contacts};
@@ -84,8 +84,8 @@ FORCE_INLINE void fly(struct walker *w, struct flight *at, const struct landing 
 
 /* ---- stems ---- */
 
-NOINLINE_COLD void show_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double before,
-                             double taken)
+NOINLINE void show_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double before,
+                        double taken)
 {
     const struct ceduo_stem_encounter p = {
         x, stem->y, stem->dbh, stem->height, stem->shoot, stem->stool, clearance < stem->height, clearance, before, taken};

@@ -66,8 +66,8 @@ FORCE_INLINE struct landing land_beyond(const struct ground *g, const struct fli
 
 /* The same on a long profile, p being cleared by h. Blocks are passed as wholes where the flight is high enough above
  * their chord: from where it is, be it within the block, to the block's end. */
-NOINLINE_COLD __attribute__((unused)) struct landing land_far(const struct ground *g, const struct flight *f, size_t p,
-                                                              double h, int dir, double inv)
+NOINLINE __attribute__((unused)) struct landing land_far(const struct ground *g, const struct flight *f, size_t p, double h,
+                                                         int dir, double inv)
 {
     size_t last = dir > 0 ? g->n : 0, barrier = SIZE_MAX; /* end of the block that may not be passed as a whole */
     int level = 0, max = g->top;

@@ -20,7 +20,7 @@ struct far_search {
 FORCE_INLINE real above_all(const struct lanes *k, const struct far_search *f, real x, real z)
 {
     real t = (x - f->x) * f->inv;
-    return height_after(all(f->z), all(f->vz), k->g->half_g, t) - z;
+    return height_after(splat(f->z), splat(f->vz), k->g->half_g, t) - z;
 }
 
 /* Which blocks from `b` on the flight may touch. */
@@ -32,8 +32,8 @@ FORCE_INLINE unsigned blocks_under(const struct lanes *k, const struct far_searc
         load_fours((const double(*)[2]) & b->x, &x, &z, &m, &rise);
         real here = above_all(k, f, x, z);
         double t = (b[REAL_LANES].x - f->x) * f->inv;
-        real next = shifted(here, (f->z + (f->vz - k->g->half_g * t) * t) - b[REAL_LANES].z);
-        under |= (REGISTER & ~lanes_of(at_least(here, rise) & at_least(next, rise))) << at;
+        real next = shift_in(here, (f->z + (f->vz - k->g->half_g * t) * t) - b[REAL_LANES].z);
+        under |= (REGISTER & ~lane_bits(at_least(here, rise) & at_least(next, rise))) << at;
     }
     return under;
 }
@@ -46,7 +46,7 @@ FORCE_INLINE bool search_vertices(const struct lanes *k, struct far_search *f)
     for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES) {
         real x, z;
         load_pairs(to + at, &x, &z);
-        under |= (REGISTER & ~lanes_of(at_least(above_all(k, f, x, z), all(0)))) << at;
+        under |= (REGISTER & ~lane_bits(at_least(above_all(k, f, x, z), splat(0)))) << at;
     }
     under &= (1u << count) - 1;
     f->vertex += under ? (unsigned)__builtin_ctz(under) : count;
@@ -98,7 +98,7 @@ FORCE_INLINE unsigned look_at_level(const struct lanes *k, struct far_search *se
 
 /* Follows those of `lanes`, each from its vertex, which it clears, to the last that it clears: up to larger blocks and down
  * again, all flights of a level at a time. */
-NOINLINE_COLD void search_far(struct lanes *k, unsigned lanes)
+NOINLINE void search_far(struct lanes *k, unsigned lanes)
 {
     struct far_search searches[LANES];
     unsigned at[GROUND_LEVELS] = {lanes};

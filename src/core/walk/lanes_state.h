@@ -34,7 +34,7 @@ FORCE_INLINE void look_up(const struct lanes_table *table, ints i, bool small, r
     (void)small;
     uint64_t at[REAL_LANES];
     store_ints(at, i << table->shift);
-    load_pairs_at(table->pairs, at, first, second);
+    gather_pairs(table->pairs, at, first, second);
 }
 
 /* A chord in each lane. */
@@ -58,8 +58,8 @@ FORCE_INLINE void store_chord(struct chords *to, size_t i, struct chord on)
 
 FORCE_INLINE struct chord pick_chord(mask m, struct chord p, struct chord q)
 {
-    return (struct chord){pick(m, p.x0, q.x0), pick(m, p.z0, q.z0), pick(m, p.x1, q.x1), pick(m, p.z1, q.z1),
-                          pick(m, p.m, q.m)};
+    return (struct chord){blend(m, p.x0, q.x0), blend(m, p.z0, q.z0), blend(m, p.x1, q.x1), blend(m, p.z1, q.z1),
+                          blend(m, p.m, q.m)};
 }
 
 /* What is known before the first step, so that the steps are compiled for it. */
@@ -324,7 +324,7 @@ static void finish(struct lanes *k, size_t i, enum ceduo_end end)
 /* ---- what happens seldom ---- */
 
 /* A flight that comes to stems which are left to the scalar walk, or a rock of many contacts. */
-NOINLINE_COLD void come_down_alone(struct lanes *k, size_t i)
+NOINLINE void come_down_alone(struct lanes *k, size_t i)
 {
     struct course c = course_of(k, i);
     unsigned bit = 1u << i;
@@ -341,7 +341,7 @@ NOINLINE_COLD void come_down_alone(struct lanes *k, size_t i)
 }
 
 /* A flight that ends at (x, z). */
-NOINLINE_COLD void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_end end)
+NOINLINE void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_end end)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
@@ -363,14 +363,14 @@ FORCE_INLINE void pass_marks(struct lanes *k, size_t i, const struct flight *at,
 }
 
 /* A flight that passes marks and goes on in its lane. */
-NOINLINE_COLD void pass_marks_alone(struct lanes *k, size_t i)
+NOINLINE void pass_marks_alone(struct lanes *k, size_t i)
 {
     struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
     pass_marks(k, i, &at, k->to_x[i], k->t[i], k->spin[i]);
 }
 
 /* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */
-NOINLINE_COLD void go_off_alone(struct lanes *k, size_t i, bool knows_landing)
+NOINLINE void go_off_alone(struct lanes *k, size_t i, bool knows_landing)
 {
     struct walker *w = &k->job->walkers[i];
     struct course c = course_of(k, i);

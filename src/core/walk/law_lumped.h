@@ -12,7 +12,7 @@ FORCE_INLINE struct impact lumped_struck(struct impact in, const struct ground_p
     real rn = at->rn, s = in.vn / LUMPED_K;
     if (at->scale_rn)
         rn = rn / (1 + s * s);
-    return (struct impact){.vn = rn * in.vn, .vt = at->rt * in.vt, .spin = all(0)};
+    return (struct impact){.vn = rn * in.vn, .vt = at->rt * in.vt, .spin = splat(0)};
 }
 
 static const struct contact_law law_lumped = {.struck = lumped_struck};

@@ -98,7 +98,7 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
 /* ---- the whole trajectory ---- */
 
 /* Whether a long trajectory is to end here: too many contacts, or nobody waits for it any more. */
-NOINLINE_COLD bool has_enough(struct walker *w)
+NOINLINE bool has_enough(struct walker *w)
 {
     if (w->arrivals_only && is_behind_marks(w))
         return true;
