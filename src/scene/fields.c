@@ -166,10 +166,10 @@ static const struct object rules_object = OBJECT(ceduo_regulation, rules_fields,
 /* ---- uncertainty ---- */
 
 #define UNCERTAINTY_NUMBER(key, name, member, meaning)                                                                         \
-    NUMBER(key, NAMED(name), MEMBER(uncertainty, member), "", -1e12, 1e12, NO_RUN, NULL, meaning)
+    NUMBER(key, NAMED(name), MEMBER(uncertainty_row, member), "", -1e12, 1e12, NO_RUN, NULL, meaning)
 
 static const struct field uncertainty_fields[] = {
-    TEXT("path", NAMED(N_("value")), MEMBER(uncertainty, path), REQUIRED | NO_RUN,
+    TEXT("path", NAMED(N_("value")), MEMBER(uncertainty_row, path), REQUIRED | NO_RUN,
          N_("the value that is not known, as for --set; [*] stands for all items; slope.materials[NAME].KEY for a ground")),
     UNCERTAINTY_NUMBER("lo", N_("lower end"), lo, N_("the least that it may be, in its unit; with hi")),
     UNCERTAINTY_NUMBER("hi", N_("upper end"), hi, N_("the most that it may be; every value between is as likely")),
