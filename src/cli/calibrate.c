@@ -103,13 +103,12 @@ static bool fill_scene(const struct job *j, const struct ceduo_calibration_repor
 {
     const struct arguments *a = j->arguments;
     struct document document = {0};
-    struct problems problems = {0};
     LOCAL_TEXT(source);
     ceduo_calibration_sources(&source, r);
     const struct fit_values fit = {r->answer, r->inputs, ceduo_text_string(&source), draws->temporary};
-    bool good = ceduo_document_open(&document, a->scenes[0], (const char *const *)a->sets.items, a->sets.n, &problems);
+    bool good = ceduo_document_open(&document, a->scenes[0], (const char *const *)a->sets.items, a->sets.n);
     ceduo_recovery_end(&document.recovery); /* a batch run keeps no copy of unsaved work */
-    good = good && ceduo_keep_fit(&document, &fit, &problems);
+    good = good && ceduo_keep_fit(&document, &fit);
     if (good) {
         const char *mark = draws->temporary + strlen(draws->target);
         ceduo_document_text(&document, a->output, scene);
@@ -119,7 +118,7 @@ static bool fill_scene(const struct job *j, const struct ceduo_calibration_repor
             memmove(at, at + strlen(mark), strlen(at + strlen(mark)) + 1);
         }
     }
-    ceduo_say_problems(&problems);
+    ceduo_say_problems(&document.problems);
     ceduo_document_close(&document);
     return good;
 }

@@ -61,16 +61,13 @@ static enum exit_status interact(const struct arguments *a)
     if (why)
         return no_terminal(why);
     struct app app;
-    struct problems problems = {0};
     bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, a->charset, (unsigned)a->threads,
-                                     a->script != NULL, &problems);
-    ceduo_say_problems(&problems);
-    if (!good)
-        return EXIT_INPUT;
-    enum exit_status status;
-    if (a->script) {
+                                     a->script != NULL);
+    enum exit_status status = EXIT_INPUT;
+    ceduo_say_problems(&app.document.problems);
+    if (good && a->script) {
         status = statuses[ceduo_script_run(&app, a->script)];
-    } else {
+    } else if (good) {
         enum terminal_end end = ceduo_terminal_run(&app);
         status = end == TERMINAL_DONE ? EXIT_DONE : EXIT_RUN;
         if (end == TERMINAL_NONE)

@@ -71,7 +71,7 @@ void ceduo_say(struct text *text)
 
 void ceduo_say_problems(struct problems *problems)
 {
-    ceduo_problems_close(problems);
+    ceduo_problems_print(problems);
     ceduo_say(&problems->text);
     ceduo_problems_free(problems);
 }

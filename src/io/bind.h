@@ -50,7 +50,7 @@ struct bad_values {
 struct binding {
     struct arena *arena;
     struct problems *problems;        /* what is wrong, with the path of each value; reading goes on, so that all is found */
-    struct problems *unusual;         /* numbers beyond what is usual; may be NULL */
+    bool warns;                       /* of numbers beyond what is usual */
     const struct source_note **notes; /* every source */
     struct bad_values *bad;           /* what is wrong */
     /* Where the profile ends, m in its own coordinates, for places such as end-10: asked once, when a file has one. NaN as the

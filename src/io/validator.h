@@ -14,10 +14,11 @@ struct validator {
     struct scene_file *file; /* notes, inputs and observations go there as they are found */
     struct arena *arena;     /* its own, and its notes: */
     const struct source_note **notes;
-    const struct node *root;             /* the scene, with what it refers to in place */
-    struct problems *problems, *unusual; /* unusual: warnings about numbers that are good */
-    const struct scene_file *previous;   /* as it was: a slope is taken over where its part of the document is the same */
-    struct scene_draft draft;            /* its scene is the result */
+    const struct node *root; /* the scene, with what it refers to in place */
+    struct problems *problems;
+    bool warns;                        /* of numbers that are good, but unusual */
+    const struct scene_file *previous; /* as it was: a slope is taken over where its part of the document is the same */
+    struct scene_draft draft;          /* its scene is the result */
     struct bad_values bad;
     bool sized_by_blocks; /* the scene's rock has no size of its own */
     bool profile;         /* the slope has its vertices */

@@ -35,30 +35,30 @@ struct document {
     struct timespec modified; /* of the file when it was read */
     off_t size;
     struct recovery_copy recovery;
+    struct problems problems; /* why the last edit was refused, or the document could not be opened */
 };
 
-/* Opens a scene, with n changes PATH=VALUE (as ceduo_scene_load()). False with the reason in `problems`. */
-bool ceduo_document_open(struct document *document, const char *path, const char *const *sets, size_t n,
-                         struct problems *problems);
+/* Open a scene, with n changes PATH=VALUE (as ceduo_scene_load()). False with the reason in document->problems; close it in any
+ * case. */
+bool ceduo_document_open(struct document *document, const char *path, const char *const *sets, size_t n);
 
-/* A new scene from text that was never on disk; `path` may be NULL. */
-bool ceduo_document_new(struct document *document, const char *text, struct problems *problems);
+/* The same of a new scene, from text that was never on disk. */
+bool ceduo_document_new(struct document *document, const char *text);
 void ceduo_document_close(struct document *document);
 
-/* Each edit makes a new state, or leaves the document as it was with the reason in `problems`. Paths as in --set, values in
- * YAML. */
-bool ceduo_document_set(struct document *document, const char *path, const char *value, struct problems *problems);
-bool ceduo_document_delete(struct document *document, const char *path, struct problems *problems);
+/* Each edit makes a new state, or leaves the document as it was with the reason in document->problems. Paths as in --set, values
+ * in YAML. */
+bool ceduo_document_set(struct document *document, const char *path, const char *value);
+bool ceduo_document_delete(struct document *document, const char *path);
 /* An item from `text` (YAML) into a list, which is made where there is none. */
-bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
-                           struct problems *problems);
-bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to, struct problems *problems);
+bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text);
+bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to);
 /* Append the belts of the first option as YAML, each with this stand and its year of a cut. Without belts: one down to the
  * first control. */
 void ceduo_document_belts(const struct document *document, const char *stand, struct text *yaml);
 /* A new option after the last, with those belts. A scene with a forest alone first gets options, "current" the first of
  * them. */
-bool ceduo_document_add_option(struct document *document, const char *stand, const char *name, struct problems *problems);
+bool ceduo_document_add_option(struct document *document, const char *stand, const char *name);
 
 /* Changes that are made as one edit, in their order. Starts with the document alone. */
 struct changes {
@@ -76,33 +76,29 @@ void ceduo_changes_set(struct changes *changes, const char *path, const char *fo
 /* Append a change of any kind. KEEP_SOURCE: a scalar keeps the source around it, because it follows a value that a person
  * changes. DELETE: an entry or item is removed if it is there; `value` is NULL. */
 void ceduo_changes_add(struct changes *changes, enum change_kind kind, const char *path, const char *value);
-bool ceduo_changes_make(const struct changes *changes, const char *what, struct problems *problems);
+bool ceduo_changes_make(const struct changes *changes, const char *what);
 
 /* A copy of item `list[index]` after it, of an option under a name of its own; then the changes (may be NULL). */
-bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const struct changes *changes,
-                              struct problems *problems);
+bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const struct changes *changes);
 
 /* A copy of option `index` after the last, named `name`, or that with a number if the name is taken. The paths of the changes
  * begin at the option: "forest[0].cut_year". */
-bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const struct changes *changes,
-                                struct problems *problems);
+bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const struct changes *changes);
 
 /* Another name for an option; what was seen through its forest and the doubts about it go along. */
-bool ceduo_document_rename_option(struct document *document, size_t index, const char *name, struct problems *problems);
+bool ceduo_document_rename_option(struct document *document, size_t index, const char *name);
 
 /* As ceduo_document_set(), but removes what would then be given twice: a size or the mass of the rock, a roughness, a number of
  * shoots. Another shape gets sizes of the same volume. Neighbours follow a border, assumed heights their diameter. Appends to
  * `said` what was changed besides. */
-bool ceduo_document_set_alone(struct document *document, const char *path, const char *value, struct text *said,
-                              struct problems *problems);
+bool ceduo_document_set_alone(struct document *document, const char *path, const char *value, struct text *said);
 
 /* A vertex ([x, z]) within segment `index`, both parts of the same ground. `apart`: one ground of all segments becomes one for
  * each. */
-bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool apart,
-                                  struct problems *problems);
+bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool apart);
 
 /* Takes a vertex out, and the ground of one of the segments beside it. */
-bool ceduo_document_remove_vertex(struct document *document, size_t vertex, size_t segment, struct problems *problems);
+bool ceduo_document_remove_vertex(struct document *document, size_t vertex, size_t segment);
 
 /* Undoes an edit (-1), or makes it again (1). False where there is none. */
 bool ceduo_document_undo_or_redo(struct document *document, int by);
@@ -124,7 +120,7 @@ void ceduo_document_text(struct document *document, const char *path, struct tex
 /* Recovery: a copy of unsaved work, kept while there is some. */
 void ceduo_document_keep(struct document *document);
 /* Puts the text of a copy that was left behind (ceduo_recovery_list()) in place, as one state that can be undone. */
-bool ceduo_document_recover(struct document *document, const char *text, struct problems *problems);
+bool ceduo_document_recover(struct document *document, const char *text);
 
 /* Node at a path, NULL where there is none. */
 const struct node *ceduo_document_node(const struct document *document, const char *path);
@@ -168,11 +164,10 @@ char *ceduo_recovery_text(const char *file);
 /* ---- for the files that implement it ---- */
 
 /* Makes `root` the scene and adds it as a new state. Returns false and changes nothing if `root` is not a valid scene. */
-bool ceduo_document_commit(struct document *document, const struct node *root, const char *what, struct problems *problems);
+bool ceduo_document_commit(struct document *document, const struct node *root, const char *what);
 
-/* Parses YAML that was typed or read; `name` appears in messages. NULL with the reason in `problems`. */
-const struct node *ceduo_document_parse(struct document *document, const char *name, const char *text,
-                                        struct problems *problems);
+/* Parses YAML that was typed or read; `name` appears in messages. NULL with the reason in document->problems. */
+const struct node *ceduo_document_parse(struct document *document, const char *name, const char *text);
 
 /* Notes size and time of the file on disk, to see later whether it has changed. */
 void ceduo_document_note_disk(struct document *document);

@@ -16,18 +16,18 @@
 struct edit {
     struct document *d;
     struct arena *arena;
-    struct problems *problems;
     const struct node *root; /* as far as it is changed; NULL once the edit has failed */
 };
 
-static struct edit begin(struct document *d, struct problems *problems)
+static struct edit begin(struct document *d)
 {
-    return (struct edit){d, &d->file.arena, problems, d->file.root};
+    ceduo_problems_free(&d->problems);
+    return (struct edit){d, &d->file.arena, d->file.root};
 }
 
 static bool commit(const struct edit *e, const char *what)
 {
-    return e->root && ceduo_document_commit(e->d, e->root, what, e->problems);
+    return e->root && ceduo_document_commit(e->d, e->root, what);
 }
 
 const struct node *ceduo_document_node(const struct document *d, const char *path)
@@ -49,7 +49,7 @@ static void put(struct edit *e, const char *path, const struct node *value)
 {
     const struct source *source = ceduo_source_keep(e->arena, (struct source){.name = path, .bytes = path, .is_option = true});
     bool good = e->root && value;
-    e->root = good ? ceduo_resolve_set(e->arena, e->root, source, source->length, value, e->problems) : NULL;
+    e->root = good ? ceduo_resolve_set(e->arena, e->root, source, source->length, value, &e->d->problems) : NULL;
 }
 
 /* ---- rows of doubt ---- */
@@ -171,7 +171,7 @@ static void take_out(struct edit *e, const char **path)
 static void put_item(struct edit *e, const char *list, size_t index, const struct node *item)
 {
     const struct node *holder = ceduo_resolve_at(e->root, list);
-    holder = holder ? holder : ceduo_document_parse(e->d, list, "[]", e->problems);
+    holder = holder ? holder : ceduo_document_parse(e->d, list, "[]");
     if (holder->kind != NODE_LIST || !item) {
         e->root = NULL;
         return;
@@ -193,7 +193,7 @@ static void change(struct edit *e, const char *prefix, const struct changes *cha
                 take_out(e, &path);
             continue;
         }
-        const struct node *value = ceduo_document_parse(e->d, path, c->value, e->problems);
+        const struct node *value = ceduo_document_parse(e->d, path, c->value);
         bool keeps = value && old && c->kind == CHANGE_KEEP_SOURCE;
         put(e, path, keeps ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);
     }
@@ -214,35 +214,35 @@ void ceduo_changes_set(struct changes *c, const char *path, const char *format, 
     va_end(args);
 }
 
-bool ceduo_changes_make(const struct changes *c, const char *what, struct problems *problems)
+bool ceduo_changes_make(const struct changes *c, const char *what)
 {
-    struct edit e = begin(c->document, problems);
+    struct edit e = begin(c->document);
     change(&e, "", c);
     return commit(&e, what);
 }
 
 /* ---- values ---- */
 
-bool ceduo_document_set(struct document *d, const char *path, const char *value, struct problems *problems)
+bool ceduo_document_set(struct document *d, const char *path, const char *value)
 {
-    struct edit e = begin(d, problems);
-    put(&e, path, ceduo_document_parse(d, path, value, problems));
+    struct edit e = begin(d);
+    put(&e, path, ceduo_document_parse(d, path, value));
     return commit(&e, path);
 }
 
-bool ceduo_document_delete(struct document *d, const char *path, struct problems *problems)
+bool ceduo_document_delete(struct document *d, const char *path)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     take_out(&e, &path);
     return commit(&e, path);
 }
 
 /* ---- lists ---- */
 
-bool ceduo_document_insert(struct document *d, const char *list, size_t index, const char *text, struct problems *problems)
+bool ceduo_document_insert(struct document *d, const char *list, size_t index, const char *text)
 {
-    struct edit e = begin(d, problems);
-    put_item(&e, list, index, ceduo_document_parse(d, list, text, problems));
+    struct edit e = begin(d);
+    put_item(&e, list, index, ceduo_document_parse(d, list, text));
     return commit(&e, list);
 }
 
@@ -269,9 +269,9 @@ static const struct node *with_new_name(struct edit *e, const struct node *list,
     }
 }
 
-bool ceduo_document_move(struct document *d, const char *list, size_t from, size_t to, struct problems *problems)
+bool ceduo_document_move(struct document *d, const char *list, size_t from, size_t to)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     const struct node *holder = ceduo_document_node(d, list);
     if (!holder || holder->kind != NODE_LIST || from >= holder->n || to >= holder->n || from == to)
         return true;
@@ -285,11 +285,11 @@ bool ceduo_document_move(struct document *d, const char *list, size_t from, size
 
 static const char vertices_list[] = "slope.vertices_m", ground_list[] = "slope.segments";
 
-bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, bool apart, struct problems *problems)
+bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, bool apart)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
-    put_item(&e, vertices_list, index + 1, ceduo_document_parse(d, vertices_list, vertex, problems));
+    put_item(&e, vertices_list, index + 1, ceduo_document_parse(d, vertices_list, vertex));
     if (e.root && grounds && grounds->n > 1)
         put_item(&e, ground_list, index + 1, grounds->items[index]);
     for (size_t i = 1; e.root && grounds && grounds->n == 1 && vertices && apart && i < vertices->n; i++)
@@ -297,9 +297,9 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
     return commit(&e, vertices_list);
 }
 
-bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segment, struct problems *problems)
+bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segment)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
     const char *path = ceduo_arena_format(e.arena, "%s[%zu]", vertices_list, vertex);
     if (!vertices || vertices->n <= 2 || vertex >= vertices->n)
@@ -324,7 +324,7 @@ static const struct node *need_options(struct edit *e)
     ceduo_text_put(&yaml, "[{name: ");
     ceduo_emit_scalar(&yaml, name, true);
     ceduo_text_put(&yaml, "}]");
-    options = ceduo_document_parse(e->d, "options", yaml.bytes, e->problems);
+    options = ceduo_document_parse(e->d, "options", yaml.bytes);
     if (forest)
         options = ceduo_node_replaced(e->arena, options, 0, ceduo_node_with(e->arena, options->items[0], "forest", forest));
     e->root = ceduo_node_without(e->arena, e->root, "forest");
@@ -352,24 +352,23 @@ void ceduo_document_belts(const struct document *d, const char *stand, struct te
     ceduo_text_char(yaml, ']');
 }
 
-bool ceduo_document_add_option(struct document *d, const char *stand, const char *name, struct problems *problems)
+bool ceduo_document_add_option(struct document *d, const char *stand, const char *name)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     LOCAL_TEXT(yaml);
     ceduo_text_put(&yaml, "{name: ");
     ceduo_emit_scalar(&yaml, name, true);
     ceduo_text_put(&yaml, ", forest: ");
     ceduo_document_belts(d, stand, &yaml);
     ceduo_text_char(&yaml, '}');
-    const struct node *item = ceduo_document_parse(d, "options", yaml.bytes, problems), *list = need_options(&e);
+    const struct node *item = ceduo_document_parse(d, "options", yaml.bytes), *list = need_options(&e);
     put_item(&e, "options", list->n, item ? with_new_name(&e, list, item) : NULL);
     return commit(&e, stand);
 }
 
-bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const struct changes *changes,
-                              struct problems *problems)
+bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const struct changes *changes)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     bool options = strcmp(list, "options") == 0;
     const struct node *holder = options ? need_options(&e) : ceduo_document_node(d, list);
     const struct node *item = holder && holder->kind == NODE_LIST && index < holder->n ? holder->items[index] : NULL;
@@ -379,10 +378,9 @@ bool ceduo_document_duplicate(struct document *d, const char *list, size_t index
     return commit(&e, list);
 }
 
-bool ceduo_document_vary_option(struct document *d, size_t index, const char *name, const struct changes *changes,
-                                struct problems *problems)
+bool ceduo_document_vary_option(struct document *d, size_t index, const char *name, const struct changes *changes)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     const struct node *options = need_options(&e), *item = options->items[index];
     item = ceduo_node_with(e.arena, ceduo_node_without(e.arena, item, "name_it"), "name",
                            ceduo_node_scalar(e.arena, item->source, name, true));
@@ -405,9 +403,9 @@ static const struct node *with_option_named(struct arena *arena, const struct no
     return node;
 }
 
-bool ceduo_document_rename_option(struct document *d, size_t index, const char *name, struct problems *problems)
+bool ceduo_document_rename_option(struct document *d, size_t index, const char *name)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     const struct node *list = ceduo_node_get(e.root, "options"), *observed = ceduo_node_get(e.root, "observed");
     if (!list || index >= list->n)
         return false;

@@ -134,11 +134,10 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
         return false;
     if (!ceduo_file_write(path, text.bytes, text.length))
         return false;
-    LOCAL_PROBLEMS(problems);              /* from now on this text is what lies on disk */
-    char *copy = ceduo_must(strdup(path)); /* it may be the document's own */
+    char *copy = ceduo_must(strdup(path)); /* it may be the document's own; from now on this text is what lies on disk */
     free(d->path);
     d->path = copy;
-    d->raw = ceduo_document_parse(d, copy, text.bytes, &problems);
+    d->raw = ceduo_document_parse(d, copy, text.bytes);
     d->shipped = false;
     d->saved = d->at;
     ceduo_document_note_disk(d);
@@ -161,8 +160,9 @@ void ceduo_document_keep(struct document *d)
     ceduo_recovery_write(&d->recovery, d->path, ceduo_text_string(&text), text.length);
 }
 
-bool ceduo_document_recover(struct document *d, const char *text, struct problems *problems)
+bool ceduo_document_recover(struct document *d, const char *text)
 {
-    const struct node *root = ceduo_document_parse(d, d->path ? d->path : "recovered", text, problems);
-    return root && ceduo_document_commit(d, root, _("recovered work"), problems);
+    ceduo_problems_free(&d->problems);
+    const struct node *root = ceduo_document_parse(d, d->path ? d->path : "recovered", text);
+    return root && ceduo_document_commit(d, root, _("recovered work"));
 }

@@ -266,7 +266,7 @@ static void add_draws(struct changes *c, const struct document *d, const struct 
     ceduo_changes_add(c, CHANGE_SET, "doubt", t.bytes);
 }
 
-bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct problems *problems)
+bool ceduo_keep_fit(struct document *d, const struct fit_values *fit)
 {
     struct changes c = {.document = d};
     bool of_segments = false;
@@ -290,5 +290,5 @@ bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct pro
             add_source(&c, fit->inputs[i].places[k], fit->source);
     if (fit->draws)
         add_draws(&c, d, fit, of_library);
-    return ceduo_changes_make(&c, _("fitted values"), problems);
+    return ceduo_changes_make(&c, _("fitted values"));
 }

@@ -55,7 +55,7 @@ struct fit_values {
     const char *draws;                /* path of the table of draws, as the document is to name it; NULL: none */
 };
 
-/* One edit, which undo takes back. A ground from materials is written out as segments. False with the reason in `problems`. */
-bool ceduo_keep_fit(struct document *document, const struct fit_values *fit, struct problems *problems);
+/* One edit, which undo takes back. A ground from materials is written out as segments. False with the reason in document->problems. */
+bool ceduo_keep_fit(struct document *document, const struct fit_values *fit);
 
 #endif

@@ -259,11 +259,11 @@ static void keep_one_of_all(struct follow *f)
             take_out(f, map, of_rock[sphere][i]);
 }
 
-bool ceduo_document_set_alone(struct document *d, const char *path, const char *value, struct text *said,
-                              struct problems *problems)
+bool ceduo_document_set_alone(struct document *d, const char *path, const char *value, struct text *said)
 {
     struct follow f = {.d = d, .arena = &d->file.arena, .path = path, .value = value, .changes = {.document = d}};
     int shape = strcmp(path, "rock.shape") == 0 ? ceduo_choice_find(&ceduo_shape_words, value) : -1;
+    ceduo_problems_free(&d->problems);
     find_place(&f);
     if (shape >= 0)
         change_shape(&f, (enum ceduo_shape)shape);
@@ -283,9 +283,9 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         ceduo_text_format(said, "%s%s", said->length ? "; " : "", f.followed.bytes);
     bool good = f.refused.length == 0;
     if (good)
-        good = ceduo_changes_make(&f.changes, path, problems);
+        good = ceduo_changes_make(&f.changes, path);
     else
-        ceduo_problem(problems, &(struct source){.name = path, .is_option = true}, 0, 0, "%s", f.refused.bytes);
+        ceduo_problem(&d->problems, &(struct source){.name = path, .is_option = true}, 0, 0, "%s", f.refused.bytes);
     ceduo_text_free(&f.filled);
     ceduo_text_free(&f.taken);
     ceduo_text_free(&f.followed);

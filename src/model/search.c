@@ -342,7 +342,7 @@ static bool change_scene(const struct scene_file *from, const char *path, const 
     bool good = ceduo_scene_set(file, "preview", set.bytes, &problems);
     const struct node *root = good ? ceduo_resolve_scene(&file->arena, file->root, &problems) : NULL;
     file->root = root;
-    return root && problems.count == 0 && ceduo_scene_bind(file, &problems);
+    return root && problems.met == 0 && ceduo_scene_bind(file, &problems);
 }
 
 enum ceduo_status ceduo_preview(const struct scene_file *from, const char *path, const char *value, size_t option,

@@ -45,11 +45,12 @@ void ceduo_app_hint(struct app *app, const char *text)
         ceduo_app_say(app, "%s", text);
 }
 
-/* The first message of a list of problems, without the place, which the cursor shows. */
-static void say_problem(struct app *app, const char *text)
+/* The first of a list of problems, without the place, which the cursor shows. */
+static void say_problem(struct app *app, const struct problem_list *list)
 {
-    const char *first = ceduo_app_format(app, "%.*s", (int)strcspn(text, "\n"), text), *colon = strstr(first, ": ");
-    ceduo_app_warn(app, "%s", colon ? colon + 2 : first);
+    const struct problem *p = list->items;
+    if (list->n > 0)
+        ceduo_app_warn(app, "%s%s%s", p->path, p->path[0] ? ": " : "", p->message);
 }
 
 /* ---- what is shown ---- */
@@ -207,19 +208,17 @@ void ceduo_app_follow_belt(struct app *app)
 
 bool ceduo_app_edited(struct app *app, bool good)
 {
-    ceduo_problems_close(&app->problems);
     if (!good)
-        say_problem(app, ceduo_text_string(&app->problems.text));
+        say_problem(app, &app->document.problems.wrong);
     else
         ceduo_app_refresh(app);
-    ceduo_problems_free(&app->problems);
     return good;
 }
 
 bool ceduo_app_set(struct app *app, const char *path, const char *value)
 {
     LOCAL_TEXT(said);
-    bool good = ceduo_app_edited(app, ceduo_document_set_alone(&app->document, path, value, &said, &app->problems));
+    bool good = ceduo_app_edited(app, ceduo_document_set_alone(&app->document, path, value, &said));
     if (good && said.length > 0)
         ceduo_app_say(app, "%s", said.bytes);
     return good;
@@ -227,9 +226,20 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
 
 /* ---- opening and closing ---- */
 
-/* Shows a document that was opened, and the first value in it that is unusual. */
-static void took_document(struct app *app, const struct problems *problems)
+/* Replaces the document. The figures know the memory of the old one: they go first. Shows the first value that is unusual. False
+ * if no thread can be started. */
+static bool take_opened(struct app *app, struct document *next, unsigned threads)
 {
+    struct live live;
+    if (!ceduo_live_create(&live, threads)) {
+        ceduo_document_close(next);
+        return false;
+    }
+    ceduo_live_free(&app->live);
+    ceduo_recovery_delete(&app->document.recovery);
+    ceduo_document_close(&app->document);
+    app->live = live;
+    app->document = *next;
     ceduo_cells_free(app->kept.cells);
     app->kept.cells = NULL;
     if (app->no_recovery) {
@@ -244,40 +254,21 @@ static void took_document(struct app *app, const struct problems *problems)
     for (int v = 0; v < VIEW_COUNT; v++)
         app->views[v].form.row = app->views[v].form.column = app->views[v].form.top = 0;
     ceduo_app_show(app, app->view);
-    if (problems->warnings.length > 0)
-        say_problem(app, problems->warnings.bytes);
-}
-
-/* Replaces the document. The figures know the memory of the old one: they go first. False if no thread can be started. */
-static bool take_opened(struct app *app, struct document *next, unsigned threads, const struct problems *problems)
-{
-    struct live live;
-    if (!ceduo_live_create(&live, threads)) {
-        ceduo_document_close(next);
-        return false;
-    }
-    ceduo_live_free(&app->live);
-    ceduo_recovery_delete(&app->document.recovery);
-    ceduo_document_close(&app->document);
-    app->live = live;
-    app->document = *next;
-    took_document(app, problems);
+    say_problem(app, &app->document.problems.unusual);
     return true;
 }
 
-bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
-                      struct problems *problems)
+bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery)
 {
     struct document document;
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
-    if (!ceduo_document_open(&document, path ? path : "paper-site", NULL, 0, problems))
-        return false;
     app->scratch = ceduo_must(calloc(1, sizeof *app->scratch));
-    if (take_opened(app, &document, threads, problems))
-        return true;
-    free(app->scratch);
-    problems->memory = true;
-    return false;
+    if (!ceduo_document_open(&document, path ? path : "paper-site", NULL, 0)) {
+        app->document = document;
+        return false;
+    }
+    app->document.problems.memory = !take_opened(app, &document, threads);
+    return !app->document.problems.memory;
 }
 
 void ceduo_app_free(struct app *app)
@@ -298,25 +289,25 @@ void ceduo_app_free(struct app *app)
 static bool show_opened(struct app *app, struct document *next, bool good)
 {
     if (!good) {
-        say_problem(app, ceduo_text_string(&app->problems.text));
-    } else if (!take_opened(app, next, app->live.threads, &app->problems)) {
+        say_problem(app, &next->problems.wrong);
+        ceduo_document_close(next);
+    } else if (!take_opened(app, next, app->live.threads)) {
         ceduo_app_warn(app, "%s", _("out of memory"));
         good = false;
     }
-    ceduo_problems_free(&app->problems);
     return good;
 }
 
 bool ceduo_app_open(struct app *app, const char *path)
 {
     struct document next;
-    return show_opened(app, &next, ceduo_document_open(&next, path, NULL, 0, &app->problems));
+    return show_opened(app, &next, ceduo_document_open(&next, path, NULL, 0));
 }
 
 bool ceduo_app_open_text(struct app *app, const char *text)
 {
     struct document next;
-    return show_opened(app, &next, ceduo_document_new(&next, text, &app->problems));
+    return show_opened(app, &next, ceduo_document_new(&next, text));
 }
 
 void ceduo_app_resize(struct app *app, int width, int height)

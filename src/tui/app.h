@@ -103,8 +103,7 @@ struct kept {
 
 struct app {
     struct document document;
-    struct arena *scratch;    /* strings until the next key */
-    struct problems problems; /* of the edit that is under way */
+    struct arena *scratch; /* strings until the next key */
     struct live live;
     struct ceduo_cells *cells;
     struct kept kept;
@@ -135,9 +134,9 @@ struct app {
     bool (*copy)(const char *text);      /* to the terminal's clipboard; false: it is too long. NULL: there is none */
 };
 
-/* Opens a scene, or the shipped site of the paper where `path` is NULL. False with the reason in `problems`. */
-bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
-                      struct problems *problems);
+/* Opens a scene, or the shipped site of the paper where `path` is NULL. False with the reason in
+ * app->document.problems; free it in any case. */
+bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery);
 void ceduo_app_free(struct app *app);
 
 /* Opens another document in place of this one, which must be saved or given up before. */
@@ -156,7 +155,7 @@ void ceduo_app_tell(struct app *app, bool bad, const char *format, ...) __attrib
 
 /* ---- the document ---- */
 
-/* Ends an edit: updates form and figures if it was good, otherwise shows the reason in app->problems. Returns `good`. */
+/* Ends an edit: updates form and figures if it was good, otherwise shows the reason in app->document.problems. Returns `good`. */
 bool ceduo_app_edited(struct app *app, bool good);
 
 /* Sets a value, written as in a file, and removes what would then be given twice. */

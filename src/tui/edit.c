@@ -14,17 +14,16 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
     const char *path = ceduo_app_format(app, "%s", cell->path); /* the form is made anew below */
     LOCAL_TEXT(written);
     if (value[0] == '\0') /* nothing: back to the default */
-        return ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems));
+        return ceduo_app_edited(app, ceduo_document_delete(&app->document, path));
     if (field->type == FIELD_TEXT || field->type == FIELD_FILE)
         ceduo_emit_scalar(&written, value, true);
     else
         ceduo_typed_value(field, value, &written);
     if (ceduo_app_set(app, path, ceduo_text_string(&written)))
         return true;
-    size_t n = strcspn(app->message, " "); /* the refusal begins with the field's label, not with its key or path */
-    if (n > 1 && app->message[n] && app->message[n - 1] == ':' &&
-        (strcspn(app->message, "_.[") < n || strncmp(app->message, field->key, n - 1) == 0))
-        ceduo_app_warn(app, "%s: %s", _(field->shown.label), ceduo_app_format(app, "%s", app->message + n + 1));
+    const struct problem *p = app->document.problems.wrong.items; /* begins with the field's label, not with its key or path */
+    if (p->path && (strpbrk(p->path, "_.[") || strcmp(p->path, field->key) == 0))
+        ceduo_app_warn(app, "%s: %s", _(field->shown.label), p->message);
     return false;
 }
 
@@ -133,7 +132,7 @@ static bool copy_with(struct app *app, const struct item *item, const double end
             ceduo_changes_set(&c,
                               ceduo_app_format(app, "%s[%zu].%s", item->list, item->index + i / 2, i % 2 ? "to_m" : "from_m"),
                               "%.10g", ends[i]);
-    return ceduo_document_duplicate(&app->document, item->list, item->index, &c, &app->problems);
+    return ceduo_document_duplicate(&app->document, item->list, item->index, &c);
 }
 
 /* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */
@@ -162,7 +161,7 @@ static bool split_at(struct app *app, size_t segment, bool apart, double at)
     double share = isnan(at) ? 0.5 : (at - x[0]) / (x[1] - x[0]);
     const char *vertex =
         ceduo_app_format(app, "[%.10g, %.10g]", isnan(at) ? (x[0] + x[1]) / 2 : at, z[0] + share * (z[1] - z[0]));
-    return ceduo_document_split_segment(&app->document, segment, vertex, apart, &app->problems);
+    return ceduo_document_split_segment(&app->document, segment, vertex, apart);
 }
 
 size_t ceduo_items_stretch_of(const struct app *app, double x_written)
@@ -199,7 +198,7 @@ static bool split_point(struct app *app, const struct item *item)
 
 static bool insert(struct app *app, const struct item *item, size_t index, const char *yaml)
 {
-    return ceduo_document_insert(&app->document, item->list, index, yaml, &app->problems);
+    return ceduo_document_insert(&app->document, item->list, index, yaml);
 }
 
 #define BELT_MIN 0.5 /* m: a shorter belt is not added */
@@ -250,7 +249,7 @@ static bool add_control(struct app *app, const struct item *item)
 
 static bool copy_item(struct app *app, const struct item *item)
 {
-    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, NULL, &app->problems);
+    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, NULL);
 }
 
 /* A first cohort of shoots needs stools to stand on. */
@@ -262,7 +261,7 @@ static bool add_shoots(struct app *app, const struct item *item)
     ceduo_changes_set(&c, ceduo_app_format(app, "%.*sstools", (int)(item->key - item->list), item->list),
                       "{per_ha: 2500, spacing_m: 0.35}");
     ceduo_changes_set(&c, item->list, "[{per_stool: 3, dbh_m: 0.07, height_m: 8}]");
-    return ceduo_changes_make(&c, item->list, &app->problems);
+    return ceduo_changes_make(&c, item->list);
 }
 
 static bool add_trees(struct app *app, const struct item *item)
@@ -304,9 +303,9 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
     struct changes c = {.document = &app->document};
     size_t n = list ? list->n : 0, index = item->index, last = vertices && vertices->n > 0 ? vertices->n - 1 : 0;
     if (strcmp(item->list, "slope.segments") == 0)
-        return ceduo_document_remove_vertex(&app->document, index + (index + 1 < last), index, &app->problems);
+        return ceduo_document_remove_vertex(&app->document, index + (index + 1 < last), index);
     if (list && list == vertices)
-        return ceduo_document_remove_vertex(&app->document, index, index - (index > 0 && index >= last), &app->problems);
+        return ceduo_document_remove_vertex(&app->document, index, index - (index > 0 && index >= last));
     if (item->group && list && list->items[index]->n > 1 + !!ceduo_node_get(list->items[index], "name"))
         path = ceduo_app_format(app, "%s.%s", path, item->group);
     else if ((item->group || strcmp(item->list, "blocks") == 0 || strcmp(item->key, "shoots") == 0) && n == 1)
@@ -320,7 +319,7 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
                           ceduo_app_format(app, "%.*s.stools", (int)(item->key - item->list) - 1, item->list), NULL);
     }
     ceduo_changes_add(&c, CHANGE_DELETE, path, NULL);
-    return ceduo_changes_make(&c, item->list, &app->problems);
+    return ceduo_changes_make(&c, item->list);
 }
 
 /* ---- the actions ---- */
@@ -344,8 +343,9 @@ static void make(struct app *app, const struct item *item, bool add)
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (strcmp(kinds[i].key, item->key) == 0)
             function = add ? kinds[i].add : kinds[i].duplicate;
+    ceduo_problems_free(&app->document.problems);
     bool good = function(app, item);
-    if (!good && app->problems.count == 0 && !app->problems.memory && (app->message[0] || app->popup))
+    if (!good && app->document.problems.met == 0 && (app->message[0] || app->popup))
         return; /* it is said already, or asked for */
     if (ceduo_app_edited(app, good))
         ceduo_form_go(ceduo_app_form(app), item->list, item->there ? item->index + 1 : 0);
@@ -400,7 +400,7 @@ void ceduo_items_move(struct app *app, int by)
     if (!find_item(app, &item, true) || (by < 0 && item.index == 0))
         return;
     size_t to = item.index + (size_t)by;
-    if (ceduo_app_edited(app, ceduo_document_move(&app->document, item.list, item.index, to, &app->problems)))
+    if (ceduo_app_edited(app, ceduo_document_move(&app->document, item.list, item.index, to)))
         ceduo_form_move(ceduo_app_form(app), by, 0);
 }
 
@@ -412,14 +412,14 @@ static bool append_item(struct app *app, const char *list, const struct node *no
     struct changes c = {.document = &app->document};
     LOCAL_TEXT(first);
     if (now && now->kind == NODE_LIST)
-        return ceduo_document_insert(&app->document, list, now->n, yaml, &app->problems);
+        return ceduo_document_insert(&app->document, list, now->n, yaml);
     if (now)
         ceduo_emit_flow(&first, now);
     ceduo_text_put(&first, now ? ", " : "");
     if (strcmp(list, "blocks") == 0)
         ceduo_changes_add(&c, CHANGE_DELETE, "rocks_per_year", NULL);
     ceduo_changes_set(&c, list, "[%s%s]", ceduo_text_string(&first), yaml);
-    return ceduo_changes_make(&c, list, &app->problems);
+    return ceduo_changes_make(&c, list);
 }
 
 /* The path is that of the list; a group is kept. */
@@ -443,9 +443,9 @@ static bool filled_item(struct app *app, struct popup *p)
     const struct node *now = ceduo_document_node(&app->document, list);
     size_t n = !now ? 0 : now->kind == NODE_LIST ? now->n : 1;
     if (!ceduo_app_edited(app, append_item(app, list, now, yaml))) {
-        const char *said = ceduo_app_format(app, "%s", app->message), *colon = strstr(said, ": ");
-        if (colon && strncmp(said, list, strlen(list)) == 0) /* a path of what is not there */
-            ceduo_app_warn(app, "%s", colon + 2);
+        const struct problem *first = app->document.problems.wrong.items;
+        if (first->path && strncmp(first->path, list, strlen(list)) == 0) /* a path of what is not there */
+            ceduo_app_warn(app, "%s", first->message);
         return false;
     }
     ceduo_form_go(ceduo_app_form(app), list, n);

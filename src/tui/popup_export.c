@@ -150,7 +150,7 @@ static bool filled_head(struct app *app, struct popup *p)
         }
     if (head.length > 0) {
         ceduo_text_char(&head, '}');
-        if (!ceduo_app_edited(app, ceduo_document_set(&app->document, "page", head.bytes, &app->problems)))
+        if (!ceduo_app_edited(app, ceduo_document_set(&app->document, "page", head.bytes)))
             return false;
     }
     ask_for_file(app, p->path);

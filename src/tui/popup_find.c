@@ -147,7 +147,8 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
     if (!p || p->filled != filled_find)
         return;
     app->message[0] = '\0';
-    app->problems = answer->problems;
+    ceduo_problems_free(&app->document.problems);
+    app->document.problems = answer->problems;
     answer->problems = (struct problems){0};
     if (answer->status != CEDUO_OK || !read_fields(app, p, &search)) {
         ceduo_app_edited(app, false);
@@ -158,10 +159,9 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
     append_words(app, p, &search, answer, &words);
     bool good = true;
     if (found->found && !found->whole_range) {
-        good = ceduo_document_set(&app->document, p->path, NUMERAL(found->value), &app->problems);
+        good = ceduo_document_set(&app->document, p->path, NUMERAL(found->value));
         ceduo_app_edited(app, good);
     }
-    ceduo_problems_free(&app->problems);
     if (good)
         ceduo_app_say(app, "%s", words.bytes);
     ceduo_popup_close(app);

@@ -95,7 +95,7 @@ static bool filled_counts(struct app *app, struct popup *p)
     LOCAL_TEXT(name);
     ceduo_emit_scalar(&name, _("sample plot"), true);
     ceduo_changes_add(c, CHANGE_SET, ceduo_app_format(app, "%s.name", p->path), name.bytes);
-    bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot"), &app->problems));
+    bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot")));
     if (good)
         ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
     return good;
@@ -192,7 +192,8 @@ static void try_survey(struct app *app, const char *path, const char *survey, st
     LOCAL_TEXT(value);
     LOCAL_TEXT(understood);
     bool asked = false;
-    if (read_survey(survey, answers, &value, &understood, &app->problems)) {
+    ceduo_problems_free(&app->document.problems);
+    if (read_survey(survey, answers, &value, &understood, &app->document.problems)) {
         take_stand(app, path, ceduo_text_string(&value), ceduo_text_string(&understood));
         return;
     }
@@ -232,11 +233,9 @@ static bool filled_form(struct app *app, struct popup *p)
 
 static void open_form(struct app *app, const char *path, const char *survey, const struct survey_answers *answers)
 {
-    const char *why = ceduo_text_string(&app->problems.text);
     struct popup *p = ceduo_popup_fields(app, _("How is the survey to be read?"), path, filled_form);
     p->kept = ceduo_arena_string(&p->arena, survey);
-    ceduo_text_add(&p->text, why, strcspn(why, "\n"));
-    ceduo_problems_free(&app->problems);
+    ceduo_problem_line(app->document.problems.wrong.items, &p->text);
     for (int q = 0; q < SURVEY_QUESTIONS; q++)
         if (answers->asked[q] || answers->given[q])
             ceduo_popup_choice(p, _(questions[q].label),

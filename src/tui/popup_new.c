@@ -62,11 +62,12 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
     const char *path = mark ? ceduo_must(ceduo_arena_copy(&p->arena, typed, (size_t)(mark - typed))) : typed;
     if (ceduo_picker_is_file(path, p->endings)) {
         bool good = ceduo_csv_slope_read(&p->arena, path, mark ? mark + 1 : NULL, &points, &problems) && points.n > 1;
+        const struct problem *first = problems.wrong.items;
         if (!good)
-            wrong = points.lines          ? ceduo_arena_format(&p->arena, _("several lines: %s; add one to the name: %s#%.*s"),
-                                                               points.lines, path, (int)strcspn(points.lines, ","), points.lines)
-                    : problems.text.bytes ? problems.text.bytes
-                                          : _("a profile needs two points or more");
+            wrong = points.lines           ? ceduo_arena_format(&p->arena, _("several lines: %s; add one to the name: %s#%.*s"),
+                                                                points.lines, path, (int)strcspn(points.lines, ","), points.lines)
+                    : problems.wrong.n > 0 ? ceduo_arena_format(&p->arena, "%s: %s", first->place, first->message)
+                                           : _("a profile needs two points or more");
         a->understood = points.understood;
         a->first = good ? points.x[0] : 0;
         a->last = good ? points.x[points.n - 1] : 0;
@@ -81,7 +82,7 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
     if (!wrong && !make_profile(a, "") && !make_profile(a, "  reversed: true\n"))
         wrong = _("two points of the profile lie too close together for their distance from the first");
     if (wrong)
-        ceduo_app_warn(app, "%.*s", (int)strcspn(wrong, "\n"), wrong);
+        ceduo_app_warn(app, "%s", wrong);
     return !wrong;
 }
 

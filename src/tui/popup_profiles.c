@@ -252,7 +252,7 @@ static void chose_new_option(struct app *app, struct popup *p)
     if (ceduo_popup_chose_treatment(app, p->value))
         return;
     describe_stand(app, p->value, "", &name);
-    if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, p->value, name, &app->problems))) {
+    if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, p->value, name))) {
         ceduo_app_show_option(app, app->document.file.scene.options_count - 1);
         ceduo_app_say(app, _("added '%s'; Enter renames it, 2 changes its stand"), ceduo_app_option(app)->name);
     }

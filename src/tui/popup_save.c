@@ -84,7 +84,7 @@ static bool filled_stand(struct app *app, struct popup *p)
         return false;
     }
     ceduo_emit_scalar(&value, p->fields[0].line.text, true);
-    bool good = ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, value.bytes, &app->problems));
+    bool good = ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, value.bytes));
     if (good)
         p->then(app);
     return good;
@@ -260,7 +260,7 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value)
         bool good =
             text && (!own ? ceduo_app_open_text(app, text) : is_due(app, &list[i]) || ceduo_app_open(app, list[i].scene));
         if (good && own)
-            good = ceduo_app_edited(app, ceduo_document_recover(&app->document, text, &app->problems));
+            good = ceduo_app_edited(app, ceduo_document_recover(&app->document, text));
         if (good) {
             unlink(list[i].file); /* this program keeps a copy of its own now */
             app->opened = false;

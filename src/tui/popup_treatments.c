@@ -229,8 +229,7 @@ static bool add_option(struct app *app, enum treatment kind, double number)
     if (!good)
         ceduo_app_warn(app, "%s", p.untreated.length > 0 ? p.untreated.bytes : _("There is no forest here to treat."));
     else
-        good = ceduo_app_edited(
-            app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), &p.edits, &app->problems));
+        good = ceduo_app_edited(app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), &p.edits));
     if (good && p.treated > 0) {
         const struct ceduo_scene *scene = &app->document.file.scene;
         LOCAL_TEXT(said);

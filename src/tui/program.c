@@ -271,10 +271,9 @@ void ceduo_program_wheel(struct app *app, int lines)
     end_input(app);
 }
 
-bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
-                          struct problems *problems)
+bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery)
 {
-    bool good = ceduo_app_create(app, path, charset, threads, no_recovery, problems);
+    bool good = ceduo_app_create(app, path, charset, threads, no_recovery);
     if (good)
         end_input(app);
     return good;

@@ -7,8 +7,7 @@
 /* Handles keys and the mouse. A popup gets a key first, then the open field, then the view; what is left is done here. */
 
 /* Same as ceduo_app_create() and ceduo_app_free(), including popups. */
-bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
-                          struct problems *problems);
+bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery);
 
 void ceduo_program_free(struct app *app);
 

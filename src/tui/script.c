@@ -95,8 +95,7 @@ enum script_end ceduo_script_run(struct app *app, const char *path)
     LOCAL_ARENA(arena);
     LOCAL_PROBLEMS(problems);
     const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MOST, &problems);
-    if (problems.text.bytes)
-        fputs(problems.text.bytes, stderr);
+    fputs(ceduo_problems_print(&problems), stderr);
     char *text = source ? ceduo_arena_copy(&arena, source->bytes, source->length) : NULL;
     ceduo_app_resize(app, 80, 24);
     enum script_end end_of_it = text ? SCRIPT_DONE : SCRIPT_UNREADABLE;

@@ -84,7 +84,7 @@ static void next_option(struct app *app, int by)
 static void copy_option(struct app *app)
 {
     size_t at = app->option;
-    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL, &app->problems)))
+    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL)))
         choose(app, (long)at + 1);
 }
 
@@ -94,7 +94,7 @@ static void delete_option(struct app *app)
     const char *name = ceduo_app_format(app, "%s", ceduo_app_option(app)->name);
     if (app->document.file.scene.options_count < 2)
         ceduo_app_say(app, "%s", _("the only option stays"));
-    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems)))
+    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path)))
         ceduo_app_say(app, _("deleted: %s; u brings it back"), name);
 }
 
@@ -103,15 +103,14 @@ static void move_option(struct app *app, int by)
     long to = (long)app->option + by;
     if (to < 0 || to >= (long)app->document.file.scene.options_count)
         return;
-    bool good = ceduo_document_move(&app->document, "options", app->option, (size_t)to, &app->problems);
+    bool good = ceduo_document_move(&app->document, "options", app->option, (size_t)to);
     if (ceduo_app_edited(app, good))
         choose(app, to);
 }
 
 static bool filled_name(struct app *app, struct popup *p)
 {
-    return ceduo_app_edited(app,
-                            ceduo_document_rename_option(&app->document, app->option, p->fields[0].line.text, &app->problems));
+    return ceduo_app_edited(app, ceduo_document_rename_option(&app->document, app->option, p->fields[0].line.text));
 }
 
 static void rename_option(struct app *app)

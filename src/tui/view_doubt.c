@@ -91,7 +91,7 @@ static void add(struct app *app)
         ceduo_doubt_input_end(&row, &r, f->order[i], 1);
         ceduo_text_char(&row, '}');
         size_t n = rows ? rows->n : 0;
-        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "doubt", n, row.bytes, &app->problems)))
+        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "doubt", n, row.bytes)))
             ceduo_form_go(ceduo_app_form(app), "doubt", n);
         return;
     }

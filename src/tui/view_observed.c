@@ -403,7 +403,7 @@ static void take(struct app *app)
     LOCAL_TEXT(source);
     ceduo_calibration_sources(&source, &r);
     const struct fit_values values = {&f->answer, f->inputs, ceduo_text_string(&source), NULL};
-    bool good = ceduo_keep_fit(&app->document, &values, &app->problems);
+    bool good = ceduo_keep_fit(&app->document, &values);
     if (ceduo_app_edited(app, good))
         ceduo_app_say(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
 }

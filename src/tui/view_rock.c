@@ -79,7 +79,7 @@ static void delete_blocks(struct app *app)
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     if (!blocks || blocks->kind != NODE_MAP || !cell || strncmp(cell->path, "blocks.", 7) != 0)
         ceduo_items_delete(app);
-    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, "blocks", &app->problems)))
+    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, "blocks")))
         ceduo_app_say(app, "%s", _("blocks deleted: every rock is the one above; u brings them back"));
 }
 

@@ -102,8 +102,7 @@ int main(void)
     static struct hand h;
     printf("scene,what,keys,median_ms,p99_ms,most_ms\n");
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
-        struct problems problems = {0};
-        if (!ceduo_program_create(&h.app, scenes[i], CEDUO_CHARSET_BRAILLE, 2, true, &problems))
+        if (!ceduo_program_create(&h.app, scenes[i], CEDUO_CHARSET_BRAILLE, 2, true))
             return 1;
         ceduo_app_resize(&h.app, 200, 50);
         measure(&h, scenes[i], "views", views);

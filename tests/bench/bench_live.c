@@ -57,11 +57,9 @@ int main(int argc, char **argv)
     (void)argc;
     size_t repeats = argument(argv, 1, 100, 1, EDITS_MOST);
     struct app app;
-    struct problems problems = {0};
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     static double first[EDITS_MOST], all[EDITS_MOST], stand[EDITS_MOST], wooded[EDITS_MOST];
-    if (!ceduo_program_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false,
-                              &problems))
+    if (!ceduo_program_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false))
         return 1;
     ceduo_app_resize(&app, 120, 40);
     ceduo_jobs_wait(app.live.jobs);

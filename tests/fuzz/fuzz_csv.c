@@ -44,7 +44,7 @@ static void check_survey(const char *path)
     struct survey_file survey;
     if (ceduo_survey_read(&survey, &arena, path, NULL, &problems))
         check_stand(&arena, &survey, &problems);
-    else if (problems.count == 0)
+    else if (problems.met == 0)
         abort();
     ceduo_problems_free(&problems);
     ceduo_arena_free(&arena);
@@ -64,7 +64,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         for (size_t i = 0; i < points.n; i++)
             if (!isfinite(points.x[i]) || !isfinite(points.z[i]) || (i > 0 && !(points.x[i] > points.x[i - 1])))
                 abort();
-    } else if (problems.count == 0) {
+    } else if (problems.met == 0) {
         abort();
     }
     ceduo_problems_free(&problems);
