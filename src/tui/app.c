@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "app.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +7,7 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "base/utf8.h"
+#include "popup.h"
 #include "view/typed.h"
 
 /* ---- strings ---- */
@@ -178,7 +178,7 @@ void ceduo_app_show(struct app *app, enum view_number view)
 {
     app->view = view;
     ceduo_app_state(app)->pane = 0;
-    ceduo_app_state(app)->scroll = 0;
+    ceduo_app_state(app)->text.first = 0;
     ceduo_app_refresh(app);
 }
 
@@ -249,10 +249,9 @@ static bool take_opened(struct app *app, struct document *next, unsigned threads
     app->option = app->belt = app->year = 0;
     app->place = (struct place){0};
     app->rock = 0;
-    app->editing = false;
     app->opened = true;
     for (int v = 0; v < VIEW_COUNT; v++)
-        app->views[v].form.row = app->views[v].form.column = app->views[v].form.top = 0;
+        app->views[v].form.row = app->views[v].form.column = 0, app->views[v].form.lines.first = 0;
     ceduo_app_show(app, app->view);
     say_problem(app, &app->document.problems.unusual);
     return true;
@@ -385,41 +384,24 @@ void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role
     ceduo_text_free(text);
 }
 
-int ceduo_scroll_by(int scroll, int by)
-{
-    if (by >= ALL_LINES)
-        return -1;
-    if (by <= -ALL_LINES)
-        return 0;
-    int moved = scroll + by;
-    return (scroll < 0) == (moved < 0) ? moved : scroll < 0 ? -1 : 0;
-}
-
-int ceduo_scroll_clamp(int scroll, int max)
-{
-    scroll = scroll < 0 ? max + 1 + scroll : scroll;
-    scroll = scroll > max ? max : scroll;
-    return scroll > 0 ? scroll : 0;
-}
-
 void ceduo_app_read_on(struct app *app, int by)
 {
-    int *scroll = &ceduo_app_state(app)->scroll;
-    *scroll = ceduo_scroll_by(*scroll, by);
+    viewport_scroll(&ceduo_app_state(app)->text, by);
 }
 
-void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll)
+void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;
-    int most = ceduo_page_draw(page, canvas, (struct ceduo_area){0}, 0) - area.height;
-    *scroll = ceduo_scroll_clamp(*scroll, most);
-    ceduo_page_draw(page, canvas, area, *scroll);
-    if (*scroll < most)
+    struct viewport *v = &ceduo_app_state(app)->text;
+    viewport_fit(v, area.height, ceduo_page_draw(page, canvas, (struct ceduo_area){0}, 0));
+    ceduo_page_draw(page, canvas, area, v->first);
+    if (viewport_has_more(v))
         ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
     ceduo_page_free(page);
 }
 
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
 {
-    ceduo_form_draw(ceduo_app_form(app), app->cells, area, app->editing ? app->line.text : NULL);
+    const struct popup *p = app->popup && app->popup->kind == POPUP_FIELD ? app->popup : NULL;
+    ceduo_form_draw(ceduo_app_form(app), app->cells, area, p ? p->fields[0].line.text : NULL);
 }

@@ -63,7 +63,7 @@ extern const struct view *const ceduo_views[VIEW_COUNT];
 struct view_state {
     struct form form;
     int pane;
-    int scroll; /* of text that is longer than its pane, see ceduo_scroll_by() */
+    struct viewport text; /* that is longer than its pane */
 };
 
 /* A cursor along the slope of view 1. */
@@ -120,9 +120,7 @@ struct app {
     struct place place;                /* the cursor along the slope */
     uint64_t rock;                     /* whose trajectory is shown */
     struct rock_trajectory trajectory; /* that trajectory */
-    bool editing;
-    struct line line;  /* what is typed into the field */
-    char message[512]; /* of the last action; shown until the next key */
+    char message[512];                 /* of the last action; shown until the next key */
     bool message_bad;
     char search[128];
     struct popup *popup;
@@ -216,8 +214,6 @@ void ceduo_rock_trajectory_free(struct rock_trajectory *trajectory);
 
 /* Opens the field, as a line or with the list of its choices. */
 void ceduo_edit_start(struct app *app);
-/* Handles a key while the line is open. */
-void ceduo_edit_key(struct app *app, int key);
 /* Changes the value by one step up (+1) or down (-1). */
 void ceduo_edit_step(struct app *app, int direction);
 
@@ -253,21 +249,11 @@ void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
 /* Says what keys do in a pane, until something else is said; not below a popup. */
 void ceduo_app_hint(struct app *app, const char *text);
 
-#define ALL_LINES 100000 /* a step of so many lines goes to the first or the last one */
-
-/* Lines above a viewport after a step of `by` lines. Lines from the end are -1, -2, … until ceduo_scroll_clamp(): several keys
- * may come before the text is drawn and its length known. */
-int ceduo_scroll_by(int scroll, int by);
-
-/* The same from 0 to `max`. */
-int ceduo_scroll_clamp(int scroll, int max);
-
-/* Scrolls the view by so many lines. */
+/* Scroll the text of the view by n lines. */
 void ceduo_app_read_on(struct app *app, int by);
 
-/* Draws a page from line `*scroll` on, limited to the page, and frees it; a mark stands to the right where more follows
- * below. */
-void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll);
+/* Draw a page as the text of the view, and free it; a mark stands to the right if more follows below. */
+void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page);
 
 /* Draws a text, shortened to its area, and frees it. */
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);

@@ -27,6 +27,13 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
     return false;
 }
 
+static bool filled_field(struct app *app, struct popup *p)
+{
+    const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
+    struct line *line = &p->fields[0].line;
+    return !cell || (ceduo_popup_is_meant(app, cell->field, line) && set_value(app, cell, line->text));
+}
+
 /* The whole value as it is typed: what is shown may be cut or put in other words. */
 void ceduo_edit_start(struct app *app)
 {
@@ -48,24 +55,9 @@ void ceduo_edit_start(struct app *app)
         ceduo_emit_flow(&text, node);
     else
         ceduo_text_put(&text, cell->text);
-    ceduo_line_set(&app->line, ceduo_text_string(&text));
-    app->editing = true;
-}
-
-void ceduo_edit_key(struct app *app, int key)
-{
-    struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
-    if (key == K_ESCAPE || !cell) {
-        app->editing = false;
-    } else if (key == K_ENTER || key == K_TAB) {
-        if (!ceduo_popup_is_meant(app, cell->field, &app->line) || !set_value(app, cell, app->line.text))
-            return;
-        app->editing = false;
-        if (key == K_TAB)
-            ceduo_form_move(ceduo_app_form(app), 0, 1);
-    } else {
-        ceduo_line_key(&app->line, key);
-    }
+    struct popup *p = ceduo_popup_fields(app, "", "", filled_field);
+    p->kind = POPUP_FIELD;
+    ceduo_popup_field(p, "", ceduo_text_string(&text));
 }
 
 void ceduo_edit_step(struct app *app, int direction)

@@ -371,29 +371,25 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
     form->area = area;
     if (area.height <= 0 || area.width < 8)
         return;
-    size_t lines = (size_t)area.height, above = form->row, below = form->row;
+    struct viewport *v = &form->lines;
+    size_t above = form->row, below = form->row;
     while (above > 0 && !can_hold(&form->rows[above - 1])) /* headings belong to what follows */
         above--;
     while (below + 1 < form->n && !can_hold(&form->rows[below + 1]))
         below++;
-    if (below + 1 < form->n || below + 1 - form->row > lines) /* notes after the last field are shown with it */
+    if (below + 1 < form->n || below - form->row >= (size_t)area.height) /* notes after the last field are shown with it */
         below = form->row;
-    if (above < form->top)
-        form->top = above;
-    if (below >= form->top + lines)
-        form->top = below + 1 - lines;
-    if (form->row < form->top) /* a low area */
-        form->top = form->row;
-    if (form->top + lines > form->n)
-        form->top = form->n > lines ? form->n - lines : 0;
-    for (size_t i = 0; i < lines && form->top + i < form->n; i++)
-        draw_row(form, cells, form->top + i, area.top + (int)i, edit);
+    viewport_fit(v, area.height, (int)form->n);
+    viewport_show(v, (int)above, (int)below);
+    viewport_show(v, (int)form->row, (int)form->row); /* in a low area */
+    for (int i = v->first; i < v->first + v->rows && i < v->count; i++)
+        draw_row(form, cells, (size_t)i, area.top + i - v->first, edit);
 }
 
 bool ceduo_form_click(struct form *form, int x, int y)
 {
     const struct ceduo_area *area = &form->area;
-    size_t i = form->top + (size_t)(y - area->top);
+    size_t i = (size_t)(form->lines.first + y - area->top);
     if (x < area->left || x >= area->left + area->width || y < area->top || y >= area->top + area->height || i >= form->n ||
         !can_hold(&form->rows[i]))
         return false;

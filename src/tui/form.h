@@ -4,6 +4,7 @@
 
 #include "model/document.h"
 #include "view/canvas.h"
+#include "viewport.h"
 
 /* A form: lines of fields of the document, made anew after each edit. Fields come from the table of parameters. */
 
@@ -35,8 +36,8 @@ struct form {
     const struct document *document;
     struct form_row *rows;
     size_t n, room;
-    size_t row, column;     /* the cursor */
-    size_t top;             /* first line shown */
+    size_t row, column; /* the cursor */
+    struct viewport lines;
     struct ceduo_area area; /* where it was drawn, for the mouse */
 };
 

@@ -4,6 +4,7 @@
 
 #include "base/arena.h"
 #include "view/canvas.h"
+#include "viewport.h"
 
 /* A line that is typed: a value, a file name, something to search. */
 struct line {
@@ -14,9 +15,6 @@ struct line {
 };
 
 void ceduo_line_set(struct line *line, const char *text);
-
-/* What is said where a paste does not fit. */
-#define CEDUO_LINE_FULL N_("what was pasted is too long for this line, which stays as it was")
 
 /* Types a pasted text: line ends and tabs as one blank, no control characters. False if it does not fit: the line stays as it
  * was. */
@@ -42,8 +40,7 @@ struct picker {
     size_t count, room;
     size_t *order; /* those that match, best first, after ceduo_picker_filter() */
     size_t matches, order_room;
-    size_t at; /* among those that match */
-    int top;   /* the first line shown */
+    struct viewport lines; /* of those that match */
 };
 
 void ceduo_picker_clear(struct picker *picker);
@@ -59,13 +56,11 @@ void ceduo_picker_filter(struct picker *picker, const char *typed);
 
 /* Puts the cursor on a value, where it is there. */
 void ceduo_picker_go_to(struct picker *picker, const char *value);
-void ceduo_picker_move(struct picker *picker, int by);
 
 /* The item under the cursor; NULL: none matches. */
 const struct pick *ceduo_picker_at(const struct picker *picker);
 
-/* Draws lines from the first shown on; returns 1 where more stand above, + 2 where more stand below. */
-int ceduo_picker_draw(struct picker *picker, struct ceduo_cells *cells, struct ceduo_area area);
+void ceduo_picker_draw(struct picker *picker, struct ceduo_cells *cells, struct ceduo_area area);
 
 /* ---- files ---- */
 

@@ -200,7 +200,7 @@ static int lines_of(int key, bool letters)
 static void text_key(struct app *app, struct popup *p, int key)
 {
     int by = lines_of(key, true);
-    p->top = ceduo_scroll_by(p->top, by);
+    viewport_scroll(&p->lines, by);
     if (by == 0)
         ceduo_popup_close(app);
 }
@@ -227,11 +227,11 @@ static void list_key(struct app *app, struct popup *p, int key)
     } else if (key == K_ENTER) {
         choose(app, p);
     } else if (by != 0) {
-        ceduo_picker_move(&p->picker, by);
+        viewport_move(&p->picker.lines, by);
     } else if (p->asks) {
         for (size_t i = 0; i < p->picker.matches; i++)
             if (p->picker.picks[p->picker.order[i]].text[0] == key) {
-                p->picker.at = i;
+                p->picker.lines.selected = (int)i;
                 choose(app, p);
                 return;
             }
@@ -264,7 +264,7 @@ static void fields_key(struct app *app, struct popup *p, int key)
     } else if (key == K_ESCAPE || key == K_SHIFT_TAB || (key == K_UP && !listed)) {
         go_to_field(app, p, p->at > 0 ? p->at - 1 : 0);
     } else if (listed && vertical) {
-        ceduo_picker_move(&p->picker, lines_of(key, false));
+        viewport_move(&p->picker.lines, lines_of(key, false));
         p->moved = true;
     } else if (key == K_TAB && p->endings && field->offer && ceduo_picker_complete(&p->picker, line)) {
         offer(app, p);
@@ -281,6 +281,19 @@ static void fields_key(struct app *app, struct popup *p, int key)
     } else if (ceduo_line_key(line, key)) {
         offer(app, p);
     }
+}
+
+/* The field of a form. */
+static void field_key(struct app *app, struct popup *p, int key)
+{
+    bool enters = key == K_ENTER || key == K_TAB;
+    app->message[0] = '\0';
+    if (!enters)
+        ceduo_line_key(&p->fields[0].line, key);
+    if (key == K_ESCAPE || (enters && p->filled(app, p)))
+        ceduo_popup_close(app);
+    if (key == K_TAB && !app->popup)
+        ceduo_form_move(ceduo_app_form(app), 0, 1);
 }
 
 /* ---- drawing ---- */
@@ -301,12 +314,12 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
 }
 
 /* Marks on the edge of the box that there is more above or below. */
-static void draw_more(struct app *app, const struct popup *p, bool above, bool below)
+static void draw_more(struct app *app, const struct popup *p, const struct viewport *lines)
 {
     const struct ceduo_area *r = &p->box;
     const char *words[] = {_("more above"), _("more below")};
     for (int i = 0; i < 2; i++)
-        if (i == 0 ? above : below)
+        if (i == 0 ? lines->first > 0 : viewport_has_more(lines))
             ceduo_app_label(app, r->left + r->width - 4 - (int)ceduo_utf8_width(words[i]),
                             i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, " %s ", words[i]);
 }
@@ -326,30 +339,27 @@ static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines,
     note_lines = height > max && note_lines > max - 2 - LINES_MIN ? max - 2 - LINES_MIN : note_lines;
     height = height > max ? max : height;
     struct ceduo_area r = {(app->width - width) / 2, (app->height - height) / 2, width, height};
-    struct ceduo_area in = {r.left + 2, r.top + 1, r.width - 4, note_lines};
+    struct ceduo_area in = {r.left + 2, r.top + 1, r.width - 4, r.height - 2};
     p->box = r;
     draw_box(app, r, p->title);
     LOCAL_TEXT(note);
     ceduo_text_put(&note, note_lines > 0 ? ceduo_text_string(&p->text) : "");
-    ceduo_app_put(app, in, CEDUO_ROLE_DIM, &note);
-    in.top += note_lines;
-    in.height = r.height - 2 - note_lines;
+    ceduo_app_put(app, cut_top(&in, note_lines), CEDUO_ROLE_DIM, &note);
     return in;
 }
 
 static void draw_text(struct app *app, struct popup *p)
 {
     struct ceduo_area in = draw_frame(app, p, app->height, 0);
-    int last = ceduo_app_text_lines(app, ceduo_text_string(&p->text), in.width) - in.height;
-    p->top = ceduo_scroll_clamp(p->top, last);
-    ceduo_app_text(app, in, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), p->top);
-    draw_more(app, p, p->top > 0, p->top < last);
+    viewport_fit(&p->lines, in.height, ceduo_app_text_lines(app, ceduo_text_string(&p->text), in.width));
+    ceduo_app_text(app, in, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), p->lines.first);
+    draw_more(app, p, &p->lines);
 }
 
 static void draw_picks(struct app *app, struct popup *p, struct ceduo_area area)
 {
-    int more = ceduo_picker_draw(&p->picker, app->cells, area);
-    draw_more(app, p, more & 1, more & 2);
+    ceduo_picker_draw(&p->picker, app->cells, area);
+    draw_more(app, p, &p->picker.lines);
 }
 
 /* A line that is typed into, its end in sight. */
@@ -370,9 +380,7 @@ static void draw_list(struct app *app, struct popup *p)
     }
     ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search:"));
     int x = in.left + (int)ceduo_utf8_width(_("search:")) + 1;
-    draw_line(app, &p->fields[0].line, x, in.top, in.left + in.width - x, true);
-    in.top++;
-    in.height--;
+    draw_line(app, &p->fields[0].line, x, cut_top(&in, 1).top, in.left + in.width - x, true);
     if (app->message[0])
         ceduo_app_text(app, in, CEDUO_ROLE_WARN, app->message, 0);
     else if (p->picker.matches == 0)
@@ -393,14 +401,14 @@ static void draw_fields(struct app *app, struct popup *p)
     int below = p->picture ? PICTURE_SHOWN : picks;
     struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2 + below, app->height);
     int x = in.left + 32, width = in.width - 32, n = (int)p->fields_count, at = (int)p->at;
-    int shown = n <= in.height - FOOT_MIN ? n : in.height - FOOT_MIN;
-    p->top = at < p->top ? at : at >= p->top + shown ? at + 1 - shown : p->top;
-    for (int i = p->top; i < p->top + shown; i++, in.top++, in.height--) {
-        ceduo_canvas_put(&app->cells->canvas, in.left, in.top, 31, CEDUO_ROLE_DIM, p->fields[i].label);
-        draw_line(app, &p->fields[i].line, x, in.top, width, i == at);
+    viewport_fit(&p->lines, n <= in.height - FOOT_MIN ? n : in.height - FOOT_MIN, n);
+    viewport_show(&p->lines, at, at);
+    for (int i = p->lines.first; i < p->lines.first + p->lines.rows; i++) {
+        struct ceduo_area line = cut_top(&in, 1);
+        ceduo_canvas_put(&app->cells->canvas, line.left, line.top, 31, CEDUO_ROLE_DIM, p->fields[i].label);
+        draw_line(app, &p->fields[i].line, x, line.top, width, i == at);
     }
-    if (shown < n)
-        draw_more(app, p, p->top > 0, p->top + shown < n);
+    draw_more(app, p, &p->lines);
     struct ceduo_area first = {in.left, in.top, in.width, in.height < 2 ? in.height : 2};
     ceduo_app_text(app, first, CEDUO_ROLE_WARN, app->message, 0);
     if (p->picture && (!p->fields[p->at].offer || p->picker.matches == 0) && !app->message[0])
@@ -416,6 +424,7 @@ static const struct {
     void (*draw)(struct app *app, struct popup *popup);
     const char *bar;
 } kinds[] = {[POPUP_TEXT] = {text_key, draw_text, N_("Up Down PgUp PgDn read on  any other key closes")},
+             [POPUP_FIELD] = {field_key, NULL, N_("Enter takes the value  Esc leaves it as it was  empty: the default")},
              [POPUP_LIST] = {list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab completes  Up Down move")},
              [POPUP_FIELDS] = {fields_key, draw_fields, N_("Enter next, at the last one done  Esc one back  Tab completes")}};
 
@@ -434,7 +443,7 @@ bool ceduo_popup_paste(struct app *app, const char *text)
     if (ceduo_line_paste(&p->fields[p->at].line, text))
         offer(app, p);
     else
-        ceduo_app_warn(app, "%s", _(CEDUO_LINE_FULL));
+        ceduo_app_warn(app, "%s", _("what was pasted is too long for this line, which stays as it was"));
     return true;
 }
 
@@ -475,5 +484,6 @@ void ceduo_popup_draw(struct app *app)
         ceduo_text_free(&p->text);
         p->preview(app, p);
     }
-    kinds[p->kind].draw(app, p);
+    if (kinds[p->kind].draw)
+        kinds[p->kind].draw(app, p);
 }

@@ -6,7 +6,7 @@
 #include "picker.h"
 #include "scene/schema.h"
 
-enum popup_kind { POPUP_TEXT, POPUP_LIST, POPUP_FIELDS };
+enum popup_kind { POPUP_TEXT, POPUP_FIELD, POPUP_LIST, POPUP_FIELDS }; /* FIELD: one that stands in the form */
 
 #define POPUP_FIELDS_MAX 16
 #define POPUP_DIGITS_MAX 9 /* answers that a digit chooses, 1 to 9 */
@@ -44,7 +44,7 @@ struct popup {
     bool ready;            /* what is offered was listed once */
     bool moved;            /* the cursor was moved in the picker */
     bool typed_wins;       /* a new name: what is typed stays, unless the cursor was moved in the picker */
-    int top;               /* the first line shown of a text, or field */
+    struct viewport lines; /* of a text, or fields */
     struct ceduo_area box; /* where it was drawn */
     const char *path;      /* what a choice is for */
     const char *kept;      /* a text that goes with it */

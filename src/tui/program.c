@@ -197,10 +197,10 @@ static void act(struct app *app, enum action action)
 static void begin_input(struct app *app)
 {
     ceduo_arena_free(app->scratch);
-    if (!app->popup)
+    if (!app->popup) {
         app->message[0] = '\0';
-    if (!app->popup && !app->editing)
         app->once_saved = NULL;
+    }
 }
 
 /* Ends every input: updates offers of unsaved work, the popup's preview and the belt under the cursor. */
@@ -221,8 +221,6 @@ void ceduo_program_key(struct app *app, int key)
     begin_input(app);
     if (app->popup)
         ceduo_popup_key(app, key);
-    else if (app->editing)
-        ceduo_edit_key(app, key);
     else if (action != ACTION_NONE)
         act(app, action);
     end_input(app);
@@ -232,10 +230,8 @@ void ceduo_program_paste(struct app *app, const char *text)
 {
     begin_input(app);
     app->message[0] = '\0'; /* that of a popup, too */
-    if (app->popup ? !ceduo_popup_paste(app, text) : !app->editing)
+    if (!app->popup || !ceduo_popup_paste(app, text))
         ceduo_app_say(app, "%s", _("what was pasted goes nowhere: no field is open"));
-    else if (!app->popup && !ceduo_line_paste(&app->line, text))
-        ceduo_app_warn(app, "%s", _(CEDUO_LINE_FULL));
     end_input(app);
 }
 
@@ -244,7 +240,7 @@ void ceduo_program_click(struct app *app, int x, int y)
 {
     struct view_state *state = ceduo_app_state(app);
     size_t row = state->form.row, column = state->form.column;
-    if (app->popup || app->editing) /* a question stays */
+    if (app->popup) /* a question stays */
         return;
     begin_input(app);
     if (y == 0) {
@@ -261,7 +257,7 @@ void ceduo_program_click(struct app *app, int x, int y)
 
 void ceduo_program_wheel(struct app *app, int lines)
 {
-    if (app->editing && !app->popup)
+    if (app->popup && app->popup->kind == POPUP_FIELD)
         return;
     begin_input(app);
     if (app->popup)

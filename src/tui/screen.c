@@ -145,7 +145,7 @@ static void draw_explanation(struct app *app)
     LOCAL_TEXT(safe);
     enum ceduo_role role = CEDUO_ROLE_TEXT;
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
-    if (app->message[0] && !(app->popup && app->popup->kind != POPUP_TEXT && !app->popup->asks)) { /* which shows it */
+    if (app->message[0] && !(app->popup && app->popup->kind >= POPUP_LIST && !app->popup->asks)) { /* which shows it */
         ceduo_text_put(&text, app->message);
         role = app->message_bad ? CEDUO_ROLE_WARN : CEDUO_ROLE_GOOD;
     } else if (ceduo_app_state(app)->pane == 0) {
@@ -184,10 +184,8 @@ static void draw_bar(struct app *app)
 {
     const struct bar_key *bar = ceduo_views[app->view]->bar;
     int x = 0, room = app->width + 2;
-    if (app->popup || app->editing) {
-        ceduo_canvas_put(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM,
-                         app->popup ? ceduo_popup_bar(app)
-                                    : _("Enter takes the value  Esc leaves it as it was  empty: the default"));
+    if (app->popup) {
+        ceduo_canvas_put(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM, ceduo_popup_bar(app));
         return;
     }
     for (int i = 0; i < ACTION_COUNT; i++)

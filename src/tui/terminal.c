@@ -415,7 +415,7 @@ static void loop(struct app *app, bool colours)
             break; /* the window is gone */
         if (interrupted) {
             interrupted = 0;
-            ceduo_program_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
+            ceduo_program_key(app, app->popup ? K_ESCAPE : 'q');
         }
         if (suspended)
             suspend();

@@ -39,15 +39,16 @@ static void draw_table(struct app *app, struct ceduo_area area)
     if (shown < n)
         ceduo_page_say(&table, CEDUO_PAGE_NOTE, _("%zu\xe2\x80\x93%zu of %zu options; up, down: the others"), first + 1,
                        first + shown, n);
-    int used = ceduo_page_draw(&table, &app->cells->canvas, area, 0) + 1;
+    cut_top(&area, ceduo_page_draw(&table, &app->cells->canvas, area, 0) + 1);
     ceduo_page_free(&table);
     ceduo_pane_said(&said, &pane);
-    int lines = ceduo_page_draw(&said, &app->cells->canvas, (struct ceduo_area){0}, 0), rest = area.height - used;
-    struct ceduo_area below = {area.left, area.top + used, area.width - 2, lines < rest ? lines : rest};
-    ceduo_app_page(app, below, &said, &ceduo_app_state(app)->scroll);
-    if (n > 1 && rest - lines > TRADEOFF_MIN)
-        draw_picture(app, CEDUO_PLOT_TRADEOFF,
-                     (struct ceduo_area){area.left, below.top + lines + 1, area.width, rest - lines - 1});
+    int lines = ceduo_page_draw(&said, &app->cells->canvas, (struct ceduo_area){0}, 0);
+    struct ceduo_area words = cut_top(&area, lines < area.height ? lines : area.height);
+    words.width -= 2;
+    ceduo_app_page(app, words, &said);
+    cut_top(&area, 1);
+    if (n > 1 && area.height >= TRADEOFF_MIN)
+        draw_picture(app, CEDUO_PLOT_TRADEOFF, area);
 }
 
 /* The table with the picture that has room beside it, or one picture alone. */

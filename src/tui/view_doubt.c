@@ -24,11 +24,12 @@ static void build(struct app *app, struct form *form)
 /* The picture, what it means in words, and the ranges of the scene; picture and words scroll together. */
 static void draw(struct app *app, struct ceduo_area area)
 {
-    int form = ceduo_app_form(app)->n > 1 ? area.height / 4 : 1;
-    struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
-    struct ceduo_page page = {.width = (size_t)area.width - 2};
+    ceduo_app_draw_form(app, cut_bottom(&area, ceduo_app_form(app)->n > 1 ? area.height / 4 : 1));
+    cut_bottom(&area, 1);
+    area.width -= 2;
+    struct ceduo_page page = {.width = (size_t)area.width};
     struct ceduo_picture picture = ceduo_app_picture(app);
-    struct ceduo_pane pane = ceduo_app_pane(app, area.height - form - 1);
+    struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     const struct ceduo_doubt_report *r = pane.report->doubt;
     bool waits = app->over && r && r->answer && !r->over;
     picture.doubt = waits ? NULL : r;
@@ -43,28 +44,23 @@ static void draw(struct app *app, struct ceduo_area area)
         ceduo_page_say(
             &page, CEDUO_PAGE_NOTE, r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
             (unsigned long long)r->answer->evaluations, (unsigned long long)(r->over ? CEDUO_DOUBT_YEAR_ROCKS : r->rocks));
-    area.height = pane.height;
-    area.width -= 2;
-    ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
-    ceduo_app_draw_form(app, below);
+    ceduo_app_page(app, area, &page);
 }
 
 static void turn(struct app *app)
 {
     app->over = !app->over;
-    ceduo_app_state(app)->scroll = 0;
+    ceduo_app_state(app)->text.first = 0;
 }
 
 /* ---- a range of one's own ---- */
 
 static bool is_named(const struct node *rows, const char *path)
 {
-    for (size_t i = 0; rows && rows->kind == NODE_LIST && i < rows->n; i++) {
-        const char *own = ceduo_node_text(rows->items[i], "path");
-        if (own && strcmp(own, path) == 0)
-            return true;
-    }
-    return false;
+    const char *own = NULL;
+    for (size_t i = 0; rows && i < rows->n && !(own && strcmp(own, path) == 0); i++)
+        own = ceduo_node_text(rows->items[i], "path");
+    return own && strcmp(own, path) == 0;
 }
 
 /* Names the most important input that the scene does not name yet, with the range that it has now. */

@@ -251,10 +251,8 @@ static void draw(struct app *app, struct ceduo_area area)
     if (fit)
         state->pane = PANE_TEXT;
     int lines = state->pane == PANE_TEXT ? 0 : (int)state->form.n, form = area.height / 3 < lines ? area.height / 3 : lines;
-    if (form > 0) {
-        ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top + area.height - form, area.width, form});
-        area.height -= form + 1;
-    }
+    ceduo_app_draw_form(app, cut_bottom(&area, form));
+    cut_bottom(&area, form > 0);
     area.width -= 2; /* the mark of more below stands beside the text */
     struct ceduo_page page = {.width = (size_t)area.width};
     if (file->observations_count == 0) {
@@ -275,12 +273,11 @@ static void draw(struct app *app, struct ceduo_area area)
     int max = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0) - 1;
     int height = max > area.height / 2 ? max : area.height / 2;
     if (stops && height >= PICTURE_MIN) {
-        struct ceduo_area top = {area.left, area.top, area.width, height};
+        struct ceduo_area top = cut_top(&area, height);
         ceduo_plot_seen(&app->cells->canvas, &top, stops, file->scene.slope.origin_x);
-        area.top += height + 1;
-        area.height -= height + 1;
+        cut_top(&area, 1);
     }
-    ceduo_app_page(app, area, &page, &state->scroll);
+    ceduo_app_page(app, area, &page);
 }
 
 /* ---- which values are fitted, and between which bounds ---- */

@@ -67,9 +67,9 @@ static void draw(struct app *app, struct ceduo_area area)
                         _("The lumped law knows neither mass nor shape: on the ground they scale the "
                           "energy alone."));
     int lines = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
-    ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top, area.width, area.height - lines - 1});
-    struct ceduo_area foot = {area.left, area.top + area.height - lines, area.width, lines};
-    ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &text);
+    ceduo_app_put(app, cut_bottom(&area, lines), CEDUO_ROLE_DIM, &text);
+    cut_bottom(&area, 1);
+    ceduo_app_draw_form(app, area);
 }
 
 /* Deletes the class under the cursor, or the power law that is all blocks. */

@@ -90,15 +90,11 @@ static void draw(struct app *app, struct ceduo_area area)
     words = words > max ? max : words;
     int form = alone ? 0 : (area.height - words) / 3;
     form = form > form_min ? form : form_min;
-    int height = area.height - form - words;
-    struct ceduo_area top = {area.left, area.top, area.width, height};
-    struct ceduo_area text_area = {area.left, area.top + height, area.width, words};
     if (alone)
         ceduo_app_hint(app, _("left, right: another year; Tab: back to the form"));
-    ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &top, &picture);
-    ceduo_app_put(app, text_area, CEDUO_ROLE_TEXT, &text);
-    struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
-    ceduo_app_draw_form(app, below);
+    ceduo_app_draw_form(app, cut_bottom(&area, form));
+    ceduo_app_put(app, cut_bottom(&area, words), CEDUO_ROLE_TEXT, &text);
+    ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &area, &picture);
 }
 
 static void next_year(struct app *app, int by)

@@ -273,19 +273,14 @@ static void draw(struct app *app, struct ceduo_area area)
         say_place(app);
     else if (alone)
         ceduo_app_hint(app, _("left, right: another rock; down, up: along its way; Tab: along the slope"));
-    struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
-    ceduo_app_plot(app, CEDUO_PLOT_PROFILE, profile, &picture);
-    struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
-    if (strips > 1) {
-        picture.no_x_axis = true;
-        ceduo_app_plot(app, CEDUO_PLOT_HEIGHT, next, &picture);
-        next.top += strip;
-    }
+    ceduo_app_draw_form(app, cut_bottom(&area, form_height));
+    ceduo_app_plot(app, CEDUO_PLOT_PROFILE, cut_top(&area, room - strip * strips - !alone), &picture);
+    picture.no_x_axis = true;
+    if (strips > 1)
+        ceduo_app_plot(app, CEDUO_PLOT_HEIGHT, cut_top(&area, strip), &picture);
     picture.no_x_axis = strips < 2;
     if (strips > 0)
-        ceduo_app_plot(app, CEDUO_PLOT_ENERGY, next, &picture);
-    struct ceduo_area below = {area.left, area.top + area.height - form_height, area.width, form_height};
-    ceduo_app_draw_form(app, below);
+        ceduo_app_plot(app, CEDUO_PLOT_ENERGY, cut_top(&area, strip), &picture);
 }
 
 static void zoom(struct app *app, int by)

@@ -87,10 +87,8 @@ static int draw_figures(struct app *app, struct ceduo_area area)
     ceduo_words_thick(belt, add_warning, &unlikely);
     int lines = unlikely.length > 0 ? ceduo_app_text_lines(app, unlikely.bytes, area.width) : 0;
     lines = lines > area.height / 3 ? area.height / 3 : lines;
-    struct ceduo_area above = {area.left, area.top + area.height - FIGURES - lines, area.width, lines};
-    ceduo_app_put(app, above, CEDUO_ROLE_WARN, &unlikely);
-    area.top += area.height - FIGURES;
-    area.height = FIGURES;
+    struct ceduo_area figures = cut_bottom(&area, FIGURES);
+    ceduo_app_put(app, cut_bottom(&area, lines), CEDUO_ROLE_WARN, &unlikely);
     ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha."), r.stems_per_ha, r.basal_area);
     ceduo_text_char(&text, ' ');
     if (!r.bare)
@@ -99,7 +97,7 @@ static int draw_figures(struct app *app, struct ceduo_area area)
                           r.adc.interception, r.adc.crofton);
     if (!r.bare && !isnan(r.per_100m))
         ceduo_text_then(&text, "; ", _("%.3g kJ per 100 m"), r.per_100m * J_TO_KJ);
-    ceduo_app_put(app, area, CEDUO_ROLE_DIM, &text);
+    ceduo_app_put(app, figures, CEDUO_ROLE_DIM, &text);
     return lines;
 }
 
@@ -112,12 +110,11 @@ static void draw_plan(struct app *app, struct ceduo_area area)
     if (app->belt >= ceduo_app_option(app)->belts_count)
         return;
     if (picture.stems_count > 0 && area.height >= BOTH_MIN) {
-        struct ceduo_area top = {area.left, area.top, area.width, area.height * 3 / 5};
+        struct ceduo_area top = cut_top(&area, area.height * 3 / 5);
         pattern.stems = NULL;
         pattern.stems_count = 0;
         ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &top, &pattern);
-        area.top += top.height + 1;
-        area.height -= top.height + 1;
+        cut_top(&area, 1);
     }
     ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &area, &picture);
 }
@@ -132,16 +129,15 @@ static void draw(struct app *app, struct ceduo_area area)
     area.height -= draw_figures(app, area);
     bool wide = area.width >= WIDE;
     int plan = !wide ? 0 : area.width < WIDER ? PLAN_MIN : area.width / 2 - 1;
-    struct ceduo_area form = {area.left, area.top, area.width - plan - (wide ? 1 : 0), area.height - FIGURES};
+    struct ceduo_area form = {area.left, area.top, area.width - plan - wide, area.height - FIGURES};
+    struct ceduo_area picture = {area.left + area.width - plan, area.top, plan, area.height - 4};
     if (!wide && area.height >= 30) { /* the plan below the form */
         form.height = area.height * 3 / 5;
-        struct ceduo_area below = {area.left, area.top + form.height, area.width, area.height - form.height - 4};
-        draw_plan(app, below);
+        picture = (struct ceduo_area){area.left, area.top + form.height, area.width, area.height - form.height - 4};
     }
     ceduo_app_draw_form(app, form);
-    struct ceduo_area beside = {area.left + area.width - plan, area.top, plan, area.height - 4};
-    if (wide)
-        draw_plan(app, beside);
+    if (picture.width > 0)
+        draw_plan(app, picture);
 }
 
 const struct view ceduo_view_stand = {.panes = 1,
