@@ -60,6 +60,11 @@ struct view_state *ceduo_app_state(struct app *app)
     return &app->views[app->view];
 }
 
+void *ceduo_app_own(const struct app *app)
+{
+    return app->views[app->view].own;
+}
+
 struct form *ceduo_app_form(struct app *app)
 {
     return &ceduo_app_state(app)->form;
@@ -247,11 +252,15 @@ static bool take_opened(struct app *app, struct document *next, unsigned threads
         ceduo_recovery_end(&app->document.recovery);
     }
     app->option = app->belt = app->year = 0;
-    app->place = (struct place){0};
     app->rock = 0;
     app->opened = true;
-    for (int v = 0; v < VIEW_COUNT; v++)
-        app->views[v].form.row = app->views[v].form.column = 0, app->views[v].form.lines.first = 0;
+    for (int v = 0; v < VIEW_COUNT; v++) {
+        struct view_state *state = &app->views[v];
+        state->form.row = state->form.column = 0;
+        state->form.lines.first = 0;
+        free(state->own);
+        state->own = ceduo_must(calloc(1, ceduo_views[v]->own + 1));
+    }
     ceduo_app_show(app, app->view);
     say_problem(app, &app->document.problems.unusual);
     return true;
@@ -273,8 +282,10 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
 void ceduo_app_free(struct app *app)
 {
     ceduo_live_free(&app->live);
-    for (int v = 0; v < VIEW_COUNT; v++)
+    for (int v = 0; v < VIEW_COUNT; v++) {
         free(app->views[v].form.rows);
+        free(app->views[v].own);
+    }
     ceduo_rock_trajectory_free(&app->trajectory);
     ceduo_cells_free(app->cells);
     ceduo_cells_free(app->kept.cells);

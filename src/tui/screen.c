@@ -182,7 +182,7 @@ static bool draw_key(struct app *app, int *x, enum action action, const char *wo
 /* The view's own keys, then those of every view, of which the last ones always have room. */
 static void draw_bar(struct app *app)
 {
-    const struct bar_key *bar = ceduo_views[app->view]->bar;
+    const struct view *view = ceduo_views[app->view];
     int x = 0, room = app->width + 2;
     if (app->popup) {
         ceduo_canvas_put(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM, ceduo_popup_bar(app));
@@ -190,13 +190,13 @@ static void draw_bar(struct app *app)
     }
     for (int i = 0; i < ACTION_COUNT; i++)
         room -= ceduo_actions[i].bar == 2 ? bar_width((enum action)i, ceduo_actions[i].help) : 0;
-    for (const struct bar_key *k = bar; k->word && draw_key(app, &x, k->action, k->word, &room);)
+    for (int k = 0; view->bar[k].word && draw_key(app, &x, view->bar[k].action, view->bar[k].word, &room);)
         k++;
     for (int rank = 1; rank <= 2; rank++) {
         for (int i = 0; i < ACTION_COUNT; i++) {
             bool own = ceduo_actions[i].bar != rank;
-            for (const struct bar_key *k = bar; k->word; k++)
-                own |= k->action == (enum action)i;
+            for (int k = 0; view->bar[k].word; k++)
+                own |= view->bar[k].action == (enum action)i;
             if (!own)
                 draw_key(app, &x, (enum action)i, ceduo_actions[i].help, &room);
         }

@@ -62,6 +62,12 @@ static void build(struct app *app, struct form *form)
 
 /* ---- the cursor along the slope: where it is ---- */
 
+struct place {
+    double x; /* m, relative */
+    int zoom; /* 2^zoom times as near as the whole slope */
+    bool put; /* it was moved: x holds */
+};
+
 static double length_of(const struct app *app)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
@@ -71,21 +77,28 @@ static double length_of(const struct app *app)
 /* m, relative: in the middle of the slope until it is moved. */
 static double place_x(const struct app *app)
 {
-    double length = length_of(app);
-    return app->place.put ? fmin(app->place.x, length) : length / 2;
+    const struct place *p = ceduo_app_own(app);
+    return p->put ? fmin(p->x, length_of(app)) : length_of(app) / 2;
 }
 
 static void put_place(struct app *app, double x)
 {
-    app->place.x = fmin(fmax(0, x), length_of(app));
-    app->place.put = true;
+    struct place *p = ceduo_app_own(app);
+    p->x = fmin(fmax(0, x), length_of(app));
+    p->put = true;
+}
+
+/* m that are shown. */
+static double shown_length(const struct app *app)
+{
+    return ldexp(length_of(app), -((const struct place *)ceduo_app_own(app))->zoom);
 }
 
 /* By a hundredth of what is shown, onto a round number. */
 static void move_place(struct app *app, int by)
 {
     double origin = app->document.file.scene.slope.origin_x;
-    double step = ceduo_plot_round(ldexp(length_of(app), -app->place.zoom) / STEPS * 2, false);
+    double step = ceduo_plot_round(shown_length(app) / STEPS * 2, false);
     double at = (place_x(app) + origin) / step;
     put_place(app, (by > 0 ? floor(at + 1e-9) + by : ceil(at - 1e-9) + by) * step - origin);
 }
@@ -220,7 +233,7 @@ static void choose_at_place(struct app *app)
     const struct ceduo_option *o = ceduo_app_option(app);
     const char *forest = ceduo_app_forest(app);
     const char *controls = ceduo_document_node(&app->document, "controls_m") ? "controls_m" : "controls";
-    double x = place_x(app), near = NEAR * ldexp(length_of(app), -app->place.zoom);
+    double x = place_x(app), near = NEAR * shown_length(app);
     size_t belt = belt_at(app, x);
     ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->slope.origin_x), "", chose_place);
     if (belt < o->belts_count) {
@@ -257,9 +270,9 @@ static void draw(struct app *app, struct ceduo_area area)
     double mark = place_x(app);
     picture.span = &span;
     bool alone = ceduo_app_state(app)->pane != PANE_FORM;
-    if (app->place.zoom > 0) { /* the stretch around the cursor */
-        double length = length_of(app), shown = ldexp(length, -app->place.zoom);
-        picture.from = fmin(fmax(0, mark - shown / 2), length - shown);
+    double shown = shown_length(app);
+    if (shown < length_of(app)) { /* the stretch around the cursor */
+        picture.from = fmin(fmax(0, mark - shown / 2), length_of(app) - shown);
         picture.to = picture.from + shown;
     }
     int form_height = alone ? 0 : area.height / 3;
@@ -287,13 +300,14 @@ static void zoom(struct app *app, int by)
 {
     struct view_state *state = ceduo_app_state(app);
     state->pane = state->pane == PANE_FORM ? PANE_PLACE : state->pane;
-    by += app->place.zoom;
+    struct place *p = ceduo_app_own(app);
+    by += p->zoom;
     if (by < 0)
         ceduo_app_say(app, "%s", _("this is the whole slope"));
     else if (by > ZOOM_MAX)
         ceduo_app_say(app, "%s", _("this is as near as it gets"));
     else
-        app->place.zoom = by;
+        p->zoom = by;
 }
 
 #define ZOOM_ACTS                                                                                                              \
@@ -321,6 +335,7 @@ static const struct act place_acts[] = {{ACTION_RIGHT, .function = move_place, .
                                         ZOOM_ACTS};
 
 const struct view ceduo_view_slope = {.panes = PANES,
+                                      .own = sizeof(struct place),
                                       .build = build,
                                       .draw = draw,
                                       .acts = {form_acts, rock_acts, place_acts},
