@@ -28,6 +28,13 @@ const char *ceduo_app_path(const struct app *app, const char *path)
     return ceduo_arena_string(app->scratch, ceduo_text_string(&words));
 }
 
+const char *ceduo_app_scalar(const struct app *app, const char *text)
+{
+    LOCAL_TEXT(yaml);
+    ceduo_emit_scalar(&yaml, text, true);
+    return ceduo_arena_string(app->scratch, yaml.bytes);
+}
+
 void ceduo_app_tell(struct app *app, bool bad, const char *format, ...)
 {
     LOCAL_TEXT(safe);
@@ -73,6 +80,12 @@ struct form *ceduo_app_form(struct app *app)
 const struct ceduo_option *ceduo_app_option(const struct app *app)
 {
     return &app->document.file.scene.options[app->option];
+}
+
+const struct ceduo_belt *ceduo_app_belt(const struct app *app)
+{
+    const struct ceduo_option *o = ceduo_app_option(app);
+    return app->belt < o->belts_count ? &o->belts[app->belt] : NULL;
 }
 
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app)

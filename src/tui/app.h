@@ -137,6 +137,7 @@ void ceduo_app_resize(struct app *app, int width, int height);
 /* A string that lives until the next key; a path in words, likewise. */
 char *ceduo_app_format(const struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
 const char *ceduo_app_path(const struct app *app, const char *path);
+const char *ceduo_app_scalar(const struct app *app, const char *text); /* as YAML */
 
 void ceduo_app_tell(struct app *app, bool bad, const char *format, ...) __attribute__((format(printf, 3, 4)));
 #define ceduo_app_say(app, ...)  ceduo_app_tell(app, false, __VA_ARGS__)
@@ -171,6 +172,7 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report);
 
 /* The option shown; path of its forest, "options[2].forest", and of the stand of the belt shown, until the next key. */
 const struct ceduo_option *ceduo_app_option(const struct app *app);
+const struct ceduo_belt *ceduo_app_belt(const struct app *app); /* NULL: the option has none */
 const char *ceduo_app_forest(const struct app *app);
 const char *ceduo_app_stand(const struct app *app);
 

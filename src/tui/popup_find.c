@@ -71,14 +71,14 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
 /* What the rules of the region ask of the trees that a cut leaves, where it is these that are looked for. */
 static void append_law(struct app *app, const char *path, struct text *text)
 {
-    const struct ceduo_option *o = ceduo_app_option(app);
+    const struct ceduo_belt *belt = ceduo_app_belt(app);
     const struct field *field = ceduo_search_field(app->scratch, path);
     const char *stand = ceduo_app_stand(app);
     bool standards = strncmp(path, stand, strlen(stand)) == 0 &&
                      (strcmp(field->key, "stay_per_ha") == 0 || strncmp(path + strlen(stand), ".trees[", 7) == 0);
-    if (!standards || app->belt >= o->belts_count)
+    if (!standards || !belt)
         return;
-    struct ceduo_compliance c = ceduo_regulation_check(&app->document.file.scene.rules, &o->belts[app->belt].stand);
+    struct ceduo_compliance c = ceduo_regulation_check(&app->document.file.scene.rules, &belt->stand);
     double own = app->document.file.scene.reserves_minimum;
     if (c.standards_item)
         ceduo_text_then(text, " ", _("The rules of %s ask for %g standards per ha at least (%s, %u); %g are left."), c.of->name,

@@ -75,7 +75,7 @@ static bool filled_counts(struct app *app, struct popup *p)
     if (!read_plot(app, p, v))
         return false;
     double area = v[COUNT_AREA] * cos(v[COUNT_ANGLE] * M_PI / 180), per = 10000 / area; /* m2, horizontal */
-    const struct ceduo_stand *now = &ceduo_app_option(app)->belts[app->belt].stand;
+    const struct ceduo_stand *now = &ceduo_app_belt(app)->stand;
     const char *stools = ceduo_app_format(app, "%s.stools", p->path);
     if (v[COUNT_STOOLS] > 0)
         ceduo_changes_set(c, stools, "{per_ha: %.6g, spacing_m: %.10g}", v[COUNT_STOOLS] * per,
@@ -92,9 +92,7 @@ static bool filled_counts(struct app *app, struct popup *p)
     }
     if (now->system == CEDUO_BARE)
         ceduo_changes_add(c, CHANGE_DELETE, ceduo_app_format(app, "%s.system", p->path), NULL);
-    LOCAL_TEXT(name);
-    ceduo_emit_scalar(&name, _("sample plot"), true);
-    ceduo_changes_add(c, CHANGE_SET, ceduo_app_format(app, "%s.name", p->path), name.bytes);
+    ceduo_changes_set(c, ceduo_app_format(app, "%s.name", p->path), "%s", ceduo_app_scalar(app, _("sample plot")));
     bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot")));
     if (good)
         ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
@@ -105,11 +103,11 @@ static bool filled_counts(struct app *app, struct popup *p)
 
 void ceduo_popup_counts(struct app *app)
 {
-    if (ceduo_app_option(app)->belts_count == 0) {
+    const struct ceduo_belt *belt = ceduo_app_belt(app);
+    if (!belt) {
         ceduo_app_say(app, "%s", _("there is no belt yet: a adds one in view 1"));
         return;
     }
-    const struct ceduo_belt *belt = &ceduo_app_option(app)->belts[app->belt];
     const struct ceduo_stand *stand = &belt->stand;
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     double fall = ceduo_slope_height(s, belt->from) - ceduo_slope_height(s, belt->to);
@@ -178,7 +176,7 @@ static void take_stand(struct app *app, const char *path, const char *value, con
         ceduo_app_say(app, "%s; %s", ceduo_app_format(app, "%s", app->message), understood);
     else
         ceduo_app_say(app,
-                      ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
+                      ceduo_stand_grows(&ceduo_app_belt(app)->stand)
                           ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
                           : _("the stand of the survey; it has no growth and cutting; %s"),
                       understood);

@@ -78,16 +78,13 @@ void ceduo_popup_offer_files(struct app *app, struct popup *p)
 
 static bool filled_stand(struct app *app, struct popup *p)
 {
-    LOCAL_TEXT(value);
-    if (p->fields[0].line.text[0] == '\0') {
+    const char *name = p->fields[0].line.text;
+    if (name[0] == '\0')
         ceduo_app_warn(app, "%s", _("a name is needed"));
+    if (name[0] == '\0' || !ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, ceduo_app_scalar(app, name))))
         return false;
-    }
-    ceduo_emit_scalar(&value, p->fields[0].line.text, true);
-    bool good = ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, value.bytes));
-    if (good)
-        p->then(app);
-    return good;
+    p->then(app);
+    return true;
 }
 
 /* Asks for the name of the first such stand, and then goes on. False where there is none. */

@@ -8,9 +8,10 @@
 static void build(struct app *app, struct form *form)
 {
     ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m cut_year stand");
-    if (ceduo_app_option(app)->belts_count > 0) {
-        const char *stand = ceduo_app_stand(app), *name = ceduo_app_option(app)->belts[app->belt].name;
-        ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, name));
+    if (ceduo_app_belt(app)) {
+        const char *stand = ceduo_app_stand(app);
+        ceduo_form_heading(form,
+                           ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, ceduo_app_belt(app)->name));
         ceduo_form_fields(form, ceduo_app_format(app, "%s.", stand), "cutting.stay_per_ha cutting.rotation_years");
         ceduo_form_rest(form, ceduo_app_format(app, "%s.cutting", stand));
         ceduo_form_rest(form, ceduo_app_format(app, "%s.growth", stand));

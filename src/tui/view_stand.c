@@ -27,9 +27,9 @@ static void build_low(struct form *form, const char *group)
 static void build(struct app *app, struct form *form)
 {
     ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m stand");
-    if (ceduo_app_option(app)->belts_count == 0)
+    const struct ceduo_belt *belt = ceduo_app_belt(app);
+    if (!belt)
         return;
-    const struct ceduo_belt *belt = &ceduo_app_option(app)->belts[app->belt];
     const struct ceduo_stand *s = &belt->stand;
     const char *path = ceduo_app_stand(app), *in = ceduo_app_format(app, "%s.", path);
     ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, belt->name));
@@ -77,11 +77,10 @@ static void add_warning(void *text, const char *sentence)
 /* The figures of the stand below the form, and above them what is unlikely about it. Returns how many lines that takes. */
 static int draw_figures(struct app *app, struct ceduo_area area)
 {
-    const struct ceduo_option *o = ceduo_app_option(app);
+    const struct ceduo_belt *belt = ceduo_app_belt(app);
     struct text text = {0}, unlikely = {0};
-    if (app->belt >= o->belts_count)
+    if (!belt)
         return 0;
-    const struct ceduo_belt *belt = &o->belts[app->belt];
     struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, belt);
     ceduo_words_unlikely(belt, &r, add_warning, &unlikely);
     ceduo_words_thick(belt, add_warning, &unlikely);
@@ -107,7 +106,7 @@ static int draw_figures(struct app *app, struct ceduo_area area)
 static void draw_plan(struct app *app, struct ceduo_area area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app), pattern = picture;
-    if (app->belt >= ceduo_app_option(app)->belts_count)
+    if (!ceduo_app_belt(app))
         return;
     if (picture.stems_count > 0 && area.height >= BOTH_MIN) {
         struct ceduo_area top = cut_top(&area, area.height * 3 / 5);
