@@ -73,7 +73,7 @@ static enum exit_status interact(const struct arguments *a)
         if (end == TERMINAL_NONE)
             status = no_terminal(_("this terminal cannot be used"));
     }
-    ceduo_program_free(&app);
+    ceduo_app_free(&app);
     return status;
 }
 

@@ -75,8 +75,7 @@ struct problem_place {
     bool first;                  /* listed before the others */
 };
 
-/* Add one. Return false, so that a check can end with it. Of a foreign source the message is without its values, and of its lines
- * only the beginning of the first is shown. */
+/* Add one. Return false. A foreign source is shown without the values of the message, and of its lines the beginning. */
 bool ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 bool ceduo_problem_at(struct problems *problems, struct problem_place place, const char *format, ...)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene and the states it was in. A state is a tree; trees share nodes in the arena of the scene's file, which is freed
- * when the document closes. */
+/* The scene and the states it was in. States are trees that share nodes in the arena of the scene's file. */
 #include "document.h"
 
 #include <stdlib.h>
@@ -23,8 +22,7 @@ static void push_state(struct document *d, const struct node *root, const char *
     d->at = d->count++;
 }
 
-/* Forgets the older half of the history once the arena has grown by DOCUMENT_HISTORY_BYTES. The memory is freed with the
- * document. */
+/* Forget the older half of the history once the arena has grown by DOCUMENT_HISTORY_BYTES. It is freed with the document. */
 static void trim_history(struct document *d)
 {
     if (d->file.arena.bytes - d->trimmed < DOCUMENT_HISTORY_BYTES || d->count < 4)

@@ -71,8 +71,7 @@ bool ceduo_changes_make(const struct changes *changes, const char *what);
 /* Copy item `list[index]` after it, an option under a name of its own; then make the changes (may be NULL). */
 bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const struct changes *changes);
 
-/* Append the belts of the first option as YAML, each with this stand and its year of a cut. Without belts: one down to the
- * first control. */
+/* Append the belts of the first option as YAML, each with this stand; without belts one down to the first control. */
 void ceduo_document_belts(const struct document *document, const char *stand, struct text *yaml);
 
 /* Append an option with those belts, or a copy of option `index`; a number follows a name that is taken. A scene with a forest
@@ -108,8 +107,7 @@ void ceduo_document_text(struct document *document, const char *path, struct tex
 bool ceduo_document_is_shipped(const char *path);
 bool ceduo_document_changed_on_disk(const struct document *document);
 
-/* Keep a copy of unsaved work. Or make the text of a copy that was left behind (ceduo_recovery_list()) one state, which can be
- * undone. */
+/* Keep a copy of unsaved work; make the text of one that was left behind a state, which can be undone. */
 void ceduo_document_keep(struct document *document);
 bool ceduo_document_recover(struct document *document, const char *text);
 
@@ -124,12 +122,10 @@ double ceduo_document_place(const struct document *document, const char *written
 /* Copies of unsaved work lie in $XDG_STATE_HOME/ceduo or ~/.local/state/ceduo, one for each scene and program. The program
  * locks its copy with flock(): an unlocked copy is left behind, also if two machines share the folder. */
 
-/* Name the copy of a scene (NULL: without a file); nothing is written yet. The path of the result is NULL if there is no
- * folder. */
+/* Name the copy of a scene (NULL: without a file), and write nothing yet. The path is NULL if there is no folder. */
 struct recovery_copy ceduo_recovery_begin(const char *path);
 
-/* Write and lock the copy, readable by its owner alone, with the scene's path in its first line. False: the copy of before
- * stays. */
+/* Write and lock the copy, for its owner alone, with the scene's path in its first line. False: the copy of before stays. */
 bool ceduo_recovery_write(struct recovery_copy *copy, const char *path, const char *bytes, size_t n);
 
 void ceduo_recovery_delete(struct recovery_copy *copy); /* it may be written again */

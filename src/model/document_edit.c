@@ -137,8 +137,7 @@ static const char *begin_path(struct arena *arena, const char *path, const void 
 
 /* ---- changes of a tree ---- */
 
-/* Removes an entry or an item. A list that is empty then goes whole, unless it is that of options: `*path` is what was
- * removed. */
+/* Remove an entry or an item, or its list if that is empty then, unless it is that of options. `*path` is what was removed. */
 static void take_out(struct edit *e, const char **path)
 {
     const char *dot = strrchr(*path, '.'), *bracket = strrchr(*path, '[');

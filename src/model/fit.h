@@ -41,8 +41,7 @@ void ceduo_fit_offer(const struct scene_file *file, struct fit_request *offer);
 /* Whether something was observed that a fit may rest on. */
 bool ceduo_fit_has_observations(const struct scene_file *file);
 
-/* Fits with the threads and the progress of `how`; sets `*loose` before the fit itself begins. The answer takes over the arena
- * of `file`. The caller frees the fit in any case. */
+/* Fit with the threads and progress of `how`; `*loose` is set before the fit itself begins. The caller frees the fit anyway. */
 enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request,
                                  const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *fit);
 void ceduo_fit_free(void *fit);

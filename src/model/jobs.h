@@ -103,8 +103,7 @@ bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t sh
 /* Asks for a search; its path is copied. */
 void ceduo_jobs_search(struct jobs *jobs, const struct scene_file *file, const struct ceduo_search *search);
 
-/* Asks what another value at a path would do to the lights of an option. Path and value are copied; both fit into JOB_TEXT
- * bytes. */
+/* Ask what another value at a path would do to the lights of an option. Path and value fit into JOB_TEXT bytes. */
 #define JOB_TEXT 1024
 void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *path, const char *value, size_t option);
 

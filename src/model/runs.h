@@ -34,8 +34,7 @@ struct runs_step {
 /* CEDUO_CANCELLED: the next call continues. */
 enum ceduo_status ceduo_runs_figures(struct runs *runs, struct runs_step *step);
 
-/* One step of the other energy law: n rocks through every option. Sets `others`, one for each option and control, in rows by
- * option. */
+/* One step of the other energy law: n rocks through every option. Sets one of `others` for each control of each option. */
 enum ceduo_status ceduo_runs_others(struct runs *runs, const struct ceduo_scene *scene, uint64_t rocks,
                                     struct ceduo_other_energy *others);
 

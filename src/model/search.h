@@ -8,8 +8,7 @@
 #include "io/scene_file.h"
 #include "study/goal.h"
 
-/* The value of one parameter of a scene for which one option reaches a goal at its worst control. Every value is tried with the
- * same rocks, so the answer is reproducible. */
+/* Search the value for which an option reaches a goal at its worst control. Every value is tried with the same rocks. */
 
 /* What a search came to. */
 struct search_answer {

@@ -179,11 +179,9 @@ void ceduo_app_refresh(struct app *app)
     size_t belts = ceduo_app_option(app)->belts_count;
     if (app->belt >= belts)
         app->belt = belts > 0 ? belts - 1 : 0;
-    ceduo_live_follow(&app->live, &app->document.file, app->option);
     app->doubts |= view->uncertainty;
-    ceduo_live_ask_uncertainty(&app->live, &app->document.file, app->option, app->doubts ? UNCERTAINTY_LEVELS : 0);
-    ceduo_live_compare(&app->live, &app->document.file,
-                       view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
+    ceduo_live_follow(&app->live, &app->document.file, app->option, app->doubts ? UNCERTAINTY_LEVELS : 0,
+                      view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_clear(&app->views[v].form, &app->document);
     if (view->build) {
@@ -244,8 +242,7 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
 
 /* ---- opening and closing ---- */
 
-/* Replaces the document. The figures know the memory of the old one: they go first. Shows the first value that is unusual. False
- * if no thread can be started. */
+/* Replace the document; the figures, which use its memory, go first. Report a value that is unusual. False without a thread. */
 static bool take_opened(struct app *app, struct document *next, unsigned threads)
 {
     struct live live;
@@ -294,6 +291,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
 
 void ceduo_app_free(struct app *app)
 {
+    ceduo_popup_close(app);
     ceduo_live_free(&app->live);
     for (int v = 0; v < VIEW_COUNT; v++) {
         free(app->views[v].form.rows);

@@ -123,8 +123,7 @@ struct app {
     bool (*copy)(const char *text);      /* to the terminal's clipboard; false: it is too long. NULL: there is none */
 };
 
-/* Open a scene, or the shipped site of the paper if `path` is NULL. False with the reason in app->document.problems; free it in any
- * case. */
+/* Open a scene; NULL: the site of the paper. False with the reason in app->document.problems; free it in any case. */
 bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery);
 void ceduo_app_free(struct app *app);
 
@@ -176,8 +175,7 @@ const struct ceduo_belt *ceduo_app_belt(const struct app *app); /* NULL: the opt
 const char *ceduo_app_forest(const struct app *app);
 const char *ceduo_app_stand(const struct app *app);
 
-/* Arrivals of the column on the right: through the forest of the option shown, by the index on the bare slope. NULL before the
- * first rocks. */
+/* Arrivals of the column on the right: through the forest of the option shown, or by the index. NULL before the first rocks. */
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app);
 
 /* ---- the trajectory of a rock (rock_trajectory.c) ---- */

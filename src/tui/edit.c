@@ -195,8 +195,7 @@ static bool insert(struct app *app, const struct item *item, size_t index, const
 
 #define BELT_MIN 0.5 /* m: a shorter belt is not added */
 
-/* A belt in two; on the end of a belt, a new one after it with the same stand, if there is room, down to the next control, the
- * next belt or the end of the slope. */
+/* A belt in two; on the end of a belt, if there is room, a copy of it down to the next control, the next belt or the end. */
 static bool add_belt(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;

@@ -190,41 +190,29 @@ static bool can_hold(const struct form_row *row)
 
 void ceduo_form_clamp(struct form *form)
 {
-    if (form->n == 0) {
-        form->row = form->column = 0;
-        return;
-    }
-    if (form->row >= form->n)
-        form->row = form->n - 1;
-    size_t down = form->row, up = form->row;
+    size_t down = form->row < form->n ? form->row : form->n - (form->n > 0), up = down;
     while (down < form->n && !can_hold(&form->rows[down]))
         down++;
     while (up > 0 && !can_hold(&form->rows[up]))
         up--;
     form->row = down < form->n ? down : up;
-    size_t n = form->rows[form->row].n;
-    if (form->column >= n)
-        form->column = n > 0 ? n - 1 : 0;
+    size_t n = form->n > 0 ? form->rows[form->row].n : 0;
+    form->column = form->column < n ? form->column : n - (n > 0);
 }
 
 void ceduo_form_move(struct form *form, int lines, int columns)
 {
-    int step = lines < 0 ? -1 : 1;
-    for (int left = abs(lines); left > 0 && form->n > 0; left--) {
-        size_t to = form->row;
-        do {
-            if (step < 0 ? to == 0 : to + 1 >= form->n) {
-                to = form->row;
-                break;
-            }
-            to = step < 0 ? to - 1 : to + 1;
-        } while (!can_hold(&form->rows[to]));
+    size_t step = lines < 0 ? SIZE_MAX : 1; /* above the first line it is larger than any */
+    for (int left = abs(lines); left > 0; left--) {
+        size_t to = form->row + step;
+        while (to < form->n && !can_hold(&form->rows[to]))
+            to += step;
+        if (to >= form->n)
+            break;
         form->row = to;
     }
-    if (columns < 0 && form->column > 0)
-        form->column--;
-    if (columns > 0)
-        form->column++;
+    if (columns > 0 || (columns < 0 && form->column > 0))
+        form->column += (size_t)columns;
     ceduo_form_clamp(form);
 }
 
@@ -252,17 +240,16 @@ void ceduo_form_go(struct form *form, const char *list, size_t index)
 bool ceduo_form_search(struct form *form, const char *word)
 {
     for (size_t i = 1; word[0] && i <= form->n; i++) {
-        const struct form_row *row = &form->rows[(form->row + i) % form->n];
-        size_t k = 0; /* the row's own name is that of its first cell */
-        if (!can_hold(row))
-            continue;
-        while (k < row->n && !(k == 0 && strcasestr(row->label, word)) && !strcasestr(row->cells[k].text, word) &&
-               !strcasestr(row->cells[k].path, word))
+        const size_t at = (form->row + i) % form->n;
+        const struct form_row *row = &form->rows[at];
+        size_t k = 0, n = can_hold(row) ? row->n : 0; /* the row's own name is that of its first cell */
+        bool named = can_hold(row) && strcasestr(row->label, word);
+        while (k < n && !(k == 0 && named) && !strcasestr(row->cells[k].text, word) && !strcasestr(row->cells[k].path, word))
             k++;
-        if (k == row->n && !strcasestr(row->label, word))
+        if (k == n && !named)
             continue;
-        form->row = (form->row + i) % form->n;
-        form->column = k < row->n ? k : 0;
+        form->row = at;
+        form->column = k < n ? k : 0;
         ceduo_form_clamp(form);
         return true;
     }
@@ -355,14 +342,13 @@ static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t 
     for (size_t k = 0; k < row->n; k++) {
         int from, span;
         cell_place(row, width, label, k, &from, &span);
-        if (row->kind != FORM_COLUMNS_ROW) {
-            draw_cell(cells, &row->cells[k], left + from, y, span, i == form->row && k == form->column, edit);
-            continue;
-        }
         const struct field_shown *shown = &row->cells[k].field->shown;
-        bool fits = (int)ceduo_utf8_width(_(shown->label)) <= span || !shown->brief;
-        ceduo_canvas_put(canvas, left + from, y, span, CEDUO_ROLE_TITLE,
-                         fits ? _(shown->label) : ceduo_translate_in(shown->brief));
+        bool fits = !shown->brief || (int)ceduo_utf8_width(_(shown->label)) <= span;
+        if (row->kind == FORM_COLUMNS_ROW)
+            ceduo_canvas_put(canvas, left + from, y, span, CEDUO_ROLE_TITLE,
+                             fits ? _(shown->label) : ceduo_translate_in(shown->brief));
+        else
+            draw_cell(cells, &row->cells[k], left + from, y, span, i == form->row && k == form->column, edit);
     }
 }
 

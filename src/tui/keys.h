@@ -29,8 +29,7 @@ enum key {
     K_F10 = K_F1 + 9
 };
 
-/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word,
- * title. */
+/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, in small, key, its word, title. */
 #define VIEWS(V)                                                                                                               \
     V(SLOPE, slope, '1', "1", NP_("view", "slope"))                                                                            \
     V(STAND, stand, '2', "2", NP_("view", "stand"))                                                                            \

@@ -16,8 +16,7 @@ struct line {
 
 void ceduo_line_set(struct line *line, const char *text);
 
-/* Types a pasted text: line ends and tabs as one blank, no control characters. False if it does not fit: the line stays as it
- * was. */
+/* Type a pasted text, line ends and tabs as one blank, no control characters. False: it does not fit, the line stays. */
 bool ceduo_line_paste(struct line *line, const char *text);
 
 /* Handles a key; false where the key means nothing to it. */

@@ -112,8 +112,7 @@ void ceduo_popup_save_as(struct app *app);
 void ceduo_popup_quit(struct app *app);
 void ceduo_popup_recover(struct app *app); /* unsaved work of earlier processes, if some is of this document or has no file */
 
-/* Ask for the fields of a new item of a list, or of one group of it (may be NULL), and append it. `offered`: the first n
- * fields. */
+/* Ask for the fields of a new item of a list, or of one group of it (may be NULL). `offered`: its first n fields. */
 void ceduo_popup_item_of(struct app *app, const char *list, const char *group, const char *const *offered, size_t n);
 
 /* Call `then`; ask first (save, discard, stay) if there is unsaved work. */
@@ -139,8 +138,7 @@ void ceduo_popup_offer_grounds(struct app *app, struct popup *popup);
 /* Replace the stand of the belt shown. Reports which growth and cutting are dropped, and that the year of its cut stays. */
 bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *value);
 
-/* Read a scene of nothing but the stand, with the rock of this one; false if it is no stand. The caller releases `file` in any
- * case. */
+/* Read a scene of nothing but the stand, with the rock of this one. False: it is no stand. Release `file` in any case. */
 bool ceduo_popup_read_stand(const struct app *app, const char *value, struct scene_file *file);
 
 #endif

@@ -187,8 +187,7 @@ static void preview_stand(struct app *app, struct popup *p)
 
 /* ---- what goes with the stand that another one replaces ---- */
 
-/* The entry of a stand that the scene itself has: the file that the stand is read from has not the same. NULL if there is
- * none. */
+/* The entry of a stand, if the file that the stand is read from has not the same; otherwise NULL. */
 static const struct node *own_entry(const struct node *stand, const char *key)
 {
     const struct node *entry = ceduo_node_get(stand, key);

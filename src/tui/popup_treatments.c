@@ -46,8 +46,7 @@ static const struct ceduo_belt *lent_belt(const struct lender *l)
     return &l->file.scene.options[0].belts[0];
 }
 
-/* Find the shipped stand with growth and cutting that is nearest to a species (otherwise hop hornbeam) and a system (otherwise
- * any). The caller releases l->file. */
+/* Find the shipped stand that grows and is cut, of a species or hop hornbeam and of a system. The caller releases l->file. */
 static void find_lender(struct app *app, int species, enum ceduo_system system, struct lender *l)
 {
     const char *const *folders = ceduo_file_folders(app->scratch);

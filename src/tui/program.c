@@ -275,12 +275,6 @@ bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset 
     return good;
 }
 
-void ceduo_program_free(struct app *app)
-{
-    ceduo_popup_close(app);
-    ceduo_app_free(app);
-}
-
 bool ceduo_program_news(struct app *app)
 {
     ceduo_arena_free(app->scratch);

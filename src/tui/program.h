@@ -6,10 +6,8 @@
 
 /* Handles keys and the mouse. A popup gets a key first, then the open field, then the view; what is left is done here. */
 
-/* Same as ceduo_app_create() and ceduo_app_free(), including popups. */
+/* As ceduo_app_create(); offers unsaved work that was left behind. */
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery);
-
-void ceduo_program_free(struct app *app);
 
 void ceduo_program_key(struct app *app, int key);
 void ceduo_program_paste(struct app *app, const char *text); /* into the line that is being typed; otherwise nowhere */

@@ -73,8 +73,7 @@ static bool draw_title(struct app *app)
     return fits;
 }
 
-/* The answer for the option shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty is computed, which may change
- * it. */
+/* The answer for the option shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty may change it. */
 static void draw_verdict(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;

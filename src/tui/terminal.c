@@ -57,8 +57,7 @@ static bool colours_wanted(void)
 
 /* ---- bracketed paste ---- */
 
-static bool pastes; /* the terminal may be asked to say where a paste begins and ends, and to take a copy; the Linux console
-                       cannot */
+static bool pastes; /* the terminal reports where a paste begins and ends, and takes a copy; the Linux console does not */
 #define PASTES_OFF "\033[?2004l"
 
 static void ask_for_pastes(bool on)

@@ -110,7 +110,7 @@ int main(void)
         measure(&h, scenes[i], "list of stands", list);
         measure(&h, scenes[i], "find", find);
         measure(&h, scenes[i], "open", open_scene);
-        ceduo_program_free(&h.app);
+        ceduo_app_free(&h.app);
     }
     return 0;
 }

@@ -86,7 +86,7 @@ int main(int argc, char **argv)
     report("key to a picture of 10000 rocks", all, repeats, 120, 0);
     report("edit of a stand to its index", stand, repeats, 5, 0);
     report("edit of a stand to 1000 rocks through it", wooded, repeats, 33, 100);
-    ceduo_program_free(&app);
+    ceduo_app_free(&app);
     nftw(state, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
     return 0;
 }

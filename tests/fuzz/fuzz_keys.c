@@ -88,7 +88,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     (void)ceduo_script_run(&app, path);
     ceduo_screen_draw(&app);
-    ceduo_program_free(&app);
+    ceduo_app_free(&app);
     close(fd);
     free(text);
     return 0;
