@@ -238,6 +238,12 @@ bool ceduo_document_delete(struct document *d, const char *path)
 
 /* ---- lists ---- */
 
+static const struct node *with_name(const struct edit *e, const struct node *item, const char *name)
+{
+    item = ceduo_node_without(e->arena, item, "name_it");
+    return ceduo_node_with(e->arena, item, "name", ceduo_node_scalar(e->arena, item->source, name, true));
+}
+
 bool ceduo_document_insert(struct document *d, const char *list, size_t index, const char *text)
 {
     struct edit e = begin(d);
@@ -250,11 +256,10 @@ static const struct node *with_new_name(struct edit *e, const struct node *list,
 {
     const char *given = ceduo_node_text(item, "name"), *name = ceduo_in_language(given, ceduo_node_text(item, "name_it"));
     const char *open = name ? strrchr(name, '(') : NULL, *own = name;
-    item = ceduo_node_without(e->arena, item, "name_it");
     size_t digits = open ? strspn(open + 1, "0123456789") : 0;
     bool copy = open && open > name + 1 && open[-1] == ' ' && digits > 0 && digits < 4 && strcmp(open + 1 + digits, ")") == 0;
     if (!name)
-        return item;
+        return ceduo_node_without(e->arena, item, "name_it");
     int n = copy ? (int)(open - 1 - name) : (int)strlen(name);
     for (unsigned i = copy ? (unsigned)strtoul(open + 1, NULL, 10) : 1;;
          own = ceduo_arena_format(e->arena, "%.*s (%u)", n, name, ++i)) {
@@ -264,7 +269,7 @@ static const struct node *with_new_name(struct edit *e, const struct node *list,
             taken |= other && (strcmp(other, own) == 0 || strcmp(ceduo_in_language(other, italian), own) == 0);
         }
         if (!taken)
-            return ceduo_node_with(e->arena, item, "name", ceduo_node_scalar(e->arena, item->source, own, true));
+            return with_name(e, item, own);
     }
 }
 
@@ -298,16 +303,15 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
 
 bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segment)
 {
-    struct edit e = begin(d);
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
-    const char *path = ceduo_arena_format(e.arena, "%s[%zu]", vertices_list, vertex);
+    struct changes c = {.document = d};
+    ceduo_problems_free(&d->problems);
     if (!vertices || vertices->n <= 2 || vertex >= vertices->n)
         return false;
-    take_out(&e, &path);
-    path = ceduo_arena_format(e.arena, "%s[%zu]", ground_list, segment);
-    if (e.root && grounds && grounds->n > 1)
-        take_out(&e, &path);
-    return commit(&e, vertices_list);
+    ceduo_changes_add(&c, CHANGE_DELETE, ceduo_arena_format(&d->file.arena, "%s[%zu]", vertices_list, vertex), NULL);
+    if (grounds && grounds->n > 1)
+        ceduo_changes_add(&c, CHANGE_DELETE, ceduo_arena_format(&d->file.arena, "%s[%zu]", ground_list, segment), NULL);
+    return ceduo_changes_make(&c, vertices_list);
 }
 
 /* ---- options ---- */
@@ -319,11 +323,8 @@ static const struct node *need_options(struct edit *e)
     if (options)
         return options;
     const char *name = _("current");
-    LOCAL_TEXT(yaml);
-    ceduo_text_put(&yaml, "[{name: ");
-    ceduo_emit_scalar(&yaml, name, true);
-    ceduo_text_put(&yaml, "}]");
-    options = ceduo_document_parse(e->d, "options", yaml.bytes);
+    options = ceduo_document_parse(e->d, "options", "[{name: current}]");
+    options = ceduo_node_replaced(e->arena, options, 0, with_name(e, options->items[0], name));
     if (forest)
         options = ceduo_node_replaced(e->arena, options, 0, ceduo_node_with(e->arena, options->items[0], "forest", forest));
     e->root = ceduo_node_without(e->arena, e->root, "forest");
@@ -355,13 +356,11 @@ bool ceduo_document_add_option(struct document *d, const char *stand, const char
 {
     struct edit e = begin(d);
     LOCAL_TEXT(yaml);
-    ceduo_text_put(&yaml, "{name: ");
-    ceduo_emit_scalar(&yaml, name, true);
-    ceduo_text_put(&yaml, ", forest: ");
+    ceduo_text_put(&yaml, "{name: new, forest: ");
     ceduo_document_belts(d, stand, &yaml);
     ceduo_text_char(&yaml, '}');
     const struct node *item = ceduo_document_parse(d, "options", yaml.bytes), *list = need_options(&e);
-    put_item(&e, "options", list->n, item ? with_new_name(&e, list, item) : NULL);
+    put_item(&e, "options", list->n, item ? with_new_name(&e, list, with_name(&e, item, name)) : NULL);
     return commit(&e, stand);
 }
 
@@ -381,9 +380,7 @@ bool ceduo_document_vary_option(struct document *d, size_t index, const char *na
 {
     struct edit e = begin(d);
     const struct node *options = need_options(&e), *item = options->items[index];
-    item = ceduo_node_with(e.arena, ceduo_node_without(e.arena, item, "name_it"), "name",
-                           ceduo_node_scalar(e.arena, item->source, name, true));
-    put_item(&e, "options", options->n, with_new_name(&e, options, item));
+    put_item(&e, "options", options->n, with_new_name(&e, options, with_name(&e, item, name)));
     change(&e, ceduo_arena_format(e.arena, "options[%zu].", options->n), changes);
     return commit(&e, name);
 }
@@ -408,11 +405,9 @@ bool ceduo_document_rename_option(struct document *d, size_t index, const char *
     const struct node *list = ceduo_node_get(e.root, "options"), *observed = ceduo_node_get(e.root, "observed");
     if (!list || index >= list->n)
         return false;
-    const struct node *item = list->items[index], *scalar = ceduo_node_scalar(e.arena, item->source, name, true);
-    const char *old = ceduo_node_text(item, "name");
-    item = ceduo_node_without(e.arena, ceduo_node_with(e.arena, item, "name", scalar), "name_it");
-    list = ceduo_node_replaced(e.arena, list, index, item);
-    e.root = ceduo_node_with(e.arena, e.root, "options", list);
+    const char *old = ceduo_node_text(list->items[index], "name");
+    const struct node *item = with_name(&e, list->items[index], name), *scalar = ceduo_node_get(item, "name");
+    e.root = ceduo_node_with(e.arena, e.root, "options", ceduo_node_replaced(e.arena, list, index, item));
     if (old)
         e.root = with_paths(e.arena, e.root, begin_path,
                             &(struct beginning){ceduo_arena_format(e.arena, "options[%s]", old),

@@ -73,8 +73,9 @@ static void draw(struct app *app, struct ceduo_area area)
 
 static void choose(struct app *app, long i)
 {
-    long n = (long)app->document.file.scene.options_count;
-    ceduo_app_show_option(app, (size_t)(i < 0 ? 0 : i >= n ? n - 1 : i));
+    struct viewport v = {.count = (int)app->document.file.scene.options_count};
+    viewport_move(&v, (int)i);
+    ceduo_app_show_option(app, (size_t)v.selected);
 }
 
 static void next_option(struct app *app, int by)
@@ -84,9 +85,8 @@ static void next_option(struct app *app, int by)
 
 static void copy_option(struct app *app)
 {
-    size_t at = app->option;
-    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL)))
-        choose(app, (long)at + 1);
+    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", app->option, NULL)))
+        choose(app, (long)app->option + 1);
 }
 
 static void delete_option(struct app *app)
@@ -101,12 +101,10 @@ static void delete_option(struct app *app)
 
 static void move_option(struct app *app, int by)
 {
-    long to = (long)app->option + by;
-    if (to < 0 || to >= (long)app->document.file.scene.options_count)
-        return;
-    bool good = ceduo_document_move(&app->document, "options", app->option, (size_t)to);
-    if (ceduo_app_edited(app, good))
-        choose(app, to);
+    size_t to = app->option + (size_t)by; /* before the first it is larger than any */
+    if (to < app->document.file.scene.options_count &&
+        ceduo_app_edited(app, ceduo_document_move(&app->document, "options", app->option, to)))
+        choose(app, (long)to);
 }
 
 static bool filled_name(struct app *app, struct popup *p)
@@ -123,8 +121,8 @@ static void rename_option(struct app *app)
 
 static const struct act acts[] = {{ACTION_UP, .function = next_option, .by = -1},
                                   {ACTION_DOWN, .function = next_option, .by = 1},
-                                  {ACTION_TOP, .function = next_option, .by = -1000000},
-                                  {ACTION_BOTTOM, .function = next_option, .by = 1000000},
+                                  {ACTION_TOP, .function = next_option, .by = -ALL_LINES},
+                                  {ACTION_BOTTOM, .function = next_option, .by = ALL_LINES},
                                   {ACTION_PAGE_UP, .function = ceduo_app_read_on, .by = -4},
                                   {ACTION_PAGE_DOWN, .function = ceduo_app_read_on, .by = 4},
                                   {ACTION_ADD, .plain = ceduo_popup_new_option},

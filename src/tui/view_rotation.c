@@ -101,15 +101,15 @@ static void draw(struct app *app, struct ceduo_area area)
 static void next_year(struct app *app, int by)
 {
     const struct ceduo_years *years = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
-    long n = years ? (long)years->count : 0, year = (long)app->year + by;
-    if (n > 0)
-        app->year = (size_t)(year < 0 ? 0 : year >= n ? n - 1 : year);
+    struct viewport v = {.selected = (int)app->year, .count = years ? (int)years->count : 0};
+    viewport_move(&v, by);
+    app->year = v.count > 0 ? (size_t)v.selected : app->year;
 }
 
 static const struct act acts[] = {{ACTION_RIGHT, .function = next_year, .by = 1},
                                   {ACTION_LEFT, .function = next_year, .by = -1},
-                                  {ACTION_TOP, .function = next_year, .by = -1000000},
-                                  {ACTION_BOTTOM, .function = next_year, .by = 1000000},
+                                  {ACTION_TOP, .function = next_year, .by = -ALL_LINES},
+                                  {ACTION_BOTTOM, .function = next_year, .by = ALL_LINES},
                                   {0}};
 
 const struct view ceduo_view_rotation = {
