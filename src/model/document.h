@@ -114,8 +114,9 @@ bool ceduo_document_recover(struct document *document, const char *text);
 /* Node at a path; NULL: there is none. */
 const struct node *ceduo_document_node(const struct document *document, const char *path);
 
-/* Read a place along the slope, "10" or "end-10": m, as given; NaN if it is none, or NULL. */
+/* Read a place along the slope, "10" or "end-10": m, as given; NaN if it is none, or NULL. Or the place at a path. */
 double ceduo_document_place(const struct document *document, const char *written);
+double ceduo_document_place_at(const struct document *document, const char *path);
 
 /* ---- recovery ---- */
 

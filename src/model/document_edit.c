@@ -44,6 +44,12 @@ double ceduo_document_place(const struct document *d, const char *written)
     return written && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD ? value : NAN;
 }
 
+double ceduo_document_place_at(const struct document *d, const char *path)
+{
+    const struct node *node = ceduo_document_node(d, path);
+    return node && node->kind == NODE_SCALAR ? ceduo_document_place(d, node->text) : NAN;
+}
+
 /* Replaces the node at a path. */
 static void put(struct edit *e, const char *path, const struct node *value)
 {

@@ -31,13 +31,6 @@ static const char *rounded(struct follow *f, double value, int digits)
     return ceduo_arena_string(f->arena, ceduo_number_shortest(strtod(room, NULL), room));
 }
 
-/* The place at a path; NaN: there is none. */
-static double place_at(const struct follow *f, const char *path)
-{
-    const struct node *node = ceduo_document_node(f->d, path);
-    return node && node->kind == NODE_SCALAR ? ceduo_document_place(f->d, node->text) : NAN;
-}
-
 /* ---- borders ---- */
 
 static bool ends_in(const char *text, const char *end)
@@ -61,14 +54,15 @@ static void find_place(struct follow *f)
 /* Of a border that moves the neighbour there moves, too. */
 static void follow_border(struct follow *f)
 {
-    double now = ceduo_document_place(f->d, f->value), old = place_at(f, f->path);
+    double now = ceduo_document_place(f->d, f->value), old = ceduo_document_place_at(f->d, f->path);
     bool to = strcmp(f->key, "to_m") == 0;
     if (isnan(now) || !(ends_in(f->list, "forest") || ends_in(f->list, "slope.materials")) ||
         !(to || (strcmp(f->key, "from_m") == 0 && f->index > 0)))
         return;
     size_t other = to ? f->index + 1 : f->index - 1;
     const char *border = ceduo_arena_format(f->arena, "%s[%zu].%s", f->list, other, to ? "from_m" : "to_m");
-    double there = place_at(f, border), end = place_at(f, ceduo_arena_format(f->arena, "%s[%zu].%s", f->list, other, f->key));
+    double there = ceduo_document_place_at(f->d, border),
+           end = ceduo_document_place_at(f->d, ceduo_arena_format(f->arena, "%s[%zu].%s", f->list, other, f->key));
     bool overlaps = to ? there < now : there > now;
     if (isnan(there) || (there != old && !overlaps))
         return;

@@ -606,18 +606,11 @@ struct jobs_state ceduo_jobs_take(struct jobs *q, union results *results)
     return state;
 }
 
-void ceduo_jobs_wait(struct jobs *q)
+bool ceduo_jobs_wait(struct jobs *q, bool all)
 {
     pthread_mutex_lock(&q->lock);
-    while (q->working != JOB_KINDS || next_kind(q) != JOB_KINDS)
-        pthread_cond_wait(&q->changed, &q->lock);
-    pthread_mutex_unlock(&q->lock);
-}
-
-bool ceduo_jobs_wait_search(struct jobs *q)
-{
-    pthread_mutex_lock(&q->lock);
-    while (is_wanted(&q->jobs[JOB_SEARCH]) || is_wanted(&q->jobs[JOB_PREVIEW]))
+    while (all ? q->working != JOB_KINDS || next_kind(q) != JOB_KINDS
+               : is_wanted(&q->jobs[JOB_SEARCH]) || is_wanted(&q->jobs[JOB_PREVIEW]))
         pthread_cond_wait(&q->changed, &q->lock);
     bool news = q->fresh.search || q->fresh.preview;
     pthread_mutex_unlock(&q->lock);

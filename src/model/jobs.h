@@ -135,9 +135,7 @@ struct jobs_state ceduo_jobs_take(struct jobs *jobs, union results *results);
 void ceduo_results_drop(union results *results, enum job_kind kind);
 void ceduo_results_free(union results *results);
 
-/* Waits until no job is left. */
-void ceduo_jobs_wait(struct jobs *jobs);
-/* Waits until no search and no preview is left; true where there is a result of one. */
-bool ceduo_jobs_wait_search(struct jobs *jobs);
+/* Wait until no search and no preview is left, or no job at `all`. True if there is a result of a search or a preview. */
+bool ceduo_jobs_wait(struct jobs *jobs, bool all);
 
 #endif

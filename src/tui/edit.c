@@ -111,8 +111,7 @@ static bool find_item(struct app *app, struct item *item, bool there)
 /* The place at `list[index].key`; NaN where there is none. */
 static double place_of(const struct app *app, const struct item *item, size_t index, const char *key)
 {
-    const struct node *node = ceduo_document_node(&app->document, ceduo_app_format(app, "%s[%zu]", item->list, index));
-    return node ? ceduo_document_place(&app->document, ceduo_node_text(node, key)) : NAN;
+    return ceduo_document_place_at(&app->document, ceduo_app_format(app, "%s[%zu].%s", item->list, index, key));
 }
 
 /* Copies an item. `ends`: from_m and to_m of it, then of its copy; NaN: as they are. */
@@ -228,14 +227,13 @@ static bool add_ground(struct app *app, const struct item *item)
 static bool add_control(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
-    double last = s->controls[0].x, end = s->slope.x[s->slope.vertices - 1];
-    for (size_t i = 1; i < s->controls_count; i++)
-        last = s->controls[i].x > last ? s->controls[i].x : last;
-    double start = s->release.x.mean + s->release.x.spread * 3;
+    double last = 0, end = s->slope.x[s->slope.vertices - 1], start = s->release.x.mean + s->release.x.spread * 3;
+    for (size_t i = 0; i < s->controls_count; i++)
+        last = fmax(last, s->controls[i].x);
     double x = (last < end ? (last + end) / 2 : (start + s->controls[0].x) / 2) + s->slope.origin_x;
-    bool plain = strcmp(item->key, "controls_m") == 0;
     x = isnan(item->at) ? x : item->at;
-    return insert(app, item, 1000000, plain ? ceduo_app_format(app, "%.6g", x) : ceduo_app_format(app, "{x_m: %.6g}", x));
+    bool plain = strcmp(item->key, "controls_m") == 0;
+    return insert(app, item, SIZE_MAX, ceduo_app_format(app, "%s%.6g%s", plain ? "" : "{x_m: ", x, plain ? "" : "}"));
 }
 
 static bool copy_item(struct app *app, const struct item *item)
@@ -365,12 +363,10 @@ void ceduo_items_delete(struct app *app)
     if (!find_item(app, &item, true))
         return;
     const struct node *list = ceduo_document_node(&app->document, item.list);
+    const char *path = ceduo_app_format(app, "%s[%zu]", item.list, item.index);
     if (list && list->n == 1 && strcmp(item.list, "controls") == 0) {
         ceduo_app_say(app, "%s", _("the only place where rocks are counted stays"));
-        return;
-    }
-    const char *path = ceduo_app_format(app, "%s[%zu]", item.list, item.index);
-    if (ceduo_app_edited(app, delete_item(app, &item, path))) {
+    } else if (ceduo_app_edited(app, delete_item(app, &item, path))) {
         const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
         if (row && strcmp(row->list, item.list) != 0) /* another d would delete in the next list what nobody meant */
             ceduo_form_move(ceduo_app_form(app), -1, 0);

@@ -157,12 +157,8 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
     search.target = answer->target;
     search.rotation = answer->rotation;
     append_words(app, p, &search, answer, &words);
-    bool good = true;
-    if (found->found && !found->whole_range) {
-        good = ceduo_document_set(&app->document, p->path, NUMERAL(found->value));
-        ceduo_app_edited(app, good);
-    }
-    if (good)
+    if (!found->found || found->whole_range ||
+        ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, NUMERAL(found->value))))
         ceduo_app_say(app, "%s", words.bytes);
     ceduo_popup_close(app);
 }
@@ -250,6 +246,10 @@ static void chose_number(struct app *app, struct popup *p)
 /* Ask which number of a list is looked for, one of the first nine. */
 static void ask_which(struct app *app, const char *path, const struct node *list)
 {
+    if (list->n == 1) {
+        ask(app, ceduo_app_format(app, "%s[0]", path), list->items[0]->text);
+        return;
+    }
     struct popup *p = ceduo_popup_list(app, _("Which of its numbers is looked for?"), "", chose_number);
     for (size_t i = 0; i < list->n && i < POPUP_DIGITS_MAX; i++)
         ceduo_popup_answer(p, (char)('1' + i), list->items[i]->kind == NODE_SCALAR ? list->items[i]->text : "",
@@ -262,9 +262,7 @@ void ceduo_popup_find(struct app *app)
     const struct node *node = cell ? ceduo_document_node(&app->document, cell->path) : NULL;
     bool usable = cell && !(cell->field->flags & FIELD_NOWHERE);
     enum field_type type = usable ? cell->field->type : FIELD_TEXT;
-    if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST && node->n == 1) /* nobody is asked which */
-        ask(app, ceduo_app_format(app, "%s[0]", cell->path), node->items[0]->text);
-    else if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST)
+    if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST)
         ask_which(app, cell->path, node);
     else if (type == FIELD_NUMBER || type == FIELD_COUNT || type == FIELD_SPREAD)
         ask(app, cell->path, cell->written);

@@ -169,29 +169,21 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
             p->fields[NEW_CONTROL].value->lo = fmax(a->release, a->face);
         return good;
     }
-    switch (field) {
-    case NEW_PROFILE: /* within which the places lie */
-        if (!read_profile(app, p, a))
-            return false;
-        for (size_t i = 0; i < 3; i++) {
-            static const size_t places[] = {NEW_RELEASE, NEW_FACE, NEW_CONTROL};
-            p->fields[places[i]].value->lo = a->first;
-            p->fields[places[i]].value->hi = a->last;
-        }
-        return true;
-    case NEW_MATERIAL:
-        if (ceduo_choice_find(&ceduo_material_words, typed) >= 0)
-            return true;
-        ceduo_app_warn(app, _("no ground '%s' in the library"), typed);
+    static const size_t places[] = {NEW_RELEASE, NEW_FACE, NEW_CONTROL}; /* they lie within the profile */
+    if (field == NEW_PROFILE && !read_profile(app, p, a))
         return false;
-    case NEW_STAND:
-        if (typed[0] == '\0' || is_measured(typed) || ceduo_file_find(&p->arena, typed, NULL, "stands"))
-            return true;
-        ceduo_app_warn(app, _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"), typed);
-        return false;
-    default:
-        return true;
+    for (size_t i = 0; i < 3 && field == NEW_PROFILE; i++) {
+        p->fields[places[i]].value->lo = a->first;
+        p->fields[places[i]].value->hi = a->last;
     }
+    bool ground = field != NEW_MATERIAL || ceduo_choice_find(&ceduo_material_words, typed) >= 0;
+    bool stand = field != NEW_STAND || !typed[0] || is_measured(typed) || ceduo_file_find(&p->arena, typed, NULL, "stands");
+    if (!ground || !stand)
+        ceduo_app_warn(app,
+                       stand ? _("no ground '%s' in the library")
+                             : _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"),
+                       typed);
+    return ground && stand;
 }
 
 /* All fields up to one. */

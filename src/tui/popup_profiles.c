@@ -258,11 +258,9 @@ static const char *listed_name(const struct app *app, const char *path)
 {
     const struct node *node = ceduo_document_node(&app->document, path);
     bool reference = node && node->written && node->written->kind == NODE_SCALAR;
-    const char *file = reference ? node->written->text : "", *slash = strrchr(file, '/');
-    size_t n = slash ? strlen(slash + 1) : 0;
-    if (!slash)
-        return file;
-    return n > 5 && strcmp(slash + 1 + n - 5, ".yaml") == 0 ? ceduo_app_format(app, "%.*s", (int)n - 5, slash + 1) : slash + 1;
+    const char *file = reference ? node->written->text : "", *name = ceduo_file_name(file);
+    size_t n = strlen(name), ending = name > file && n > 5 && strcmp(name + n - 5, ".yaml") == 0 ? 5 : 0;
+    return ceduo_app_format(app, "%.*s", (int)(n - ending), name);
 }
 
 static void chose_stand(struct app *app, struct popup *p)

@@ -34,9 +34,8 @@ static void next_pane(struct app *app, int by)
 
 static void move_lines(struct app *app, int lines)
 {
-    struct view_state *state = ceduo_app_state(app);
-    if (state->pane == 0 && state->form.n > 0)
-        ceduo_form_move(&state->form, lines, 0);
+    if (ceduo_app_state(app)->pane == 0 && ceduo_app_form(app)->n > 0)
+        ceduo_form_move(ceduo_app_form(app), lines, 0);
     else
         ceduo_app_read_on(app, lines);
 }
@@ -48,17 +47,16 @@ static void move_page(struct app *app, int by)
 
 static void move_column(struct app *app, int by)
 {
-    struct view_state *state = ceduo_app_state(app);
-    if (state->pane == 0 && state->form.n > 0)
-        ceduo_form_move(&state->form, 0, by);
+    if (ceduo_app_state(app)->pane == 0)
+        ceduo_form_move(ceduo_app_form(app), 0, by);
 }
 
 /* Moves the cursor of the form to the next line that holds what is searched for. */
 static void search_again(struct app *app)
 {
-    if (ceduo_form_search(ceduo_app_form(app), app->search))
-        ceduo_app_state(app)->pane = 0;
-    else
+    bool found = ceduo_form_search(ceduo_app_form(app), app->search);
+    ceduo_app_state(app)->pane *= !found;
+    if (!found)
         ceduo_app_say(app, _("'%s' is not found in this view"), app->search);
 }
 
@@ -181,10 +179,10 @@ static const struct act acts[ACTION_COUNT] = {ACTIONS(X)};
 /* The view's own, or that of all views. */
 static void act(struct app *app, enum action action)
 {
-    const struct act *own = ceduo_views[app->view]->acts[ceduo_app_state(app)->pane];
-    while (own && (own->function || own->plain) && own->action != action)
-        own++;
-    const struct act *a = own && (own->function || own->plain) ? own : &acts[action];
+    const struct act *a = ceduo_views[app->view]->acts[ceduo_app_state(app)->pane];
+    while (a && (a->function || a->plain) && a->action != action)
+        a++;
+    a = a && (a->function || a->plain) ? a : &acts[action];
     if (a->function)
         a->function(app, a->by);
     else if (a->plain)

@@ -27,7 +27,7 @@ static enum script_end fail(const char *path, size_t line, const char *what, con
 static void press_key(struct app *app, int key)
 {
     ceduo_program_key(app, key);
-    if (ceduo_jobs_wait_search(app->live.jobs))
+    if (ceduo_jobs_wait(app->live.jobs, false))
         ceduo_program_news(app);
 }
 
@@ -82,7 +82,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
             return fail(path, line, _("a width and a height are wanted"), rest, CEDUO_FOREIGN_MOST);
         ceduo_app_resize(app, width, height);
     } else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0) {
-        ceduo_jobs_wait(app->live.jobs);
+        ceduo_jobs_wait(app->live.jobs, true);
         ceduo_program_news(app);
     } else {
         return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command, CEDUO_FOREIGN_MOST);

@@ -79,12 +79,12 @@ static void say_as_it_is(struct app *app, struct ceduo_page *page)
         const char *chance = p->p_value < 0.001 ? "<.001" : WRITTEN(p->p_value, 2);
         if (isnan(p->p_value))
             ceduo_text_format(&bad, " (%s)", _("no simulated rock does that"));
-        else if (p->inside)
-            ceduo_text_format(&bad, _(" (the mean fits, how the values are spread does not: p %s)"), chance);
-        else if (p->p_value >= CEDUO_MISFIT)
-            ceduo_text_format(&bad, _(" (the mean lies outside: p %s)"), chance);
         else
-            ceduo_text_format(&bad, " (p %s)", chance);
+            ceduo_text_format(&bad,
+                              p->inside                    ? _(" (the mean fits, how the values are spread does not: p %s)")
+                              : p->p_value >= CEDUO_MISFIT ? _(" (the mean lies outside: p %s)")
+                                                           : " (p %s)",
+                              chance);
     }
     if (bad.length > 0)
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("The scene as it is does not give what was seen: %s."), bad.bytes);
@@ -191,12 +191,10 @@ static const struct field *next_kind(const struct field *f)
 /* The first item of the list that has the group, and in it the key (NULL: any); NULL: none has. */
 static const struct node *first_with(const struct node *rows, const char *group, const char *key)
 {
-    for (size_t i = 0; i < rows->n; i++) {
-        const struct node *found = ceduo_node_get(rows->items[i], group);
-        if (found && (!key || ceduo_node_get(found, key)))
-            return found;
-    }
-    return NULL;
+    const struct node *found = NULL;
+    for (size_t i = 0; i < rows->n && !(found && (!key || ceduo_node_get(found, key))); i++)
+        found = ceduo_node_get(rows->items[i], group);
+    return found && (!key || ceduo_node_get(found, key)) ? found : NULL;
 }
 
 static void build(struct app *app, struct form *form)
@@ -387,21 +385,18 @@ static void start(struct app *app)
 static void take(struct app *app)
 {
     const struct fit *f = ceduo_live_fitted(&app->live);
-    if (!f && !app->live.fitting && ceduo_app_state(app)->pane == PANE_FORM && ceduo_app_form(app)->n > 0) {
+    if (!f && !app->live.fitting && ceduo_app_state(app)->pane == PANE_FORM && ceduo_app_form(app)->n > 0)
         ceduo_edit_start(app);
-        return;
-    }
-    if (!f) {
+    else if (!f)
         ceduo_app_say(app, "%s",
                       app->live.fitting ? _("the fit is not done yet; Esc stops it") : _("c fits the ground to what was seen"));
+    if (!f)
         return;
-    }
     const struct ceduo_calibration_report r = report_of(f);
     LOCAL_TEXT(source);
     ceduo_calibration_sources(&source, &r);
     const struct fit_values values = {&f->answer, f->inputs, ceduo_text_string(&source), NULL};
-    bool good = ceduo_keep_fit(&app->document, &values);
-    if (ceduo_app_edited(app, good))
+    if (ceduo_app_edited(app, ceduo_keep_fit(&app->document, &values)))
         ceduo_app_say(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
 }
 

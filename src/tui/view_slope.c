@@ -205,16 +205,13 @@ static void offer_ground(struct app *app, double x)
            !(there >= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "from_m")) &&
              there <= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "to_m"))))
         material++;
-    if (segments && segments->n > 0) {
-        size_t i = segments->n == 1 ? 0 : j;
-        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), i + 1), "", "slope.segments", i);
-        if (vertices)
-            offer_place(app, _("another ground from here on"), "+", "slope.segments", i);
-    } else if (material < n) {
-        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), material + 1), "", "slope.materials",
-                    material);
-        offer_place(app, _("another ground from here on"), "+", "slope.materials", material);
-    }
+    bool by_segment = segments && segments->n > 0;
+    size_t i = !by_segment ? material : segments->n == 1 ? 0 : j;
+    const char *list = by_segment ? "slope.segments" : "slope.materials";
+    if (by_segment || material < n)
+        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), i + 1), "", list, i);
+    if (by_segment ? vertices != NULL : material < n)
+        offer_place(app, _("another ground from here on"), "+", list, i);
     if (vertices && vertices->n <= LISTED_MAX) {
         double a = ceduo_node_item_number(vertices->items[j], 0), b = ceduo_node_item_number(vertices->items[j + 1], 0);
         bool first = there - a < b - there;

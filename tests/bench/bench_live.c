@@ -62,7 +62,7 @@ int main(int argc, char **argv)
     if (!ceduo_program_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false))
         return 1;
     ceduo_app_resize(&app, 120, 40);
-    ceduo_jobs_wait(app.live.jobs);
+    ceduo_jobs_wait(app.live.jobs, true);
     printf("what,edits,median_ms,p99_ms,goal_median_ms,goal_p99_ms\n");
     for (size_t i = 0; i < repeats; i++) {
         ceduo_program_key(&app, '3');

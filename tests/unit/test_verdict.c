@@ -105,7 +105,7 @@ TEST(an_edit_asks_for_its_years_alone)
     open_scene("profiles/scenes/rotation.yaml");
     file.scene.options_count = 2;
     ceduo_live_follow(&live, &file, 0, 0, 0);
-    ceduo_jobs_wait(live.jobs);
+    ceduo_jobs_wait(live.jobs, true);
     ceduo_live_news(&live, &file.scene);
     assert_true(live.verdict.rotation.known);
     struct ceduo_belt *belt = &file.scene.options[1].belts[0];
@@ -115,7 +115,7 @@ TEST(an_edit_asks_for_its_years_alone)
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
     assert_true(isnan(live.verdict.choices[1].mean.mean)); /* not that of the stand before */
     assert_false(live.verdict.rotation.known);
-    ceduo_jobs_wait(live.jobs);
+    ceduo_jobs_wait(live.jobs, true);
     ceduo_live_news(&live, &file.scene);
     assert_true(live.verdict.rotation.known);
     EXPECT(live.verdict.choices[1].mean.mean, <, before); /* four times as many of the second oldest */
@@ -125,7 +125,7 @@ TEST(an_edit_asks_for_its_years_alone)
 static void follow_to_the_end(void)
 {
     ceduo_live_follow(&live, &file, 0, 0, 0);
-    ceduo_jobs_wait(live.jobs);
+    ceduo_jobs_wait(live.jobs, true);
     ceduo_live_news(&live, &file.scene);
 }
 
