@@ -543,34 +543,18 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
     return asked;
 }
 
-bool ceduo_jobs_ask(struct jobs *q, enum job_kind kind, const struct scene_file *file, size_t shown, size_t levels)
+bool ceduo_jobs_ask(struct jobs *q, const struct job_request *r)
 {
-    struct job job = job_of(kind, file, shown, levels);
-    job.key = (uint64_t)(uintptr_t)file->root;
+    struct job job = job_of(r->kind, r->file, r->option, r->levels);
+    snprintf(job.path, sizeof job.path, "%s", r->search ? r->search->path : r->path ? r->path : "");
+    snprintf(job.value, sizeof job.value, "%s", r->value ? r->value : "");
+    if (r->search)
+        job.search = *r->search;
+    if (r->fit)
+        job.fit = *r->fit;
+    if (r->kind == JOB_UNCERTAINTY || r->kind == JOB_COMPARISON)
+        job.key = (uint64_t)(uintptr_t)r->file->root;
     return ask(q, &job);
-}
-
-void ceduo_jobs_fit(struct jobs *q, const struct scene_file *file, const struct fit_request *request)
-{
-    struct job job = job_of(JOB_FIT, file, 0, 1);
-    job.fit = *request;
-    ask(q, &job);
-}
-
-void ceduo_jobs_search(struct jobs *q, const struct scene_file *file, const struct ceduo_search *search)
-{
-    struct job job = job_of(JOB_SEARCH, file, 0, 1);
-    job.search = *search;
-    snprintf(job.path, sizeof job.path, "%s", search->path);
-    ask(q, &job);
-}
-
-void ceduo_jobs_preview(struct jobs *q, const struct scene_file *file, const char *path, const char *value, size_t option)
-{
-    struct job job = job_of(JOB_PREVIEW, file, option, 1);
-    snprintf(job.path, sizeof job.path, "%s", path);
-    snprintf(job.value, sizeof job.value, "%s", value);
-    ask(q, &job);
 }
 
 void ceduo_jobs_stop(struct jobs *q, enum job_kind kind)

@@ -100,19 +100,21 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
  * Runs of unchanged forests are kept; a request for the same runs changes nothing. */
 bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t shown);
 
-/* Asks for a search; its path is copied. */
-void ceduo_jobs_search(struct jobs *jobs, const struct scene_file *file, const struct ceduo_search *search);
-
-/* Ask what another value at a path would do to the lights of an option. Path and value fit into JOB_TEXT bytes. */
 #define JOB_TEXT 1024
-void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *path, const char *value, size_t option);
 
-/* Asks for the uncertainty (option `shown` first) or the comparison with observations, up to n levels; 0: stops it. A scene
- * with the same nodes is asked for once. Figures and years of as many rocks go first. */
-bool ceduo_jobs_ask(struct jobs *jobs, enum job_kind kind, const struct scene_file *file, size_t shown, size_t levels);
+/* A request for another job. What its pointers lead to is copied. */
+struct job_request {
+    enum job_kind kind;
+    const struct scene_file *file;
+    size_t option;            /* shown: its uncertainty comes first; of a preview that which is judged */
+    size_t levels;            /* of uncertainty and comparison, 0: stop; otherwise 1 */
+    const char *path, *value; /* of a preview: what another value would do to the lights; each of less than JOB_TEXT bytes */
+    const struct ceduo_search *search;
+    const struct fit_request *fit; /* begins again if it is interrupted */
+};
 
-/* Asks for a fit of a scene to what was observed there. What interrupts it lets it begin again. */
-void ceduo_jobs_fit(struct jobs *jobs, const struct scene_file *file, const struct fit_request *request);
+/* A scene with the same nodes is asked for its uncertainty or comparison once. Figures and years of as many rocks go first. */
+bool ceduo_jobs_ask(struct jobs *jobs, const struct job_request *request);
 
 /* Stops a search or a fit, and forgets its result. */
 void ceduo_jobs_stop(struct jobs *jobs, enum job_kind kind);

@@ -125,18 +125,18 @@ void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t opt
     if (asked && l->results.years)
         l->results.years->done = l->results.years->n; /* that step is over */
     refresh(l, &file->scene);
-    asked = ceduo_jobs_ask(l->jobs, JOB_UNCERTAINTY, file, option, uncertainty);
+    asked = ceduo_jobs_ask(l->jobs, &(struct job_request){JOB_UNCERTAINTY, file, option, .levels = uncertainty});
     l->uncertainty = asked ? 0 : uncertainty == 0 ? NAN : l->uncertainty;
     if (l->fit_of != file->root)
         ceduo_live_drop_fit(l);
-    l->busy |= asked | ceduo_jobs_ask(l->jobs, JOB_COMPARISON, file, 0, comparison);
+    l->busy |= asked | ceduo_jobs_ask(l->jobs, &(struct job_request){JOB_COMPARISON, file, .levels = comparison});
 }
 
 void ceduo_live_fit(struct live *l, const struct scene_file *file, const struct fit_request *request)
 {
     ceduo_live_drop_fit(l);
     l->fit_of = file->root;
-    ceduo_jobs_fit(l->jobs, file, request);
+    ceduo_jobs_ask(l->jobs, &(struct job_request){JOB_FIT, file, .levels = 1, .fit = request});
     l->busy = l->fitting = true;
 }
 

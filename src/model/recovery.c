@@ -48,15 +48,9 @@ static bool state_folder(struct text *folder)
 /* Number that no other program has, here or on another machine that shares the folder. */
 static uint64_t random_number(void)
 {
-    uint64_t number;
-    if (getrandom(&number, sizeof number, GRND_NONBLOCK) == sizeof number)
-        return number;
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    number = HASH_START;
-    hash_count(&number, (uint64_t)now.tv_sec);
-    hash_count(&number, (uint64_t)now.tv_nsec);
-    hash_count(&number, (uint64_t)getpid());
+    uint64_t number = (uint64_t)getpid();
+    if (getrandom(&number, sizeof number, GRND_NONBLOCK) < 0)
+        hash_count(&number, (uint64_t)time(NULL));
     return number;
 }
 

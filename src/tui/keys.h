@@ -113,7 +113,4 @@ extern const struct action_info ceduo_actions[ACTION_COUNT];
 /* The action of a key; ACTION_NONE. */
 enum action ceduo_action_of(int key);
 
-/* A key from its name in a script: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; K_NONE. */
-int ceduo_key_of(const char *name);
-
 #endif

@@ -144,7 +144,8 @@ static void append_change(struct app *app, struct popup *p)
         ceduo_document_belts(&app->document, p->value, &value);
     const char *path = all ? ceduo_app_forest(app) : p->path, *yaml = all ? value.bytes : ceduo_app_scalar(app, p->value);
     if (strlen(yaml) < JOB_TEXT)
-        ceduo_jobs_preview(app->live.jobs, &app->document.file, path, yaml, app->option);
+        ceduo_jobs_ask(app->live.jobs,
+                       &(struct job_request){JOB_PREVIEW, &app->document.file, app->option, 1, path, yaml, NULL, NULL});
 }
 
 /* A ground of the library, if the words of a field are such; NULL: it is none. */

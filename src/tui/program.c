@@ -154,6 +154,20 @@ static void show_help(struct app *app)
 
 /* ---- actions of all views ---- */
 
+const struct action_info ceduo_actions[ACTION_COUNT] = {
+#define X(NAME, key, word, key2, word2, bar, help, act) {key, key2, word, word2, bar, help},
+    ACTIONS(X)
+#undef X
+};
+
+enum action ceduo_action_of(int key)
+{
+    for (int i = 0; i < ACTION_COUNT; i++)
+        if (key != K_NONE && (ceduo_actions[i].key == key || ceduo_actions[i].key2 == key))
+            return (enum action)i;
+    return ACTION_NONE;
+}
+
 static void show_view(struct app *app, int view)
 {
     ceduo_app_show(app, (enum view_number)view);

@@ -23,6 +23,30 @@ static enum script_end fail(const char *path, size_t line, const char *what, con
     return SCRIPT_WRONG;
 }
 
+/* A key from its name: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; K_NONE. */
+static int find_key(const char *name)
+{
+    static const struct {
+        const char *name;
+        int key;
+    } others[] = {{"Esc", K_ESCAPE}, {"Space", ' '},   {"Backspace", K_BACKSPACE},
+                  {"F8", K_F1 + 7},  {"F9", K_F1 + 8}, {"Ctrl-U", K_CTRL_U}};
+    uint32_t code;
+    size_t n = strlen(name);
+    if (n > 0 && ceduo_utf8_decode(name, n, &code) == n)
+        return (int)code;
+    for (int i = 0; i < ACTION_COUNT; i++) {
+        if (strcmp(ceduo_actions[i].word, name) == 0)
+            return ceduo_actions[i].key;
+        if (strcmp(ceduo_actions[i].word2, name) == 0)
+            return ceduo_actions[i].key2;
+    }
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (strcmp(others[i].name, name) == 0)
+            return others[i].key;
+    return K_NONE;
+}
+
 /* A script sees what a search found before its next key. */
 static void press_key(struct app *app, int key)
 {
@@ -61,7 +85,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
         *rest++ = '\0';
     if (strcmp(command, "key") == 0) {
         for (char *name = strtok_r(rest, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
-            int key = ceduo_key_of(name);
+            int key = find_key(name);
             if (key == K_NONE)
                 return fail(path, line, _("no such key"), name, CEDUO_FOREIGN_MOST);
             press_key(app, key);

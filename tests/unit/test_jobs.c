@@ -109,7 +109,7 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
     struct ceduo_search search = search_of(500);
     double diameter = file.scene.rock.diameter.mean;
     show();
-    ceduo_jobs_search(jobs, &file, &search);
+    ceduo_jobs_ask(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
     assert_true(ceduo_jobs_wait(jobs, false));
     take();
     assert_non_null(results.search);
@@ -130,7 +130,7 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
 /* A preview is waited for as a search is. */
 TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
 {
-    ceduo_jobs_preview(jobs, &file, "rock.diameter_m", "0.6", 0);
+    ceduo_jobs_ask(jobs, &(struct job_request){JOB_PREVIEW, &file, 0, 1, "rock.diameter_m", "0.6", NULL, NULL});
     assert_true(ceduo_jobs_wait(jobs, false));
     take();
     assert_non_null(results.preview);
@@ -165,8 +165,8 @@ TEST_WITH(the_other_law_comes_along, set_up, tear_down)
 
 static const struct uncertainty *uncertainty(size_t shown, size_t levels)
 {
-    assert_true(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, shown, levels));
-    assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, shown, levels));
+    assert_true(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
+    assert_false(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
     ceduo_jobs_wait(jobs, true);
     take();
     assert_non_null(results.uncertainty);
@@ -183,7 +183,7 @@ TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
                      12 + 12); /* of today, and of growth: two curves of four constants, two numbers of shoots, two densities */
     assert_int_equal(u->answer.points, CEDUO_DOUBT_POINTS);
     EXPECT(u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p5, <, u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p95);
-    assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, 0, UNCERTAINTY_LEVELS));
+    assert_false(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, 0, .levels = UNCERTAINTY_LEVELS}));
     assert_true(u->answer.rotation);
     ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
     file.scene.controls_count = 0;
@@ -232,7 +232,7 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
 TEST_WITH(a_search_is_stopped, set_up, tear_down)
 {
     struct ceduo_search search = search_of(CEDUO_ROCKS_MOST);
-    ceduo_jobs_search(jobs, &file, &search);
+    ceduo_jobs_ask(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
     struct timespec moment = {.tv_nsec = 200000000};
     nanosleep(&moment, NULL);
     assert_true(take().busy);
