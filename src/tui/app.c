@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +8,6 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "base/utf8.h"
-#include "popup.h"
 #include "view/typed.h"
 
 /* ---- strings ---- */
@@ -420,10 +420,4 @@ void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *
     if (viewport_has_more(v))
         ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
     ceduo_page_free(page);
-}
-
-void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
-{
-    const struct popup *p = app->popup && app->popup->kind == POPUP_FIELD ? app->popup : NULL;
-    ceduo_form_draw(ceduo_app_form(app), app->cells, area, p ? p->fields[0].line.text : NULL);
 }

@@ -131,6 +131,8 @@ void ceduo_app_free(struct app *app);
 bool ceduo_app_open(struct app *app, const char *path);
 bool ceduo_app_open_text(struct app *app, const char *text);
 
+void ceduo_popup_close(struct app *app); /* the one that is open, if there is any (popup.c) */
+
 void ceduo_app_resize(struct app *app, int width, int height);
 
 /* A string that lives until the next key; a path in words, likewise. */

@@ -92,7 +92,6 @@ void ceduo_popup_previewed(struct app *app, const struct preview *preview); /* w
 const char *ceduo_popup_bar(const struct app *app);                         /* its keys */
 void ceduo_popup_key(struct app *app, int key);
 bool ceduo_popup_paste(struct app *app, const char *text); /* false: nothing is typed there */
-void ceduo_popup_close(struct app *app);
 
 /* ---- those that there are: each call opens one, or says why it does not ---- */
 

@@ -203,6 +203,12 @@ static void draw_bar(struct app *app)
     }
 }
 
+void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
+{
+    const struct popup *p = app->popup && app->popup->kind == POPUP_FIELD ? app->popup : NULL;
+    ceduo_form_draw(ceduo_app_form(app), app->cells, area, p ? p->fields[0].line.text : NULL);
+}
+
 /* The newest figures. Warnings without room are only counted: view 4 has them. `titled`: the scene's title stands above. */
 static void draw_column(struct app *app, struct ceduo_area area, bool titled)
 {
