@@ -32,19 +32,17 @@ void ceduo_live_drop_fit(struct live *live);
 /* Takes the new results of the jobs; true where something has changed. */
 bool ceduo_live_news(struct live *live, const struct ceduo_scene *scene);
 
-/* What fits a scene: an edit may have added a control since it was asked for. NULL: none does. */
+/* What fits this scene, to which an edit may have added a control since it was asked for. NULL: nothing. */
 const struct ceduo_snapshot *ceduo_live_snapshot(const struct live *live, const struct ceduo_scene *scene);
 struct ceduo_years *ceduo_live_years(const struct live *live, const struct ceduo_scene *scene, size_t option);
-
-/* What is known of this very scene; NULL: nothing yet. */
 const struct uncertainty *ceduo_live_uncertainty(const struct live *live, const struct scene_file *file);
+const struct comparison *ceduo_live_comparison(const struct live *live, const struct scene_file *file);
+const struct fit *ceduo_live_fitted(const struct live *live); /* a fit that is done */
 
 /* Share (0…1) that is computed of the uncertainty of an option of this scene; NaN: it is known, or not asked for. */
 double ceduo_live_awaits_uncertainty(const struct live *live, const struct scene_file *file, size_t option);
 
 /* True if the figures of the option are still those of an earlier scene, or not there yet. */
 bool ceduo_live_is_stale(const struct live *live, const struct ceduo_scene *scene, size_t option);
-const struct comparison *ceduo_live_comparison(const struct live *live, const struct scene_file *file);
-const struct fit *ceduo_live_fitted(const struct live *live); /* a fit that is done */
 
 #endif

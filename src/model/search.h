@@ -17,8 +17,7 @@ struct search_answer {
     bool rotation;            /* over one whole rotation */
     struct ceduo_found found;
     struct ceduo_sure sure;   /* and under doubt */
-    struct ceduo_yield yield; /* of the option at the value that was found, or else comes nearest: without fellings; NaN
-                                * where it is not known */
+    struct ceduo_yield yield; /* of the option at the value that was found, or is nearest, without fellings; NaN: not known */
     bool yield_depends;       /* on the value: otherwise it is the same at both ends of the range */
     struct problems problems;
 };
@@ -29,10 +28,9 @@ struct search_answer {
 enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *search, unsigned threads,
                                const atomic_bool *cancel, struct search_answer *answer);
 
-/* What a change would do to the lights, without making it: the scene with the change, and a few rocks through it. */
-
 #define PREVIEW_ROCKS 1024 /* one block: some milliseconds, and a share to 3 in 100 */
 
+/* What a change would do to the lights, without making it. */
 struct preview {
     bool known;               /* false: that is no scene */
     struct ceduo_index index; /* of the last control, its lights among them */
@@ -46,7 +44,7 @@ enum ceduo_status ceduo_preview(const struct scene_file *file, const char *path,
 /* The row of the number at a path; of one in a list that of the list, as of one number, in the arena. NULL: there is none. */
 const struct field *ceduo_search_field(struct arena *arena, const char *path);
 
-/* Whether a value may stand at a path: the scene with it is a scene. */
+/* True if a value may stand at a path: the scene with it is a scene. */
 bool ceduo_preview_fits(const struct scene_file *file, const char *path, const char *value);
 
 #endif

@@ -13,11 +13,7 @@ void ceduo_program_key(struct app *app, int key);
 void ceduo_program_paste(struct app *app, const char *text); /* into the line that is being typed; otherwise nowhere */
 void ceduo_program_click(struct app *app, int x, int y);
 void ceduo_program_wheel(struct app *app, int by);
-
-/* Takes the news of the jobs, and what a search found. True where the screen has changed. */
-bool ceduo_program_news(struct app *app);
-
-/* ---- a script (script.c) ---- */
+bool ceduo_program_news(struct app *app); /* takes the results of the jobs; true if the screen has changed */
 
 /* Plays a script without a terminal, a command on each line (see ceduo-terminal(7)). Errors go to standard error. */
 enum script_end { SCRIPT_DONE, SCRIPT_WRONG, SCRIPT_UNREADABLE, SCRIPT_UNWRITTEN };
