@@ -67,6 +67,7 @@ static const struct node *reference_from(struct document *d, const struct node *
     if (!slash && s && !s->is_option && strcmp(s->name, to) == 0)
         return node;
     LOCAL_ARENA(found);
+    struct arena *arena = &d->file.arena;
     const char *now = ceduo_resolve_path(&found, node, folder), *written = NULL;
     const char *const names[] = {slash ? slash + 1 : node->text, node->text};
     for (int i = 0; now && !written && i < 2; i++) {
@@ -76,8 +77,7 @@ static const struct node *reference_from(struct document *d, const struct node *
     if (!now || written == node->text)
         return node;
     char *whole = ceduo_must(realpath(now, NULL));
-    node =
-        ceduo_node_renamed(&d->file.arena, ceduo_node_scalar(&d->file.arena, s, written ? written : whole, false), node->key);
+    node = ceduo_node_renamed(arena, ceduo_node_scalar(arena, s, written ? written : whole, false), node->key);
     free(whole);
     return node;
 }

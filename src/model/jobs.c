@@ -197,11 +197,7 @@ static enum ceduo_status step_snapshot(struct jobs *q, struct job *job, void **r
 {
     (void)result;
     struct publisher publisher = {.queue = q, .job = job};
-    struct runs_step step = {.scene = &job->file.scene,
-                             .shown = job->option,
-                             .rocks = rocks_of(q, job->level),
-                             .publish = publish_snapshot,
-                             .context = &publisher};
+    struct runs_step step = {&job->file.scene, job->option, rocks_of(q, job->level), publish_snapshot, &publisher, false};
     enum ceduo_status status = ceduo_runs_figures(q->runs, &step);
     job->level = step.enough ? LEVELS_MAX : job->level;
     return status;
@@ -269,20 +265,17 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
         u->level = UNCERTAINTY_LEVELS - 1;
     u->last = u->inputs.n == 0 || u->level + 1 == UNCERTAINTY_LEVELS;
     job->level = u->last ? LEVELS_MAX : u->level;
-    struct ceduo_doubt_def def = {.scene = scene,
-                                  .inputs_count = u->inputs.n,
-                                  .inputs = u->inputs.items,
-                                  .points = CEDUO_DOUBT_POINTS,
-                                  .rocks = CEDUO_DOUBT_ROCKS,
-                                  .brief = true,
-                                  .rotation = !ceduo_uncertainty_no_rotation(scene),
-                                  .option = job->option,
-                                  .threads = q->threads,
-                                  .cancel = &q->cancel,
-                                  .progress = note_progress,
-                                  .context = q};
     if (u->inputs.n == 0)
         return CEDUO_OK;
+    struct ceduo_doubt_def def = {.scene = scene, .inputs_count = u->inputs.n, .inputs = u->inputs.items, .brief = true};
+    def.points = CEDUO_DOUBT_POINTS;
+    def.rocks = CEDUO_DOUBT_ROCKS;
+    def.rotation = !ceduo_uncertainty_no_rotation(scene);
+    def.option = job->option;
+    def.threads = q->threads;
+    def.cancel = &q->cancel;
+    def.progress = note_progress;
+    def.context = q;
     enum ceduo_status status = ceduo_effort_bound(&def, NULL); /* of all levels the same, so that nothing moves */
     if (status != CEDUO_OK)
         return status;
@@ -314,9 +307,7 @@ static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void *
             continue;
         status = atomic_load(&q->cancel) ? CEDUO_CANCELLED
                                          : ceduo_observer_values(observer, &c->file.scene, i, c->rocks, &values, &rocks);
-        if (status != CEDUO_OK)
-            break;
-        for (size_t k = 0; k < rocks; k++)
+        for (size_t k = 0; status == CEDUO_OK && k < rocks; k++)
             if (!isnan(values[k]))
                 values[n++] = values[k];
         gsl_sort(values, 1, n);

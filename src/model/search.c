@@ -129,19 +129,15 @@ static enum ceduo_status ask_once(struct search *s, double value, struct sure_an
         if (leave_input(s, &searched, &inputs.items[i]))
             inputs.items[n++] = inputs.items[i];
     s->answer->sure.inputs = n;
-    enum ceduo_status status = ceduo_sure_ask(&(const struct sure_def){.of = {.scene = &s->file->scene,
-                                                                              .inputs_count = n,
-                                                                              .inputs = inputs.items,
-                                                                              .option = s->def.option,
-                                                                              .rotation = s->def.rotation,
-                                                                              .points = s->answer->sure.points,
-                                                                              .rocks = s->answer->sure.rocks,
-                                                                              .threads = s->threads,
-                                                                              .cancel = s->cancel},
-                                                                       .goal = s->def.goal,
-                                                                       .target = s->passes,
-                                                                       .sure = s->def.sure},
-                                              answer);
+    struct sure_def def = {.goal = s->def.goal, .target = s->passes, .sure = s->def.sure};
+    def.of = (struct ceduo_doubt_def){.scene = &s->file->scene, .inputs_count = n, .inputs = inputs.items};
+    def.of.option = s->def.option;
+    def.of.rotation = s->def.rotation;
+    def.of.points = s->answer->sure.points;
+    def.of.rocks = s->answer->sure.rocks;
+    def.of.threads = s->threads;
+    def.of.cancel = s->cancel;
+    enum ceduo_status status = ceduo_sure_ask(&def, answer);
     if (status == CEDUO_OK && s->known_count < SURE_MAX)
         s->known[s->known_count++] = (struct known_sure){value, *answer};
     return status;
@@ -230,8 +226,9 @@ static struct ceduo_yield yield_at(struct search *s, double value)
         !isnan(value) && set_value(s, value) && ceduo_yield_of(&s->file->scene.options[s->def.option], 0, &yield) == CEDUO_OK;
     free(yield.fellings);
     yield.fellings = NULL;
-    return known ? yield
-                 : (struct ceduo_yield){.cut_per_year = NAN, .died_per_year = NAN, .standing = NAN, .volume_today = NAN};
+    if (!known)
+        yield.cut_per_year = yield.died_per_year = yield.standing = yield.volume_today = NAN;
+    return yield;
 }
 
 /* By more than rounding. */
@@ -274,8 +271,7 @@ static bool can_be_ends(struct search *s, double lo, double hi)
     if (lo > hi) /* no whole number lies between */
         return true;
     bool first = set_value(s, lo);
-    if (!first) /* what is wrong with both is told once */
-        s->problems = &others;
+    s->problems = first ? problems : &others; /* what is wrong with both is reported once */
     bool last = set_value(s, hi);
     s->problems = problems;
     if (first != last)
@@ -286,14 +282,7 @@ static bool can_be_ends(struct search *s, double lo, double hi)
 enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *asked, unsigned threads,
                                const atomic_bool *cancel, struct search_answer *answer)
 {
-    struct search search = {.file = file,
-                            .def = *asked,
-                            .threads = threads,
-                            .cancel = cancel,
-                            .answer = answer,
-                            .problems = &answer->problems,
-                            .root = file->root},
-                  *s = &search;
+    struct search search = {file, *asked, threads, cancel, answer, &answer->problems, .root = file->root}, *s = &search;
     const struct field *field = ceduo_search_field(&file->arena, asked->path);
     if (isnan(s->def.target))
         s->def.target = ceduo_goal_limit(s->def.goal, &file->scene);
@@ -303,15 +292,11 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
         return CEDUO_BAD_SLOPE;
     bool counted = field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* as a forester does */
     bool whole = s->whole = counted || (field && strcmp(field->unit, "y") == 0);
-    struct ceduo_find_def def = {.lo = s->def.lo,
-                                 .hi = s->def.hi,
-                                 .whole = whole,
-                                 .target = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target,
-                                 .goal = goal_at,
-                                 .context = s,
-                                 .tolerance = 1e-4,
-                                 .cancel = cancel};
-    s->passes = def.target;
+    s->passes = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target;
+    struct ceduo_find_def def = {
+        .lo = s->def.lo, .hi = s->def.hi, .whole = whole, .target = s->passes, .tolerance = 1e-4, .cancel = cancel};
+    def.goal = goal_at;
+    def.context = s;
     double first = whole ? ceil(def.lo) : def.lo, last = whole ? floor(def.hi) : def.hi;
     if (!can_be_ends(s, first, last))
         return CEDUO_BAD_SLOPE;

@@ -384,16 +384,14 @@ void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
     bool fits = text->length == 0 || ceduo_app_text_lines(app, text->bytes, width) <= lines;
     if (fits)
         return;
-    while (!fits) {
-        size_t end = text->length;
+    for (size_t end = text->length; !fits; end = text->length) {
         ceduo_text_put(text, " ..."); /* as wide as the sign is in ASCII */
         fits = ceduo_app_text_lines(app, text->bytes, width) <= lines;
         while (!fits && end > 0 && text->bytes[end - 1] != ' ' && text->bytes[end - 1] != '\n') /* the last word, */
             end--;
         if (!fits && end == 0)
             return;
-        text->length = end - !fits; /* and what stands before it */
-        text->bytes[text->length] = '\0';
+        ceduo_text_cut(text, end - !fits); /* and what stands before it */
     }
     ceduo_text_put(text, " \xe2\x80\xa6");
 }

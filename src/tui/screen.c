@@ -122,9 +122,7 @@ static void dim_figures(struct app *app, struct ceduo_area column)
         if (!kept->cells)
             kept->cells = ceduo_must(ceduo_cells_create(app->width, app->height, app->charset));
         memcpy(kept->cells->cell, app->cells->cell, (size_t)app->width * (size_t)app->height * sizeof *app->cells->cell);
-        kept->view = app->view;
-        kept->option = app->option;
-        kept->year = app->year;
+        *kept = (struct kept){kept->cells, app->view, app->option, app->year};
         return;
     }
     bool same = kept->cells && kept->option == app->option && (kept->year == app->year || kept->view != VIEW_ROTATION);
