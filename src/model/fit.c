@@ -158,8 +158,6 @@ void ceduo_fit_free(void *fit)
 
 #define SEGMENTS "slope.segments["
 
-/* ---- ground that stands in no list of segments ---- */
-
 static void put_number(struct text *t, const char *before, double value)
 {
     ceduo_text_format(t, "%s%s", before, NUMERAL(value));
@@ -201,8 +199,7 @@ static void add_ground(struct changes *c, const struct document *d)
         put_number(&vertices, ", ", s->z[i] + s->origin_z);
         ceduo_text_put(&vertices, "]");
     }
-    ceduo_text_put(&vertices, "]");
-    ceduo_changes_add(c, CHANGE_SET, "slope.vertices_m", vertices.bytes);
+    ceduo_changes_set(c, "slope.vertices_m", "%s]", vertices.bytes);
     for (size_t i = 0; i + 1 < s->vertices; i++) {
         const struct ceduo_segment *g = &s->segments[i];
         bool angle = isnan(g->roughness_m);
@@ -212,8 +209,7 @@ static void add_ground(struct changes *c, const struct document *d)
         put_number(&segments, ", friction: ", g->friction);
         ceduo_text_put(&segments, "}");
     }
-    ceduo_text_put(&segments, "]");
-    ceduo_changes_add(c, CHANGE_SET, "slope.segments", segments.bytes);
+    ceduo_changes_set(c, "slope.segments", "%s]", segments.bytes);
 }
 
 /* ---- values ---- */
@@ -228,11 +224,9 @@ static void add_source(struct changes *c, const char *place, const char *source)
     for (size_t i = 0; i < c->n; i++)
         if (strcmp(c->items[i].path, path) == 0)
             return;
-    LOCAL_TEXT(t);
-    ceduo_text_put(&t, "{kind: calibrated, text: ");
-    ceduo_emit_scalar(&t, source, true);
-    ceduo_text_put(&t, "}");
-    ceduo_changes_add(c, CHANGE_SET, path, t.bytes);
+    LOCAL_TEXT(text);
+    ceduo_emit_scalar(&text, source, true);
+    ceduo_changes_set(c, path, "{kind: calibrated, text: %s}", text.bytes);
 }
 
 /* Whether a row of doubt is about a fitted value. */

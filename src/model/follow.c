@@ -195,8 +195,7 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
         take_out(f, "rock", "axes_m");
     double s[3]; /* length, width, height: a volume is that of a box of these times a number of the shape */
     for (int i = 0; i < 3; i++)
-        s[i] = !round ? def->axes[i].mean : cylinder ? def->diameter.mean : rock.mean_diameter;
-    s[2] = cylinder ? def->height.mean : s[2];
+        s[i] = !round ? def->axes[i].mean : !cylinder ? rock.mean_diameter : i < 2 ? def->diameter.mean : def->height.mean;
     double box = shape == CEDUO_BLOCK ? rock.volume : rock.volume * full[shape] / M_PI;
     double scale = cbrt(box / (s[0] * s[1] * s[2]));
     if (shape == CEDUO_SPHERE) {
@@ -215,10 +214,8 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
     } else if (mass) {
         take_out(f, "rock", "density_kg_m3");
     }
-    bool spread = def->diameter.spread > 0 || def->height.spread > 0 || def->volume.spread > 0;
-    for (int i = 0; i < 3; i++)
-        spread |= def->axes[i].spread > 0;
-    if (spread)
+    if (fmax(def->diameter.spread, fmax(def->height.spread, def->volume.spread)) > 0 ||
+        fmax(def->axes[0].spread, fmax(def->axes[1].spread, def->axes[2].spread)) > 0)
         ceduo_text_then(&f->filled, " ", _("(means, without spread)"));
 }
 
@@ -275,10 +272,8 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         ceduo_text_format(said, _("%sremoved: %s"), said->length ? "; " : "", f.taken.bytes);
     if (f.followed.length)
         ceduo_text_format(said, "%s%s", said->length ? "; " : "", f.followed.bytes);
-    bool good = f.refused.length == 0;
-    if (good)
-        good = ceduo_changes_make(&f.changes, path);
-    else
+    bool good = f.refused.length == 0 && ceduo_changes_make(&f.changes, path);
+    if (f.refused.length > 0)
         ceduo_problem(&d->problems, &(struct source){.name = path, .is_option = true}, 0, 0, "%s", f.refused.bytes);
     ceduo_text_free(&f.filled);
     ceduo_text_free(&f.taken);

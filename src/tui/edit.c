@@ -147,24 +147,20 @@ static bool split_at(struct app *app, size_t segment, bool apart, double at)
         x[i] = ceduo_node_item_number(vertices->items[segment + i], 0);
         z[i] = ceduo_node_item_number(vertices->items[segment + i], 1);
     }
-    if (isnan(x[0] + x[1] + z[0] + z[1]))
-        return false;
-    double share = isnan(at) ? 0.5 : (at - x[0]) / (x[1] - x[0]);
-    const char *vertex =
-        ceduo_app_format(app, "[%.10g, %.10g]", isnan(at) ? (x[0] + x[1]) / 2 : at, z[0] + share * (z[1] - z[0]));
-    return ceduo_document_split_segment(&app->document, segment, vertex, apart);
+    at = isnan(at) ? (x[0] + x[1]) / 2 : at;
+    double height = z[0] + (at - x[0]) / (x[1] - x[0]) * (z[1] - z[0]);
+    return !isnan(height) &&
+           ceduo_document_split_segment(&app->document, segment, ceduo_app_format(app, "[%.10g, %.10g]", at, height), apart);
 }
 
 size_t ceduo_items_stretch_of(const struct app *app, double x_written)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
-    size_t j = ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x);
-    if (!vertices) /* a CSV file */
-        return s->reversed ? s->vertices - 2 - j : j;
-    for (j = 0; j + 2 < vertices->n && x_written >= ceduo_node_item_number(vertices->items[j + 1], 0);)
+    size_t j = vertices ? 0 : ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x); /* of a CSV file */
+    while (vertices && j + 2 < vertices->n && x_written >= ceduo_node_item_number(vertices->items[j + 1], 0))
         j++;
-    return j;
+    return !vertices && s->reversed ? s->vertices - 2 - j : j;
 }
 
 /* A segment in two, each with a ground of its own; of one ground for all segments that in the middle of the slope. */

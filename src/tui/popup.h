@@ -105,8 +105,7 @@ void ceduo_popup_copy(struct app *app); /* copies what the view says, without it
 void ceduo_popup_find(struct app *app);
 void ceduo_popup_found(struct app *app, struct search_answer *answer); /* what that search found */
 void ceduo_popup_counts(struct app *app);
-void ceduo_popup_survey(struct app *app); /* asks for the CSV file of a survey */
-void ceduo_popup_save(struct app *app);   /* asks for a name if the scene has no own file, and what to do if that has changed */
+void ceduo_popup_save(struct app *app); /* asks for a name if the scene has no own file, and what to do if that has changed */
 void ceduo_popup_save_as(struct app *app);
 void ceduo_popup_quit(struct app *app);
 void ceduo_popup_recover(struct app *app); /* unsaved work of earlier processes, if some is of this document or has no file */
@@ -132,8 +131,10 @@ void ceduo_popup_offer_files(struct app *app, struct popup *popup); /* with the 
 void ceduo_popup_offer_stands(struct app *app, struct popup *popup);
 void ceduo_popup_offer_grounds(struct app *app, struct popup *popup);
 
-#define STAND_COUNTED _("from a sample plot") /* instead of a stand: what a sample plot counts */
-#define STAND_SURVEY  _("from a survey")      /* what a CSV file of plots holds */
+#define STAND_COUNTED _("from a sample plot")                      /* instead of a stand: what a sample plot counts */
+#define STAND_SURVEY  _("from a survey")                           /* what a CSV file of plots holds */
+bool ceduo_popup_is_measured(const char *stand);                   /* one of these */
+bool ceduo_popup_ask_measured(struct app *app, const char *stand); /* asks for it; false if it is none of these */
 /* Replace the stand of the belt shown. Reports which growth and cutting are dropped, and that the year of its cut stays. */
 bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *value);
 

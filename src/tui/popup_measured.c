@@ -170,11 +170,9 @@ static bool read_survey(const char *path, struct survey_answers *answers, struct
 static void take_stand(struct app *app, const char *path, const char *value, const char *understood)
 {
     app->message[0] = '\0';
-    if (!ceduo_popup_replace_stand(app, path, value))
-        return;
-    if (app->message[0])
+    if (ceduo_popup_replace_stand(app, path, value) && app->message[0])
         ceduo_app_say(app, "%s; %s", ceduo_app_format(app, "%s", app->message), understood);
-    else
+    else if (!app->message[0])
         ceduo_app_say(app,
                       ceduo_stand_grows(&ceduo_app_belt(app)->stand)
                           ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
@@ -256,7 +254,7 @@ static void chose_survey(struct app *app, struct popup *p)
     try_survey(app, p->path, p->value, &(struct survey_answers){0});
 }
 
-void ceduo_popup_survey(struct app *app)
+static void ask_for_survey(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem, or for each class"),
                                        ceduo_app_stand(app), chose_survey);
@@ -265,4 +263,16 @@ void ceduo_popup_survey(struct app *app)
                      "see ceduo-stand(5)."));
     p->fields[0].offer = offer_surveys;
     p->endings = ".csv .txt";
+}
+
+bool ceduo_popup_is_measured(const char *stand)
+{
+    return strcmp(stand, STAND_COUNTED) == 0 || strcmp(stand, STAND_SURVEY) == 0;
+}
+
+bool ceduo_popup_ask_measured(struct app *app, const char *stand)
+{
+    if (ceduo_popup_is_measured(stand))
+        (strcmp(stand, STAND_COUNTED) == 0 ? ceduo_popup_counts : ask_for_survey)(app);
+    return ceduo_popup_is_measured(stand);
 }

@@ -147,12 +147,6 @@ static void describe(struct popup *p, const struct answers *a)
 
 /* ---- reading ---- */
 
-/* A stand that is asked for when the slope is there. */
-static bool is_measured(const char *stand)
-{
-    return strcmp(stand, STAND_COUNTED) == 0 || strcmp(stand, STAND_SURVEY) == 0;
-}
-
 /* One field, of which it is said what is wrong; those before it are read. */
 static bool read_field(struct app *app, struct popup *p, size_t field, struct answers *a)
 {
@@ -177,7 +171,8 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
         p->fields[places[i]].value->hi = a->last;
     }
     bool ground = field != NEW_MATERIAL || ceduo_choice_find(&ceduo_material_words, typed) >= 0;
-    bool stand = field != NEW_STAND || !typed[0] || is_measured(typed) || ceduo_file_find(&p->arena, typed, NULL, "stands");
+    bool stand =
+        field != NEW_STAND || !typed[0] || ceduo_popup_is_measured(typed) || ceduo_file_find(&p->arena, typed, NULL, "stands");
     if (!ground || !stand)
         ceduo_app_warn(app,
                        stand ? _("no ground '%s' in the library")
@@ -239,11 +234,11 @@ static void append_scene(struct popup *p, const struct answers *a, struct text *
     if (!isnan(a->accepted))
         ceduo_text_format(yaml, ", accepted_kJ: %.10g", a->accepted);
     ceduo_text_put(yaml, "}\n");
-    if (!stand[0])
-        return;
-    ceduo_text_format(yaml, "forest:\n  - {from_m: %.10g, to_m: %.10g", a->face, a->control);
-    append_quoted(yaml, ", stand: ", is_measured(stand) ? "simple-coppice" : stand);
-    ceduo_text_put(yaml, "}\n");
+    if (stand[0]) {
+        ceduo_text_format(yaml, "forest:\n  - {from_m: %.10g, to_m: %.10g", a->face, a->control);
+        append_quoted(yaml, ", stand: ", ceduo_popup_is_measured(stand) ? "simple-coppice" : stand);
+        ceduo_text_put(yaml, "}\n");
+    }
 }
 
 static bool filled_new(struct app *app, struct popup *p)
@@ -256,10 +251,8 @@ static bool filled_new(struct app *app, struct popup *p)
         good = ceduo_app_open_text(app, yaml.bytes);
     }
     release_answers(&a);
-    if (good && strcmp(p->fields[NEW_STAND].line.text, STAND_COUNTED) == 0)
-        ceduo_popup_counts(app);
-    else if (good && strcmp(p->fields[NEW_STAND].line.text, STAND_SURVEY) == 0)
-        ceduo_popup_survey(app);
+    if (good)
+        ceduo_popup_ask_measured(app, p->fields[NEW_STAND].line.text);
     return good;
 }
 
@@ -285,8 +278,9 @@ static void draw_profile(struct app *app, struct popup *p, struct ceduo_area are
     struct answers a = {.release = NAN};
     bool good = area.height >= PROFILE_MIN && p->at >= NEW_PROFILE &&
                 read_answers(app, p, p->at == NEW_PROFILE ? NEW_PROFILE : NEW_RELEASE, &a);
-    double face = good && p->at > NEW_PROFILE && read_field(app, p, NEW_FACE, &a) ? a.face - a.first : NAN;
-    if (good && p->at > NEW_PROFILE && read_field(app, p, NEW_CONTROL, &a)) {
+    bool later = good && p->at > NEW_PROFILE;
+    double face = later && read_field(app, p, NEW_FACE, &a) ? a.face - a.first : NAN;
+    if (later && read_field(app, p, NEW_CONTROL, &a)) {
         a.profile.scene.controls[0].x = a.control - a.first;
         a.profile.scene.controls[0].x_given = a.control;
     }

@@ -169,8 +169,8 @@ static void preview_word(struct app *app, struct popup *p)
 static void preview_stand(struct app *app, struct popup *p)
 {
     struct scene_file file = {0};
-    bool stand = strcmp(p->value, STAND_COUNTED) != 0 && strcmp(p->value, STAND_SURVEY) != 0;
-    if (!ceduo_popup_preview_treatment(app, p) && stand && ceduo_popup_read_stand(app, p->value, &file)) {
+    if (!ceduo_popup_preview_treatment(app, p) && !ceduo_popup_is_measured(p->value) &&
+        ceduo_popup_read_stand(app, p->value, &file)) {
         const struct ceduo_belt *b = &file.scene.options[0].belts[0];
         struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
         ceduo_text_format(&p->text, _("%s: %.0f stools, %.0f stems, %.0f trees per ha; basal area %.1f m2/ha\n"), b->name,
@@ -266,11 +266,7 @@ static const char *listed_name(const struct app *app, const char *path)
 
 static void chose_stand(struct app *app, struct popup *p)
 {
-    if (strcmp(p->value, STAND_COUNTED) == 0)
-        ceduo_popup_counts(app);
-    else if (strcmp(p->value, STAND_SURVEY) == 0)
-        ceduo_popup_survey(app);
-    else
+    if (!ceduo_popup_ask_measured(app, p->value))
         ceduo_popup_replace_stand(app, p->path, ceduo_app_scalar(app, p->value));
 }
 

@@ -272,18 +272,15 @@ static void draw(struct app *app, struct ceduo_area area)
         picture.from = fmin(fmax(0, mark - shown / 2), length_of(app) - shown);
         picture.to = picture.from + shown;
     }
-    int form_height = alone ? 0 : area.height / 3;
+    ceduo_app_draw_form(app, cut_bottom(&area, alone ? 0 : area.height / 3));
     bool place = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: all rows for the slope at true scale */
-    int room = area.height - form_height;
-    int strips = place ? 0 : room >= 24 ? 2 : room >= 13 ? 1 : 0;
+    int room = area.height, strips = place ? 0 : room >= 24 ? 2 : room >= 13 ? 1 : 0, strip = room >= 24 ? room / 4 : 5;
     if (place)
         picture.mark = &mark;
-    int strip = room >= 24 ? room / 4 : 5;
     if (place)
         say_place(app);
     else if (alone)
         ceduo_app_hint(app, _("left, right: another rock; down, up: along its way; Tab: along the slope"));
-    ceduo_app_draw_form(app, cut_bottom(&area, form_height));
     ceduo_app_plot(app, CEDUO_PLOT_PROFILE, cut_top(&area, room - strip * strips - !alone), &picture);
     picture.no_x_axis = true;
     if (strips > 1)
@@ -299,10 +296,8 @@ static void zoom(struct app *app, int by)
     state->pane = state->pane == PANE_FORM ? PANE_PLACE : state->pane;
     struct place *p = ceduo_app_own(app);
     by += p->zoom;
-    if (by < 0)
-        ceduo_app_say(app, "%s", _("this is the whole slope"));
-    else if (by > ZOOM_MAX)
-        ceduo_app_say(app, "%s", _("this is as near as it gets"));
+    if (by < 0 || by > ZOOM_MAX)
+        ceduo_app_say(app, "%s", by < 0 ? _("this is the whole slope") : _("this is as near as it gets"));
     else
         p->zoom = by;
 }
