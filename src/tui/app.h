@@ -33,6 +33,12 @@ struct act {
     void (*plain)(struct app *app);
 };
 
+/* A row of a table of keys. */
+#define KEY(NAME, ...)                                                                                                         \
+    {                                                                                                                          \
+        ACTION_##NAME, __VA_ARGS__                                                                                             \
+    }
+
 #define VIEW_PANES 3
 
 /* Describes a view: what it shows and how it handles keys. */

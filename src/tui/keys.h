@@ -4,17 +4,10 @@
 
 #include <stdbool.h>
 
-/* A key as the program knows it: a Unicode code point, or one of these. */
-enum key {
-    K_NONE = 0,
-    K_CTRL_L = 12,
-    K_TAB = 9,
-    K_ENTER = 13,
-    K_CTRL_R = 18,
-    K_CTRL_U = 21,
-    K_ESCAPE = 27,
-    K_SPECIAL = 0x110000,
-    K_UP,
+/* A key as the program knows it: a Unicode code point, or one of the second row. */
+enum { K_NONE, K_TAB = 9, K_CTRL_L = 12, K_ENTER, K_CTRL_R = 18, K_CTRL_U = 21, K_ESCAPE = 27, K_SPECIAL = 0x110000 };
+enum {
+    K_UP = K_SPECIAL + 1,
     K_DOWN,
     K_LEFT,
     K_RIGHT,
@@ -22,12 +15,11 @@ enum key {
     K_END,
     K_PAGE_UP,
     K_PAGE_DOWN,
-    K_BACKSPACE,
     K_DELETE,
-    K_SHIFT_TAB,
-    K_F1,
-    K_F10 = K_F1 + 9
+    K_BACKSPACE,
+    K_SHIFT_TAB
 };
+#define K_F(n) (K_SHIFT_TAB + (n))
 
 /* The views. A new one is a file with a `struct view` (app.h) and a line here: name, in small, key, its word, title. */
 #define VIEWS(V)                                                                                                               \
@@ -39,8 +31,6 @@ enum key {
     V(ROTATION, rotation, '6', "6", NP_("view", "rotation"))                                                                   \
     V(DOUBT, doubt, '7', "7", NP_("view", "doubt"))                                                                            \
     V(OBSERVED, observed, '8', "8", NP_("view", "seen"))
-
-#define K_F(n) (K_F1 + (n)-1)
 
 #define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help, BY(show_view, VIEW_##NAME))
 
@@ -90,8 +80,8 @@ enum key {
     X(CHARSET, 'b', "b", K_NONE, "", 0, N_("braille, blocks or ASCII"), DO(next_charset))                                      \
     X(THEME, 't', "t", K_NONE, "", 0, N_("colours: dark, light, none"), DO(next_theme))                                        \
     X(REDRAW, K_CTRL_L, "Ctrl-L", K_NONE, "", 0, N_("draw the screen anew"), DO(redraw))                                       \
-    X(HELP, '?', "?", K_F1, "F1", 2, N_("help"), DO(show_help))                                                                \
-    X(QUIT, 'q', "q", K_F10, "F10", 2, N_("quit"), DO(ceduo_popup_quit))
+    X(HELP, '?', "?", K_F(1), "F1", 2, N_("help"), DO(show_help))                                                              \
+    X(QUIT, 'q', "q", K_F(10), "F10", 2, N_("quit"), DO(ceduo_popup_quit))
 
 enum action {
 #define X(NAME, key, word, key2, word2, bar, help, act) ACTION_##NAME,

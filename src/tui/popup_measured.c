@@ -10,18 +10,7 @@
 
 /* ==== a sample plot ==== */
 
-enum {
-    COUNT_AREA,
-    COUNT_ANGLE,
-    COUNT_STOOLS,
-    COUNT_SHOOTS,
-    COUNT_SHOOT_DBH,
-    COUNT_SHOOT_HEIGHT,
-    COUNT_TREES,
-    COUNT_TREE_DBH,
-    COUNT_TREE_HEIGHT,
-    COUNTS
-};
+enum { AREA, ANGLE, STOOLS, SHOOTS, SHOOT_DBH, SHOOT_HEIGHT, TREES, TREE_DBH, TREE_HEIGHT, COUNTS };
 _Static_assert(COUNTS <= POPUP_FIELDS_MAX, "one popup asks for all counts");
 
 static const struct {
@@ -32,16 +21,15 @@ static const struct {
     unsigned flags;
     const char *meaning;
 } rows[COUNTS] = {
-    [COUNT_AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE, N_("all was counted on it")},
-    [COUNT_ANGLE] = {N_("angle of the slope, degrees"), COUNTS, NULL, 90, FIELD_REQUIRED | FIELD_UNDER,
-                     N_("0 on level ground")},
-    [COUNT_STOOLS] = {N_("stools counted"), COUNTS, NULL, 1e6, 0, NULL},
-    [COUNT_SHOOTS] = {N_("shoots counted on them"), COUNTS, NULL, 1e6, 0, NULL},
-    [COUNT_SHOOT_DBH] = {N_("their mean diameter, cm"), COUNT_SHOOTS, "forest[0].stand.shoots[0].dbh_m", 0, 0, NULL},
-    [COUNT_SHOOT_HEIGHT] = {N_("their mean height, m"), COUNT_SHOOTS, "forest[0].stand.shoots[0].height_m", 0, 0, NULL},
-    [COUNT_TREES] = {N_("single trees counted"), COUNTS, NULL, 1e6, 0, NULL},
-    [COUNT_TREE_DBH] = {N_("their mean diameter, cm"), COUNT_TREES, "forest[0].stand.trees[0].dbh_m", 0, 0, NULL},
-    [COUNT_TREE_HEIGHT] = {N_("their mean height, m"), COUNT_TREES, "forest[0].stand.trees[0].height_m", 0, 0, NULL}};
+    [AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE, N_("all was counted on it")},
+    [ANGLE] = {N_("angle of the slope, degrees"), COUNTS, NULL, 90, FIELD_REQUIRED | FIELD_UNDER, N_("0 on level ground")},
+    [STOOLS] = {N_("stools counted"), COUNTS, NULL, 1e6, 0, NULL},
+    [SHOOTS] = {N_("shoots counted on them"), COUNTS, NULL, 1e6, 0, NULL},
+    [SHOOT_DBH] = {N_("their mean diameter, cm"), SHOOTS, "forest[0].stand.shoots[0].dbh_m", 0, 0, NULL},
+    [SHOOT_HEIGHT] = {N_("their mean height, m"), SHOOTS, "forest[0].stand.shoots[0].height_m", 0, 0, NULL},
+    [TREES] = {N_("single trees counted"), COUNTS, NULL, 1e6, 0, NULL},
+    [TREE_DBH] = {N_("their mean diameter, cm"), TREES, "forest[0].stand.trees[0].dbh_m", 0, 0, NULL},
+    [TREE_HEIGHT] = {N_("their mean height, m"), TREES, "forest[0].stand.trees[0].height_m", 0, 0, NULL}};
 
 /* The values in the units of files; false where one is not as it should be, which is said. */
 static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
@@ -57,9 +45,9 @@ static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
         if (sized && v[i] == 0)
             wrong = ceduo_app_format(app, _("%s: it is needed; %s"), _(rows[i].label), _(rows[rows[i].count].label));
     }
-    if (v[COUNT_SHOOTS] > 0 && v[COUNT_SHOOTS] < v[COUNT_STOOLS])
+    if (v[SHOOTS] > 0 && v[SHOOTS] < v[STOOLS])
         wrong = _("fewer shoots than stools: a stool has one shoot at least");
-    else if ((v[COUNT_SHOOTS] > 0) != (v[COUNT_STOOLS] > 0))
+    else if ((v[SHOOTS] > 0) != (v[STOOLS] > 0))
         wrong = _("stools and shoots belong together: count both");
     if (wrong)
         ceduo_app_warn(app, "%s", wrong);
@@ -74,16 +62,16 @@ static bool filled_counts(struct app *app, struct popup *p)
     struct changes changes = {.document = &app->document}, *c = &changes;
     if (!read_plot(app, p, v))
         return false;
-    double area = v[COUNT_AREA] * cos(v[COUNT_ANGLE] * M_PI / 180), per = 10000 / area; /* m2, horizontal */
+    double area = v[AREA] * cos(v[ANGLE] * M_PI / 180), per = 10000 / area; /* m2, horizontal */
     const struct ceduo_stand *now = &ceduo_app_belt(app)->stand;
     const char *stools = ceduo_app_format(app, "%s.stools", p->path);
-    if (v[COUNT_STOOLS] > 0)
-        ceduo_changes_set(c, stools, "{per_ha: %.6g, spacing_m: %.10g}", v[COUNT_STOOLS] * per,
+    if (v[STOOLS] > 0)
+        ceduo_changes_set(c, stools, "{per_ha: %.6g, spacing_m: %.10g}", v[STOOLS] * per,
                           now->stools_per_ha > 0 ? now->spacing : SPACING);
     else
         ceduo_changes_add(c, CHANGE_DELETE, stools, NULL);
     for (int i = 0; i < 2; i++) { /* one class of stems in the place of those that stand there, or none */
-        const double *stems = &v[i == 0 ? COUNT_SHOOTS : COUNT_TREES];
+        const double *stems = &v[i == 0 ? SHOOTS : TREES];
         const char *list = ceduo_app_format(app, "%s.%s", p->path, i == 0 ? "shoots" : "trees");
         if (stems[0] > 0)
             ceduo_changes_set(c, list, "[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", stems[0] * per, stems[1], stems[2]);
@@ -118,12 +106,12 @@ void ceduo_popup_counts(struct app *app)
                         "stay those of %s."),
                       belt->name);
     const double offered[COUNTS] = {
-        [COUNT_AREA] = 400,
-        [COUNT_ANGLE] = round(atan2(fabs(fall), belt->to - belt->from) * 180 / M_PI),
-        [COUNT_SHOOT_DBH] = stand->shoots_count ? stand->shoots[0].dbh * 100 : 0,
-        [COUNT_SHOOT_HEIGHT] = stand->shoots_count ? stand->shoots[0].height : 0,
-        [COUNT_TREE_DBH] = stand->trees_count ? stand->trees[0].dbh * 100 : 0,
-        [COUNT_TREE_HEIGHT] = stand->trees_count ? stand->trees[0].height : 0,
+        [AREA] = 400,
+        [ANGLE] = round(atan2(fabs(fall), belt->to - belt->from) * 180 / M_PI),
+        [SHOOT_DBH] = stand->shoots_count ? stand->shoots[0].dbh * 100 : 0,
+        [SHOOT_HEIGHT] = stand->shoots_count ? stand->shoots[0].height : 0,
+        [TREE_DBH] = stand->trees_count ? stand->trees[0].dbh * 100 : 0,
+        [TREE_HEIGHT] = stand->trees_count ? stand->trees[0].height : 0,
     };
     for (size_t i = 0; i < COUNTS; i++) {
         const char *value = offered[i] > 0 ? ceduo_number_spoken(ceduo_app_format(app, "%.4g", offered[i])) : "";

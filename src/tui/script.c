@@ -29,8 +29,8 @@ static int find_key(const char *name)
     static const struct {
         const char *name;
         int key;
-    } others[] = {{"Esc", K_ESCAPE}, {"Space", ' '},   {"Backspace", K_BACKSPACE},
-                  {"F8", K_F1 + 7},  {"F9", K_F1 + 8}, {"Ctrl-U", K_CTRL_U}};
+    } others[] = {{"Esc", K_ESCAPE}, {"Space", ' '}, {"Backspace", K_BACKSPACE},
+                  {"F8", K_F(8)},    {"F9", K_F(9)}, {"Ctrl-U", K_CTRL_U}};
     uint32_t code;
     size_t n = strlen(name);
     if (n > 0 && ceduo_utf8_decode(name, n, &code) == n)

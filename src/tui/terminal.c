@@ -362,7 +362,7 @@ static bool take_keys(struct app *app)
         for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
             key = (wint_t)keys[i].from == code ? keys[i].to : key;
         if (code >= KEY_F(1) && code <= KEY_F(10))
-            key = K_F1 + (int)code - KEY_F(1);
+            key = K_F((int)code - (int)KEY_F0);
         input.state = PLAIN;
         if (key != K_NONE && !input.pasting)
             ceduo_program_key(app, key);

@@ -119,18 +119,18 @@ static void rename_option(struct app *app)
                           ceduo_app_option(app)->name);
 }
 
-static const struct act acts[] = {{ACTION_UP, .function = next_option, .by = -1},
-                                  {ACTION_DOWN, .function = next_option, .by = 1},
-                                  {ACTION_TOP, .function = next_option, .by = -ALL_LINES},
-                                  {ACTION_BOTTOM, .function = next_option, .by = ALL_LINES},
-                                  {ACTION_PAGE_UP, .function = ceduo_app_read_on, .by = -4},
-                                  {ACTION_PAGE_DOWN, .function = ceduo_app_read_on, .by = 4},
-                                  {ACTION_ADD, .plain = ceduo_popup_new_option},
-                                  {ACTION_DUPLICATE, .plain = copy_option},
-                                  {ACTION_DELETE, .plain = delete_option},
-                                  {ACTION_EARLIER, .function = move_option, .by = -1},
-                                  {ACTION_LATER, .function = move_option, .by = 1},
-                                  {ACTION_EDIT, .plain = rename_option},
+static const struct act acts[] = {KEY(UP, .function = next_option, .by = -1),
+                                  KEY(DOWN, .function = next_option, .by = 1),
+                                  KEY(TOP, .function = next_option, .by = -ALL_LINES),
+                                  KEY(BOTTOM, .function = next_option, .by = ALL_LINES),
+                                  KEY(PAGE_UP, .function = ceduo_app_read_on, .by = -4),
+                                  KEY(PAGE_DOWN, .function = ceduo_app_read_on, .by = 4),
+                                  KEY(ADD, .plain = ceduo_popup_new_option),
+                                  KEY(DUPLICATE, .plain = copy_option),
+                                  KEY(DELETE, .plain = delete_option),
+                                  KEY(EARLIER, .function = move_option, .by = -1),
+                                  KEY(LATER, .function = move_option, .by = 1),
+                                  KEY(EDIT, .plain = rename_option),
                                   {0}};
 
 const struct view ceduo_view_compare = {.panes = PANES,
@@ -138,9 +138,6 @@ const struct view ceduo_view_compare = {.panes = PANES,
                                         .build = build,
                                         .draw = draw,
                                         .acts = {acts, acts, acts},
-                                        .bar = {{ACTION_ADD, N_("add")},
-                                                {ACTION_NEXT_PANE, N_("picture")},
-                                                {ACTION_DUPLICATE, N_("copy")},
-                                                {ACTION_DELETE, N_("delete")},
-                                                {ACTION_EDIT, N_("name")},
-                                                {ACTION_PAGE_DOWN, N_("read on")}}};
+                                        .bar = {KEY(ADD, N_("add")), KEY(NEXT_PANE, N_("picture")), KEY(DUPLICATE, N_("copy")),
+                                                KEY(DELETE, N_("delete")), KEY(EDIT, N_("name")),
+                                                KEY(PAGE_DOWN, N_("read on"))}};

@@ -94,11 +94,11 @@ static void add(struct app *app)
     ceduo_app_say(app, "%s", _("every single value in doubt has a range of the scene already"));
 }
 
-static const struct act acts[] = {{ACTION_ADD, .plain = add},
-                                  {ACTION_NEXT_PANE, .plain = turn},
-                                  {ACTION_LAST_PANE, .plain = turn},
-                                  {ACTION_PAGE_UP, .function = ceduo_app_read_on, .by = -4},
-                                  {ACTION_PAGE_DOWN, .function = ceduo_app_read_on, .by = 4},
+static const struct act acts[] = {KEY(ADD, .plain = add),
+                                  KEY(NEXT_PANE, .plain = turn),
+                                  KEY(LAST_PANE, .plain = turn),
+                                  KEY(PAGE_UP, .function = ceduo_app_read_on, .by = -4),
+                                  KEY(PAGE_DOWN, .function = ceduo_app_read_on, .by = 4),
                                   {0}};
 
 const struct view ceduo_view_doubt = {.panes = 1,
@@ -106,9 +106,6 @@ const struct view ceduo_view_doubt = {.panes = 1,
                                       .build = build,
                                       .draw = draw,
                                       .acts = {acts},
-                                      .bar = {{ACTION_EDIT, N_("edit")},
-                                              {ACTION_ADD, N_("a range")},
-                                              {ACTION_DELETE, N_("delete")},
-                                              {ACTION_NEXT_PANE, N_("today or years")},
-                                              {ACTION_NEXT_OPTION, N_("next option")},
-                                              {ACTION_PAGE_DOWN, N_("read on")}}};
+                                      .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("a range")), KEY(DELETE, N_("delete")),
+                                              KEY(NEXT_PANE, N_("today or years")), KEY(NEXT_OPTION, N_("next option")),
+                                              KEY(PAGE_DOWN, N_("read on"))}};

@@ -407,20 +407,14 @@ static void stop(struct app *app)
     ceduo_live_drop_fit(&app->live);
 }
 
-static const struct act acts[] = {{ACTION_COUNTS, .plain = start},
-                                  {ACTION_EDIT, .plain = take},
-                                  {ACTION_ADD, .plain = add},
-                                  {ACTION_STOP, .plain = stop},
-                                  {0}};
+static const struct act acts[] = {
+    KEY(COUNTS, .plain = start), KEY(EDIT, .plain = take), KEY(ADD, .plain = add), KEY(STOP, .plain = stop), {0}};
 
 const struct view ceduo_view_observed = {.panes = PANES,
                                          .observed = true,
                                          .build = build,
                                          .draw = draw,
                                          .acts = {acts, acts},
-                                         .bar = {{ACTION_ADD, N_("add")},
-                                                 {ACTION_COUNTS, N_("fit")},
-                                                 {ACTION_EDIT, N_("take the fit")},
-                                                 {ACTION_STOP, N_("leave it")},
-                                                 {ACTION_NEXT_PANE, N_("read on")},
-                                                 {ACTION_NEXT_OPTION, N_("next option")}}};
+                                         .bar = {KEY(ADD, N_("add")), KEY(COUNTS, N_("fit")), KEY(EDIT, N_("take the fit")),
+                                                 KEY(STOP, N_("leave it")), KEY(NEXT_PANE, N_("read on")),
+                                                 KEY(NEXT_OPTION, N_("next option"))}};

@@ -49,4 +49,4 @@ const struct view ceduo_view_results = {
     .panes = 1,
     .result = true,
     .draw = draw,
-    .bar = {{ACTION_DOWN, N_("read on")}, {ACTION_EXPORT, N_("export")}, {ACTION_NEXT_OPTION, N_("next option")}}};
+    .bar = {KEY(DOWN, N_("read on")), KEY(EXPORT, N_("export")), KEY(NEXT_OPTION, N_("next option"))}};

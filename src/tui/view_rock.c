@@ -83,11 +83,11 @@ static void delete_blocks(struct app *app)
         ceduo_app_say(app, "%s", _("blocks deleted: every rock is the one above; u brings them back"));
 }
 
-static const struct act acts[] = {{ACTION_ADD, .plain = ceduo_items_add_blocks}, {ACTION_DELETE, .plain = delete_blocks}, {0}};
+static const struct act acts[] = {KEY(ADD, .plain = ceduo_items_add_blocks), KEY(DELETE, .plain = delete_blocks), {0}};
 
 const struct view ceduo_view_rock = {
     .panes = 1,
     .build = build,
     .draw = draw,
     .acts = {acts},
-    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_ADD, N_("blocks")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")}}};
+    .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("blocks")), KEY(MORE, N_("more")), KEY(LESS, N_("less"))}};

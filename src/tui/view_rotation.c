@@ -106,10 +106,10 @@ static void next_year(struct app *app, int by)
     app->year = v.count > 0 ? (size_t)v.selected : app->year;
 }
 
-static const struct act acts[] = {{ACTION_RIGHT, .function = next_year, .by = 1},
-                                  {ACTION_LEFT, .function = next_year, .by = -1},
-                                  {ACTION_TOP, .function = next_year, .by = -ALL_LINES},
-                                  {ACTION_BOTTOM, .function = next_year, .by = ALL_LINES},
+static const struct act acts[] = {KEY(RIGHT, .function = next_year, .by = 1),
+                                  KEY(LEFT, .function = next_year, .by = -1),
+                                  KEY(TOP, .function = next_year, .by = -ALL_LINES),
+                                  KEY(BOTTOM, .function = next_year, .by = ALL_LINES),
                                   {0}};
 
 const struct view ceduo_view_rotation = {
@@ -118,4 +118,4 @@ const struct view ceduo_view_rotation = {
     .draw = draw,
     .acts = {NULL, acts},
     .follow = ceduo_app_follow_belt,
-    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_NEXT_PANE, N_("years")}, {ACTION_NEXT_OPTION, N_("next option")}}};
+    .bar = {KEY(EDIT, N_("edit")), KEY(NEXT_PANE, N_("years")), KEY(NEXT_OPTION, N_("next option"))}};

@@ -302,29 +302,27 @@ static void zoom(struct app *app, int by)
         p->zoom = by;
 }
 
-#define ZOOM_ACTS                                                                                                              \
-    {ACTION_ZOOM, .function = zoom, .by = 1}, {ACTION_UNZOOM, .function = zoom, .by = -1},                                     \
-    {                                                                                                                          \
-        0                                                                                                                      \
-    }
+#define ZOOM_ACTS KEY(ZOOM, .function = zoom, .by = 1), KEY(UNZOOM, .function = zoom, .by = -1)
 
-static const struct act form_acts[] = {ZOOM_ACTS};
+static const struct act form_acts[] = {ZOOM_ACTS, {0}};
 
 /* In the picture left and right go from rock to rock, up and down along its trajectory. */
-static const struct act rock_acts[] = {{ACTION_RIGHT, .function = ceduo_app_next_rock, .by = 1},
-                                       {ACTION_LEFT, .function = ceduo_app_next_rock, .by = -1},
-                                       {ACTION_DOWN, .function = ceduo_app_step_rock, .by = 1},
-                                       {ACTION_UP, .function = ceduo_app_step_rock, .by = -1},
-                                       ZOOM_ACTS};
+static const struct act rock_acts[] = {KEY(RIGHT, .function = ceduo_app_next_rock, .by = 1),
+                                       KEY(LEFT, .function = ceduo_app_next_rock, .by = -1),
+                                       KEY(DOWN, .function = ceduo_app_step_rock, .by = 1),
+                                       KEY(UP, .function = ceduo_app_step_rock, .by = -1),
+                                       ZOOM_ACTS,
+                                       {0}};
 
 /* Along the slope: left and right by steps, up and down from one point, border or control to the next. */
-static const struct act place_acts[] = {{ACTION_RIGHT, .function = move_place, .by = 1},
-                                        {ACTION_LEFT, .function = move_place, .by = -1},
-                                        {ACTION_DOWN, .function = jump, .by = 1},
-                                        {ACTION_UP, .function = jump, .by = -1},
-                                        {ACTION_EDIT, .plain = choose_at_place},
-                                        {ACTION_ADD, .plain = choose_at_place},
-                                        ZOOM_ACTS};
+static const struct act place_acts[] = {KEY(RIGHT, .function = move_place, .by = 1),
+                                        KEY(LEFT, .function = move_place, .by = -1),
+                                        KEY(DOWN, .function = jump, .by = 1),
+                                        KEY(UP, .function = jump, .by = -1),
+                                        KEY(EDIT, .plain = choose_at_place),
+                                        KEY(ADD, .plain = choose_at_place),
+                                        ZOOM_ACTS,
+                                        {0}};
 
 const struct view ceduo_view_slope = {.panes = PANES,
                                       .own = sizeof(struct place),
@@ -332,9 +330,6 @@ const struct view ceduo_view_slope = {.panes = PANES,
                                       .draw = draw,
                                       .acts = {form_acts, rock_acts, place_acts},
                                       .follow = follow,
-                                      .bar = {{ACTION_EDIT, N_("edit")},
-                                              {ACTION_ADD, N_("add")},
-                                              {ACTION_DELETE, N_("delete")},
-                                              {ACTION_NEXT_PANE, N_("picture")},
-                                              {ACTION_ZOOM, N_("nearer")},
-                                              {ACTION_NEXT_ROCK, N_("a rock")}}};
+                                      .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("add")), KEY(DELETE, N_("delete")),
+                                              KEY(NEXT_PANE, N_("picture")), KEY(ZOOM, N_("nearer")),
+                                              KEY(NEXT_ROCK, N_("a rock"))}};

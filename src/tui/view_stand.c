@@ -143,8 +143,5 @@ const struct view ceduo_view_stand = {.panes = 1,
                                       .build = build,
                                       .draw = draw,
                                       .follow = ceduo_app_follow_belt,
-                                      .bar = {{ACTION_EDIT, N_("edit")},
-                                              {ACTION_PRESETS, N_("stands")},
-                                              {ACTION_COUNTS, N_("sample plot")},
-                                              {ACTION_ADD, N_("add")},
-                                              {ACTION_DELETE, N_("delete")}}};
+                                      .bar = {KEY(EDIT, N_("edit")), KEY(PRESETS, N_("stands")), KEY(COUNTS, N_("sample plot")),
+                                              KEY(ADD, N_("add")), KEY(DELETE, N_("delete"))}};
