@@ -7,7 +7,6 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "io/file.h"
 
 /* ---- states ---- */
 

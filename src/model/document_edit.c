@@ -9,7 +9,6 @@
 
 #include "base/language.h"
 #include "base/must.h"
-#include "io/file.h"
 
 /* ---- an edit under way ---- */
 

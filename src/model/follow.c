@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
 #include "ceduo/rotation.h"
 #include "document.h"
 

@@ -306,9 +306,8 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
         for (int x = 0; x < r.width; x++) {
             bool upright = x == 0 || x == r.width - 1, level = y == 0 || y == r.height - 1;
             const char *c = upright && level ? corners[y > 0][x > 0] : level ? "\xe2\x94\x80" : "\xe2\x94\x82";
-            if (!upright && !level)
-                continue;
-            ceduo_cells_label(app->cells, r.left + x, r.top + y, CEDUO_ROLE_AXIS, c);
+            if (upright || level)
+                ceduo_cells_label(app->cells, r.left + x, r.top + y, CEDUO_ROLE_AXIS, c);
         }
     ceduo_app_text(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, 0);
 }
@@ -374,16 +373,14 @@ static void draw_list(struct app *app, struct popup *p)
 {
     int lines = p->picker.count > 2 ? (int)p->picker.count : 2;
     struct ceduo_area in = draw_frame(app, p, lines + !p->asks, NOTE_LINES);
-    if (p->asks) {
-        draw_picks(app, p, in);
-        return;
+    if (!p->asks) {
+        ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search:"));
+        int x = in.left + (int)ceduo_utf8_width(_("search:")) + 1;
+        draw_line(app, &p->fields[0].line, x, cut_top(&in, 1).top, in.left + in.width - x, true);
     }
-    ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search:"));
-    int x = in.left + (int)ceduo_utf8_width(_("search:")) + 1;
-    draw_line(app, &p->fields[0].line, x, cut_top(&in, 1).top, in.left + in.width - x, true);
-    if (app->message[0])
+    if (app->message[0] && !p->asks)
         ceduo_app_text(app, in, CEDUO_ROLE_WARN, app->message, 0);
-    else if (p->picker.matches == 0)
+    else if (p->picker.matches == 0 && !p->asks)
         ceduo_app_text(app, in, CEDUO_ROLE_DIM, _("nothing matches"), 0);
     else
         draw_picks(app, p, in);
@@ -452,6 +449,13 @@ const char *ceduo_popup_bar(const struct app *app)
     return app->popup->asks ? _("a letter, or Up Down and Enter  Esc cancel") : _(kinds[app->popup->kind].bar);
 }
 
+/* Write the note again. */
+static void preview(struct app *app, struct popup *p)
+{
+    ceduo_text_free(&p->text);
+    p->preview(app, p);
+}
+
 void ceduo_popup_look(struct app *app)
 {
     struct popup *p = app->popup;
@@ -462,28 +466,24 @@ void ceduo_popup_look(struct app *app)
         return;
     p->value = pick->value;
     p->ahead_known = false;
-    ceduo_text_free(&p->text);
-    p->preview(app, p);
+    preview(app, p);
 }
 
-void ceduo_popup_previewed(struct app *app, const struct preview *preview)
+void ceduo_popup_previewed(struct app *app, const struct preview *ahead)
 {
     struct popup *p = app->popup;
     if (!p || p->kind == POPUP_TEXT || !p->preview || !p->value)
         return;
-    p->ahead = *preview;
+    p->ahead = *ahead;
     p->ahead_known = true;
-    ceduo_text_free(&p->text);
-    p->preview(app, p);
+    preview(app, p);
 }
 
 void ceduo_popup_draw(struct app *app)
 {
     struct popup *p = app->popup;
-    if (p->kind == POPUP_TEXT && p->preview) {
-        ceduo_text_free(&p->text);
-        p->preview(app, p);
-    }
+    if (p->kind == POPUP_TEXT && p->preview)
+        preview(app, p);
     if (kinds[p->kind].draw)
         kinds[p->kind].draw(app, p);
 }

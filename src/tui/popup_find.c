@@ -5,7 +5,6 @@
 
 #include "base/language.h"
 #include "popup.h"
-#include "view/report.h"
 #include "view/typed.h"
 
 enum { FIND_GOAL, FIND_TARGET, FIND_SURE, FIND_LO, FIND_HI };
@@ -195,20 +194,19 @@ static void propose(struct app *app, const char *path, const struct field *f, co
     bool whole = f->type == FIELD_COUNT || strcmp(f->unit, "1/ha") == 0;
     double now;
     bool known = ceduo_number_read(written, &now) == CEDUO_NUMBER_GOOD;
-    *lo = known && now > 0 ? (f->type == FIELD_COUNT ? 1 : now / 10) : 1;
+    *lo = known && now > 0 && f->type != FIELD_COUNT ? now / 10 : 1;
     *hi = known && now > 0 ? now * 10 : 1000;
-    if (whole)
-        *lo = floor(*lo);
+    *lo = whole ? floor(*lo) : *lo;
     if (f->flags & FIELD_PLACE) {
         *lo = s->origin_x;
         *hi = s->origin_x + s->x[s->vertices - 1];
     }
     *lo = fmax(*lo, f->lo);
     *hi = fmin(*hi, f->hi);
-    if (!known)
-        return;
-    *lo = limit_of(app, path, whole, now, fmin(*lo, now));
-    *hi = limit_of(app, path, whole, now, fmax(*hi, now));
+    if (known) {
+        *lo = limit_of(app, path, whole, now, fmin(*lo, now));
+        *hi = limit_of(app, path, whole, now, fmax(*hi, now));
+    }
 }
 
 /* `written`: the value that is there. */

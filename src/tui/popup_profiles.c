@@ -2,12 +2,10 @@
 /* Lists to choose from: the words of a field, the program's and the user's files; and what each would do to the lights. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/slope.h"
 #include "io/file.h"
 #include "popup.h"
 #include "scene/choices.h"
