@@ -7,6 +7,7 @@
 
 #include "base/language.h"
 #include "base/must.h"
+#include "io/file.h"
 
 /* ---- states ---- */
 

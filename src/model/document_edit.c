@@ -9,6 +9,7 @@
 
 #include "base/language.h"
 #include "base/must.h"
+#include "io/file.h"
 
 /* ---- an edit under way ---- */
 
