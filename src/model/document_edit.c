@@ -108,8 +108,7 @@ static const char *shift_path(struct arena *arena, const char *path, const void 
     return now == at || *end != ']' ? path : ceduo_arena_format(arena, "%s[%zu%s", s->list, now, end);
 }
 
-/* Rows about the items of a list follow them: rows of the scene, and of the stand that the list is in. A stand without rows
- * says so, because the file that it starts from may have some. */
+/* Rows about the items of a list follow them, in the scene and in the stand of the list, whose file may have rows again. */
 static void shift_doubts(struct edit *e, const char *list, size_t from, size_t to, int by)
 {
     const char *within = strstr(list, ".stand.");

@@ -58,8 +58,7 @@ bool ceduo_document_changed_on_disk(const struct document *d)
 
 /* ---- saving ---- */
 
-/* A path to a file for a scene at `to`: as it is if it leads to the same file from there, otherwise whole. A table of draws
- * lies beside the scene that was written with it: then its bare name is enough. */
+/* A path for a scene at `to`: as it is if it leads to the same file from there, of a table of draws its name, otherwise whole. */
 static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
 {
     const struct source *s = node->source;

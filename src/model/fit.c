@@ -54,8 +54,8 @@ static struct range range_around(const struct scene_file *file, const char *key)
     return range;
 }
 
-/* Offers the ground of all stretches as one (rows NULL), or each ground of the library that the scene names. One ground has the
- * range of talus if it is assumed, otherwise that of the whole library and of the scene's values. Angles have no library. */
+/* Offer the ground of all stretches as one (rows NULL), or each ground of the library that the scene names. One ground has the
+ * range of talus if it is assumed, otherwise that of the library and of the scene's values. Angles have no library. */
 static void offer_ground(const struct scene_file *file, const struct node *rows, struct fit_request *to)
 {
     size_t n;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows a value that a person changes. A neighbour follows a border, or gives way to it. An assumed height follows its
- * diameter. What would then be given twice is removed. */
+/* A neighbour follows a border that is changed, an assumed height its diameter. What would be given twice is removed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

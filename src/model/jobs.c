@@ -480,8 +480,7 @@ static void forget(struct jobs *q, enum job_kind kind)
         atomic_store(&q->cancel, true);
 }
 
-/* Replaces the job of its kind and drops its result. A job of the same key goes on up to the levels now asked for; without
- * levels it is stopped. True if something is to be done. */
+/* Replace the job of its kind. One of the same key goes on up to the levels now asked for. True if something is to be done. */
 static bool ask(struct jobs *q, const struct job *job)
 {
     pthread_mutex_lock(&q->lock);

@@ -9,9 +9,8 @@
 #include "search.h"
 #include "study/seen.h"
 
-/* The queue of jobs of the live program: one thread computes on a snapshot of the scene. A job goes in levels from coarse to
- * fine; the coarsest step of all jobs is next. A new job replaces that of its kind and interrupts the step under way, which is
- * repeated later. A result lies in the slot of its kind until the program takes it. */
+/* The queue of jobs: one thread computes on a snapshot of the scene. A job has levels from coarse to fine; the coarsest step of all
+ * jobs is next. A new job replaces that of its kind, and interrupts the step under way, which is repeated later. */
 
 /* The kinds, the first first where two steps are as coarse: name, slot, what it holds, by what that is freed. */
 #define JOBS(X)                                                                                                                \
@@ -96,8 +95,7 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
 
 /* ---- requests: all copy the scene; what it points to stays until the jobs are freed. True if something is to be done ---- */
 
-/* Asks for the figures of a scene, first those of option `shown` and without forest, then those of all options and their years.
- * Runs of unchanged forests are kept; a request for the same runs changes nothing. */
+/* Ask for the figures of a scene, first of option `shown` and without forest, then of all options and their years. */
 bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t shown);
 
 #define JOB_TEXT 1024
@@ -121,8 +119,7 @@ void ceduo_jobs_stop(struct jobs *jobs, enum job_kind kind);
 
 /* ---- results ---- */
 
-/* A file descriptor that becomes readable when there is news; read by ceduo_jobs_take(). */
-int ceduo_jobs_fd(const struct jobs *jobs);
+int ceduo_jobs_fd(const struct jobs *jobs); /* readable when there is news; read by ceduo_jobs_take() */
 
 struct jobs_state {
     unsigned fresh; /* kinds with a new result: 1 << JOB_SEARCH … */

@@ -101,9 +101,9 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
         if (years)
             ceduo_years_assess(years, scene, &o->bare->flown);
     }
+    const struct ceduo_difference none = {CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
     for (size_t i = 0; i < n * controls; i++)
-        differences[i] =
-            in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
+        differences[i] = in_order ? o->differences[i] : none;
     if (ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(l, scene), &l->result) != CEDUO_OK)
         l->result = NULL;
     if (l->result && ceduo_verdict_make(l->result, known, NULL, &l->verdict) != CEDUO_OK) {

@@ -173,7 +173,7 @@ static bool next_left(DIR *dir, const struct text *folder, struct text *name)
 static int newest_first(const void *a, const void *b)
 {
     time_t x = ((const struct recovery *)a)->when, y = ((const struct recovery *)b)->when;
-    return x < y ? 1 : x > y ? -1 : 0;
+    return (x < y) - (x > y);
 }
 
 static const struct node *read_yaml(struct arena *arena, const char *text)

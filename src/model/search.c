@@ -153,8 +153,7 @@ static enum ceduo_status above_at(void *context, double value, double *above)
     return status;
 }
 
-/* Sampling error of the value found: what other points and rocks leave open of the goal, over the goal's slope, which is taken
- * across about that distance. NaN if the slope has the wrong sign. */
+/* Set the sampling error of the value found: that of the goal, over the goal's slope. NaN if the slope has the wrong sign. */
 static enum ceduo_status read_error(struct search *s, const struct ceduo_find_def *def, struct ceduo_sure *sure)
 {
     const struct ceduo_found *f = &sure->found;

@@ -22,9 +22,8 @@ struct search_answer {
     struct problems problems;
 };
 
-/* Searches the value; with `sure` then the one that reaches the goal in that share of plausible cases, in which the value
- * itself is certain. Leaves the scene at the last value. Reports a wrong path or range in `answer->problems`, which the caller
- * frees. CEDUO_OK also if nothing is found. `cancel` may be NULL. */
+/* Search the value; with `sure` then the one that reaches the goal in that share of plausible cases. Leaves the scene at the last
+ * value. The caller frees answer->problems. CEDUO_OK also if nothing is found. `cancel` may be NULL. */
 enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *search, unsigned threads,
                                const atomic_bool *cancel, struct search_answer *answer);
 

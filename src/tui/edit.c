@@ -279,8 +279,7 @@ void ceduo_items_add_blocks(struct app *app)
 
 /* ---- deleting ---- */
 
-/* Deletes with it: the vertex of a segment, the next one unless it is the last; stools with their last shoots. The ground
- * before it, or after the first, takes the place of a ground. */
+/* Delete an item: a segment with a vertex, the last shoots with their stools. A neighbour takes the place of a ground. */
 static bool delete_item(struct app *app, const struct item *item, const char *path)
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);

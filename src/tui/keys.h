@@ -34,8 +34,8 @@ enum {
 
 #define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help, BY(show_view, VIEW_##NAME))
 
-/* The one table of actions, for keys, bar, help and manual: name, first key, its word, second key, its word, in the bar, what
- * it does, and how: a function of program.c with a number, or without; NULL: views alone do it. */
+/* The table of actions, for keys, bar, help and manual: name, key, its word, second key, its word, rank in the bar, what it does,
+ * and the function, with a number or without; NULL: views alone do it. */
 #define ACTIONS(X)                                                                                                             \
     X(UP, K_UP, "Up", 'k', "k", 0, N_("move up"), BY(move_lines, -1))                                                          \
     X(DOWN, K_DOWN, "Down", 'j', "j", 0, N_("move down"), BY(move_lines, 1))                                                   \

@@ -43,18 +43,16 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
     while (row < GOALS_OFFERED && strcmp(typed, _(goals[row].words)) != 0 &&
            !(reading == CEDUO_GOAL_GOOD && goals[row].goal == search->goal))
         row++;
-    if (row == GOALS_OFFERED) {
+    if (row == GOALS_OFFERED)
         ceduo_app_warn(app, "%s",
                        reading == CEDUO_GOAL_NO_SHARE
                            ? _("a share is 0 to 1, as 0.05 for 5 %")
                            : _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
+    double amount = NAN;
+    if (row == GOALS_OFFERED || !ceduo_popup_number(app, p, FIND_TARGET, &amount))
         return false;
-    }
     search->goal = goals[row].goal;
     search->target = reading == CEDUO_GOAL_GOOD ? search->target : NAN;
-    double amount = NAN;
-    if (!ceduo_popup_number(app, p, FIND_TARGET, &amount))
-        return false;
     search->target = isnan(amount) ? search->target : amount / goals[row].per;
     if (ceduo_goal_is_share(search->goal) && search->target > 1)
         ceduo_app_warn(app, _("%g %s cannot be"), amount, _(goals[row].unit));

@@ -29,8 +29,7 @@ bool ceduo_popup_read_stand(const struct app *app, const char *value, struct sce
     return good;
 }
 
-/* Stems, their mean diameter by basal area, age of the oldest shoots, basal area; then whose it is. `*said`: in Italian the
- * name of a stand of the program, instead of its file's name. */
+/* Stems, mean diameter, age of the oldest shoots, basal area, owner. `*said`: in Italian the name of a stand of the program. */
 static const char *describe_stand(struct app *app, const char *value, const char *whose, const char **said)
 {
     struct scene_file file;
@@ -67,8 +66,7 @@ static bool has_head(const char *path, const char *tag)
     return strstr(head, tag) != NULL;
 }
 
-/* Files of a kind ("stands", …), the first of each name: those of the program, or the user's own, those beside the scene first.
- * `whole`: those with the folder in their name. */
+/* Add files of a kind ("stands", …), the program's or the user's, those beside the scene first, with its folder if `whole`. */
 static void add_files(struct app *app, struct popup *p, const char *kind, bool shipped, bool whole, const char *now)
 {
     const char *scene = app->document.path && !app->document.shipped ? app->document.path : "", *slash = strrchr(scene, '/');

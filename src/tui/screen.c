@@ -111,8 +111,7 @@ static void dim(struct app *app, struct ceduo_area area, const struct ceduo_cell
         }
 }
 
-/* Dims the figures of an earlier scene: as they are drawn, or from the last screen with figures if none of the option are
- * known. The answer always is that of the last screen. */
+/* Dim the figures of an earlier scene, or those of the last screen if none are known; the answer is that of the last screen. */
 static void dim_figures(struct app *app, struct ceduo_area column)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
