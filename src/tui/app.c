@@ -295,6 +295,7 @@ void ceduo_app_free(struct app *app)
     ceduo_live_free(&app->live);
     for (int v = 0; v < VIEW_COUNT; v++) {
         free(app->views[v].form.rows);
+        ceduo_arena_free(&app->views[v].form.arena);
         free(app->views[v].own);
     }
     ceduo_rock_trajectory_free(&app->trajectory);

@@ -46,7 +46,7 @@ void ceduo_edit_start(struct app *app)
     }
     const struct node *node = ceduo_document_node(&app->document, cell->path);
     LOCAL_TEXT(text);
-    bool plain = node && node->kind == NODE_LIST && strlen(cell->text) + 1 < sizeof cell->text; /* shown whole: with blanks */
+    bool plain = node && node->kind == NODE_LIST; /* with blanks */
     for (size_t i = 0; plain && i < node->n; i++)
         plain = node->items[i]->kind == NODE_SCALAR;
     if (node && node->kind == NODE_SCALAR)

@@ -20,15 +20,14 @@ void ceduo_form_clear(struct form *form, const struct document *document)
 {
     form->document = document;
     form->n = 0;
+    ceduo_arena_free(&form->arena);
 }
 
 static struct form_row *add_row(struct form *form, enum form_kind kind, const char *label)
 {
     form->rows = ceduo_grow(form->rows, form->n, &form->room, sizeof *form->rows);
     struct form_row *row = &form->rows[form->n++];
-    memset(row, 0, sizeof *row);
-    row->kind = kind;
-    snprintf(row->label, sizeof row->label, "%s", label);
+    *row = (struct form_row){.kind = kind, .label = ceduo_arena_string(&form->arena, label), .list = ""};
     return row;
 }
 
@@ -67,21 +66,19 @@ static void show_node(struct text *to, const struct node *node, const struct fie
     }
 }
 
-static void add_cell(const struct form *form, struct form_row *row, const struct field *field, const char *path)
+static void add_cell(struct form *form, struct form_row *row, const struct field *field, const char *path)
 {
     struct form_cell *cell = &row->cells[row->n++];
     const struct node *node = ceduo_document_node(form->document, path), *italian = NULL;
     const char *usual = !node && field->value ? field->value : "";
-    char other[FORM_PATH + 3];
     LOCAL_TEXT(shown);
-    snprintf(cell->path, sizeof cell->path, "%s", path);
-    cell->field = field;
-    cell->given = node != NULL;
-    cell->assumed = node && ceduo_scene_assumes_value(&form->document->file, path);
-    snprintf(cell->written, sizeof cell->written, "%s", node && node->kind == NODE_SCALAR ? node->text : usual);
-    snprintf(other, sizeof other, "%s_it", path);
+    *cell = (struct form_cell){.path = ceduo_arena_string(&form->arena, path),
+                               .field = field,
+                               .written = node && node->kind == NODE_SCALAR ? node->text : usual,
+                               .given = node != NULL,
+                               .assumed = node && ceduo_scene_assumes_value(&form->document->file, path)};
     if (node && node->kind == NODE_SCALAR && field->type == FIELD_TEXT)
-        italian = ceduo_document_node(form->document, other);
+        italian = ceduo_document_node(form->document, ceduo_arena_format(&form->arena, "%s_it", path));
     if (italian && italian->kind == NODE_SCALAR)
         ceduo_text_put(&shown, ceduo_in_language(node->text, italian->text));
     else if (node)
@@ -90,7 +87,7 @@ static void add_cell(const struct form *form, struct form_row *row, const struct
         ceduo_shown_value(field, usual, &shown);
     if ((field->type == FIELD_NUMBERS || field->type == FIELD_SPREADS || field->type == FIELD_SPREAD) && shown.bytes)
         ceduo_number_spoken(shown.bytes);
-    snprintf(cell->text, sizeof cell->text, "%s", ceduo_text_string(&shown));
+    cell->text = ceduo_arena_string(&form->arena, ceduo_text_string(&shown));
 }
 
 void ceduo_form_field(struct form *form, const char *path, const char *label)
@@ -99,30 +96,26 @@ void ceduo_form_field(struct form *form, const char *path, const char *label)
     add_cell(form, add_row(form, FORM_FIELDS, label ? label : _(field->shown.label)), field, path);
 }
 
-/* The next of some words with blanks between; false behind the last. */
-static bool next_key(const char **keys, char key[FORM_PATH])
+/* The next of some words with blanks between; NULL after the last. */
+static const char *next_key(struct form *form, const char **keys)
 {
     size_t n = strcspn(*keys, " ");
-    snprintf(key, FORM_PATH, "%.*s", (int)n, *keys);
+    const char *key = n > 0 ? ceduo_arena_copy(&form->arena, *keys, n) : NULL;
     *keys += n + strspn(*keys + n, " ");
-    return n > 0;
+    return key;
 }
 
 void ceduo_form_fields(struct form *form, const char *prefix, const char *keys)
 {
-    char key[FORM_PATH], path[2 * FORM_PATH];
-    while (next_key(&keys, key)) {
-        snprintf(path, sizeof path, "%s%s", prefix, key);
-        ceduo_form_field(form, path, NULL);
-    }
+    for (const char *key; (key = next_key(form, &keys));)
+        ceduo_form_field(form, ceduo_arena_format(&form->arena, "%s%s", prefix, key), NULL);
 }
 
 void ceduo_form_rest(struct form *form, const char *group)
 {
     const struct object *fields = ceduo_schema_row(group)->object;
     for (const struct field *f = fields->fields; f < fields->fields + fields->n; f++) {
-        char path[FORM_PATH];
-        snprintf(path, sizeof path, "%.90s.%.60s", group, f->key);
+        const char *path = ceduo_arena_format(&form->arena, "%s.%s", group, f->key);
         bool there = f->type == FIELD_GROUP || f->type == FIELD_LIST;
         for (size_t k = 0; k < form->n; k++)
             there |= form->rows[k].n > 0 && strcmp(form->rows[k].cells[0].path, path) == 0;
@@ -134,51 +127,47 @@ void ceduo_form_rest(struct form *form, const char *group)
 /* A line for item i of a list. */
 static struct form_row *add_item(struct form *form, const char *list, size_t i)
 {
-    struct form_row *row = add_row(form, FORM_FIELDS, "");
-    snprintf(row->label, sizeof row->label, "%zu", i + 1);
-    snprintf(row->list, sizeof row->list, "%s", list);
+    struct form_row *row = add_row(form, FORM_FIELDS, ceduo_arena_format(&form->arena, "%zu", i + 1));
+    row->list = ceduo_arena_string(&form->arena, list);
     row->index = i;
     return row;
 }
 
 void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys)
 {
-    char key[FORM_PATH], path[FORM_PATH];
     const struct node *node = ceduo_document_node(form->document, list);
     const struct field *of = ceduo_schema_row(list);
     of = group ? ceduo_schema_field(of->object, group) : of;
     struct form_row *head = add_row(form, FORM_COLUMNS_ROW, "");
-    for (const char *rest = keys; head->n < FORM_COLUMNS && next_key(&rest, key);)
+    list = head->list = ceduo_arena_string(&form->arena, list);
+    for (const char *rest = keys, *key; head->n < FORM_COLUMNS && (key = next_key(form, &rest));)
         head->cells[head->n++].field = ceduo_schema_field(of->object, key);
-    snprintf(head->list, sizeof head->list, "%s", list);
     for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
         const struct node *item = group ? ceduo_node_get(node->items[i], group) : node->items[i];
         if (!item)
             continue;
         struct form_row *row = add_item(form, list, i);
         row->group = group ? of->key : NULL;
-        for (const char *rest = keys; row->n < FORM_COLUMNS && next_key(&rest, key);) {
+        for (const char *rest = keys, *key; row->n < FORM_COLUMNS && (key = next_key(form, &rest));) {
             const struct field *field = ceduo_schema_field(of->object, key), *other = ceduo_schema_unit(of->object, field);
             if (!ceduo_node_get(item, key) && other && ceduo_node_get(item, other->key)) /* the file has it in another unit */
                 field = other;
-            snprintf(path, sizeof path, "%.80s[%zu].%.20s%s%.30s", list, i, group ? group : "", group ? "." : "", field->key);
+            const char *path =
+                ceduo_arena_format(&form->arena, "%s[%zu].%s%s%s", list, i, group ? group : "", group ? "." : "", field->key);
             const char *named = field->type == FIELD_NUMBER ? ceduo_node_text(item, "path") : NULL;
             const struct field *value = named ? ceduo_schema_at(named) : NULL; /* an end of its range: in its own unit */
             add_cell(form, row, value && value->shown.per != 1 ? value : field, path);
         }
     }
     if (!node || node->n == 0)
-        snprintf(add_row(form, FORM_FIELDS, _("none; a adds one"))->list, sizeof head->list, "%s", list);
+        add_row(form, FORM_FIELDS, _("none; a adds one"))->list = list;
 }
 
 void ceduo_form_points(struct form *form, const char *list)
 {
-    char path[FORM_PATH];
     const struct node *node = ceduo_document_node(form->document, list);
-    for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
-        snprintf(path, sizeof path, "%.100s[%zu]", list, i);
-        add_cell(form, add_item(form, list, i), ceduo_schema_at(list), path);
-    }
+    for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++)
+        add_cell(form, add_item(form, list, i), ceduo_schema_at(list), ceduo_arena_format(&form->arena, "%s[%zu]", list, i));
 }
 
 /* ---- the cursor ---- */
@@ -297,13 +286,14 @@ static size_t digits_of(const char *shown)
 static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, int x, int y, int span, bool cursor,
                       const char *edit)
 {
-    char shown[80];
+    char shown[256];
     LOCAL_TEXT(words);
     if (cell->given && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
         ceduo_shown_path(cell->text, &words);
     else
         ceduo_text_put(&words, cell->text[0] ? cell->text : "-");
-    snprintf(shown, sizeof shown, "%s%s", ceduo_text_string(&words), cell->assumed ? "*" : "");
+    size_t length = ceduo_utf8_cut(ceduo_text_string(&words), sizeof shown - 2);
+    snprintf(shown, sizeof shown, "%.*s%s", (int)length, ceduo_text_string(&words), cell->assumed ? "*" : "");
     double number;
     bool fine = digits_of(shown) > DIGITS_MOST || (int)ceduo_utf8_width(shown) > span;
     if (fine && strpbrk(shown, ".,") && ceduo_typed_number(cell->text, &number) == CEDUO_NUMBER_GOOD)

@@ -8,15 +8,14 @@
 
 /* A form: lines of fields of the document, made anew after each edit. Fields come from the table of parameters. */
 
-#define FORM_PATH    160
 #define FORM_COLUMNS 8
 
 struct form_cell {
-    char path[FORM_PATH]; /* of the value, as in --set */
+    const char *path; /* of the value, as in --set */
     const struct field *field;
-    char text[64];    /* as it is shown, see view/typed.h */
-    char written[64]; /* a single word or number, as in the file; "": nothing, or more than that */
-    bool given;       /* written in the scene, not a default */
+    const char *text;    /* as it is shown, see view/typed.h */
+    const char *written; /* a single word or number, as in the file; "": nothing, or more than that */
+    bool given;          /* written in the scene, not a default */
     bool assumed;
 };
 
@@ -24,16 +23,17 @@ enum form_kind { FORM_HEADING, FORM_COLUMNS_ROW, FORM_FIELDS, FORM_NOTE };
 
 struct form_row {
     enum form_kind kind;
-    char label[64];
+    const char *label;
     size_t n;
     struct form_cell cells[FORM_COLUMNS]; /* of the head of a table: the fields alone */
-    char list[FORM_PATH];                 /* the list that the row is an item of; "": none */
+    const char *list;                     /* the list that the row is an item of; "": none */
     const char *group;                    /* of that item, which the row shows alone; NULL: the whole item */
     size_t index;
 };
 
 struct form {
     const struct document *document;
+    struct arena arena; /* of its strings, which live until it is made anew */
     struct form_row *rows;
     size_t n, room;
     size_t row, column; /* the cursor */

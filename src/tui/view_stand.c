@@ -12,14 +12,11 @@
 #define FIGURES 3 /* lines */
 
 /* How many there are comes last: then nothing of them may be missing. */
-static void build_low(struct form *form, const char *group)
+static void build_low(struct app *app, struct form *form, const char *group)
 {
     const struct object *fields = ceduo_schema_row(group)->object;
-    char path[FORM_PATH];
-    for (size_t i = 0; i < fields->n; i++) {
-        snprintf(path, sizeof path, "%.90s.%.60s", group, fields->fields[(i + 1) % fields->n].key);
-        ceduo_form_field(form, path, NULL);
-    }
+    for (size_t i = 0; i < fields->n; i++)
+        ceduo_form_field(form, ceduo_app_format(app, "%s.%s", group, fields->fields[(i + 1) % fields->n].key), NULL);
 }
 
 #define STEMS "dbh_m height_m volume_m3 dbh_sd_m"
@@ -63,9 +60,9 @@ static void build(struct app *app, struct form *form)
     ceduo_form_fields(form, in, "energy.model energy.u_J_m3 energy.fracture_ratio energy.offset energy.hit_below_m");
     ceduo_form_rest(form, ceduo_app_format(app, "%s.energy", path));
     ceduo_form_heading(form, _("Stumps"));
-    build_low(form, ceduo_app_format(app, "%s.stumps", path));
+    build_low(app, form, ceduo_app_format(app, "%s.stumps", path));
     ceduo_form_heading(form, _("Lying logs"));
-    build_low(form, ceduo_app_format(app, "%s.logs", path));
+    build_low(app, form, ceduo_app_format(app, "%s.logs", path));
     ceduo_form_fields(form, in, "name");
 }
 
