@@ -272,7 +272,8 @@ static void cell_place(const struct form_row *row, int width, int label, size_t 
     *span = each - 1;
 }
 
-#define DIGITS_MOST 5 /* more come from a computer: they are seen as the field is opened */
+#define DIGITS_MOST  5 /* more come from a computer: they are seen as the field is opened */
+#define COLUMNS_MOST 63
 
 static size_t digits_of(const char *shown)
 {
@@ -286,13 +287,13 @@ static size_t digits_of(const char *shown)
 static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, int x, int y, int span, bool cursor,
                       const char *edit)
 {
-    char shown[256];
+    char shown[4 * COLUMNS_MOST + 2];
     LOCAL_TEXT(words);
     if (cell->given && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
         ceduo_shown_path(cell->text, &words);
     else
         ceduo_text_put(&words, cell->text[0] ? cell->text : "-");
-    size_t length = ceduo_utf8_cut(ceduo_text_string(&words), sizeof shown - 2);
+    size_t length = ceduo_utf8_cut(ceduo_text_string(&words), COLUMNS_MOST);
     snprintf(shown, sizeof shown, "%.*s%s", (int)length, ceduo_text_string(&words), cell->assumed ? "*" : "");
     double number;
     bool fine = digits_of(shown) > DIGITS_MOST || (int)ceduo_utf8_width(shown) > span;
