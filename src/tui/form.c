@@ -141,7 +141,7 @@ void ceduo_form_table(struct form *form, const char *list, const char *group, co
     struct form_row *head = add_row(form, FORM_COLUMNS_ROW, "");
     list = head->list = ceduo_arena_string(&form->arena, list);
     for (const char *rest = keys, *key; head->n < FORM_COLUMNS && (key = next_key(form, &rest));)
-        head->cells[head->n++].field = ceduo_schema_field(of->object, key);
+        head->cells[head->n++] = (struct form_cell){.path = "", .field = ceduo_schema_field(of->object, key)};
     for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
         const struct node *item = group ? ceduo_node_get(node->items[i], group) : node->items[i];
         if (!item)

@@ -25,13 +25,13 @@ static void check_stand(struct arena *arena, const struct survey_file *survey, s
         if (root)
             ceduo_bind(&(struct binding){.arena = arena, .problems = problems, .notes = &notes, .bad = &bad},
                        ceduo_schema_stand(), root, &belt.stand);
-        if (!root || problems->count > 0) {
+        if (!root || problems->met > 0) {
             fprintf(stderr, "%s%s", ceduo_text_string(&problems->text), yaml.bytes);
             abort();
         }
         if (ceduo_stand_shoots(&belt.stand) < belt.stand.stools_per_ha)
             abort();
-    } else if (problems->count == 0) {
+    } else if (problems->met == 0) {
         abort();
     }
     ceduo_text_free(&yaml);
