@@ -21,7 +21,7 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
         ceduo_typed_value(field, value, &written);
     if (ceduo_app_set(app, path, ceduo_text_string(&written)))
         return true;
-    const struct problem *p = app->document.problems.wrong.items; /* begins with the field's label, not with its key or path */
+    const struct problem *p = app->document.problems.wrong.items; /* the label of the field stands for its path */
     if (p->path && (strpbrk(p->path, "_.[") || strcmp(p->path, field->key) == 0))
         ceduo_app_warn(app, "%s: %s", _(field->shown.label), p->message);
     return false;
