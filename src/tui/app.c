@@ -307,29 +307,18 @@ void ceduo_app_free(struct app *app)
     *app = (struct app){0};
 }
 
-/* Shows a document that was opened, or why it was not. */
-static bool show_opened(struct app *app, struct document *next, bool good)
+bool ceduo_app_open(struct app *app, const char *path, const char *text)
 {
+    struct document next;
+    bool good = path ? ceduo_document_open(&next, path, NULL, 0) : ceduo_document_new(&next, text);
     if (!good) {
-        say_problem(app, &next->problems.wrong);
-        ceduo_document_close(next);
-    } else if (!take_opened(app, next, app->live.threads)) {
+        say_problem(app, &next.problems.wrong);
+        ceduo_document_close(&next);
+    } else if (!take_opened(app, &next, app->live.threads)) {
         ceduo_app_warn(app, "%s", _("out of memory"));
         good = false;
     }
     return good;
-}
-
-bool ceduo_app_open(struct app *app, const char *path)
-{
-    struct document next;
-    return show_opened(app, &next, ceduo_document_open(&next, path, NULL, 0));
-}
-
-bool ceduo_app_open_text(struct app *app, const char *text)
-{
-    struct document next;
-    return show_opened(app, &next, ceduo_document_new(&next, text));
 }
 
 void ceduo_app_resize(struct app *app, int width, int height)

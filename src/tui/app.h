@@ -133,9 +133,8 @@ struct app {
 bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery);
 void ceduo_app_free(struct app *app);
 
-/* Open another document instead of this one, which must be saved or given up before. */
-bool ceduo_app_open(struct app *app, const char *path);
-bool ceduo_app_open_text(struct app *app, const char *text);
+/* Open a file, or the text of a new scene, instead of this document, which must be saved or given up before. */
+bool ceduo_app_open(struct app *app, const char *path, const char *text);
 
 void ceduo_popup_close(struct app *app); /* the one that is open, if there is any (popup.c) */
 

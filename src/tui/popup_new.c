@@ -248,7 +248,7 @@ static bool filled_new(struct app *app, struct popup *p)
     bool good = read_answers(app, p, NEW_STAND, &a);
     if (good) {
         append_scene(p, &a, &yaml);
-        good = ceduo_app_open_text(app, yaml.bytes);
+        good = ceduo_app_open(app, NULL, yaml.bytes);
     }
     release_answers(&a);
     if (good)

@@ -362,7 +362,7 @@ static void offer_scenes(struct app *app, struct popup *p)
 static void chose_scene(struct app *app, struct popup *p)
 {
     if (!ceduo_popup_take_recovery(app, p->value))
-        ceduo_app_open(app, p->value);
+        ceduo_app_open(app, p->value, NULL);
 }
 
 static void list_scenes(struct app *app)

@@ -252,9 +252,9 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value)
         if (strcmp(list[i].file, value + strlen(RECOVERY)) != 0)
             continue;
         char *text = ceduo_recovery_text(list[i].file);
-        if (text && (list[i].scene ? (is_due(app, &list[i]) || ceduo_app_open(app, list[i].scene)) &&
+        if (text && (list[i].scene ? (is_due(app, &list[i]) || ceduo_app_open(app, list[i].scene, NULL)) &&
                                          ceduo_app_edited(app, ceduo_document_recover(&app->document, text))
-                                   : ceduo_app_open_text(app, text))) {
+                                   : ceduo_app_open(app, NULL, text))) {
             unlink(list[i].file); /* this program keeps a copy of its own now */
             app->opened = false;
             ceduo_app_say(app, "%s", _("your work is back; s saves it, u shows what was before"));
