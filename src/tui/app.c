@@ -46,12 +46,6 @@ void ceduo_app_tell(struct app *app, bool bad, const char *format, ...)
     app->message_bad = bad;
 }
 
-void ceduo_app_hint(struct app *app, const char *text)
-{
-    if (!app->message[0] && !app->popup)
-        ceduo_app_say(app, "%s", text);
-}
-
 /* The first of a list of problems, without the place, which the cursor shows. */
 static void say_problem(struct app *app, const struct problem_list *list)
 {

@@ -135,6 +135,12 @@ static void dim_figures(struct app *app, struct ceduo_area column)
         ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 1, CEDUO_ROLE_TEXT, _(" computing \xe2\x80\xa6"));
 }
 
+void ceduo_app_hint(struct app *app, const char *text)
+{
+    if (!app->message[0] && (!app->popup || app->popup->kind == POPUP_FIELD))
+        ceduo_app_say(app, "%s", text);
+}
+
 static void draw_explanation(struct app *app)
 {
     LOCAL_TEXT(text);
