@@ -103,13 +103,12 @@ static bool print_scene(const struct fit_job *j, const struct ceduo_calibration_
 {
     const struct arguments *a = j->arguments;
     struct document document = {0};
-    struct problems problems = {0};
     LOCAL_TEXT(source);
     ceduo_calibration_sources(&source, r);
     const struct fit_values fit = {r->answer, r->inputs, ceduo_text_string(&source), draws->temporary};
-    bool good = ceduo_document_open(&document, a->scenes[0], (const char *const *)a->sets.items, a->sets.n, &problems);
+    bool good = ceduo_document_open(&document, a->scenes[0], (const char *const *)a->sets.items, a->sets.n);
     ceduo_recovery_end(&document.recovery); /* no recovery copy in batch runs */
-    good = good && ceduo_apply_fit(&document, &fit, &problems);
+    good = good && ceduo_apply_fit(&document, &fit);
     if (good) {
         const char *mark = draws->temporary + strlen(draws->target);
         ceduo_document_text(&document, a->output, scene);
@@ -119,7 +118,7 @@ static bool print_scene(const struct fit_job *j, const struct ceduo_calibration_
             memmove(found, found + strlen(mark), strlen(found + strlen(mark)) + 1);
         }
     }
-    ceduo_print_problems(&problems);
+    ceduo_print_problems(&document.problems);
     ceduo_document_close(&document);
     return good;
 }

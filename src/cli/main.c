@@ -61,22 +61,19 @@ static enum exit_status interact(const struct arguments *a)
     if (reason)
         return report_no_terminal(reason);
     struct app app;
-    struct problems problems = {0};
     bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, a->charset, (unsigned)a->threads,
-                                     a->script != NULL, &problems);
-    ceduo_print_problems(&problems);
-    if (!good)
-        return EXIT_INPUT;
-    enum exit_status status;
-    if (a->script) {
+                                     a->script != NULL);
+    enum exit_status status = EXIT_INPUT;
+    ceduo_print_problems(&app.document.problems);
+    if (good && a->script) {
         status = statuses[ceduo_script_run(&app, a->script)];
-    } else {
+    } else if (good) {
         enum terminal_end end = ceduo_terminal_run(&app);
         status = end == TERMINAL_DONE ? EXIT_DONE : EXIT_RUN;
         if (end == TERMINAL_NONE)
             status = report_no_terminal(_("this terminal cannot be used"));
     }
-    ceduo_program_free(&app);
+    ceduo_app_free(&app);
     return status;
 }
 

@@ -70,7 +70,7 @@ void ceduo_print_error(struct text *text)
 
 void ceduo_print_problems(struct problems *problems)
 {
-    ceduo_problems_finish(problems);
+    ceduo_problems_print(problems);
     ceduo_print_error(&problems->text);
     ceduo_problems_free(problems);
 }

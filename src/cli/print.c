@@ -123,7 +123,7 @@ enum exit_status ceduo_print_find(const struct arguments *a, struct scene_file *
         return EXIT_USAGE;
     ceduo_batch_warn(a, file, false);
     enum ceduo_status status = ceduo_search(file, &search, (unsigned)a->threads, ceduo_interrupt_flag(), &answer);
-    bool usage = answer.problems.count > 0;
+    bool usage = answer.problems.met > 0;
     ceduo_print_problems(&answer.problems);
     search.target = answer.target;
     search.rotation = answer.rotation;

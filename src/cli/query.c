@@ -73,8 +73,9 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
     LOCAL_PROBLEMS(problems);
     struct scene_sets sets = {a->sets.items, a->sets.n, a->cells, a->called};
     bool good = ceduo_scene_load_row(file, path, &sets, &problems);
-    ceduo_problems_finish(&problems);
-    if (!good && problems.text.length > 0 && a->called && strncmp(problems.text.bytes, a->called, strlen(a->called)) != 0)
+    const struct problem *first = problems.wrong.items;
+    ceduo_problems_print(&problems);
+    if (!good && problems.wrong.n > 0 && a->called && strncmp(first->place, a->called, strlen(a->called)) != 0)
         ceduo_print_message(a->called, _("this scene cannot be computed:")); /* the next line names another file, or a change */
     if (good)
         warn_once(&problems.text);

@@ -200,10 +200,11 @@ static bool check_range(struct binder *b, const struct field *f, const struct no
 static void warn_unusual(struct binder *b, const struct field *f, const struct node *node, double value)
 {
     const char *gap = f->unit[0] ? " " : "", *unit = f->unit;
-    if (b->to->unusual && !ceduo_schema_is_usual(f, value))
-        ceduo_problem_at(b->to->unusual, ceduo_node_place(node, path_here(b)),
-                         _("%s%s%s is unusual (usual: %s to %s%s%s); check the number and its unit"), NUMERAL(value), gap, unit,
-                         NUMERAL(f->shown.least), NUMERAL(f->shown.most), gap, unit);
+    struct problem_place place = ceduo_node_place(node, path_here(b));
+    place.unusual = true;
+    if (b->to->warns && !ceduo_schema_is_usual(f, value))
+        ceduo_problem_at(b->to->problems, place, _("%s%s%s is unusual (usual: %s to %s%s%s); check the number and its unit"),
+                         NUMERAL(value), gap, unit, NUMERAL(f->shown.least), NUMERAL(f->shown.most), gap, unit);
 }
 
 static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)

@@ -51,7 +51,7 @@ struct invalid_values {
 struct binding {
     struct arena *arena;
     struct problems *problems;        /* errors, with the path of each value; reading continues after an error */
-    struct problems *unusual;         /* numbers outside their usual range; may be NULL */
+    bool warns;                       /* report numbers outside their usual range */
     const struct source_note **notes; /* all sources */
     struct invalid_values *invalid;
     /* Return x of the profile's end, m in the file's coordinates, for places such as end-10; NaN: unknown. Called at most once.

@@ -546,7 +546,8 @@ bool ceduo_csv_error(const struct csv *csv, struct csv_cell cell, const char *fo
     for (const char *p = cell.begin; p > begin && p[-1] != '\n'; p--)
         column += !ceduo_utf8_inside(p[-1]);
     va_start(args, format);
-    ceduo_problem_v(csv->problems, (struct problem_place){csv->source, ceduo_csv_line(csv, cell), column, NULL, false}, format,
+    ceduo_problem_v(csv->problems,
+                    (struct problem_place){.source = csv->source, .line = ceduo_csv_line(csv, cell), .column = column}, format,
                     args);
     va_end(args);
     return false;

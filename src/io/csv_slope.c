@@ -378,15 +378,15 @@ static bool read_rows(struct reader *r)
 
 /* ---- one line ---- */
 
+#define NAMED 10 /* lines in a message */
+
 /* Keep the points of one line. */
 static bool choose_layer(struct reader *r, const char *wanted)
 {
     LOCAL_TEXT(names);
     size_t found = wanted || r->layers_count == 1 ? 0 : SIZE_MAX, n = 0;
-    for (size_t i = 0; i < r->layers_count && i < 10; i++)
-        ceduo_text_format(&names, "%s%.100s", i > 0 ? ", " : "", r->layers[i]);
-    if (r->layers_count > 10)
-        ceduo_text_append(&names, ", \xe2\x80\xa6");
+    ceduo_text_join(&names, (const char *const *)r->layers, r->layers_count < NAMED ? r->layers_count : NAMED, ", ");
+    ceduo_text_append(&names, r->layers_count > NAMED ? ", \xe2\x80\xa6" : "");
     while (wanted && found < r->layers_count && strcmp(r->layers[found], wanted) != 0)
         found++;
     if (wanted && found == r->layers_count)

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "problem.h"
 
-#include <string.h>
-
 #include "base/hash.h"
 #include "base/language.h"
 #include "base/must.h"
@@ -91,21 +89,21 @@ static void print_words(struct text *out, const char *format)
     }
 }
 
-/* A message may quote a word of a megabyte: its middle is left out, so that the mend at its end stays. */
-static void print_message(struct text *out, const char *message)
+/* A message may quote a word of a megabyte: its middle is left out, so that the remedy at its end stays. */
+static void print_cut(struct text *out, const char *string)
 {
-    size_t n = strlen(message), head = MESSAGE_MAX - TAIL, tail = n - TAIL;
+    size_t n = strlen(string), head = MESSAGE_MAX - TAIL, tail = n - TAIL;
     if (n <= MESSAGE_MAX) {
-        ceduo_text_append_escaped_n(out, message, n);
+        ceduo_text_append_escaped_n(out, string, n);
         return;
     }
-    while (head > 0 && ceduo_utf8_inside(message[head]))
+    while (head > 0 && ceduo_utf8_inside(string[head]))
         head--;
-    while (ceduo_utf8_inside(message[tail]))
+    while (ceduo_utf8_inside(string[tail]))
         tail++;
-    ceduo_text_append_escaped_n(out, message, head);
+    ceduo_text_append_escaped_n(out, string, head);
     ceduo_text_append(out, "\xe2\x80\xa6");
-    ceduo_text_append_escaped_n(out, message + tail, n - tail);
+    ceduo_text_append_escaped_n(out, string + tail, n - tail);
 }
 
 /* The same for all items of a list and whatever numbers the words hold. */
@@ -124,57 +122,77 @@ static uint64_t kind_of(const struct source *source, const char *path, const cha
     return hash;
 }
 
+void ceduo_problem_line(const struct problem *p, struct text *text)
+{
+    ceduo_text_format(text, "%s%s%s%s%s", p->place, p->place[0] ? ": " : "", p->path, p->path[0] ? ": " : "", p->message);
+}
+
+/* Note that a message was reported; false if it was before: a file used in two places has its faults once. */
+static bool is_new(struct problems *problems, const struct problem *p)
+{
+    LOCAL_TEXT(line);
+    ceduo_problem_line(p, &line);
+    const uint64_t hash = hash_bytes(ceduo_text_string(&line), line.length);
+    for (size_t i = 0; i + sizeof hash <= problems->known.length; i += sizeof hash)
+        if (memcmp(problems->known.bytes + i, &hash, sizeof hash) == 0)
+            return false;
+    ceduo_text_add(&problems->known, (const char *)&hash, sizeof hash);
+    return true;
+}
+
 /* Adds a message, once. Beyond a number, whether it is known matters no more: a million of them take no time. */
 void ceduo_problem_v(struct problems *problems, struct problem_place place, const char *format, va_list args)
 {
     const struct source *source = place.source;
-    const char *path = place.path ? place.path : "";
+    struct problem_list *list = place.unusual ? &problems->unusual : &problems->wrong;
+    LOCAL_TEXT(words);
+    LOCAL_TEXT(where);
+    LOCAL_TEXT(path);
     LOCAL_TEXT(message);
-    LOCAL_TEXT(whole);
-    LOCAL_TEXT(one);
+    LOCAL_TEXT(hint);
     size_t k = 0;
-    problems->usage |= source && source->is_option;
-    problems->cell |= source && source->is_cell;
-    problems->met++;
-    if (problems->count >= COUNTED) {
-        problems->count++;
+    problems->usage |= source && source->is_option && !place.unusual;
+    problems->cell |= source && source->is_cell && !place.unusual;
+    problems->met += !place.unusual;
+    if (list->count >= COUNTED) {
+        list->count++;
         return;
     }
     if (source && source->foreign && !place.own)
-        print_words(&message, format);
+        print_words(&words, format);
     else
-        ceduo_text_vformat(&message, format, args);
-    ceduo_text_format(&whole, "%s%s%s", path, path[0] ? ": " : "", ceduo_text_string(&message));
-    if (source) {
-        ceduo_text_append_escaped(&one, source->name);
-        if (place.line > 0 && !source->is_cell)
-            ceduo_text_format(&one, ":%zu:%zu", place.line, place.column);
-        ceduo_text_append(&one, ": ");
-    }
-    print_message(&one, ceduo_text_string(&whole));
-    ceduo_text_char(&one, '\n');
-    uint64_t hash = kind_of(source, path, ceduo_text_string(&message));
-    uint64_t place_and_words =
-        hash_bytes(ceduo_text_string(&one), one.length); /* a file used in two places has its faults once */
-    bool known = false;
-    for (size_t i = 0; i + sizeof hash <= problems->known.length && !known; i += sizeof hash)
-        known = memcmp(problems->known.bytes + i, &place_and_words, sizeof hash) == 0;
-    if (!known)
-        ceduo_text_add(&problems->known, (const char *)&place_and_words, sizeof hash);
-    while (k < problems->kinds_count && problems->kinds[k].hash != hash)
+        ceduo_text_vformat(&words, format, args);
+    print_cut(&message, ceduo_text_string(&words));
+    print_cut(&path, place.path ? place.path : "");
+    if (source)
+        ceduo_text_append_escaped(&where, source->name);
+    if (source && place.line > 0 && !source->is_cell)
+        ceduo_text_format(&where, ":%zu:%zu", place.line, place.column);
+    struct problem p = {.place = ceduo_text_string(&where),
+                        .path = ceduo_text_string(&path),
+                        .message = ceduo_text_string(&message),
+                        .kind = kind_of(source, place.path ? place.path : "", ceduo_text_string(&words))};
+    if (!is_new(problems, &p))
+        return;
+    list->count++;
+    while (k < list->n && list->items[k].kind != p.kind)
         k++;
-    struct problem_kind *kind = &problems->kinds[k];
-    problems->count += !known;
-    if (!known && k < problems->kinds_count) {
-        if (kind->more < CEDUO_PROBLEMS_LINES)
-            kind->lines[kind->more] = place.line;
-        kind->more++;
-    } else if (!known && k < CEDUO_PROBLEMS_MAX) { /* of a million only these look for their line */
+    struct problem *known = &list->items[k];
+    if (k < list->n) {
+        if (known->more < CEDUO_PROBLEMS_LINES)
+            known->lines[known->more] = place.line;
+        known->more++;
+    } else if (k < CEDUO_PROBLEMS_MAX || place.first) { /* of a million only these look for their line */
         if (source && place.line > 0)
-            print_line(&one, source, place.line, place.column);
-        ceduo_text_append(&problems->text, ceduo_text_string(&one));
-        *kind = (struct problem_kind){.hash = hash, .end = problems->text.length};
-        problems->kinds_count++;
+            print_line(&hint, source, place.line, place.column);
+        const char **const strings[] = {&p.place, &p.path, &p.message, &p.hint};
+        p.hint = ceduo_text_string(&hint);
+        for (size_t i = 0; i < 4; i++)
+            if (!(*strings[i] = ceduo_arena_string(&problems->arena, *strings[i])))
+                return;
+        k = place.first ? 0 : k;
+        memmove(list->items + k + 1, list->items + k, (list->n++ - k) * sizeof p);
+        list->items[k] = p;
     }
 }
 
@@ -196,62 +214,45 @@ bool ceduo_problem(struct problems *problems, const struct source *source, size_
     return false;
 }
 
-void ceduo_problems_prepend(struct problems *problems, struct problems *head)
-{
-    for (size_t k = 0; k < problems->kinds_count; k++)
-        problems->kinds[k].end += head->text.length;
-    ceduo_text_add(&head->text, ceduo_text_string(&problems->text), problems->text.length);
-    ceduo_text_free(&problems->text);
-    if (head->text.failed) /* what is cut short has no kinds */
-        problems->kinds_count = 0;
-    problems->text = head->text;
-    head->text = (struct text){0};
-    ceduo_problems_free(head);
-}
-
 bool ceduo_problems_check_memory(struct problems *problems)
 {
     problems->memory |= ceduo_memory_failed();
     return !problems->memory;
 }
 
-void ceduo_problems_finish(struct problems *problems)
+static void print_list(struct text *out, const struct problem_list *list)
 {
-    struct text all = {0};
-    size_t from = 0, rest = problems->kinds_count > 0 ? problems->count : 0;
-    for (size_t k = 0; k < problems->kinds_count; k++) {
-        const struct problem_kind *kind = &problems->kinds[k];
-        rest -= 1 + kind->more;
-        ceduo_text_add(&all, problems->text.bytes + from, kind->end - from);
-        if (kind->more > 0) { /* how many others there are, and where */
-            ceduo_text_append(&all, "  ");
-            ceduo_text_format(&all, ngettext("and %zu more of this kind", "and %zu more of this kind", kind->more), kind->more);
-            for (size_t i = 0; i < kind->more && i < CEDUO_PROBLEMS_LINES; i++)
-                if (kind->lines[i] > 0 && (i == 0 || kind->lines[i] != kind->lines[i - 1]))
-                    ceduo_text_format(&all, i == 0 ? _(", on line %zu") : ", %zu", kind->lines[i]);
-            ceduo_text_append(&all, kind->more > CEDUO_PROBLEMS_LINES && kind->lines[0] > 0 ? " \xe2\x80\xa6\n" : "\n");
-        }
-        from = kind->end;
-    }
-    if (problems->kinds_count > 0) { /* it is not closed yet */
-        ceduo_text_free(&problems->text);
-        problems->text = all;
+    size_t rest = list->count;
+    for (const struct problem *p = list->items; p < list->items + list->n; p++) {
+        rest -= 1 + p->more;
+        ceduo_problem_line(p, out);
+        ceduo_text_format(out, "\n%s", p->hint);
+        if (p->more == 0)
+            continue;
+        ceduo_text_append(out, "  ");
+        ceduo_text_format(out, ngettext("and %zu more of this kind", "and %zu more of this kind", p->more), p->more);
+        for (size_t i = 0; i < p->more && i < CEDUO_PROBLEMS_LINES; i++)
+            if (p->lines[i] > 0 && (i == 0 || p->lines[i] != p->lines[i - 1]))
+                ceduo_text_format(out, i == 0 ? _(", on line %zu") : ", %zu", p->lines[i]);
+        ceduo_text_append(out, p->more > CEDUO_PROBLEMS_LINES && p->lines[0] > 0 ? " \xe2\x80\xa6\n" : "\n");
     }
     if (rest > 0)
-        ceduo_text_format(&problems->text, ngettext("%zu more problem\n", "%zu more problems\n", rest), rest);
-    problems->kinds_count = 0;
-    problems->count = problems->count > 0;
-    if (problems->count == 0)
-        ceduo_text_append(&problems->text, ceduo_text_string(&problems->warnings));
-    ceduo_text_free(&problems->warnings);
+        ceduo_text_format(out, ngettext("%zu more problem\n", "%zu more problems\n", rest), rest);
+}
+
+const char *ceduo_problems_print(struct problems *problems)
+{
+    ceduo_text_free(&problems->text);
+    print_list(&problems->text, problems->wrong.count > 0 ? &problems->wrong : &problems->unusual);
     if (!ceduo_problems_check_memory(problems))
         ceduo_text_format(&problems->text, "%s\n", _("out of memory"));
+    return ceduo_text_string(&problems->text);
 }
 
 void ceduo_problems_free(struct problems *problems)
 {
-    ceduo_text_free(&problems->text);
+    ceduo_arena_free(&problems->arena);
     ceduo_text_free(&problems->known);
-    ceduo_text_free(&problems->warnings);
+    ceduo_text_free(&problems->text);
     *problems = (struct problems){0};
 }

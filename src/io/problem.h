@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/arena.h"
 #include "base/text.h"
 
 /* Where text came from: a file, standard input, an option of the command line. */
@@ -33,57 +34,63 @@ bool ceduo_source_next(const struct source *source, size_t *at, size_t *from, si
 /* The byte at a line and column, both from 1, columns in characters; its length where the source has no such line. */
 size_t ceduo_source_byte(const struct source *source, size_t line, size_t column);
 
-#define CEDUO_PROBLEMS_MAX   20 /* printed in full */
+#define CEDUO_PROBLEMS_MAX   20 /* listed */
 #define CEDUO_PROBLEMS_LINES 5  /* of others of a kind */
 
-/* Problems of one kind: the same words but for their numbers, about one key of whatever item, in one source. The first is
- * printed in full. */
-struct problem_kind {
-    uint64_t hash;
-    size_t end, more;                   /* where its text ends; how many others there are, */
-    size_t lines[CEDUO_PROBLEMS_LINES]; /* and on which lines the first of them stand */
+/* What is wrong or unusual at a place, and how many others there are of its kind: the same words but for their numbers, about the
+ * same key of any item, in one source. Strings are safe to print, in the arena of the problems, and "" if there is none. */
+struct problem {
+    const char *place;   /* "scene.yaml:3:5", an option, a row of a table */
+    const char *path;    /* of the value */
+    const char *message; /* without place and path */
+    const char *hint;    /* the line of the source, and below it a caret */
+    uint64_t kind;
+    size_t more, lines[CEDUO_PROBLEMS_LINES]; /* the others, and the lines of the first of them */
 };
 
-/* What is wrong with the input, ready to print: place, mend, the source line and a caret. */
+struct problem_list {
+    size_t count, n; /* all, and those listed, each the first of its kind */
+    struct problem items[CEDUO_PROBLEMS_MAX + 1];
+};
+
+/* Problems of the input. */
 struct problems {
-    struct text text;
-    size_t count;
-    size_t met; /* with those that were known already: whether a step went well */
-    size_t kinds_count;
-    struct problem_kind kinds[CEDUO_PROBLEMS_MAX];
-    struct text known;    /* hashes of those reported */
-    struct text warnings; /* about values that are good; follow the text if nothing is wrong */
-    bool usage;           /* at least one is about the command line */
-    bool cell;            /* that which is of an option is a cell of --each */
-    bool memory;          /* memory ran out: the list may lack some */
+    struct problem_list wrong, unusual; /* unusual: values that are good; printed if nothing is wrong */
+    size_t met;                         /* wrong, with those that were known already: whether a step went well */
+    bool usage;                         /* at least one is about the command line */
+    bool cell;                          /* at least one is about a cell of --each */
+    bool memory;                        /* memory ran out: the list may lack some */
+    struct arena arena;
+    struct text known; /* hashes of those reported */
+    struct text text;  /* see ceduo_problems_print() */
 };
 
-/* Adds one; false, so that a check can end with it. line and column count from 1; 0: no place known (the source's name alone is shown). Of a foreign source the message
- * is without its values, and of its lines only the beginning of the first is shown. */
+/* A place in a source. */
+struct problem_place {
+    const struct source *source; /* may be NULL */
+    size_t line, column;         /* from 1; 0: not known, the name of the source is shown alone */
+    const char *path;            /* of a value, may be NULL; shown even of a foreign source */
+    bool own;                    /* values of the message are none of the source's words, and shown even of a foreign source */
+    bool unusual;                /* the value is good */
+    bool first;                  /* listed before the others */
+};
+
+/* Add one. Return false. A foreign source is shown without the values of the message, and of its lines the beginning. */
 bool ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
-/* Where something is wrong: as above, and the path of a value in the source (NULL or "": none), which is shown even of a foreign
- * one. `own`: its values are none of the source's words, and are shown, too. */
-struct problem_place {
-    const struct source *source;
-    size_t line, column;
-    const char *path;
-    bool own;
-};
 bool ceduo_problem_at(struct problems *problems, struct problem_place place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void ceduo_problem_v(struct problems *problems, struct problem_place place, const char *format, va_list args)
     __attribute__((format(printf, 3, 0)));
 
-/* Puts them after the words of `head`, which is none of them, and frees it. */
-void ceduo_problems_prepend(struct problems *problems, struct problems *head);
-
-/* Notes whether memory ran out while the input was read; false then. Asked where the reading ends well, and by
- * ceduo_problems_finish(). */
+/* Return false if memory ran out while the input was read, and note it. Call it where the reading ends well. */
 bool ceduo_problems_check_memory(struct problems *problems);
 
-/* Ends the list: how many others there are of a kind, and the number of those that were not printed; the warnings if there is none. */
-void ceduo_problems_finish(struct problems *problems);
+/* Append place, path and message on one line, without its end. */
+void ceduo_problem_line(const struct problem *problem, struct text *text);
+
+/* Print all to problems->text, and return it: what is wrong, otherwise what is unusual, and out of memory if it is. */
+const char *ceduo_problems_print(struct problems *problems);
 void ceduo_problems_free(struct problems *problems);
 
 /* Problems that are freed where their block ends. */

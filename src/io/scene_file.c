@@ -17,15 +17,14 @@
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
 {
     const struct scene_file previous = *file;
-    LOCAL_PROBLEMS(unusual);
     struct validator v = {.file = file,
                           .arena = &file->arena,
                           .notes = &file->notes,
                           .root = file->root,
                           .problems = problems,
-                          .unusual = &unusual,
+                          .warns = true,
                           .previous = &previous};
-    size_t before = problems->count;
+    size_t before = problems->met;
     *file = (struct scene_file){.arena = file->arena,
                                 .path = file->path,
                                 .name = file->name,
@@ -37,10 +36,7 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
         return false;
     file->scene = v.draft.scene;
     file->scene.title = file->scene.title ? file->scene.title : (char *)(uintptr_t)ceduo_file_name(file->path);
-    bool good = ceduo_problems_check_memory(problems) && problems->count == before;
-    ceduo_problems_finish(&unusual);
-    if (good)
-        ceduo_text_append(&problems->warnings, ceduo_text_string(&unusual.text));
+    bool good = ceduo_problems_check_memory(problems) && problems->met == before;
     file->slope_node = good ? ceduo_node_get(file->root, "slope") : NULL;
     return good;
 }
@@ -138,7 +134,7 @@ static void report_no_scene(struct scene_file *file, const char *path, const cha
 static bool make_scene(struct scene_file *file, const struct source *source, const struct scene_sets *sets, size_t n,
                        struct problems *problems)
 {
-    size_t before = problems->count;
+    size_t before = problems->met;
     file->path = source->name;
     file->name = file->name ? file->name : file->path;
     file->raw = file->root = ceduo_yaml_read(&file->arena, source, problems);
@@ -154,7 +150,7 @@ static bool make_scene(struct scene_file *file, const struct source *source, con
     if (!root)
         return false;
     file->root = root;
-    return ceduo_scene_bind(file, problems) && problems->count == before;
+    return ceduo_scene_bind(file, problems) && problems->met == before;
 }
 
 /* True if the scene is valid with the first n changes. */
@@ -182,13 +178,9 @@ static bool read_source(struct scene_file *file, const struct source *source, co
     while (last > 0 && !problems->memory && !is_valid_with(source, sets, last, problems))
         last--;
     const struct source set = name_change(sets, last);
-    struct problems head = {0};
-    ceduo_problem(&head, &set, 1, (size_t)(find_equals(set.bytes) - set.bytes) + 2,
-                  _("the scene is valid without this change, but not with it:"));
-    ceduo_problems_prepend(problems, &head);
-    problems->usage = true;
-    problems->cell = set.is_cell;
-    return false;
+    const size_t column = (size_t)(find_equals(set.bytes) - set.bytes) + 2;
+    return ceduo_problem_at(problems, (struct problem_place){.source = &set, .line = 1, .column = column, .first = true},
+                            _("the scene is valid without this change, but not with it:"));
 }
 
 bool ceduo_scene_load(struct scene_file *file, const char *path, const char *const *sets, size_t n, struct problems *problems)

@@ -29,9 +29,8 @@ static enum ceduo_status read_scene(const char *name, const char *text, const ch
                      : ceduo_scene_load(&m->file, name, sets, n, &m->problems);
     struct scene_inputs inputs = {0};
     good = good && ceduo_inputs_collect(&m->file, &inputs) && ceduo_problems_check_memory(&m->problems);
-    ceduo_problems_finish(&m->problems);
+    reading->messages = ceduo_problems_print(&m->problems);
     ceduo_language_of_data(false);
-    reading->messages = ceduo_text_string(&m->problems.text);
     if (good)
         *reading = (struct ceduo_scene_file){.scene = m->file.scene,
                                              .inputs_count = inputs.n,

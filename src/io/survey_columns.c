@@ -229,7 +229,7 @@ static bool check_unit(const struct csv *csv, enum column c)
 /* Report a missing column, and the columns of the table unless it is foreign. */
 static bool refuse_head(const struct csv *csv, const char *missing)
 {
-    const struct problem_place place = {csv->source, csv->head_place.line, 1, NULL, true};
+    const struct problem_place place = {.source = csv->source, .line = csv->head_place.line, .column = 1, .own = true};
     LOCAL_TEXT(names);
     ceduo_csv_append_heads(csv, &names);
     if (csv->source->foreign)

@@ -16,7 +16,7 @@ struct validator {
     const struct source_note **notes; /* of `file` */
     const struct node *root;          /* of the scene, references resolved */
     struct problems *problems;
-    struct problems *unusual;          /* warnings about valid numbers */
+    bool warns;                        /* report valid numbers that are unusual */
     const struct scene_file *previous; /* last state of the scene: its slope is reused if the document's slope is unchanged */
     struct scene_draft draft;          /* contains the resulting scene */
     struct invalid_values invalid;

@@ -65,8 +65,10 @@ static void *stop(struct reader *r)
 
 /* Report an error and stop; NULL. The message quotes nothing from the file. */
 #define STOP(r, mark, ...)                                                                                                     \
-    (ceduo_problem_at((r)->problems, (struct problem_place){(r)->source, find_line(mark), find_column(r, mark), NULL, true},   \
-                      __VA_ARGS__),                                                                                            \
+    (ceduo_problem_at(                                                                                                         \
+         (r)->problems,                                                                                                        \
+         (struct problem_place){.source = (r)->source, .line = find_line(mark), .column = find_column(r, mark), .own = true},  \
+         __VA_ARGS__),                                                                                                         \
      stop(r))
 
 /* Find the place of byte `offset`. libyaml gives no mark for invalid UTF-8. */

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene and the states it was in. A state is a tree; trees share nodes in the arena of the scene's file, which is freed
- * when the document closes. */
+/* The scene and the states it was in. States are trees that share nodes in the arena of the scene's file. */
 #include "document.h"
 
 #include <stdlib.h>
@@ -23,8 +22,7 @@ static void push_state(struct document *d, const struct node *root, const char *
     d->at = d->count++;
 }
 
-/* Forgets the older half of the history once the arena has grown by DOCUMENT_HISTORY_BYTES. The memory is freed with the
- * document. */
+/* Forget the older half of the history once the arena has grown by DOCUMENT_HISTORY_BYTES. It is freed with the document. */
 static void trim_history(struct document *d)
 {
     if (d->file.arena.bytes - d->trimmed < DOCUMENT_HISTORY_BYTES || d->count < 4)
@@ -38,14 +36,14 @@ static void trim_history(struct document *d)
 }
 
 /* Makes `root` the scene, if it is one; otherwise everything stays. */
-static bool adopt(struct document *d, const struct node *root, struct problems *problems)
+static bool adopt(struct document *d, const struct node *root)
 {
     struct scene_file before = d->file;
-    const struct node *resolved = ceduo_resolve_scene(&d->file.arena, root, problems);
+    const struct node *resolved = ceduo_resolve_scene(&d->file.arena, root, &d->problems);
     bool good = false;
-    if (resolved && problems->count == 0) {
+    if (resolved && d->problems.met == 0) {
         d->file.root = resolved;
-        good = ceduo_scene_bind(&d->file, problems);
+        good = ceduo_scene_bind(&d->file, &d->problems);
     }
     if (!good) {
         struct arena arena = d->file.arena; /* it has grown */
@@ -55,10 +53,10 @@ static bool adopt(struct document *d, const struct node *root, struct problems *
     return good;
 }
 
-bool ceduo_document_commit(struct document *d, const struct node *root, const char *what, struct problems *problems)
+bool ceduo_document_commit(struct document *d, const struct node *root, const char *what)
 {
     const struct node *before = d->file.root;
-    if (!adopt(d, root, problems))
+    if (!adopt(d, root))
         return false;
     if (ceduo_node_equal(before, d->file.root)) { /* nothing has changed: no state for it */
         d->file.root = before;
@@ -72,10 +70,9 @@ bool ceduo_document_commit(struct document *d, const struct node *root, const ch
 
 bool ceduo_document_undo_or_redo(struct document *d, int by)
 {
-    LOCAL_PROBLEMS(problems);
     size_t state = d->at + (size_t)by; /* before the first it is larger than any */
-    bool good = state < d->count && adopt(d, d->states[state].root, &problems);
-    if (!good)
+    ceduo_problems_free(&d->problems);
+    if (state >= d->count || !adopt(d, d->states[state].root))
         return false;
     d->at = state;
     if (ceduo_document_unsaved(d))
@@ -92,42 +89,34 @@ bool ceduo_document_unsaved(const struct document *d)
 
 /* ---- opening ---- */
 
-const struct node *ceduo_document_parse(struct document *d, const char *name, const char *text, struct problems *problems)
+const struct node *ceduo_document_parse(struct document *d, const char *name, const char *text)
 {
     /* its own copy of the path: the document may be saved elsewhere, what was typed is looked for where it was typed */
     const struct source *source =
         ceduo_source_keep(&d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .beside = d->path});
-    return ceduo_yaml_read(&d->file.arena, source, problems);
+    return ceduo_yaml_read(&d->file.arena, source, &d->problems);
 }
 
-/* The state that was read, or nothing where it was not. */
-static bool first_state(struct document *d, bool good)
-{
-    if (good)
-        push_state(d, d->file.root, "");
-    else
-        ceduo_document_close(d);
-    return good;
-}
-
-bool ceduo_document_open(struct document *d, const char *path, const char *const *sets, size_t n, struct problems *problems)
+bool ceduo_document_open(struct document *d, const char *path, const char *const *sets, size_t n)
 {
     *d = (struct document){0};
-    if (!ceduo_scene_load(&d->file, path, sets, n, problems))
-        return first_state(d, false);
+    if (!ceduo_scene_load(&d->file, path, sets, n, &d->problems))
+        return false;
+    push_state(d, d->file.root, "");
     d->raw = d->file.raw;
     d->path = strcmp(path, "-") == 0 ? NULL : ceduo_check_memory(strdup(d->file.path));
     d->shipped = d->path && ceduo_document_is_shipped(d->path);
     ceduo_document_note_disk(d);
     d->recovery = ceduo_recovery_begin(d->path);
-    return first_state(d, true);
+    return true;
 }
 
-bool ceduo_document_new(struct document *d, const char *text, struct problems *problems)
+bool ceduo_document_new(struct document *d, const char *text)
 {
     *d = (struct document){.saved = SIZE_MAX};
-    if (!first_state(d, ceduo_scene_load_text(&d->file, _("new scene"), text, problems)))
+    if (!ceduo_scene_load_text(&d->file, _("new scene"), text, &d->problems))
         return false;
+    push_state(d, d->file.root, "");
     d->recovery = ceduo_recovery_begin(NULL);
     ceduo_document_keep(d);
     return true;
@@ -136,6 +125,7 @@ bool ceduo_document_new(struct document *d, const char *text, struct problems *p
 void ceduo_document_close(struct document *d)
 {
     ceduo_scene_release(&d->file);
+    ceduo_problems_free(&d->problems);
     free(d->states);
     free(d->path);
     ceduo_recovery_end(&d->recovery);

@@ -35,30 +35,21 @@ struct document {
     struct timespec modified; /* of the file when it was read */
     off_t size;
     struct recovery_copy recovery;
+    struct problems problems; /* why the last edit was refused, or the document could not be opened */
 };
 
-/* Opens a scene, with n changes PATH=VALUE (as ceduo_scene_load()). False with the reason in `problems`. */
-bool ceduo_document_open(struct document *document, const char *path, const char *const *sets, size_t n,
-                         struct problems *problems);
-
-/* A new scene from text that was never on disk; `path` may be NULL. */
-bool ceduo_document_new(struct document *document, const char *text, struct problems *problems);
+/* Open a scene, with n changes PATH=VALUE (as ceduo_scene_load()), or a new one from text that was never on disk. False with the
+ * reason in document->problems; close it in any case. */
+bool ceduo_document_open(struct document *document, const char *path, const char *const *sets, size_t n);
+bool ceduo_document_new(struct document *document, const char *text);
 void ceduo_document_close(struct document *document);
 
-/* Each edit makes a new state, or leaves the document as it was with the reason in `problems`. Paths as in --set, values in
- * YAML. */
-bool ceduo_document_set(struct document *document, const char *path, const char *value, struct problems *problems);
-bool ceduo_document_delete(struct document *document, const char *path, struct problems *problems);
-/* An item from `text` (YAML) into a list, which is made where there is none. */
-bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
-                           struct problems *problems);
-bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to, struct problems *problems);
-/* Append the belts of the first option as YAML, each with this stand and its year of a cut. Without belts: one down to the
- * first control. */
-void ceduo_document_belts(const struct document *document, const char *stand, struct text *yaml);
-/* A new option after the last, with those belts. A scene with a forest alone first gets options, "current" the first of
- * them. */
-bool ceduo_document_add_option(struct document *document, const char *stand, const char *name, struct problems *problems);
+/* Each edit makes a new state, or leaves the document as it was with the reason in document->problems. Paths as in --set, values
+ * in YAML. A list is made if there is none. */
+bool ceduo_document_set(struct document *document, const char *path, const char *value);
+bool ceduo_document_delete(struct document *document, const char *path);
+bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *item);
+bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to);
 
 /* Changes that are made as one edit, in their order. Starts with the document alone. */
 struct changes {
@@ -70,109 +61,97 @@ struct changes {
     } * items; /* in the document's arena */
 };
 
-/* Append: the value stands at the path. */
+/* Append a change. SET: the value stands at the path. KEEP_SOURCE: a scalar keeps the source around it, because it follows a value
+ * that a person changes. DELETE: an entry or item is removed if it is there; `value` is NULL. */
+void ceduo_changes_add(struct changes *changes, enum change_kind kind, const char *path, const char *value);
 void ceduo_changes_set(struct changes *changes, const char *path, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* Append a change of any kind. KEEP_SOURCE: a scalar keeps the source around it, because it follows a value that a person
- * changes. DELETE: an entry or item is removed if it is there; `value` is NULL. */
-void ceduo_changes_add(struct changes *changes, enum change_kind kind, const char *path, const char *value);
-bool ceduo_changes_make(const struct changes *changes, const char *what, struct problems *problems);
+bool ceduo_changes_make(const struct changes *changes, const char *what);
 
-/* A copy of item `list[index]` after it, of an option under a name of its own; then the changes (may be NULL). */
-bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const struct changes *changes,
-                              struct problems *problems);
+/* Copy item `list[index]` after it, an option under a name of its own; then make the changes (may be NULL). */
+bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const struct changes *changes);
 
-/* A copy of option `index` after the last, named `name`, or that with a number if the name is taken. The paths of the changes
- * begin at the option: "forest[0].cut_year". */
-bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const struct changes *changes,
-                                struct problems *problems);
+/* Append the belts of the first option as YAML, each with this stand; without belts one down to the first control. */
+void ceduo_document_belts(const struct document *document, const char *stand, struct text *yaml);
 
-/* Another name for an option; what was seen through its forest and the uncertainties about it go along. */
-bool ceduo_document_rename_option(struct document *document, size_t index, const char *name, struct problems *problems);
+/* Append an option with those belts, or a copy of option `index`; a number follows a name that is taken. A scene with a forest
+ * alone first gets options, "current" the first of them. The paths of the changes begin at the option: "forest[0].cut_year". */
+bool ceduo_document_add_option(struct document *document, const char *stand, const char *name);
+bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const struct changes *changes);
+
+/* Rename an option; observations through its forest and rows of uncertainty about it follow. */
+bool ceduo_document_rename_option(struct document *document, size_t index, const char *name);
 
 /* As ceduo_document_set(), but removes what would then be given twice: a size or the mass of the rock, a roughness, a number of
  * shoots. Another shape gets sizes of the same volume. Neighbours follow a border, assumed heights their diameter. Appends to
- * `said` what was changed besides. */
-bool ceduo_document_set_alone(struct document *document, const char *path, const char *value, struct text *said,
-                              struct problems *problems);
+ * `said` what else was changed. */
+bool ceduo_document_set_alone(struct document *document, const char *path, const char *value, struct text *said);
 
-/* A vertex ([x, z]) within segment `index`, both parts of the same ground. `apart`: one ground of all segments becomes one for
- * each. */
-bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool apart,
-                                  struct problems *problems);
+/* Insert a vertex ([x, z]) within segment `index`, both parts of the same ground. `apart`: one ground of all segments becomes one
+ * for each. Or remove a vertex, and the ground of one of the segments beside it. */
+bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool apart);
+bool ceduo_document_remove_vertex(struct document *document, size_t vertex, size_t segment);
 
-/* Takes a vertex out, and the ground of one of the segments beside it. */
-bool ceduo_document_remove_vertex(struct document *document, size_t vertex, size_t segment, struct problems *problems);
-
-/* Undoes an edit (-1), or makes it again (1). False where there is none. */
+/* Undo an edit (-1), or make it again (1). False if there is none. */
 bool ceduo_document_undo_or_redo(struct document *document, int by);
 bool ceduo_document_unsaved(const struct document *document);
 
-/* Writes the scene to `path`, with the comments of the file if only values changed. Otherwise `*laid_out_anew` is true, and the
+/* Write the scene to `path`, with the comments of the file if only values changed. Otherwise `*laid_out_anew` is true, and the
  * scene's own old file is kept as PATH.bak. False with errno set. */
 bool ceduo_document_save(struct document *document, const char *path, bool *laid_out_anew);
 
-/* Whether a path leads to a file of the program's own, which is never written. */
-bool ceduo_document_is_shipped(const char *path);
-
-/* Whether the file on disk is no longer the one that was read. */
-bool ceduo_document_changed_on_disk(const struct document *document);
-
-/* The document as YAML text, as it would be saved to `path`; NULL: to its own. */
+/* Print the document as YAML, as it would be saved to `path`; NULL: to its own. */
 void ceduo_document_text(struct document *document, const char *path, struct text *text);
 
-/* Recovery: a copy of unsaved work, kept while there is some. */
-void ceduo_document_keep(struct document *document);
-/* Puts the text of a copy that was left behind (ceduo_recovery_list()) in place, as one state that can be undone. */
-bool ceduo_document_recover(struct document *document, const char *text, struct problems *problems);
+/* True if a path leads to a file of the program's own, which is never written; if the file is no longer the one that was read. */
+bool ceduo_document_is_shipped(const char *path);
+bool ceduo_document_changed_on_disk(const struct document *document);
 
-/* Node at a path, NULL where there is none. */
+/* Keep a copy of unsaved work; make the text of one that was left behind a state, which can be undone. */
+void ceduo_document_keep(struct document *document);
+bool ceduo_document_recover(struct document *document, const char *text);
+
+/* Node at a path; NULL: there is none. */
 const struct node *ceduo_document_node(const struct document *document, const char *path);
 
-/* The place along the slope that is written so, "10" or "end-10": m, as given; NaN where it is none, or NULL. */
+/* Read a place along the slope, "10" or "end-10": m, as given; NaN if it is none, or NULL. Or the place at a path. */
 double ceduo_document_place(const struct document *document, const char *written);
+double ceduo_document_place_at(const struct document *document, const char *path);
 
 /* ---- recovery ---- */
 
 /* Copies of unsaved work lie in $XDG_STATE_HOME/ceduo or ~/.local/state/ceduo, one for each scene and program. The program
  * locks its copy with flock(): an unlocked copy is left behind, also if two machines share the folder. */
 
-/* Name the copy of a scene (NULL: without a file); nothing is written yet. The path of the result is NULL if there is no
- * folder. */
+/* Name the copy of a scene (NULL: without a file), and write nothing yet. The path is NULL if there is no folder. */
 struct recovery_copy ceduo_recovery_begin(const char *path);
 
-/* Write and lock the copy, readable by its owner alone, with the scene's path in its first line. False: the copy of before
- * stays. */
+/* Write and lock the copy, for its owner alone, with the scene's path in its first line. False: the copy of before stays. */
 bool ceduo_recovery_write(struct recovery_copy *copy, const char *path, const char *bytes, size_t n);
 
-/* Delete the copy; it may be written again. */
-void ceduo_recovery_delete(struct recovery_copy *copy);
-
-/* Free the memory and unlock the copy. A copy that was written stays in the folder, left behind. */
-void ceduo_recovery_end(struct recovery_copy *copy);
+void ceduo_recovery_delete(struct recovery_copy *copy); /* it may be written again */
+void ceduo_recovery_end(struct recovery_copy *copy);    /* frees the memory; a copy that was written is left behind, unlocked */
 
 /* A copy that was left behind. */
 struct recovery {
     const char *file;  /* where it lies */
     const char *scene; /* whose work it is; NULL: a scene that was never saved */
-    const char *title; /* of the scene; "" where it says none */
+    const char *title; /* of the scene, or "" */
     time_t when;       /* of the last edit */
 };
 
-/* All copies that no program locks, the newest first; `*n` of them, in the arena. */
+/* All n copies that no program locks, the newest first, in the arena. */
 struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n);
 
-/* The text of a copy; NULL where it cannot be read. To be freed. */
-char *ceduo_recovery_text(const char *file);
+char *ceduo_recovery_text(const char *file); /* NULL on failure; caller frees */
 
 /* ---- for the files that implement it ---- */
 
 /* Makes `root` the scene and adds it as a new state. Returns false and changes nothing if `root` is not a valid scene. */
-bool ceduo_document_commit(struct document *document, const struct node *root, const char *what, struct problems *problems);
+bool ceduo_document_commit(struct document *document, const struct node *root, const char *what);
 
-/* Parses YAML that was typed or read; `name` appears in messages. NULL with the reason in `problems`. */
-const struct node *ceduo_document_parse(struct document *document, const char *name, const char *text,
-                                        struct problems *problems);
+/* Parses YAML that was typed or read; `name` appears in messages. NULL with the reason in document->problems. */
+const struct node *ceduo_document_parse(struct document *document, const char *name, const char *text);
 
 /* Notes size and time of the file on disk, to see later whether it has changed. */
 void ceduo_document_note_disk(struct document *document);

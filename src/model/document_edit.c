@@ -16,18 +16,18 @@
 struct edit {
     struct document *d;
     struct arena *arena;
-    struct problems *problems;
     const struct node *root; /* as far as it is changed; NULL once the edit has failed */
 };
 
-static struct edit begin(struct document *d, struct problems *problems)
+static struct edit begin(struct document *d)
 {
-    return (struct edit){d, &d->file.arena, problems, d->file.root};
+    ceduo_problems_free(&d->problems);
+    return (struct edit){d, &d->file.arena, d->file.root};
 }
 
 static bool commit(const struct edit *e, const char *what)
 {
-    return e->root && ceduo_document_commit(e->d, e->root, what, e->problems);
+    return e->root && ceduo_document_commit(e->d, e->root, what);
 }
 
 const struct node *ceduo_document_node(const struct document *d, const char *path)
@@ -44,12 +44,18 @@ double ceduo_document_place(const struct document *d, const char *written)
     return written && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD ? value : NAN;
 }
 
+double ceduo_document_place_at(const struct document *d, const char *path)
+{
+    const struct node *node = ceduo_document_node(d, path);
+    return node && node->kind == NODE_SCALAR ? ceduo_document_place(d, node->text) : NAN;
+}
+
 /* Replaces the node at a path. */
 static void put(struct edit *e, const char *path, const struct node *value)
 {
     const struct source *source = ceduo_source_keep(e->arena, (struct source){.name = path, .bytes = path, .is_option = true});
     bool good = e->root && value;
-    e->root = good ? ceduo_resolve_set(e->arena, e->root, source, source->length, value, e->problems) : NULL;
+    e->root = good ? ceduo_resolve_set(e->arena, e->root, source, source->length, value, &e->d->problems) : NULL;
 }
 
 /* ---- rows of uncertainty ---- */
@@ -102,8 +108,7 @@ static const char *shift_path(struct arena *arena, const char *path, const void 
     return now == at || *end != ']' ? path : ceduo_arena_format(arena, "%s[%zu%s", s->list, now, end);
 }
 
-/* Rows about the items of a list follow them: rows of the scene, and of the stand that the list is in. A stand without rows
- * says so, because the file that it starts from may have some. */
+/* Rows about the items of a list follow them, in the scene and in the stand of the list, whose file may have rows again. */
 static void shift_uncertainties(struct edit *e, const char *list, size_t from, size_t to, int by)
 {
     const char *within = strstr(list, ".stand.");
@@ -137,8 +142,7 @@ static const char *begin_path(struct arena *arena, const char *path, const void 
 
 /* ---- changes of a tree ---- */
 
-/* Removes an entry or an item. A list that is empty then goes whole, unless it is that of options: `*path` is what was
- * removed. */
+/* Remove an entry or an item, or its list if that is empty then, unless it is that of options. `*path` is what was removed. */
 static void take_out(struct edit *e, const char **path)
 {
     const char *dot = strrchr(*path, '.'), *bracket = strrchr(*path, '[');
@@ -171,7 +175,7 @@ static void take_out(struct edit *e, const char **path)
 static void put_item(struct edit *e, const char *list, size_t index, const struct node *item)
 {
     const struct node *holder = ceduo_resolve_at(e->root, list);
-    holder = holder ? holder : ceduo_document_parse(e->d, list, "[]", e->problems);
+    holder = holder ? holder : ceduo_document_parse(e->d, list, "[]");
     if (holder->kind != NODE_LIST || !item) {
         e->root = NULL;
         return;
@@ -193,7 +197,7 @@ static void change(struct edit *e, const char *prefix, const struct changes *cha
                 take_out(e, &path);
             continue;
         }
-        const struct node *value = ceduo_document_parse(e->d, path, c->value, e->problems);
+        const struct node *value = ceduo_document_parse(e->d, path, c->value);
         bool keeps = value && old && c->kind == CHANGE_KEEP_SOURCE;
         put(e, path, keeps ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);
     }
@@ -214,35 +218,41 @@ void ceduo_changes_set(struct changes *c, const char *path, const char *format, 
     va_end(args);
 }
 
-bool ceduo_changes_make(const struct changes *c, const char *what, struct problems *problems)
+bool ceduo_changes_make(const struct changes *c, const char *what)
 {
-    struct edit e = begin(c->document, problems);
+    struct edit e = begin(c->document);
     change(&e, "", c);
     return commit(&e, what);
 }
 
 /* ---- values ---- */
 
-bool ceduo_document_set(struct document *d, const char *path, const char *value, struct problems *problems)
+bool ceduo_document_set(struct document *d, const char *path, const char *value)
 {
-    struct edit e = begin(d, problems);
-    put(&e, path, ceduo_document_parse(d, path, value, problems));
+    struct edit e = begin(d);
+    put(&e, path, ceduo_document_parse(d, path, value));
     return commit(&e, path);
 }
 
-bool ceduo_document_delete(struct document *d, const char *path, struct problems *problems)
+bool ceduo_document_delete(struct document *d, const char *path)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     take_out(&e, &path);
     return commit(&e, path);
 }
 
 /* ---- lists ---- */
 
-bool ceduo_document_insert(struct document *d, const char *list, size_t index, const char *text, struct problems *problems)
+static const struct node *with_name(const struct edit *e, const struct node *item, const char *name)
 {
-    struct edit e = begin(d, problems);
-    put_item(&e, list, index, ceduo_document_parse(d, list, text, problems));
+    item = ceduo_node_without(e->arena, item, "name_it");
+    return ceduo_node_with(e->arena, item, "name", ceduo_node_scalar(e->arena, item->source, name, true));
+}
+
+bool ceduo_document_insert(struct document *d, const char *list, size_t index, const char *text)
+{
+    struct edit e = begin(d);
+    put_item(&e, list, index, ceduo_document_parse(d, list, text));
     return commit(&e, list);
 }
 
@@ -251,11 +261,10 @@ static const struct node *with_new_name(struct edit *e, const struct node *list,
 {
     const char *given = ceduo_node_text(item, "name"), *name = ceduo_in_language(given, ceduo_node_text(item, "name_it"));
     const char *open = name ? strrchr(name, '(') : NULL, *own = name;
-    item = ceduo_node_without(e->arena, item, "name_it");
     size_t digits = open ? strspn(open + 1, "0123456789") : 0;
     bool copy = open && open > name + 1 && open[-1] == ' ' && digits > 0 && digits < 4 && strcmp(open + 1 + digits, ")") == 0;
     if (!name)
-        return item;
+        return ceduo_node_without(e->arena, item, "name_it");
     int n = copy ? (int)(open - 1 - name) : (int)strlen(name);
     for (unsigned i = copy ? (unsigned)strtoul(open + 1, NULL, 10) : 1;;
          own = ceduo_arena_format(e->arena, "%.*s (%u)", n, name, ++i)) {
@@ -265,13 +274,13 @@ static const struct node *with_new_name(struct edit *e, const struct node *list,
             taken |= other && (strcmp(other, own) == 0 || strcmp(ceduo_in_language(other, italian), own) == 0);
         }
         if (!taken)
-            return ceduo_node_with(e->arena, item, "name", ceduo_node_scalar(e->arena, item->source, own, true));
+            return with_name(e, item, own);
     }
 }
 
-bool ceduo_document_move(struct document *d, const char *list, size_t from, size_t to, struct problems *problems)
+bool ceduo_document_move(struct document *d, const char *list, size_t from, size_t to)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     const struct node *holder = ceduo_document_node(d, list);
     if (!holder || holder->kind != NODE_LIST || from >= holder->n || to >= holder->n || from == to)
         return true;
@@ -285,11 +294,11 @@ bool ceduo_document_move(struct document *d, const char *list, size_t from, size
 
 static const char vertices_list[] = "slope.vertices_m", ground_list[] = "slope.segments";
 
-bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, bool apart, struct problems *problems)
+bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, bool apart)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
-    put_item(&e, vertices_list, index + 1, ceduo_document_parse(d, vertices_list, vertex, problems));
+    put_item(&e, vertices_list, index + 1, ceduo_document_parse(d, vertices_list, vertex));
     if (e.root && grounds && grounds->n > 1)
         put_item(&e, ground_list, index + 1, grounds->items[index]);
     for (size_t i = 1; e.root && grounds && grounds->n == 1 && vertices && apart && i < vertices->n; i++)
@@ -297,18 +306,17 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
     return commit(&e, vertices_list);
 }
 
-bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segment, struct problems *problems)
+bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segment)
 {
-    struct edit e = begin(d, problems);
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
-    const char *path = ceduo_arena_format(e.arena, "%s[%zu]", vertices_list, vertex);
+    struct changes c = {.document = d};
+    ceduo_problems_free(&d->problems);
     if (!vertices || vertices->n <= 2 || vertex >= vertices->n)
         return false;
-    take_out(&e, &path);
-    path = ceduo_arena_format(e.arena, "%s[%zu]", ground_list, segment);
-    if (e.root && grounds && grounds->n > 1)
-        take_out(&e, &path);
-    return commit(&e, vertices_list);
+    ceduo_changes_add(&c, CHANGE_DELETE, ceduo_arena_format(&d->file.arena, "%s[%zu]", vertices_list, vertex), NULL);
+    if (grounds && grounds->n > 1)
+        ceduo_changes_add(&c, CHANGE_DELETE, ceduo_arena_format(&d->file.arena, "%s[%zu]", ground_list, segment), NULL);
+    return ceduo_changes_make(&c, vertices_list);
 }
 
 /* ---- options ---- */
@@ -320,11 +328,8 @@ static const struct node *need_options(struct edit *e)
     if (options)
         return options;
     const char *name = _("current");
-    LOCAL_TEXT(yaml);
-    ceduo_text_append(&yaml, "[{name: ");
-    ceduo_emit_scalar(&yaml, name, true);
-    ceduo_text_append(&yaml, "}]");
-    options = ceduo_document_parse(e->d, "options", yaml.bytes, e->problems);
+    options = ceduo_document_parse(e->d, "options", "[{name: current}]");
+    options = ceduo_node_replaced(e->arena, options, 0, with_name(e, options->items[0], name));
     if (forest)
         options = ceduo_node_replaced(e->arena, options, 0, ceduo_node_with(e->arena, options->items[0], "forest", forest));
     e->root = ceduo_node_without(e->arena, e->root, "forest");
@@ -352,24 +357,21 @@ void ceduo_document_belts(const struct document *d, const char *stand, struct te
     ceduo_text_char(yaml, ']');
 }
 
-bool ceduo_document_add_option(struct document *d, const char *stand, const char *name, struct problems *problems)
+bool ceduo_document_add_option(struct document *d, const char *stand, const char *name)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     LOCAL_TEXT(yaml);
-    ceduo_text_append(&yaml, "{name: ");
-    ceduo_emit_scalar(&yaml, name, true);
-    ceduo_text_append(&yaml, ", forest: ");
+    ceduo_text_append(&yaml, "{name: new, forest: ");
     ceduo_document_belts(d, stand, &yaml);
     ceduo_text_char(&yaml, '}');
-    const struct node *item = ceduo_document_parse(d, "options", yaml.bytes, problems), *list = need_options(&e);
-    put_item(&e, "options", list->n, item ? with_new_name(&e, list, item) : NULL);
+    const struct node *item = ceduo_document_parse(d, "options", yaml.bytes), *list = need_options(&e);
+    put_item(&e, "options", list->n, item ? with_new_name(&e, list, with_name(&e, item, name)) : NULL);
     return commit(&e, stand);
 }
 
-bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const struct changes *changes,
-                              struct problems *problems)
+bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const struct changes *changes)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     bool options = strcmp(list, "options") == 0;
     const struct node *holder = options ? need_options(&e) : ceduo_document_node(d, list);
     const struct node *item = holder && holder->kind == NODE_LIST && index < holder->n ? holder->items[index] : NULL;
@@ -379,14 +381,11 @@ bool ceduo_document_duplicate(struct document *d, const char *list, size_t index
     return commit(&e, list);
 }
 
-bool ceduo_document_vary_option(struct document *d, size_t index, const char *name, const struct changes *changes,
-                                struct problems *problems)
+bool ceduo_document_vary_option(struct document *d, size_t index, const char *name, const struct changes *changes)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     const struct node *options = need_options(&e), *item = options->items[index];
-    item = ceduo_node_with(e.arena, ceduo_node_without(e.arena, item, "name_it"), "name",
-                           ceduo_node_scalar(e.arena, item->source, name, true));
-    put_item(&e, "options", options->n, with_new_name(&e, options, item));
+    put_item(&e, "options", options->n, with_new_name(&e, options, with_name(&e, item, name)));
     change(&e, ceduo_arena_format(e.arena, "options[%zu].", options->n), changes);
     return commit(&e, name);
 }
@@ -405,17 +404,15 @@ static const struct node *with_option_named(struct arena *arena, const struct no
     return node;
 }
 
-bool ceduo_document_rename_option(struct document *d, size_t index, const char *name, struct problems *problems)
+bool ceduo_document_rename_option(struct document *d, size_t index, const char *name)
 {
-    struct edit e = begin(d, problems);
+    struct edit e = begin(d);
     const struct node *list = ceduo_node_get(e.root, "options"), *observed = ceduo_node_get(e.root, "observed");
     if (!list || index >= list->n)
         return false;
-    const struct node *item = list->items[index], *scalar = ceduo_node_scalar(e.arena, item->source, name, true);
-    const char *old = ceduo_node_text(item, "name");
-    item = ceduo_node_without(e.arena, ceduo_node_with(e.arena, item, "name", scalar), "name_it");
-    list = ceduo_node_replaced(e.arena, list, index, item);
-    e.root = ceduo_node_with(e.arena, e.root, "options", list);
+    const char *old = ceduo_node_text(list->items[index], "name");
+    const struct node *item = with_name(&e, list->items[index], name), *scalar = ceduo_node_get(item, "name");
+    e.root = ceduo_node_with(e.arena, e.root, "options", ceduo_node_replaced(e.arena, list, index, item));
     if (old)
         e.root = with_paths(e.arena, e.root, begin_path,
                             &(struct beginning){ceduo_arena_format(e.arena, "options[%s]", old),

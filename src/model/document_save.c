@@ -58,8 +58,7 @@ bool ceduo_document_changed_on_disk(const struct document *d)
 
 /* ---- saving ---- */
 
-/* A path to a file for a scene at `to`: as it is if it leads to the same file from there, otherwise whole. A table of draws
- * lies beside the scene that was written with it: then its bare name is enough. */
+/* A path for a scene at `to`: as it is if it leads to the same file from there, of a table of draws its name, otherwise whole. */
 static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
 {
     const struct source *s = node->source;
@@ -67,6 +66,7 @@ static const struct node *reference_from(struct document *d, const struct node *
     if (!slash && s && !s->is_option && strcmp(s->name, to) == 0)
         return node;
     LOCAL_ARENA(found);
+    struct arena *arena = &d->file.arena;
     const char *now = ceduo_resolve_path(&found, node, folder), *written = NULL;
     const char *const names[] = {slash ? slash + 1 : node->text, node->text};
     for (int i = 0; now && !written && i < 2; i++) {
@@ -76,8 +76,7 @@ static const struct node *reference_from(struct document *d, const struct node *
     if (!now || written == node->text)
         return node;
     char *whole = ceduo_check_memory(realpath(now, NULL));
-    node =
-        ceduo_node_renamed(&d->file.arena, ceduo_node_scalar(&d->file.arena, s, written ? written : whole, false), node->key);
+    node = ceduo_node_renamed(arena, ceduo_node_scalar(arena, s, written ? written : whole, false), node->key);
     free(whole);
     return node;
 }
@@ -134,11 +133,11 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
         return false;
     if (!ceduo_file_write(path, text.bytes, text.length))
         return false;
-    LOCAL_PROBLEMS(problems);                      /* from now on this text is what lies on disk */
-    char *copy = ceduo_check_memory(strdup(path)); /* it may be the document's own */
+    char *copy =
+        ceduo_check_memory(strdup(path)); /* it may be the document's own; from now on this text is what lies on disk */
     free(d->path);
     d->path = copy;
-    d->raw = ceduo_document_parse(d, copy, text.bytes, &problems);
+    d->raw = ceduo_document_parse(d, copy, text.bytes);
     d->shipped = false;
     d->saved = d->at;
     ceduo_document_note_disk(d);
@@ -161,8 +160,9 @@ void ceduo_document_keep(struct document *d)
     ceduo_recovery_write(&d->recovery, d->path, ceduo_text_string(&text), text.length);
 }
 
-bool ceduo_document_recover(struct document *d, const char *text, struct problems *problems)
+bool ceduo_document_recover(struct document *d, const char *text)
 {
-    const struct node *root = ceduo_document_parse(d, d->path ? d->path : "recovered", text, problems);
-    return root && ceduo_document_commit(d, root, _("recovered work"), problems);
+    ceduo_problems_free(&d->problems);
+    const struct node *root = ceduo_document_parse(d, d->path ? d->path : "recovered", text);
+    return root && ceduo_document_commit(d, root, _("recovered work"));
 }

@@ -54,8 +54,8 @@ static struct range range_around(const struct scene_file *file, const char *key)
     return range;
 }
 
-/* Offers the ground of all stretches as one (rows NULL), or each ground of the library that the scene names. One ground has the
- * range of talus if it is assumed, otherwise that of the whole library and of the scene's values. Angles have no library. */
+/* Offer the ground of all stretches as one (rows NULL), or each ground of the library that the scene names. One ground has the
+ * range of talus if it is assumed, otherwise that of the library and of the scene's values. Angles have no library. */
 static void offer_ground(const struct scene_file *file, const struct node *rows, struct fit_request *to)
 {
     size_t n;
@@ -158,8 +158,6 @@ void ceduo_fit_free(void *fit)
 
 #define SEGMENTS "slope.segments["
 
-/* ---- ground that stands in no list of segments ---- */
-
 static void put_number(struct text *t, const char *before, double value)
 {
     ceduo_text_format(t, "%s%s", before, NUMERAL(value));
@@ -201,8 +199,7 @@ static void add_ground(struct changes *c, const struct document *d)
         put_number(&vertices, ", ", s->z[i] + s->origin_z);
         ceduo_text_append(&vertices, "]");
     }
-    ceduo_text_append(&vertices, "]");
-    ceduo_changes_add(c, CHANGE_SET, "slope.vertices_m", vertices.bytes);
+    ceduo_changes_set(c, "slope.vertices_m", "%s]", vertices.bytes);
     for (size_t i = 0; i + 1 < s->vertices; i++) {
         const struct ceduo_segment *g = &s->segments[i];
         bool angle = isnan(g->roughness_m);
@@ -212,8 +209,7 @@ static void add_ground(struct changes *c, const struct document *d)
         put_number(&segments, ", friction: ", g->friction);
         ceduo_text_append(&segments, "}");
     }
-    ceduo_text_append(&segments, "]");
-    ceduo_changes_add(c, CHANGE_SET, "slope.segments", segments.bytes);
+    ceduo_changes_set(c, "slope.segments", "%s]", segments.bytes);
 }
 
 /* ---- values ---- */
@@ -228,11 +224,9 @@ static void add_source(struct changes *c, const char *place, const char *source)
     for (size_t i = 0; i < c->n; i++)
         if (strcmp(c->items[i].path, path) == 0)
             return;
-    LOCAL_TEXT(t);
-    ceduo_text_append(&t, "{kind: calibrated, text: ");
-    ceduo_emit_scalar(&t, source, true);
-    ceduo_text_append(&t, "}");
-    ceduo_changes_add(c, CHANGE_SET, path, t.bytes);
+    LOCAL_TEXT(text);
+    ceduo_emit_scalar(&text, source, true);
+    ceduo_changes_set(c, path, "{kind: calibrated, text: %s}", text.bytes);
 }
 
 /* Whether a row of uncertainty is about a fitted value. */
@@ -266,7 +260,7 @@ static void add_draws(struct changes *c, const struct document *d, const struct 
     ceduo_changes_add(c, CHANGE_SET, "uncertainty", t.bytes);
 }
 
-bool ceduo_apply_fit(struct document *d, const struct fit_values *fit, struct problems *problems)
+bool ceduo_apply_fit(struct document *d, const struct fit_values *fit)
 {
     struct changes c = {.document = d};
     bool of_segments = false;
@@ -290,5 +284,5 @@ bool ceduo_apply_fit(struct document *d, const struct fit_values *fit, struct pr
             add_source(&c, fit->inputs[i].places[k], fit->source);
     if (fit->draws)
         add_draws(&c, d, fit, of_library);
-    return ceduo_changes_make(&c, _("fitted values"), problems);
+    return ceduo_changes_make(&c, _("fitted values"));
 }

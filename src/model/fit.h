@@ -41,8 +41,7 @@ void ceduo_fit_offer(const struct scene_file *file, struct fit_request *offer);
 /* Whether something was observed that a fit may rest on. */
 bool ceduo_fit_has_observations(const struct scene_file *file);
 
-/* Fits with the threads and the progress of `how`; sets `*loose` before the fit itself begins. The answer takes over the arena
- * of `file`. The caller frees the fit in any case. */
+/* Fit with the threads and progress of `how`; `*loose` is set before the fit itself begins. The caller frees the fit anyway. */
 enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request,
                                  const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *fit);
 void ceduo_fit_free(void *fit);
@@ -55,7 +54,7 @@ struct fit_values {
     const char *draws;                /* path of the table of draws, as the document is to name it; NULL: none */
 };
 
-/* One edit, which undo takes back. A ground from materials is written out as segments. False with the reason in `problems`. */
-bool ceduo_apply_fit(struct document *document, const struct fit_values *fit, struct problems *problems);
+/* One edit, which undo takes back. A ground from materials is written out as segments. False with the reason in document->problems. */
+bool ceduo_apply_fit(struct document *document, const struct fit_values *fit);
 
 #endif

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows a value that a person changes. A neighbour follows a border, or gives way to it. An assumed height follows its
- * diameter. What would then be given twice is removed. */
+/* A neighbour follows a border that is changed, an assumed height its diameter. What would be given twice is removed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
 #include "ceduo/rotation.h"
 #include "document.h"
 
@@ -29,13 +27,6 @@ static const char *rounded(struct follow *f, double value, int digits)
     char room[CEDUO_NUMBER_ROOM];
     snprintf(room, sizeof room, "%.*g", digits, value);
     return ceduo_arena_string(f->arena, ceduo_number_shortest(strtod(room, NULL), room));
-}
-
-/* The place at a path; NaN: there is none. */
-static double place_at(const struct follow *f, const char *path)
-{
-    const struct node *node = ceduo_document_node(f->d, path);
-    return node && node->kind == NODE_SCALAR ? ceduo_document_place(f->d, node->text) : NAN;
 }
 
 /* ---- borders ---- */
@@ -61,14 +52,15 @@ static void find_place(struct follow *f)
 /* Of a border that moves the neighbour there moves, too. */
 static void follow_border(struct follow *f)
 {
-    double now = ceduo_document_place(f->d, f->value), old = place_at(f, f->path);
+    double now = ceduo_document_place(f->d, f->value), old = ceduo_document_place_at(f->d, f->path);
     bool to = strcmp(f->key, "to_m") == 0;
     if (isnan(now) || !(ends_in(f->list, "forest") || ends_in(f->list, "slope.materials")) ||
         !(to || (strcmp(f->key, "from_m") == 0 && f->index > 0)))
         return;
     size_t other = to ? f->index + 1 : f->index - 1;
     const char *border = ceduo_arena_format(f->arena, "%s[%zu].%s", f->list, other, to ? "from_m" : "to_m");
-    double there = place_at(f, border), end = place_at(f, ceduo_arena_format(f->arena, "%s[%zu].%s", f->list, other, f->key));
+    double there = ceduo_document_place_at(f->d, border),
+           end = ceduo_document_place_at(f->d, ceduo_arena_format(f->arena, "%s[%zu].%s", f->list, other, f->key));
     bool overlaps = to ? there < now : there > now;
     if (isnan(there) || (there != old && !overlaps))
         return;
@@ -201,8 +193,7 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
         take_out(f, "rock", "axes_m");
     double s[3]; /* length, width, height: a volume is that of a box of these times a number of the shape */
     for (int i = 0; i < 3; i++)
-        s[i] = !round ? def->axes[i].mean : cylinder ? def->diameter.mean : rock.mean_diameter;
-    s[2] = cylinder ? def->height.mean : s[2];
+        s[i] = !round ? def->axes[i].mean : !cylinder ? rock.mean_diameter : i < 2 ? def->diameter.mean : def->height.mean;
     double box = shape == CEDUO_BLOCK ? rock.volume : rock.volume * full[shape] / M_PI;
     double scale = cbrt(box / (s[0] * s[1] * s[2]));
     if (shape == CEDUO_SPHERE) {
@@ -221,10 +212,8 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
     } else if (mass) {
         take_out(f, "rock", "density_kg_m3");
     }
-    bool spread = def->diameter.spread > 0 || def->height.spread > 0 || def->volume.spread > 0;
-    for (int i = 0; i < 3; i++)
-        spread |= def->axes[i].spread > 0;
-    if (spread)
+    if (fmax(def->diameter.spread, fmax(def->height.spread, def->volume.spread)) > 0 ||
+        fmax(def->axes[0].spread, fmax(def->axes[1].spread, def->axes[2].spread)) > 0)
         ceduo_text_append_joined(&f->filled, " ", _("(means, without spread)"));
 }
 
@@ -259,11 +248,11 @@ static void keep_one_of_all(struct follow *f)
             take_out(f, map, of_rock[sphere][i]);
 }
 
-bool ceduo_document_set_alone(struct document *d, const char *path, const char *value, struct text *said,
-                              struct problems *problems)
+bool ceduo_document_set_alone(struct document *d, const char *path, const char *value, struct text *said)
 {
     struct follow f = {.d = d, .arena = &d->file.arena, .path = path, .value = value, .changes = {.document = d}};
     int shape = strcmp(path, "rock.shape") == 0 ? ceduo_choice_find(&ceduo_shape_words, value) : -1;
+    ceduo_problems_free(&d->problems);
     find_place(&f);
     if (shape >= 0)
         change_shape(&f, (enum ceduo_shape)shape);
@@ -281,11 +270,9 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         ceduo_text_format(said, _("%sremoved: %s"), said->length ? "; " : "", f.taken.bytes);
     if (f.followed.length)
         ceduo_text_format(said, "%s%s", said->length ? "; " : "", f.followed.bytes);
-    bool good = f.refused.length == 0;
-    if (good)
-        good = ceduo_changes_make(&f.changes, path, problems);
-    else
-        ceduo_problem(problems, &(struct source){.name = path, .is_option = true}, 0, 0, "%s", f.refused.bytes);
+    bool good = f.refused.length == 0 && ceduo_changes_make(&f.changes, path);
+    if (f.refused.length > 0)
+        ceduo_problem(&d->problems, &(struct source){.name = path, .is_option = true}, 0, 0, "%s", f.refused.bytes);
     ceduo_text_free(&f.filled);
     ceduo_text_free(&f.taken);
     ceduo_text_free(&f.followed);

@@ -197,11 +197,7 @@ static enum ceduo_status step_snapshot(struct jobs *q, struct job *job, void **r
 {
     (void)result;
     struct publisher publisher = {.queue = q, .job = job};
-    struct runs_step step = {.scene = &job->file.scene,
-                             .shown = job->option,
-                             .rocks = rocks_of(q, job->level),
-                             .publish = publish_snapshot,
-                             .context = &publisher};
+    struct runs_step step = {&job->file.scene, job->option, rocks_of(q, job->level), publish_snapshot, &publisher, false};
     enum ceduo_status status = ceduo_runs_figures(q->runs, &step);
     job->level = step.enough ? LEVELS_MAX : job->level;
     return status;
@@ -270,20 +266,17 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
         u->level = UNCERTAINTY_LEVELS - 1;
     u->last = u->inputs.n == 0 || u->level + 1 == UNCERTAINTY_LEVELS;
     job->level = u->last ? LEVELS_MAX : u->level;
-    struct ceduo_uncertainty_def def = {.scene = scene,
-                                        .inputs_count = u->inputs.n,
-                                        .inputs = u->inputs.items,
-                                        .points = CEDUO_UNCERTAINTY_POINTS,
-                                        .rocks = CEDUO_UNCERTAINTY_ROCKS,
-                                        .brief = true,
-                                        .rotation = !ceduo_uncertainty_no_rotation(scene),
-                                        .option = job->option,
-                                        .threads = q->threads,
-                                        .cancel = &q->cancel,
-                                        .progress = note_progress,
-                                        .context = q};
     if (u->inputs.n == 0)
         return CEDUO_OK;
+    struct ceduo_uncertainty_def def = {.scene = scene, .inputs_count = u->inputs.n, .inputs = u->inputs.items, .brief = true};
+    def.points = CEDUO_UNCERTAINTY_POINTS;
+    def.rocks = CEDUO_UNCERTAINTY_ROCKS;
+    def.rotation = !ceduo_uncertainty_no_rotation(scene);
+    def.option = job->option;
+    def.threads = q->threads;
+    def.cancel = &q->cancel;
+    def.progress = note_progress;
+    def.context = q;
     enum ceduo_status status = ceduo_effort_bound(&def, NULL); /* of all levels the same, so that nothing moves */
     if (status != CEDUO_OK)
         return status;
@@ -315,9 +308,7 @@ static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void *
             continue;
         status = atomic_load(&q->cancel) ? CEDUO_CANCELLED
                                          : ceduo_observer_values(observer, &c->file.scene, i, c->rocks, &values, &rocks);
-        if (status != CEDUO_OK)
-            break;
-        for (size_t k = 0; k < rocks; k++)
+        for (size_t k = 0; status == CEDUO_OK && k < rocks; k++)
             if (!isnan(values[k]))
                 values[n++] = values[k];
         gsl_sort(values, 1, n);
@@ -490,8 +481,7 @@ static void forget(struct jobs *q, enum job_kind kind)
         atomic_store(&q->cancel, true);
 }
 
-/* Replaces the job of its kind and drops its result. A job of the same key goes on up to the levels now asked for; without
- * levels it is stopped. True if something is to be done. */
+/* Replace the job of its kind. One of the same key goes on up to the levels now asked for. True if something is to be done. */
 static bool ask(struct jobs *q, const struct job *job)
 {
     pthread_mutex_lock(&q->lock);
@@ -544,34 +534,18 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
     return asked;
 }
 
-bool ceduo_jobs_ask(struct jobs *q, enum job_kind kind, const struct scene_file *file, size_t shown, size_t levels)
+bool ceduo_jobs_ask(struct jobs *q, const struct job_request *r)
 {
-    struct job job = job_of(kind, file, shown, levels);
-    job.key = (uint64_t)(uintptr_t)file->root;
+    struct job job = job_of(r->kind, r->file, r->option, r->levels);
+    snprintf(job.path, sizeof job.path, "%s", r->search ? r->search->path : r->path ? r->path : "");
+    snprintf(job.value, sizeof job.value, "%s", r->value ? r->value : "");
+    if (r->search)
+        job.search = *r->search;
+    if (r->fit)
+        job.fit = *r->fit;
+    if (r->kind == JOB_UNCERTAINTY || r->kind == JOB_COMPARISON)
+        job.key = (uint64_t)(uintptr_t)r->file->root;
     return ask(q, &job);
-}
-
-void ceduo_jobs_fit(struct jobs *q, const struct scene_file *file, const struct fit_request *request)
-{
-    struct job job = job_of(JOB_FIT, file, 0, 1);
-    job.fit = *request;
-    ask(q, &job);
-}
-
-void ceduo_jobs_search(struct jobs *q, const struct scene_file *file, const struct ceduo_search *search)
-{
-    struct job job = job_of(JOB_SEARCH, file, 0, 1);
-    job.search = *search;
-    snprintf(job.path, sizeof job.path, "%s", search->path);
-    ask(q, &job);
-}
-
-void ceduo_jobs_preview(struct jobs *q, const struct scene_file *file, const char *path, const char *value, size_t option)
-{
-    struct job job = job_of(JOB_PREVIEW, file, option, 1);
-    snprintf(job.path, sizeof job.path, "%s", path);
-    snprintf(job.value, sizeof job.value, "%s", value);
-    ask(q, &job);
 }
 
 void ceduo_jobs_stop(struct jobs *q, enum job_kind kind)
@@ -607,18 +581,11 @@ struct jobs_state ceduo_jobs_take(struct jobs *q, union results *results)
     return state;
 }
 
-void ceduo_jobs_wait(struct jobs *q)
+bool ceduo_jobs_wait(struct jobs *q, bool all)
 {
     pthread_mutex_lock(&q->lock);
-    while (q->working != JOB_KINDS || next_kind(q) != JOB_KINDS)
-        pthread_cond_wait(&q->changed, &q->lock);
-    pthread_mutex_unlock(&q->lock);
-}
-
-bool ceduo_jobs_wait_search(struct jobs *q)
-{
-    pthread_mutex_lock(&q->lock);
-    while (is_wanted(&q->jobs[JOB_SEARCH]) || is_wanted(&q->jobs[JOB_PREVIEW]))
+    while (all ? q->working != JOB_KINDS || next_kind(q) != JOB_KINDS
+               : is_wanted(&q->jobs[JOB_SEARCH]) || is_wanted(&q->jobs[JOB_PREVIEW]))
         pthread_cond_wait(&q->changed, &q->lock);
     bool news = q->fresh.search || q->fresh.preview;
     pthread_mutex_unlock(&q->lock);

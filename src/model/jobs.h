@@ -9,9 +9,8 @@
 #include "search.h"
 #include "study/seen.h"
 
-/* The queue of jobs of the live program: one thread computes on a snapshot of the scene. A job goes in levels from coarse to
- * fine; the coarsest step of all jobs is next. A new job replaces that of its kind and interrupts the step under way, which is
- * repeated later. A result lies in the slot of its kind until the program takes it. */
+/* The queue of jobs: one thread computes on a snapshot of the scene. A job has levels from coarse to fine; the coarsest step of all
+ * jobs is next. A new job replaces that of its kind, and interrupts the step under way, which is repeated later. */
 
 /* The kinds, the first first where two steps are as coarse: name, slot, what it holds, by what that is freed. */
 #define JOBS(X)                                                                                                                \
@@ -96,32 +95,31 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
 
 /* ---- requests: all copy the scene; what it points to stays until the jobs are freed. True if something is to be done ---- */
 
-/* Asks for the figures of a scene, first those of option `shown` and without forest, then those of all options and their years.
- * Runs of unchanged forests are kept; a request for the same runs changes nothing. */
+/* Ask for the figures of a scene, first of option `shown` and without forest, then of all options and their years. */
 bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t shown);
 
-/* Asks for a search; its path is copied. */
-void ceduo_jobs_search(struct jobs *jobs, const struct scene_file *file, const struct ceduo_search *search);
-
-/* Asks what another value at a path would do to the lights of an option. Path and value are copied; both fit into JOB_TEXT
- * bytes. */
 #define JOB_TEXT 1024
-void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *path, const char *value, size_t option);
 
-/* Asks for the uncertainty (option `shown` first) or the comparison with observations, up to n levels; 0: stops it. A scene
- * with the same nodes is asked for once. Figures and years of as many rocks go first. */
-bool ceduo_jobs_ask(struct jobs *jobs, enum job_kind kind, const struct scene_file *file, size_t shown, size_t levels);
+/* A request for another job. What its pointers lead to is copied. */
+struct job_request {
+    enum job_kind kind;
+    const struct scene_file *file;
+    size_t option;            /* shown: its uncertainty comes first; of a preview that which is judged */
+    size_t levels;            /* of uncertainty and comparison, 0: stop; otherwise 1 */
+    const char *path, *value; /* of a preview: what another value would do to the lights; each of less than JOB_TEXT bytes */
+    const struct ceduo_search *search;
+    const struct fit_request *fit; /* begins again if it is interrupted */
+};
 
-/* Asks for a fit of a scene to what was observed there. What interrupts it lets it begin again. */
-void ceduo_jobs_fit(struct jobs *jobs, const struct scene_file *file, const struct fit_request *request);
+/* A scene with the same nodes is asked for its uncertainty or comparison once. Figures and years of as many rocks go first. */
+bool ceduo_jobs_ask(struct jobs *jobs, const struct job_request *request);
 
 /* Stops a search or a fit, and forgets its result. */
 void ceduo_jobs_stop(struct jobs *jobs, enum job_kind kind);
 
 /* ---- results ---- */
 
-/* A file descriptor that becomes readable when there is news; read by ceduo_jobs_take(). */
-int ceduo_jobs_fd(const struct jobs *jobs);
+int ceduo_jobs_fd(const struct jobs *jobs); /* readable when there is news; read by ceduo_jobs_take() */
 
 struct jobs_state {
     unsigned fresh; /* kinds with a new result: 1 << JOB_SEARCH … */
@@ -136,9 +134,7 @@ struct jobs_state ceduo_jobs_take(struct jobs *jobs, union results *results);
 void ceduo_result_list_drop(union results *results, enum job_kind kind);
 void ceduo_result_list_free(union results *results);
 
-/* Waits until no job is left. */
-void ceduo_jobs_wait(struct jobs *jobs);
-/* Waits until no search and no preview is left; true where there is a result of one. */
-bool ceduo_jobs_wait_search(struct jobs *jobs);
+/* Wait until no search and no preview is left, or no job at `all`. True if there is a result of a search or a preview. */
+bool ceduo_jobs_wait(struct jobs *jobs, bool all);
 
 #endif

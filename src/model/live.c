@@ -78,8 +78,7 @@ static const struct ceduo_alternative_energy *fitting_others(struct live *l, con
     return o->items;
 }
 
-/* Assesses the scene by its simulated forests, and judges it by its years; years of an earlier scene are shown, but do not
- * count. */
+/* Assess the scene by its forests, and judge it by its years. Years of an earlier scene are shown, but do not count. */
 static void refresh(struct live *l, const struct ceduo_scene *scene)
 {
     const struct ceduo_snapshot *o = ceduo_live_snapshot(l, scene);
@@ -102,9 +101,9 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
         if (years)
             ceduo_years_assess(years, scene, &o->bare->flown);
     }
+    const struct ceduo_difference none = {CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
     for (size_t i = 0; i < n * controls; i++)
-        differences[i] =
-            in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
+        differences[i] = in_order ? o->differences[i] : none;
     if (ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(l, scene), &l->result) != CEDUO_OK)
         l->result = NULL;
     if (l->result && ceduo_compare_options(l->result, known, NULL, &l->verdict) != CEDUO_OK) {
@@ -118,7 +117,7 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
 
 /* ---- requests and news ---- */
 
-void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t option)
+void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t option, size_t uncertainty, size_t comparison)
 {
     bool asked = ceduo_jobs_show(l->jobs, file, option);
     l->asked = ceduo_jobs_key(&file->scene);
@@ -126,27 +125,18 @@ void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t opt
     if (asked && l->results.years)
         l->results.years->done = l->results.years->n; /* that step is over */
     refresh(l, &file->scene);
-}
-
-void ceduo_live_ask_uncertainty(struct live *l, const struct scene_file *file, size_t option, size_t levels)
-{
-    bool asked = ceduo_jobs_ask(l->jobs, JOB_UNCERTAINTY, file, option, levels);
-    l->busy |= asked;
-    l->uncertainty = asked ? 0 : levels == 0 ? NAN : l->uncertainty;
-}
-
-void ceduo_live_compare(struct live *l, const struct scene_file *file, size_t levels)
-{
+    asked = ceduo_jobs_ask(l->jobs, &(struct job_request){JOB_UNCERTAINTY, file, option, .levels = uncertainty});
+    l->uncertainty = asked ? 0 : uncertainty == 0 ? NAN : l->uncertainty;
     if (l->fit_of != file->root)
         ceduo_live_drop_fit(l);
-    l->busy |= ceduo_jobs_ask(l->jobs, JOB_COMPARISON, file, 0, levels);
+    l->busy |= asked | ceduo_jobs_ask(l->jobs, &(struct job_request){JOB_COMPARISON, file, .levels = comparison});
 }
 
 void ceduo_live_fit(struct live *l, const struct scene_file *file, const struct fit_request *request)
 {
     ceduo_live_drop_fit(l);
     l->fit_of = file->root;
-    ceduo_jobs_fit(l->jobs, file, request);
+    ceduo_jobs_ask(l->jobs, &(struct job_request){JOB_FIT, file, .levels = 1, .fit = request});
     l->busy = l->fitting = true;
 }
 

@@ -5,8 +5,7 @@
 #include "jobs.h"
 #include "study/verdict.h"
 
-/* The figures of the scene while it is edited, assessed again after each edit. Runs are requested only if the rocks meet other
- * things. */
+/* The figures of the scene, assessed again after each edit. Runs are requested only if the rocks meet other things. */
 struct live {
     struct jobs *jobs;
     union results results;        /* newest of each kind; what the scene has no longer stays until better is known */
@@ -23,11 +22,9 @@ struct live {
 bool ceduo_live_create(struct live *live, unsigned threads);
 void ceduo_live_free(struct live *live);
 
-/* The scene has changed; `option` is shown. */
-void ceduo_live_follow(struct live *live, const struct scene_file *file, size_t option);
-
-/* Its comparison with what was observed, up to so many levels. A fit of another scene is forgotten. */
-void ceduo_live_compare(struct live *live, const struct scene_file *file, size_t levels);
+/* Follow a change of the scene or of the option shown. Uncertainty and comparison: levels that are wanted, 0: none. A fit of
+ * another scene is forgotten. */
+void ceduo_live_follow(struct live *live, const struct scene_file *file, size_t option, size_t uncertainty, size_t comparison);
 
 void ceduo_live_fit(struct live *live, const struct scene_file *file, const struct fit_request *request);
 void ceduo_live_drop_fit(struct live *live);
@@ -35,22 +32,17 @@ void ceduo_live_drop_fit(struct live *live);
 /* Takes the new results of the jobs; true where something has changed. */
 bool ceduo_live_poll(struct live *live, const struct ceduo_scene *scene);
 
-/* What fits a scene: an edit may have added a control since it was asked for. NULL: none does. */
+/* What fits this scene, to which an edit may have added a control since it was asked for. NULL: nothing. */
 const struct ceduo_snapshot *ceduo_live_snapshot(const struct live *live, const struct ceduo_scene *scene);
 struct ceduo_years *ceduo_live_years(const struct live *live, const struct ceduo_scene *scene, size_t option);
-
-/* What is known of this very scene; NULL: nothing yet. */
 const struct uncertainty *ceduo_live_uncertainty(const struct live *live, const struct scene_file *file);
-
-/* Asks for the uncertainty of the scene, up to so many levels (0: none), the option shown first. */
-void ceduo_live_ask_uncertainty(struct live *live, const struct scene_file *file, size_t option, size_t levels);
+const struct comparison *ceduo_live_comparison(const struct live *live, const struct scene_file *file);
+const struct fit *ceduo_live_fitted(const struct live *live); /* a fit that is done */
 
 /* Share (0…1) that is computed of the uncertainty of an option of this scene; NaN: it is known, or not asked for. */
 double ceduo_live_awaits_uncertainty(const struct live *live, const struct scene_file *file, size_t option);
 
 /* True if the figures of the option are still those of an earlier scene, or not there yet. */
 bool ceduo_live_is_stale(const struct live *live, const struct ceduo_scene *scene, size_t option);
-const struct comparison *ceduo_live_comparison(const struct live *live, const struct scene_file *file);
-const struct fit *ceduo_live_fitted(const struct live *live); /* a fit that is done */
 
 #endif

@@ -48,15 +48,9 @@ static bool state_folder(struct text *folder)
 /* Number that no other program has, here or on another machine that shares the folder. */
 static uint64_t random_number(void)
 {
-    uint64_t number;
-    if (getrandom(&number, sizeof number, GRND_NONBLOCK) == sizeof number)
-        return number;
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    number = HASH_START;
-    hash_count(&number, (uint64_t)now.tv_sec);
-    hash_count(&number, (uint64_t)now.tv_nsec);
-    hash_count(&number, (uint64_t)getpid());
+    uint64_t number = (uint64_t)getpid();
+    if (getrandom(&number, sizeof number, GRND_NONBLOCK) < 0)
+        hash_count(&number, (uint64_t)time(NULL));
     return number;
 }
 
@@ -179,7 +173,7 @@ static bool next_left(DIR *dir, const struct text *folder, struct text *name)
 static int newest_first(const void *a, const void *b)
 {
     time_t x = ((const struct recovery *)a)->when, y = ((const struct recovery *)b)->when;
-    return x < y ? 1 : x > y ? -1 : 0;
+    return (x < y) - (x > y);
 }
 
 static const struct node *read_yaml(struct arena *arena, const char *text)

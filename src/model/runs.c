@@ -75,12 +75,9 @@ static bool is_precise(const struct ceduo_run_snapshot *s)
 static enum ceduo_status hand_over(struct runs *r, const struct runs_step *step)
 {
     struct ceduo_snapshot *mine, *theirs;
-    struct ceduo_snapshot_def def = {.scene = step->scene,
-                                     .runs = r->figures,
-                                     .envelope_rocks = step->rocks > RUNS_FIRST ? CEDUO_ENVELOPE_ROCKS : RUNS_SKETCH,
-                                     .trajectories = CEDUO_SNAPSHOT_TRAJECTORIES,
-                                     .cancel = r->cancel,
-                                     .last = r->last};
+    struct ceduo_snapshot_def def = {.scene = step->scene, .runs = r->figures, .cancel = r->cancel, .last = r->last};
+    def.envelope_rocks = step->rocks > RUNS_FIRST ? CEDUO_ENVELOPE_ROCKS : RUNS_SKETCH;
+    def.trajectories = CEDUO_SNAPSHOT_TRAJECTORIES;
     enum ceduo_status status = ceduo_snapshot_create(&def, &mine);
     if (status != CEDUO_OK)
         return status;

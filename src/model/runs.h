@@ -18,15 +18,12 @@ struct runs;
 struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel);
 void ceduo_runs_free(struct runs *runs);
 
-/* Takes a snapshot, which is its own from then on, as soon as it is known. */
-typedef void runs_publish(void *context, struct ceduo_snapshot *snapshot);
-
-/* One step of the figures: so many rocks without forest and through every option, that of `shown` first. */
+/* One step of the figures: n rocks without forest and through every option, that of `shown` first. */
 struct runs_step {
     const struct ceduo_scene *scene;
     size_t shown;
     uint64_t rocks;
-    runs_publish *publish;
+    void (*publish)(void *context, struct ceduo_snapshot *snapshot); /* takes it over */
     void *context;
     bool enough; /* set: no finer step is needed */
 };
@@ -34,8 +31,7 @@ struct runs_step {
 /* CEDUO_CANCELLED: the next call continues. */
 enum ceduo_status ceduo_runs_figures(struct runs *runs, struct runs_step *step);
 
-/* One step of the other energy law: n rocks through every option. Sets `others`, one for each option and control, in rows by
- * option. */
+/* One step of the other energy law: n rocks through every option. Sets one of `others` for each control of each option. */
 enum ceduo_status ceduo_runs_others(struct runs *runs, const struct ceduo_scene *scene, uint64_t rocks,
                                     struct ceduo_alternative_energy *others);
 

@@ -129,20 +129,15 @@ static enum ceduo_status ask_once(struct search *s, double value, struct reliabi
         if (leave_input(s, &searched, &inputs.items[i]))
             inputs.items[n++] = inputs.items[i];
     s->answer->sure.inputs = n;
-    enum ceduo_status status =
-        ceduo_reliability_compute(&(const struct reliability_def){.of = {.scene = &s->file->scene,
-                                                                         .inputs_count = n,
-                                                                         .inputs = inputs.items,
-                                                                         .option = s->def.option,
-                                                                         .rotation = s->def.rotation,
-                                                                         .points = s->answer->sure.points,
-                                                                         .rocks = s->answer->sure.rocks,
-                                                                         .threads = s->threads,
-                                                                         .cancel = s->cancel},
-                                                                  .goal = s->def.goal,
-                                                                  .target = s->passes,
-                                                                  .sure = s->def.sure},
-                                  answer);
+    struct reliability_def def = {.goal = s->def.goal, .target = s->passes, .sure = s->def.sure};
+    def.of = (struct ceduo_uncertainty_def){.scene = &s->file->scene, .inputs_count = n, .inputs = inputs.items};
+    def.of.option = s->def.option;
+    def.of.rotation = s->def.rotation;
+    def.of.points = s->answer->sure.points;
+    def.of.rocks = s->answer->sure.rocks;
+    def.of.threads = s->threads;
+    def.of.cancel = s->cancel;
+    enum ceduo_status status = ceduo_reliability_compute(&def, answer);
     if (status == CEDUO_OK && s->known_count < SURE_MAX)
         s->known[s->known_count++] = (struct known_sure){value, *answer};
     return status;
@@ -158,8 +153,7 @@ static enum ceduo_status above_at(void *context, double value, double *above)
     return status;
 }
 
-/* Sampling error of the value found: what other points and rocks leave open of the goal, over the goal's slope, which is taken
- * across about that distance. NaN if the slope has the wrong sign. */
+/* Set the sampling error of the value found: that of the goal, over the goal's slope. NaN if the slope has the wrong sign. */
 static enum ceduo_status read_error(struct search *s, const struct ceduo_find_def *def, struct ceduo_reliability *sure)
 {
     const struct ceduo_found *f = &sure->found;
@@ -231,8 +225,9 @@ static struct ceduo_yield yield_at(struct search *s, double value)
                  ceduo_yield_compute(&s->file->scene.options[s->def.option], 0, &yield) == CEDUO_OK;
     free(yield.fellings);
     yield.fellings = NULL;
-    return known ? yield
-                 : (struct ceduo_yield){.cut_per_year = NAN, .died_per_year = NAN, .standing = NAN, .volume_today = NAN};
+    if (!known)
+        yield.cut_per_year = yield.died_per_year = yield.standing = yield.volume_today = NAN;
+    return yield;
 }
 
 /* By more than rounding. */
@@ -275,8 +270,7 @@ static bool can_be_ends(struct search *s, double lo, double hi)
     if (lo > hi) /* no whole number lies between */
         return true;
     bool first = set_value(s, lo);
-    if (!first) /* what is wrong with both is told once */
-        s->problems = &others;
+    s->problems = first ? problems : &others; /* what is wrong with both is reported once */
     bool last = set_value(s, hi);
     s->problems = problems;
     if (first != last)
@@ -287,14 +281,7 @@ static bool can_be_ends(struct search *s, double lo, double hi)
 enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *asked, unsigned threads,
                                const atomic_bool *cancel, struct search_answer *answer)
 {
-    struct search search = {.file = file,
-                            .def = *asked,
-                            .threads = threads,
-                            .cancel = cancel,
-                            .answer = answer,
-                            .problems = &answer->problems,
-                            .root = file->root},
-                  *s = &search;
+    struct search search = {file, *asked, threads, cancel, answer, &answer->problems, .root = file->root}, *s = &search;
     const struct field *field = ceduo_search_field(&file->arena, asked->path);
     if (isnan(s->def.target))
         s->def.target = ceduo_goal_limit(s->def.goal, &file->scene);
@@ -304,15 +291,11 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
         return CEDUO_BAD_SLOPE;
     bool counted = field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* as a forester does */
     bool whole = s->whole = counted || (field && strcmp(field->unit, "y") == 0);
-    struct ceduo_find_def def = {.lo = s->def.lo,
-                                 .hi = s->def.hi,
-                                 .whole = whole,
-                                 .target = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target,
-                                 .goal = goal_at,
-                                 .context = s,
-                                 .tolerance = 1e-4,
-                                 .cancel = cancel};
-    s->passes = def.target;
+    s->passes = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target;
+    struct ceduo_find_def def = {
+        .lo = s->def.lo, .hi = s->def.hi, .whole = whole, .target = s->passes, .tolerance = 1e-4, .cancel = cancel};
+    def.goal = goal_at;
+    def.context = s;
     double first = whole ? ceil(def.lo) : def.lo, last = whole ? floor(def.hi) : def.hi;
     if (!can_be_ends(s, first, last))
         return CEDUO_BAD_SLOPE;
@@ -343,7 +326,7 @@ static bool change_scene(const struct scene_file *from, const char *path, const 
     bool good = ceduo_scene_set(file, "preview", set.bytes, &problems);
     const struct node *root = good ? ceduo_resolve_scene(&file->arena, file->root, &problems) : NULL;
     file->root = root;
-    return root && problems.count == 0 && ceduo_scene_bind(file, &problems);
+    return root && problems.met == 0 && ceduo_scene_bind(file, &problems);
 }
 
 enum ceduo_status ceduo_preview(const struct scene_file *from, const char *path, const char *value, size_t option,

@@ -8,8 +8,7 @@
 #include "io/scene_file.h"
 #include "study/goal.h"
 
-/* The value of one parameter of a scene for which one option reaches a goal at its worst control. Every value is tried with the
- * same rocks, so the answer is reproducible. */
+/* Search the value for which an option reaches a goal at its worst control. Every value is tried with the same rocks. */
 
 /* What a search came to. */
 struct search_answer {
@@ -18,22 +17,19 @@ struct search_answer {
     bool rotation;            /* over one whole rotation */
     struct ceduo_found found;
     struct ceduo_reliability sure; /* and under uncertainty */
-    struct ceduo_yield yield;      /* of the option at the value that was found, or else comes nearest: without fellings; NaN
-                                * where it is not known */
-    bool yield_depends;            /* on the value: otherwise it is the same at both ends of the range */
+    struct ceduo_yield yield; /* of the option at the value that was found, or is nearest, without fellings; NaN: not known */
+    bool yield_depends;       /* on the value: otherwise it is the same at both ends of the range */
     struct problems problems;
 };
 
-/* Searches the value; with `sure` then the one that reaches the goal in that share of plausible cases, in which the value
- * itself is certain. Leaves the scene at the last value. Reports a wrong path or range in `answer->problems`, which the caller
- * frees. CEDUO_OK also if nothing is found. `cancel` may be NULL. */
+/* Search the value; with `sure` then the one that reaches the goal in that share of plausible cases. Leaves the scene at the last
+ * value. The caller frees answer->problems. CEDUO_OK also if nothing is found. `cancel` may be NULL. */
 enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *search, unsigned threads,
                                const atomic_bool *cancel, struct search_answer *answer);
 
-/* What a change would do to the lights, without making it: the scene with the change, and a few rocks through it. */
-
 #define PREVIEW_ROCKS 1024 /* one block: some milliseconds, and a share to 3 in 100 */
 
+/* What a change would do to the lights, without making it. */
 struct preview {
     bool known;               /* false: that is no scene */
     struct ceduo_index index; /* of the last control, its lights among them */
@@ -47,7 +43,7 @@ enum ceduo_status ceduo_preview(const struct scene_file *file, const char *path,
 /* The row of the number at a path; of one in a list that of the list, as of one number, in the arena. NULL: there is none. */
 const struct field *ceduo_search_field(struct arena *arena, const char *path);
 
-/* Whether a value may stand at a path: the scene with it is a scene. */
+/* True if a value may stand at a path: the scene with it is a scene. */
 bool ceduo_preview_fits(const struct scene_file *file, const char *path, const char *value);
 
 #endif

@@ -28,6 +28,13 @@ const char *ceduo_app_path(const struct app *app, const char *path)
     return ceduo_arena_string(app->scratch, ceduo_text_string(&words));
 }
 
+const char *ceduo_app_scalar(const struct app *app, const char *text)
+{
+    LOCAL_TEXT(yaml);
+    ceduo_emit_scalar(&yaml, text, true);
+    return ceduo_arena_string(app->scratch, yaml.bytes);
+}
+
 void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...)
 {
     LOCAL_TEXT(safe);
@@ -39,17 +46,12 @@ void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...)
     app->message_bad = bad;
 }
 
-void ceduo_app_hint(struct app *app, const char *text)
+/* The first of a list of problems, without the place, which the cursor shows. */
+static void say_problem(struct app *app, const struct problem_list *list)
 {
-    if (!app->message[0] && !app->popup)
-        ceduo_app_show_message(app, "%s", text);
-}
-
-/* The first message of a list of problems, without the place, which the cursor shows. */
-static void say_problem(struct app *app, const char *text)
-{
-    const char *first = ceduo_app_format(app, "%.*s", (int)strcspn(text, "\n"), text), *colon = strstr(first, ": ");
-    ceduo_app_warn(app, "%s", colon ? colon + 2 : first);
+    const struct problem *p = list->items;
+    if (list->n > 0)
+        ceduo_app_warn(app, "%s%s%s", p->path, p->path[0] ? ": " : "", p->message);
 }
 
 /* ---- what is shown ---- */
@@ -57,6 +59,11 @@ static void say_problem(struct app *app, const char *text)
 struct view_state *ceduo_app_state(struct app *app)
 {
     return &app->views[app->view];
+}
+
+void *ceduo_app_own(const struct app *app)
+{
+    return app->views[app->view].own;
 }
 
 struct form *ceduo_app_form(struct app *app)
@@ -67,6 +74,12 @@ struct form *ceduo_app_form(struct app *app)
 const struct ceduo_option *ceduo_app_option(const struct app *app)
 {
     return &app->document.file.scene.options[app->option];
+}
+
+const struct ceduo_belt *ceduo_app_belt(const struct app *app)
+{
+    const struct ceduo_option *o = ceduo_app_option(app);
+    return app->belt < o->belts_count ? &o->belts[app->belt] : NULL;
 }
 
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app)
@@ -160,11 +173,9 @@ void ceduo_app_refresh(struct app *app)
     size_t belts = ceduo_app_option(app)->belts_count;
     if (app->belt >= belts)
         app->belt = belts > 0 ? belts - 1 : 0;
-    ceduo_live_follow(&app->live, &app->document.file, app->option);
     app->uncertainties |= view->uncertainty;
-    ceduo_live_ask_uncertainty(&app->live, &app->document.file, app->option, app->uncertainties ? UNCERTAINTY_LEVELS : 0);
-    ceduo_live_compare(&app->live, &app->document.file,
-                       view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
+    ceduo_live_follow(&app->live, &app->document.file, app->option, app->uncertainties ? UNCERTAINTY_LEVELS : 0,
+                      view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_clear(&app->views[v].form, &app->document);
     if (view->build) {
@@ -177,7 +188,7 @@ void ceduo_app_show(struct app *app, enum view_number view)
 {
     app->view = view;
     ceduo_app_state(app)->pane = 0;
-    ceduo_app_state(app)->scroll = 0;
+    ceduo_app_state(app)->text.first = 0;
     ceduo_app_refresh(app);
 }
 
@@ -207,19 +218,17 @@ void ceduo_app_follow_belt(struct app *app)
 
 bool ceduo_app_edited(struct app *app, bool good)
 {
-    ceduo_problems_finish(&app->problems);
     if (!good)
-        say_problem(app, ceduo_text_string(&app->problems.text));
+        say_problem(app, &app->document.problems.wrong);
     else
         ceduo_app_refresh(app);
-    ceduo_problems_free(&app->problems);
     return good;
 }
 
 bool ceduo_app_set(struct app *app, const char *path, const char *value)
 {
     LOCAL_TEXT(said);
-    bool good = ceduo_app_edited(app, ceduo_document_set_alone(&app->document, path, value, &said, &app->problems));
+    bool good = ceduo_app_edited(app, ceduo_document_set_alone(&app->document, path, value, &said));
     if (good && said.length > 0)
         ceduo_app_show_message(app, "%s", said.bytes);
     return good;
@@ -227,29 +236,8 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
 
 /* ---- opening and closing ---- */
 
-/* Shows a document that was opened, and the first value in it that is unusual. */
-static void took_document(struct app *app, const struct problems *problems)
-{
-    ceduo_cells_free(app->kept.cells);
-    app->kept.cells = NULL;
-    if (app->no_recovery) {
-        ceduo_recovery_delete(&app->document.recovery);
-        ceduo_recovery_end(&app->document.recovery);
-    }
-    app->option = app->belt = app->year = 0;
-    app->place = (struct place){0};
-    app->rock = 0;
-    app->editing = false;
-    app->opened = true;
-    for (int v = 0; v < VIEW_COUNT; v++)
-        app->views[v].form.row = app->views[v].form.column = app->views[v].form.top = 0;
-    ceduo_app_show(app, app->view);
-    if (problems->warnings.length > 0)
-        say_problem(app, problems->warnings.bytes);
-}
-
-/* Replaces the document. The figures know the memory of the old one: they go first. False if no thread can be started. */
-static bool take_opened(struct app *app, struct document *next, unsigned threads, const struct problems *problems)
+/* Replace the document; the figures, which use its memory, go first. Report a value that is unusual. False without a thread. */
+static bool take_opened(struct app *app, struct document *next, unsigned threads)
 {
     struct live live;
     if (!ceduo_live_create(&live, threads)) {
@@ -261,30 +249,49 @@ static bool take_opened(struct app *app, struct document *next, unsigned threads
     ceduo_document_close(&app->document);
     app->live = live;
     app->document = *next;
-    took_document(app, problems);
+    ceduo_cells_free(app->kept.cells);
+    app->kept.cells = NULL;
+    if (app->no_recovery) {
+        ceduo_recovery_delete(&app->document.recovery);
+        ceduo_recovery_end(&app->document.recovery);
+    }
+    app->option = app->belt = app->year = 0;
+    app->rock = 0;
+    app->opened = true;
+    for (int v = 0; v < VIEW_COUNT; v++) {
+        struct view_state *state = &app->views[v];
+        state->form.row = state->form.column = 0;
+        state->form.lines.first = 0;
+        free(state->own);
+        state->own = ceduo_check_memory(calloc(1, ceduo_views[v]->own + 1));
+    }
+    ceduo_app_show(app, app->view);
+    say_problem(app, &app->document.problems.unusual);
     return true;
 }
 
-bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
-                      struct problems *problems)
+bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery)
 {
     struct document document;
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .uncertainties = !no_recovery};
-    if (!ceduo_document_open(&document, path ? path : "paper-site", NULL, 0, problems))
-        return false;
     app->scratch = ceduo_check_memory(calloc(1, sizeof *app->scratch));
-    if (take_opened(app, &document, threads, problems))
-        return true;
-    free(app->scratch);
-    problems->memory = true;
-    return false;
+    if (!ceduo_document_open(&document, path ? path : "paper-site", NULL, 0)) {
+        app->document = document;
+        return false;
+    }
+    app->document.problems.memory = !take_opened(app, &document, threads);
+    return !app->document.problems.memory;
 }
 
 void ceduo_app_free(struct app *app)
 {
+    ceduo_popup_close(app);
     ceduo_live_free(&app->live);
-    for (int v = 0; v < VIEW_COUNT; v++)
+    for (int v = 0; v < VIEW_COUNT; v++) {
         free(app->views[v].form.rows);
+        ceduo_arena_free(&app->views[v].form.arena);
+        free(app->views[v].own);
+    }
     ceduo_rock_trajectory_free(&app->trajectory);
     ceduo_cells_free(app->cells);
     ceduo_cells_free(app->kept.cells);
@@ -294,29 +301,18 @@ void ceduo_app_free(struct app *app)
     *app = (struct app){0};
 }
 
-/* Shows a document that was opened, or why it was not. */
-static bool show_opened(struct app *app, struct document *next, bool good)
+bool ceduo_app_open(struct app *app, const char *path, const char *text)
 {
+    struct document next;
+    bool good = path ? ceduo_document_open(&next, path, NULL, 0) : ceduo_document_new(&next, text);
     if (!good) {
-        say_problem(app, ceduo_text_string(&app->problems.text));
-    } else if (!take_opened(app, next, app->live.threads, &app->problems)) {
+        say_problem(app, &next.problems.wrong);
+        ceduo_document_close(&next);
+    } else if (!take_opened(app, &next, app->live.threads)) {
         ceduo_app_warn(app, "%s", _("out of memory"));
         good = false;
     }
-    ceduo_problems_free(&app->problems);
     return good;
-}
-
-bool ceduo_app_open(struct app *app, const char *path)
-{
-    struct document next;
-    return show_opened(app, &next, ceduo_document_open(&next, path, NULL, 0, &app->problems));
-}
-
-bool ceduo_app_open_text(struct app *app, const char *text)
-{
-    struct document next;
-    return show_opened(app, &next, ceduo_document_new(&next, text, &app->problems));
 }
 
 void ceduo_app_resize(struct app *app, int width, int height)
@@ -372,16 +368,14 @@ void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
     bool fits = text->length == 0 || ceduo_app_text_lines(app, text->bytes, width) <= lines;
     if (fits)
         return;
-    while (!fits) {
-        size_t end = text->length;
+    for (size_t end = text->length; !fits; end = text->length) {
         ceduo_text_append(text, " ..."); /* as wide as the sign is in ASCII */
         fits = ceduo_app_text_lines(app, text->bytes, width) <= lines;
         while (!fits && end > 0 && text->bytes[end - 1] != ' ' && text->bytes[end - 1] != '\n') /* the last word, */
             end--;
         if (!fits && end == 0)
             return;
-        text->length = end - !fits; /* and what stands before it */
-        text->bytes[text->length] = '\0';
+        ceduo_text_cut(text, end - !fits); /* and what stands before it */
     }
     ceduo_text_append(text, " \xe2\x80\xa6");
 }
@@ -394,41 +388,18 @@ void ceduo_app_set_cursor(struct app *app, struct ceduo_area area, enum ceduo_ro
     ceduo_text_free(text);
 }
 
-int ceduo_scroll_by(int scroll, int by)
-{
-    if (by >= ALL_LINES)
-        return -1;
-    if (by <= -ALL_LINES)
-        return 0;
-    int moved = scroll + by;
-    return (scroll < 0) == (moved < 0) ? moved : scroll < 0 ? -1 : 0;
-}
-
-int ceduo_scroll_clamp(int scroll, int max)
-{
-    scroll = scroll < 0 ? max + 1 + scroll : scroll;
-    scroll = scroll > max ? max : scroll;
-    return scroll > 0 ? scroll : 0;
-}
-
 void ceduo_app_continue_form(struct app *app, int by)
 {
-    int *scroll = &ceduo_app_state(app)->scroll;
-    *scroll = ceduo_scroll_by(*scroll, by);
+    viewport_scroll(&ceduo_app_state(app)->text, by);
 }
 
-void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll)
+void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;
-    int most = ceduo_page_draw(page, canvas, (struct ceduo_area){0}, 0) - area.height;
-    *scroll = ceduo_scroll_clamp(*scroll, most);
-    ceduo_page_draw(page, canvas, area, *scroll);
-    if (*scroll < most)
+    struct viewport *v = &ceduo_app_state(app)->text;
+    viewport_fit(v, area.height, ceduo_page_draw(page, canvas, (struct ceduo_area){0}, 0));
+    ceduo_page_draw(page, canvas, area, v->first);
+    if (viewport_has_more(v))
         ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
     ceduo_page_free(page);
-}
-
-void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
-{
-    ceduo_form_draw(ceduo_app_form(app), app->cells, area, app->editing ? app->line.text : NULL);
 }

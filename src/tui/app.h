@@ -12,8 +12,8 @@
 #include "view/plot.h"
 #include "view/report.h"
 
-/* The terminal program without a terminal: its state, and the calls that all its parts share. On it stand, in layers, popups,
- * editing, views, the screen and the program. The terminal shows the cells; a script dumps them. */
+/* The terminal program without a terminal: its state, and the calls that all its parts share. Popups, editing, views, the screen
+ * and the program stand on it, in layers. The terminal shows the cells; a script dumps them. */
 
 enum view_number {
 #define V(NAME, name, key, word, help) VIEW_##NAME,
@@ -25,12 +25,6 @@ enum view_number {
 struct app;
 struct popup; /* what lies over the views: help, lists, questions */
 
-/* A key that a view wants in the bar, and what it does there, marked for translation. */
-struct bar_key {
-    enum action action;
-    const char *word;
-};
-
 /* What an action does: a function with a number, or one without; a table of them ends with neither. */
 struct act {
     enum action action;
@@ -38,6 +32,12 @@ struct act {
     int by;
     void (*plain)(struct app *app);
 };
+
+/* A row of a table of keys. */
+#define KEY(NAME, ...)                                                                                                         \
+    {                                                                                                                          \
+        ACTION_##NAME, __VA_ARGS__                                                                                             \
+    }
 
 #define VIEW_PANES 3
 
@@ -47,11 +47,15 @@ struct view {
     bool uncertainty;                                  /* compute it from here on, whatever view is open */
     bool observed;                                     /* compare with what was observed while it is open */
     bool result;                                       /* it shows nothing before the first result */
+    size_t own;                                        /* bytes of its own state, see ceduo_app_own() */
     void (*build)(struct app *app, struct form *form); /* NULL: it has no form */
     void (*draw)(struct app *app, struct ceduo_area area);
     const struct act *acts[VIEW_PANES]; /* its own keys in each pane; NULL: none */
     void (*follow)(struct app *app);    /* after each key; NULL: nothing */
-    struct bar_key bar[8];              /* its own keys, the most needed first; a word of NULL ends them */
+    struct {
+        enum action action;
+        const char *word; /* what it does there, marked for translation; NULL ends them */
+    } bar[8];             /* its own keys, the most needed first */
 };
 
 #define V(NAME, name, key, word, help) extern const struct view ceduo_view_##name;
@@ -63,14 +67,8 @@ extern const struct view *const ceduo_views[VIEW_COUNT];
 struct view_state {
     struct form form;
     int pane;
-    int scroll; /* of text that is longer than its pane, see ceduo_scroll_by() */
-};
-
-/* A cursor along the slope of view 1. */
-struct place {
-    double x; /* m, relative */
-    int zoom; /* 2^zoom times as near as the whole slope */
-    bool put; /* it was moved: x holds */
+    struct viewport text; /* that is longer than its pane */
+    void *own;            /* zeroed as a document is opened */
 };
 
 /* A piece of a trajectory: a flight, or a roll along the ground. */
@@ -103,8 +101,7 @@ struct kept {
 
 struct app {
     struct document document;
-    struct arena *scratch;    /* strings until the next key */
-    struct problems problems; /* of the edit that is under way */
+    struct arena *scratch; /* strings until the next key */
     struct live live;
     struct ceduo_cells *cells;
     struct kept kept;
@@ -118,12 +115,9 @@ struct app {
     size_t option, belt;               /* that the views show */
     size_t year;                       /* index of the one under the cursor */
     bool over;                         /* view 7: the mean over the rotation, not today */
-    struct place place;                /* the cursor along the slope */
     uint64_t rock;                     /* whose trajectory is shown */
     struct rock_trajectory trajectory; /* that trajectory */
-    bool editing;
-    struct line line;  /* what is typed into the field */
-    char message[512]; /* of the last action; shown until the next key */
+    char message[512];                 /* of the last action; shown until the next key */
     bool message_bad;
     char search[128];
     struct popup *popup;
@@ -135,77 +129,68 @@ struct app {
     bool (*copy)(const char *text);      /* to the terminal's clipboard; false: it is too long. NULL: there is none */
 };
 
-/* Opens a scene, or the shipped site of the paper where `path` is NULL. False with the reason in `problems`. */
-bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
-                      struct problems *problems);
+/* Open a scene; NULL: the site of the paper. False with the reason in app->document.problems; free it in any case. */
+bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery);
 void ceduo_app_free(struct app *app);
 
-/* Opens another document in place of this one, which must be saved or given up before. */
-bool ceduo_app_open(struct app *app, const char *path);
-bool ceduo_app_open_text(struct app *app, const char *text);
+/* Open a file, or the text of a new scene, instead of this document, which must be saved or given up before. */
+bool ceduo_app_open(struct app *app, const char *path, const char *text);
+
+void ceduo_popup_close(struct app *app); /* the one that is open, if there is any (popup.c) */
 
 void ceduo_app_resize(struct app *app, int width, int height);
 
-/* A string that lives until the next key; what a path means in words, likewise. */
+/* A string that lives until the next key; a path in words, likewise. */
 char *ceduo_app_format(const struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
 const char *ceduo_app_path(const struct app *app, const char *path);
+const char *ceduo_app_scalar(const struct app *app, const char *text); /* as YAML */
 
 void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...) __attribute__((format(printf, 3, 4)));
 #define ceduo_app_show_message(app, ...) ceduo_app_show_problem(app, false, __VA_ARGS__)
 #define ceduo_app_warn(app, ...)         ceduo_app_show_problem(app, true, __VA_ARGS__)
 
-/* ---- the document ---- */
-
-/* Ends an edit: updates form and figures if it was good, otherwise shows the reason in app->problems. Returns `good`. */
+/* End an edit: update form and figures if it was good, otherwise show why it was refused. Returns `good`. */
 bool ceduo_app_edited(struct app *app, bool good);
 
-/* Sets a value, written as in a file, and removes what would then be given twice. */
+/* Set a value, written as in a file, and remove what would then be given twice. */
 bool ceduo_app_set(struct app *app, const char *path, const char *value);
 
 /* ---- what is shown ---- */
 
 void ceduo_app_show(struct app *app, enum view_number view);
-
-/* Updates form and figures after a change of what is shown. */
-void ceduo_app_refresh(struct app *app);
+void ceduo_app_show_option(struct app *app, size_t option);
+void ceduo_app_show_belt(struct app *app, size_t belt);
+void ceduo_app_follow_belt(struct app *app); /* show the belt under the cursor of the form */
+void ceduo_app_refresh(struct app *app);     /* update form and figures after a change of what is shown */
 
 struct view_state *ceduo_app_state(struct app *app); /* of the view that is open */
 struct form *ceduo_app_form(struct app *app);
+void *ceduo_app_own(const struct app *app); /* the own state of the view that is open */
 
-void ceduo_app_show_option(struct app *app, size_t option);
-
-/* What a picture shows of the scene as it is now. */
+/* All that is known of the scene as it is now: for a picture; for pages, where the result may be missing; for a pane of n lines.
+ * Pages and panes live until the next key. */
 struct ceduo_picture ceduo_app_picture(const struct app *app);
-
-/* All that is known of the scene as it is now, until the next key; the result may be missing. */
 struct ceduo_report *ceduo_app_report(const struct app *app);
-
-/* How sure the figures of the scene are; false where that is not known yet. Without inputs it has no answer. */
-bool ceduo_app_uncertainty(const struct app *app, struct ceduo_uncertainty_report *report);
-
-/* What a pane of so many lines shows, until the next key. */
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height);
 
-/* Path of the forest of the option shown, "options[2].forest"; of the stand of the belt shown. Until the next key. */
+/* The uncertainty of the figures; false if it is not known yet. Without inputs it has no answer. */
+bool ceduo_app_uncertainty(const struct app *app, struct ceduo_uncertainty_report *report);
+
+/* The option shown; path of its forest, "options[2].forest", and of the stand of the belt shown, until the next key. */
+const struct ceduo_option *ceduo_app_option(const struct app *app);
+const struct ceduo_belt *ceduo_app_belt(const struct app *app); /* NULL: the option has none */
 const char *ceduo_app_forest(const struct app *app);
 const char *ceduo_app_stand(const struct app *app);
-const struct ceduo_option *ceduo_app_option(const struct app *app);
 
-/* Arrivals of the column on the right: through the forest of the option shown, by the index on the bare slope. NULL before the
- * first rocks. */
+/* Arrivals of the column on the right: through the forest of the option shown, or by the index. NULL before the first rocks. */
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app);
-
-void ceduo_app_show_belt(struct app *app, size_t belt);
-
-/* Shows the belt that the cursor of the form is on. */
-void ceduo_app_follow_belt(struct app *app);
 
 /* ---- the trajectory of a rock (rock_trajectory.c) ---- */
 
-/* Follows the rock that is shown through the forest of the option shown, unless that trajectory is there already. */
+/* Follow the rock shown through the forest of the option shown, unless its trajectory is known. */
 bool ceduo_app_follow_rock(struct app *app);
 
-/* Shows the trajectory of the rock `by` further, or so many pieces more of it, and says what happens there. */
+/* Show the trajectory of the rock `by` further, or `by` pieces more of it, and say what happens there. */
 void ceduo_app_next_rock(struct app *app, int by);
 void ceduo_app_step_rock(struct app *app, int by);
 
@@ -213,72 +198,51 @@ void ceduo_app_step_rock(struct app *app, int by);
 size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *trajectory);
 void ceduo_rock_trajectory_free(struct rock_trajectory *trajectory);
 
-/* ---- editing the field or the item under the cursor of the form (edit.c) ---- */
+/* ---- the field or the item under the cursor of the form (edit.c) ---- */
 
-/* Opens the field, as a line or with the list of its choices. */
-void ceduo_edit_start(struct app *app);
-/* Handles a key while the line is open. */
-void ceduo_edit_key(struct app *app, int key);
-/* Changes the value by one step up (+1) or down (-1). */
+void ceduo_edit_start(struct app *app); /* opens the field, as a line or with the list of its choices */
 void ceduo_edit_step(struct app *app, int direction);
-
 void ceduo_items_add(struct app *app);
-/* Splits item `index` of a list `at` a place along the slope, m as given, or adds a control there. */
-void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at);
-/* The stretch between points of the profile that holds x, both as the file of the slope has them. */
-size_t ceduo_items_stretch_of(const struct app *app, double x_written);
-/* Asks for a class of blocks, wherever the cursor is. */
-void ceduo_items_add_blocks(struct app *app);
+void ceduo_items_add_blocks(struct app *app); /* asks for a class of blocks, wherever the cursor is */
 void ceduo_items_delete(struct app *app);
 void ceduo_items_duplicate(struct app *app);
 void ceduo_items_move(struct app *app, int by);
+/* Split item `index` of a list `at` a place along the slope, m as given, or add a control there. */
+void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at);
+/* The stretch between points of the profile that holds x, both as the file of the slope has them. */
+size_t ceduo_items_stretch_of(const struct app *app, double x_written);
 
 /* ---- drawing ---- */
 
-/* Draws everything on app->cells (screen.c): view titles, the view, figures, explanation of the field, keys, and the popup over
- * them. */
+/* Draw everything on app->cells (screen.c). */
 void ceduo_screen_draw(struct app *app);
 
-/* Returns the view whose title stands in this column of the top row; VIEW_COUNT if there is none. */
+/* The view whose title stands in this column of the top row; VIEW_COUNT: none. */
 enum view_number ceduo_screen_view_at(const struct app *app, int column);
 
-/* Draws wrapped text in a rectangle, without its first lines. Returns how many lines it has. */
+/* Draw wrapped text in a rectangle, without its first `skip` lines. Returns the number of its lines; the second draws nothing. */
 int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip);
-
-/* The same, drawing nothing. */
 int ceduo_app_text_lines(struct app *app, const char *text, int width);
 
-/* A text that fills no more than so many lines: what is too long ends in a sign of more. */
+/* Cut a text to n lines; what is too long ends in a sign of more. */
 void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines);
 
-/* Says what keys do in a pane, until something else is said; not below a popup. */
-void ceduo_app_hint(struct app *app, const char *text);
-
-#define ALL_LINES 100000 /* a step of so many lines goes to the first or the last one */
-
-/* Lines above a viewport after a step of `by` lines. Lines from the end are -1, -2, … until ceduo_scroll_clamp(): several keys
- * may come before the text is drawn and its length known. */
-int ceduo_scroll_by(int scroll, int by);
-
-/* The same from 0 to `max`. */
-int ceduo_scroll_clamp(int scroll, int max);
-
-/* Scrolls the view by so many lines. */
-void ceduo_app_continue_form(struct app *app, int by);
-
-/* Draws a page from line `*scroll` on, limited to the page, and frees it; a mark stands to the right where more follows
- * below. */
-void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll);
-
-/* Draws a text, shortened to its area, and frees it. */
+/* Draw a text, cut to its area, and free it. */
 void ceduo_app_set_cursor(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
 void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
-/* Draws a picture of figures, which is dimmed while these are those of an earlier scene. */
+/* Explain the keys of a pane until something else is said; not below a popup. */
+void ceduo_app_hint(struct app *app, const char *text);
+
+/* Draw a page as the text of the view, and free it; a mark stands to the right if more follows below. Scroll it by n lines. */
+void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page);
+void ceduo_app_continue_form(struct app *app, int by);
+
+/* Draw a picture of figures, which is dimmed while these are those of an earlier scene. */
 void ceduo_app_plot(struct app *app, enum ceduo_plot plot, struct ceduo_area area, const struct ceduo_picture *picture);
 
-/* Draws the form of the view that is open; nothing in an area without height. */
+/* Draw the form of the view that is open; nothing in an area without height. */
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area);
 
 #endif

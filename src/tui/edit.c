@@ -14,18 +14,24 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
     const char *path = ceduo_app_format(app, "%s", cell->path); /* the form is made anew below */
     LOCAL_TEXT(written);
     if (value[0] == '\0') /* nothing: back to the default */
-        return ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems));
+        return ceduo_app_edited(app, ceduo_document_delete(&app->document, path));
     if (field->type == FIELD_TEXT || field->type == FIELD_FILE)
         ceduo_emit_scalar(&written, value, true);
     else
         ceduo_typed_value(field, value, &written);
     if (ceduo_app_set(app, path, ceduo_text_string(&written)))
         return true;
-    size_t n = strcspn(app->message, " "); /* the refusal begins with the field's label, not with its key or path */
-    if (n > 1 && app->message[n] && app->message[n - 1] == ':' &&
-        (strcspn(app->message, "_.[") < n || strncmp(app->message, field->key, n - 1) == 0))
-        ceduo_app_warn(app, "%s: %s", _(field->shown.label), ceduo_app_format(app, "%s", app->message + n + 1));
+    const struct problem *p = app->document.problems.wrong.items; /* the label of the field stands for its path */
+    if (p->path && (strpbrk(p->path, "_.[") || strcmp(p->path, field->key) == 0))
+        ceduo_app_warn(app, "%s: %s", _(field->shown.label), p->message);
     return false;
+}
+
+static bool filled_field(struct app *app, struct popup *p)
+{
+    const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
+    struct line *line = &p->fields[0].line;
+    return !cell || (ceduo_popup_confirm_unusual(app, cell->field, line) && set_value(app, cell, line->text));
 }
 
 /* The whole value as it is typed: what is shown may be cut or put in other words. */
@@ -40,7 +46,7 @@ void ceduo_edit_start(struct app *app)
     }
     const struct node *node = ceduo_document_node(&app->document, cell->path);
     LOCAL_TEXT(text);
-    bool plain = node && node->kind == NODE_LIST && strlen(cell->text) + 1 < sizeof cell->text; /* shown whole: with blanks */
+    bool plain = node && node->kind == NODE_LIST; /* with blanks */
     for (size_t i = 0; plain && i < node->n; i++)
         plain = node->items[i]->kind == NODE_SCALAR;
     if (node && node->kind == NODE_SCALAR)
@@ -49,24 +55,9 @@ void ceduo_edit_start(struct app *app)
         ceduo_emit_flow(&text, node);
     else
         ceduo_text_append(&text, cell->text);
-    ceduo_line_set(&app->line, ceduo_text_string(&text));
-    app->editing = true;
-}
-
-void ceduo_edit_key(struct app *app, int key)
-{
-    struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
-    if (key == K_ESCAPE || !cell) {
-        app->editing = false;
-    } else if (key == K_ENTER || key == K_TAB) {
-        if (!ceduo_popup_confirm_unusual(app, cell->field, &app->line) || !set_value(app, cell, app->line.text))
-            return;
-        app->editing = false;
-        if (key == K_TAB)
-            ceduo_form_move(ceduo_app_form(app), 0, 1);
-    } else {
-        ceduo_line_key(&app->line, key);
-    }
+    struct popup *p = ceduo_popup_fields(app, "", "", filled_field);
+    p->kind = POPUP_FIELD;
+    ceduo_popup_field(p, "", ceduo_text_string(&text));
 }
 
 void ceduo_edit_step(struct app *app, int direction)
@@ -120,8 +111,7 @@ static bool find_item(struct app *app, struct item *item, bool there)
 /* The place at `list[index].key`; NaN where there is none. */
 static double place_of(const struct app *app, const struct item *item, size_t index, const char *key)
 {
-    const struct node *node = ceduo_document_node(&app->document, ceduo_app_format(app, "%s[%zu]", item->list, index));
-    return node ? ceduo_document_place(&app->document, ceduo_node_text(node, key)) : NAN;
+    return ceduo_document_place_at(&app->document, ceduo_app_format(app, "%s[%zu].%s", item->list, index, key));
 }
 
 /* Copies an item. `ends`: from_m and to_m of it, then of its copy; NaN: as they are. */
@@ -133,7 +123,7 @@ static bool copy_with(struct app *app, const struct item *item, const double end
             ceduo_changes_set(&c,
                               ceduo_app_format(app, "%s[%zu].%s", item->list, item->index + i / 2, i % 2 ? "to_m" : "from_m"),
                               "%.10g", ends[i]);
-    return ceduo_document_duplicate(&app->document, item->list, item->index, &c, &app->problems);
+    return ceduo_document_duplicate(&app->document, item->list, item->index, &c);
 }
 
 /* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */
@@ -157,24 +147,20 @@ static bool split_at(struct app *app, size_t segment, bool apart, double at)
         x[i] = ceduo_node_item_number(vertices->items[segment + i], 0);
         z[i] = ceduo_node_item_number(vertices->items[segment + i], 1);
     }
-    if (isnan(x[0] + x[1] + z[0] + z[1]))
-        return false;
-    double share = isnan(at) ? 0.5 : (at - x[0]) / (x[1] - x[0]);
-    const char *vertex =
-        ceduo_app_format(app, "[%.10g, %.10g]", isnan(at) ? (x[0] + x[1]) / 2 : at, z[0] + share * (z[1] - z[0]));
-    return ceduo_document_split_segment(&app->document, segment, vertex, apart, &app->problems);
+    at = isnan(at) ? (x[0] + x[1]) / 2 : at;
+    double height = z[0] + (at - x[0]) / (x[1] - x[0]) * (z[1] - z[0]);
+    return !isnan(height) &&
+           ceduo_document_split_segment(&app->document, segment, ceduo_app_format(app, "[%.10g, %.10g]", at, height), apart);
 }
 
 size_t ceduo_items_stretch_of(const struct app *app, double x_written)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
-    size_t j = ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x);
-    if (!vertices) /* a CSV file */
-        return s->reversed ? s->vertices - 2 - j : j;
-    for (j = 0; j + 2 < vertices->n && x_written >= ceduo_node_item_number(vertices->items[j + 1], 0);)
+    size_t j = vertices ? 0 : ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x); /* of a CSV file */
+    while (vertices && j + 2 < vertices->n && x_written >= ceduo_node_item_number(vertices->items[j + 1], 0))
         j++;
-    return j;
+    return !vertices && s->reversed ? s->vertices - 2 - j : j;
 }
 
 /* A segment in two, each with a ground of its own; of one ground for all segments that in the middle of the slope. */
@@ -199,13 +185,12 @@ static bool split_point(struct app *app, const struct item *item)
 
 static bool insert(struct app *app, const struct item *item, size_t index, const char *yaml)
 {
-    return ceduo_document_insert(&app->document, item->list, index, yaml, &app->problems);
+    return ceduo_document_insert(&app->document, item->list, index, yaml);
 }
 
 #define BELT_MIN 0.5 /* m: a shorter belt is not added */
 
-/* A belt in two; on the end of a belt, a new one after it with the same stand, if there is room, down to the next control, the
- * next belt or the end of the slope. */
+/* A belt in two; on the end of a belt, if there is room, a copy of it down to the next control, the next belt or the end. */
 static bool add_belt(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
@@ -238,19 +223,18 @@ static bool add_ground(struct app *app, const struct item *item)
 static bool add_control(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
-    double last = s->controls[0].x, end = s->slope.x[s->slope.vertices - 1];
-    for (size_t i = 1; i < s->controls_count; i++)
-        last = s->controls[i].x > last ? s->controls[i].x : last;
-    double start = s->release.x.mean + s->release.x.spread * 3;
+    double last = 0, end = s->slope.x[s->slope.vertices - 1], start = s->release.x.mean + s->release.x.spread * 3;
+    for (size_t i = 0; i < s->controls_count; i++)
+        last = fmax(last, s->controls[i].x);
     double x = (last < end ? (last + end) / 2 : (start + s->controls[0].x) / 2) + s->slope.origin_x;
-    bool plain = strcmp(item->key, "controls_m") == 0;
     x = isnan(item->at) ? x : item->at;
-    return insert(app, item, 1000000, plain ? ceduo_app_format(app, "%.6g", x) : ceduo_app_format(app, "{x_m: %.6g}", x));
+    bool plain = strcmp(item->key, "controls_m") == 0;
+    return insert(app, item, SIZE_MAX, ceduo_app_format(app, "%s%.6g%s", plain ? "" : "{x_m: ", x, plain ? "" : "}"));
 }
 
 static bool copy_item(struct app *app, const struct item *item)
 {
-    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, NULL, &app->problems);
+    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, NULL);
 }
 
 /* A first cohort of shoots needs stools to stand on. */
@@ -262,7 +246,7 @@ static bool add_shoots(struct app *app, const struct item *item)
     ceduo_changes_set(&c, ceduo_app_format(app, "%.*sstools", (int)(item->key - item->list), item->list),
                       "{per_ha: 2500, spacing_m: 0.35}");
     ceduo_changes_set(&c, item->list, "[{per_stool: 3, dbh_m: 0.07, height_m: 8}]");
-    return ceduo_changes_make(&c, item->list, &app->problems);
+    return ceduo_changes_make(&c, item->list);
 }
 
 static bool add_trees(struct app *app, const struct item *item)
@@ -295,8 +279,7 @@ void ceduo_items_add_blocks(struct app *app)
 
 /* ---- deleting ---- */
 
-/* Deletes with it: the vertex of a segment, the next one unless it is the last; stools with their last shoots. The ground
- * before it, or after the first, takes the place of a ground. */
+/* Delete an item: a segment with a vertex, the last shoots with their stools. A neighbour takes the place of a ground. */
 static bool delete_item(struct app *app, const struct item *item, const char *path)
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);
@@ -304,9 +287,9 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
     struct changes c = {.document = &app->document};
     size_t n = list ? list->n : 0, index = item->index, last = vertices && vertices->n > 0 ? vertices->n - 1 : 0;
     if (strcmp(item->list, "slope.segments") == 0)
-        return ceduo_document_remove_vertex(&app->document, index + (index + 1 < last), index, &app->problems);
+        return ceduo_document_remove_vertex(&app->document, index + (index + 1 < last), index);
     if (list && list == vertices)
-        return ceduo_document_remove_vertex(&app->document, index, index - (index > 0 && index >= last), &app->problems);
+        return ceduo_document_remove_vertex(&app->document, index, index - (index > 0 && index >= last));
     if (item->group && list && list->items[index]->n > 1 + !!ceduo_node_get(list->items[index], "name"))
         path = ceduo_app_format(app, "%s.%s", path, item->group);
     else if ((item->group || strcmp(item->list, "blocks") == 0 || strcmp(item->key, "shoots") == 0) && n == 1)
@@ -320,7 +303,7 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
                           ceduo_app_format(app, "%.*s.stools", (int)(item->key - item->list) - 1, item->list), NULL);
     }
     ceduo_changes_add(&c, CHANGE_DELETE, path, NULL);
-    return ceduo_changes_make(&c, item->list, &app->problems);
+    return ceduo_changes_make(&c, item->list);
 }
 
 /* ---- the actions ---- */
@@ -344,8 +327,9 @@ static void make(struct app *app, const struct item *item, bool add)
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (strcmp(kinds[i].key, item->key) == 0)
             function = add ? kinds[i].add : kinds[i].duplicate;
+    ceduo_problems_free(&app->document.problems);
     bool good = function(app, item);
-    if (!good && app->problems.count == 0 && !app->problems.memory && (app->message[0] || app->popup))
+    if (!good && app->document.problems.met == 0 && (app->message[0] || app->popup))
         return; /* it is said already, or asked for */
     if (ceduo_app_edited(app, good))
         ceduo_form_go(ceduo_app_form(app), item->list, item->there ? item->index + 1 : 0);
@@ -374,12 +358,10 @@ void ceduo_items_delete(struct app *app)
     if (!find_item(app, &item, true))
         return;
     const struct node *list = ceduo_document_node(&app->document, item.list);
+    const char *path = ceduo_app_format(app, "%s[%zu]", item.list, item.index);
     if (list && list->n == 1 && strcmp(item.list, "controls") == 0) {
         ceduo_app_show_message(app, "%s", _("the only place where rocks are counted stays"));
-        return;
-    }
-    const char *path = ceduo_app_format(app, "%s[%zu]", item.list, item.index);
-    if (ceduo_app_edited(app, delete_item(app, &item, path))) {
+    } else if (ceduo_app_edited(app, delete_item(app, &item, path))) {
         const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
         if (row && strcmp(row->list, item.list) != 0) /* another d would delete in the next list what nobody meant */
             ceduo_form_move(ceduo_app_form(app), -1, 0);
@@ -400,7 +382,7 @@ void ceduo_items_move(struct app *app, int by)
     if (!find_item(app, &item, true) || (by < 0 && item.index == 0))
         return;
     size_t to = item.index + (size_t)by;
-    if (ceduo_app_edited(app, ceduo_document_move(&app->document, item.list, item.index, to, &app->problems)))
+    if (ceduo_app_edited(app, ceduo_document_move(&app->document, item.list, item.index, to)))
         ceduo_form_move(ceduo_app_form(app), by, 0);
 }
 
@@ -412,14 +394,14 @@ static bool append_item(struct app *app, const char *list, const struct node *no
     struct changes c = {.document = &app->document};
     LOCAL_TEXT(first);
     if (now && now->kind == NODE_LIST)
-        return ceduo_document_insert(&app->document, list, now->n, yaml, &app->problems);
+        return ceduo_document_insert(&app->document, list, now->n, yaml);
     if (now)
         ceduo_emit_flow(&first, now);
     ceduo_text_append(&first, now ? ", " : "");
     if (strcmp(list, "blocks") == 0)
         ceduo_changes_add(&c, CHANGE_DELETE, "rocks_per_year", NULL);
     ceduo_changes_set(&c, list, "[%s%s]", ceduo_text_string(&first), yaml);
-    return ceduo_changes_make(&c, list, &app->problems);
+    return ceduo_changes_make(&c, list);
 }
 
 /* The path is that of the list; a group is kept. */
@@ -443,9 +425,9 @@ static bool filled_item(struct app *app, struct popup *p)
     const struct node *now = ceduo_document_node(&app->document, list);
     size_t n = !now ? 0 : now->kind == NODE_LIST ? now->n : 1;
     if (!ceduo_app_edited(app, append_item(app, list, now, yaml))) {
-        const char *said = ceduo_app_format(app, "%s", app->message), *colon = strstr(said, ": ");
-        if (colon && strncmp(said, list, strlen(list)) == 0) /* a path of what is not there */
-            ceduo_app_warn(app, "%s", colon + 2);
+        const struct problem *first = app->document.problems.wrong.items;
+        if (first->path && strncmp(first->path, list, strlen(list)) == 0) /* a path of what is not there */
+            ceduo_app_warn(app, "%s", first->message);
         return false;
     }
     ceduo_form_go(ceduo_app_form(app), list, n);

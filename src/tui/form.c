@@ -20,15 +20,14 @@ void ceduo_form_clear(struct form *form, const struct document *document)
 {
     form->document = document;
     form->n = 0;
+    ceduo_arena_free(&form->arena);
 }
 
 static struct form_row *add_row(struct form *form, enum form_kind kind, const char *label)
 {
     form->rows = ceduo_grow(form->rows, form->n, &form->room, sizeof *form->rows);
     struct form_row *row = &form->rows[form->n++];
-    memset(row, 0, sizeof *row);
-    row->kind = kind;
-    snprintf(row->label, sizeof row->label, "%s", label);
+    *row = (struct form_row){.kind = kind, .label = ceduo_arena_string(&form->arena, label), .list = ""};
     return row;
 }
 
@@ -67,21 +66,19 @@ static void show_node(struct text *to, const struct node *node, const struct fie
     }
 }
 
-static void add_cell(const struct form *form, struct form_row *row, const struct field *field, const char *path)
+static void add_cell(struct form *form, struct form_row *row, const struct field *field, const char *path)
 {
     struct form_cell *cell = &row->cells[row->n++];
     const struct node *node = ceduo_document_node(form->document, path), *italian = NULL;
     const char *usual = !node && field->value ? field->value : "";
-    char other[FORM_PATH + 3];
     LOCAL_TEXT(shown);
-    snprintf(cell->path, sizeof cell->path, "%s", path);
-    cell->field = field;
-    cell->given = node != NULL;
-    cell->assumed = node && ceduo_scene_assumes_value(&form->document->file, path);
-    snprintf(cell->written, sizeof cell->written, "%s", node && node->kind == NODE_SCALAR ? node->text : usual);
-    snprintf(other, sizeof other, "%s_it", path);
+    *cell = (struct form_cell){.path = ceduo_arena_string(&form->arena, path),
+                               .field = field,
+                               .written = node && node->kind == NODE_SCALAR ? node->text : usual,
+                               .given = node != NULL,
+                               .assumed = node && ceduo_scene_assumes_value(&form->document->file, path)};
     if (node && node->kind == NODE_SCALAR && field->type == FIELD_TEXT)
-        italian = ceduo_document_node(form->document, other);
+        italian = ceduo_document_node(form->document, ceduo_arena_format(&form->arena, "%s_it", path));
     if (italian && italian->kind == NODE_SCALAR)
         ceduo_text_append(&shown, ceduo_in_language(node->text, italian->text));
     else if (node)
@@ -90,7 +87,7 @@ static void add_cell(const struct form *form, struct form_row *row, const struct
         ceduo_shown_value(field, usual, &shown);
     if ((field->type == FIELD_NUMBERS || field->type == FIELD_SPREADS || field->type == FIELD_SPREAD) && shown.bytes)
         ceduo_number_spoken(shown.bytes);
-    snprintf(cell->text, sizeof cell->text, "%s", ceduo_text_string(&shown));
+    cell->text = ceduo_arena_string(&form->arena, ceduo_text_string(&shown));
 }
 
 void ceduo_form_field(struct form *form, const char *path, const char *label)
@@ -99,30 +96,26 @@ void ceduo_form_field(struct form *form, const char *path, const char *label)
     add_cell(form, add_row(form, FORM_FIELDS, label ? label : _(field->shown.label)), field, path);
 }
 
-/* The next of some words with blanks between; false behind the last. */
-static bool next_key(const char **keys, char key[FORM_PATH])
+/* The next of some words with blanks between; NULL after the last. */
+static const char *next_key(struct form *form, const char **keys)
 {
     size_t n = strcspn(*keys, " ");
-    snprintf(key, FORM_PATH, "%.*s", (int)n, *keys);
+    const char *key = n > 0 ? ceduo_arena_copy(&form->arena, *keys, n) : NULL;
     *keys += n + strspn(*keys + n, " ");
-    return n > 0;
+    return key;
 }
 
 void ceduo_form_fields(struct form *form, const char *prefix, const char *keys)
 {
-    char key[FORM_PATH], path[2 * FORM_PATH];
-    while (next_key(&keys, key)) {
-        snprintf(path, sizeof path, "%s%s", prefix, key);
-        ceduo_form_field(form, path, NULL);
-    }
+    for (const char *key; (key = next_key(form, &keys));)
+        ceduo_form_field(form, ceduo_arena_format(&form->arena, "%s%s", prefix, key), NULL);
 }
 
 void ceduo_form_rest(struct form *form, const char *group)
 {
     const struct object *fields = ceduo_schema_row(group)->object;
     for (const struct field *f = fields->fields; f < fields->fields + fields->n; f++) {
-        char path[FORM_PATH];
-        snprintf(path, sizeof path, "%.90s.%.60s", group, f->key);
+        const char *path = ceduo_arena_format(&form->arena, "%s.%s", group, f->key);
         bool there = f->type == FIELD_GROUP || f->type == FIELD_LIST;
         for (size_t k = 0; k < form->n; k++)
             there |= form->rows[k].n > 0 && strcmp(form->rows[k].cells[0].path, path) == 0;
@@ -134,51 +127,47 @@ void ceduo_form_rest(struct form *form, const char *group)
 /* A line for item i of a list. */
 static struct form_row *add_item(struct form *form, const char *list, size_t i)
 {
-    struct form_row *row = add_row(form, FORM_FIELDS, "");
-    snprintf(row->label, sizeof row->label, "%zu", i + 1);
-    snprintf(row->list, sizeof row->list, "%s", list);
+    struct form_row *row = add_row(form, FORM_FIELDS, ceduo_arena_format(&form->arena, "%zu", i + 1));
+    row->list = ceduo_arena_string(&form->arena, list);
     row->index = i;
     return row;
 }
 
 void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys)
 {
-    char key[FORM_PATH], path[FORM_PATH];
     const struct node *node = ceduo_document_node(form->document, list);
     const struct field *of = ceduo_schema_row(list);
     of = group ? ceduo_schema_field(of->object, group) : of;
     struct form_row *head = add_row(form, FORM_COLUMNS_ROW, "");
-    for (const char *rest = keys; head->n < FORM_COLUMNS && next_key(&rest, key);)
-        head->cells[head->n++].field = ceduo_schema_field(of->object, key);
-    snprintf(head->list, sizeof head->list, "%s", list);
+    list = head->list = ceduo_arena_string(&form->arena, list);
+    for (const char *rest = keys, *key; head->n < FORM_COLUMNS && (key = next_key(form, &rest));)
+        head->cells[head->n++] = (struct form_cell){.path = "", .field = ceduo_schema_field(of->object, key)};
     for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
         const struct node *item = group ? ceduo_node_get(node->items[i], group) : node->items[i];
         if (!item)
             continue;
         struct form_row *row = add_item(form, list, i);
         row->group = group ? of->key : NULL;
-        for (const char *rest = keys; row->n < FORM_COLUMNS && next_key(&rest, key);) {
+        for (const char *rest = keys, *key; row->n < FORM_COLUMNS && (key = next_key(form, &rest));) {
             const struct field *field = ceduo_schema_field(of->object, key), *other = ceduo_schema_unit(of->object, field);
             if (!ceduo_node_get(item, key) && other && ceduo_node_get(item, other->key)) /* the file has it in another unit */
                 field = other;
-            snprintf(path, sizeof path, "%.80s[%zu].%.20s%s%.30s", list, i, group ? group : "", group ? "." : "", field->key);
+            const char *path =
+                ceduo_arena_format(&form->arena, "%s[%zu].%s%s%s", list, i, group ? group : "", group ? "." : "", field->key);
             const char *named = field->type == FIELD_NUMBER ? ceduo_node_text(item, "path") : NULL;
             const struct field *value = named ? ceduo_schema_at(named) : NULL; /* an end of its range: in its own unit */
             add_cell(form, row, value && value->shown.per != 1 ? value : field, path);
         }
     }
     if (!node || node->n == 0)
-        snprintf(add_row(form, FORM_FIELDS, _("none; a adds one"))->list, sizeof head->list, "%s", list);
+        add_row(form, FORM_FIELDS, _("none; a adds one"))->list = list;
 }
 
 void ceduo_form_points(struct form *form, const char *list)
 {
-    char path[FORM_PATH];
     const struct node *node = ceduo_document_node(form->document, list);
-    for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
-        snprintf(path, sizeof path, "%.100s[%zu]", list, i);
-        add_cell(form, add_item(form, list, i), ceduo_schema_at(list), path);
-    }
+    for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++)
+        add_cell(form, add_item(form, list, i), ceduo_schema_at(list), ceduo_arena_format(&form->arena, "%s[%zu]", list, i));
 }
 
 /* ---- the cursor ---- */
@@ -190,41 +179,29 @@ static bool can_hold(const struct form_row *row)
 
 void ceduo_form_clamp(struct form *form)
 {
-    if (form->n == 0) {
-        form->row = form->column = 0;
-        return;
-    }
-    if (form->row >= form->n)
-        form->row = form->n - 1;
-    size_t down = form->row, up = form->row;
+    size_t down = form->row < form->n ? form->row : form->n - (form->n > 0), up = down;
     while (down < form->n && !can_hold(&form->rows[down]))
         down++;
     while (up > 0 && !can_hold(&form->rows[up]))
         up--;
     form->row = down < form->n ? down : up;
-    size_t n = form->rows[form->row].n;
-    if (form->column >= n)
-        form->column = n > 0 ? n - 1 : 0;
+    size_t n = form->n > 0 ? form->rows[form->row].n : 0;
+    form->column = form->column < n ? form->column : n - (n > 0);
 }
 
 void ceduo_form_move(struct form *form, int lines, int columns)
 {
-    int step = lines < 0 ? -1 : 1;
-    for (int left = abs(lines); left > 0 && form->n > 0; left--) {
-        size_t to = form->row;
-        do {
-            if (step < 0 ? to == 0 : to + 1 >= form->n) {
-                to = form->row;
-                break;
-            }
-            to = step < 0 ? to - 1 : to + 1;
-        } while (!can_hold(&form->rows[to]));
+    size_t step = lines < 0 ? SIZE_MAX : 1; /* above the first line it is larger than any */
+    for (int left = abs(lines); left > 0; left--) {
+        size_t to = form->row + step;
+        while (to < form->n && !can_hold(&form->rows[to]))
+            to += step;
+        if (to >= form->n)
+            break;
         form->row = to;
     }
-    if (columns < 0 && form->column > 0)
-        form->column--;
-    if (columns > 0)
-        form->column++;
+    if (columns > 0 || (columns < 0 && form->column > 0))
+        form->column += (size_t)columns;
     ceduo_form_clamp(form);
 }
 
@@ -252,17 +229,16 @@ void ceduo_form_go(struct form *form, const char *list, size_t index)
 bool ceduo_form_search(struct form *form, const char *word)
 {
     for (size_t i = 1; word[0] && i <= form->n; i++) {
-        const struct form_row *row = &form->rows[(form->row + i) % form->n];
-        size_t k = 0; /* the row's own name is that of its first cell */
-        if (!can_hold(row))
-            continue;
-        while (k < row->n && !(k == 0 && strcasestr(row->label, word)) && !strcasestr(row->cells[k].text, word) &&
-               !strcasestr(row->cells[k].path, word))
+        const size_t at = (form->row + i) % form->n;
+        const struct form_row *row = &form->rows[at];
+        size_t k = 0, n = can_hold(row) ? row->n : 0; /* the row's own name is that of its first cell */
+        bool named = can_hold(row) && strcasestr(row->label, word);
+        while (k < n && !(k == 0 && named) && !strcasestr(row->cells[k].text, word) && !strcasestr(row->cells[k].path, word))
             k++;
-        if (k == row->n && !strcasestr(row->label, word))
+        if (k == n && !named)
             continue;
-        form->row = (form->row + i) % form->n;
-        form->column = k < row->n ? k : 0;
+        form->row = at;
+        form->column = k < n ? k : 0;
         ceduo_form_clamp(form);
         return true;
     }
@@ -296,7 +272,8 @@ static void cell_place(const struct form_row *row, int width, int label, size_t 
     *span = each - 1;
 }
 
-#define DIGITS_MAX 5 /* more come from a computer: they are seen as the field is opened */
+#define DIGITS_MAX  5 /* more come from a computer: they are seen as the field is opened */
+#define COLUMNS_MAX 63
 
 static size_t digits_of(const char *shown)
 {
@@ -310,13 +287,14 @@ static size_t digits_of(const char *shown)
 static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, int x, int y, int span, bool cursor,
                       const char *edit)
 {
-    char shown[80];
+    char shown[4 * COLUMNS_MAX + 2];
     LOCAL_TEXT(words);
     if (cell->given && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
         ceduo_shown_path(cell->text, &words);
     else
         ceduo_text_append(&words, cell->text[0] ? cell->text : "-");
-    snprintf(shown, sizeof shown, "%s%s", ceduo_text_string(&words), cell->assumed ? "*" : "");
+    size_t length = ceduo_utf8_cut(ceduo_text_string(&words), COLUMNS_MAX);
+    snprintf(shown, sizeof shown, "%.*s%s", (int)length, ceduo_text_string(&words), cell->assumed ? "*" : "");
     double number;
     bool fine = digits_of(shown) > DIGITS_MAX || (int)ceduo_utf8_width(shown) > span;
     if (fine && strpbrk(shown, ".,") && ceduo_typed_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
@@ -357,14 +335,13 @@ static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t 
     for (size_t k = 0; k < row->n; k++) {
         int from, span;
         cell_place(row, width, label, k, &from, &span);
-        if (row->kind != FORM_COLUMNS_ROW) {
-            draw_cell(cells, &row->cells[k], left + from, y, span, i == form->row && k == form->column, edit);
-            continue;
-        }
         const struct field_shown *shown = &row->cells[k].field->shown;
-        bool fits = (int)ceduo_utf8_width(_(shown->label)) <= span || !shown->brief;
-        ceduo_canvas_draw_text(canvas, left + from, y, span, CEDUO_ROLE_TITLE,
-                               fits ? _(shown->label) : ceduo_translate_in(shown->brief));
+        bool fits = !shown->brief || (int)ceduo_utf8_width(_(shown->label)) <= span;
+        if (row->kind == FORM_COLUMNS_ROW)
+            ceduo_canvas_draw_text(canvas, left + from, y, span, CEDUO_ROLE_TITLE,
+                                   fits ? _(shown->label) : ceduo_translate_in(shown->brief));
+        else
+            draw_cell(cells, &row->cells[k], left + from, y, span, i == form->row && k == form->column, edit);
     }
 }
 
@@ -373,29 +350,25 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
     form->area = area;
     if (area.height <= 0 || area.width < 8)
         return;
-    size_t lines = (size_t)area.height, above = form->row, below = form->row;
+    struct viewport *v = &form->lines;
+    size_t above = form->row, below = form->row;
     while (above > 0 && !can_hold(&form->rows[above - 1])) /* headings belong to what follows */
         above--;
     while (below + 1 < form->n && !can_hold(&form->rows[below + 1]))
         below++;
-    if (below + 1 < form->n || below + 1 - form->row > lines) /* notes after the last field are shown with it */
+    if (below + 1 < form->n || below - form->row >= (size_t)area.height) /* notes after the last field are shown with it */
         below = form->row;
-    if (above < form->top)
-        form->top = above;
-    if (below >= form->top + lines)
-        form->top = below + 1 - lines;
-    if (form->row < form->top) /* a low area */
-        form->top = form->row;
-    if (form->top + lines > form->n)
-        form->top = form->n > lines ? form->n - lines : 0;
-    for (size_t i = 0; i < lines && form->top + i < form->n; i++)
-        draw_row(form, cells, form->top + i, area.top + (int)i, edit);
+    viewport_fit(v, area.height, (int)form->n);
+    viewport_show(v, (int)above, (int)below);
+    viewport_show(v, (int)form->row, (int)form->row); /* in a low area */
+    for (int i = v->first; i < v->first + v->rows && i < v->count; i++)
+        draw_row(form, cells, (size_t)i, area.top + i - v->first, edit);
 }
 
 bool ceduo_form_click(struct form *form, int x, int y)
 {
     const struct ceduo_area *area = &form->area;
-    size_t i = form->top + (size_t)(y - area->top);
+    size_t i = (size_t)(form->lines.first + y - area->top);
     if (x < area->left || x >= area->left + area->width || y < area->top || y >= area->top + area->height || i >= form->n ||
         !can_hold(&form->rows[i]))
         return false;

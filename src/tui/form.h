@@ -4,18 +4,18 @@
 
 #include "model/document.h"
 #include "view/canvas.h"
+#include "viewport.h"
 
 /* A form: lines of fields of the document, made anew after each edit. Fields come from the table of parameters. */
 
-#define FORM_PATH    160
 #define FORM_COLUMNS 8
 
 struct form_cell {
-    char path[FORM_PATH]; /* of the value, as in --set */
+    const char *path; /* of the value, as in --set */
     const struct field *field;
-    char text[64];    /* as it is shown, see view/typed.h */
-    char written[64]; /* a single word or number, as in the file; "": nothing, or more than that */
-    bool given;       /* written in the scene, not a default */
+    const char *text;    /* as it is shown, see view/typed.h */
+    const char *written; /* a single word or number, as in the file; "": nothing, or more than that */
+    bool given;          /* written in the scene, not a default */
     bool assumed;
 };
 
@@ -23,20 +23,21 @@ enum form_kind { FORM_HEADING, FORM_COLUMNS_ROW, FORM_FIELDS, FORM_NOTE };
 
 struct form_row {
     enum form_kind kind;
-    char label[64];
+    const char *label;
     size_t n;
     struct form_cell cells[FORM_COLUMNS]; /* of the head of a table: the fields alone */
-    char list[FORM_PATH];                 /* the list that the row is an item of; "": none */
+    const char *list;                     /* the list that the row is an item of; "": none */
     const char *group;                    /* of that item, which the row shows alone; NULL: the whole item */
     size_t index;
 };
 
 struct form {
     const struct document *document;
+    struct arena arena; /* of its strings, which live until it is made anew */
     struct form_row *rows;
     size_t n, room;
-    size_t row, column;     /* the cursor */
-    size_t top;             /* first line shown */
+    size_t row, column; /* the cursor */
+    struct viewport lines;
     struct ceduo_area area; /* where it was drawn, for the mouse */
 };
 
@@ -45,46 +46,38 @@ void ceduo_form_clear(struct form *form, const struct document *document); /* th
 void ceduo_form_heading(struct form *form, const char *text);
 void ceduo_form_note(struct form *form, const char *text);
 
-/* A line with the value at a path; label NULL: that of the table of keys. */
+/* Add a line with the value at a path; label NULL: that of the table of keys. Or a line for each of some keys, with blanks between,
+ * after a prefix that ends in a dot or is "". Or for each field of a group (such as growth.shoots) that has none yet. */
 void ceduo_form_field(struct form *form, const char *path, const char *label);
-
-/* A line for each of some keys, with blanks between, behind a prefix that ends in a dot or is "". */
 void ceduo_form_fields(struct form *form, const char *prefix, const char *keys);
-
-/* A line for each field of a group (such as growth.shoots) that has none yet. */
 void ceduo_form_rest(struct form *form, const char *group);
 
-/* A table of the items of a list: column names, then a line for each item; keys with blanks between. With a group: only items
- * that have it; the keys are its own. An empty list has a line that explains how to add to it. */
+/* Add a table of the items of a list: column names, then a line for each item; keys with blanks between. With a group: only items
+ * that have it; the keys are its own. An empty list has a line that explains how to add to it. Or a line for each point of a list. */
 void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys);
-
-/* A line for each point of a list of points. */
 void ceduo_form_points(struct form *form, const char *list);
 
-/* Puts the cursor on a line with fields, as near as may be. */
+/* Move the cursor, always to a line with fields: to the nearest; by lines and columns; to the next line whose name, or a cell whose
+ * text or path holds a word, false if there is none; to item `index` of a list, or the last before it. */
 void ceduo_form_clamp(struct form *form);
 void ceduo_form_move(struct form *form, int lines, int columns);
-
-/* Moves the cursor to the next line whose name, or a cell whose text or path holds a word; false where there is none. */
 bool ceduo_form_search(struct form *form, const char *word);
-
-/* Moves the cursor to item `index` of a list, or the last before it; it stays where the form has no such list. */
 void ceduo_form_go(struct form *form, const char *list, size_t index);
 
-/* The cell under the cursor; NULL where there is none. */
+/* The cell and the line under the cursor; NULL: none. */
 struct form_cell *ceduo_form_cell(struct form *form);
 struct form_row *ceduo_form_row(struct form *form);
 
-/* Draws the lines, scrolled to the cursor. `edit`: text in the cell under the cursor instead of its own; may be NULL. */
+/* Draw the lines, scrolled to the cursor. `edit`: text in the cell under the cursor instead of its own; may be NULL. */
 void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit);
 
-/* Moves the cursor to the line and cell at a place of the screen; false where there is none. */
+/* Move the cursor to the cell at a place of the screen; false if there is none. */
 bool ceduo_form_click(struct form *form, int x, int y);
 
-/* What stands below the screen for the cell under the cursor: meaning, unit, range, default, source. */
+/* Explain the cell under the cursor: meaning, unit, range, default, source. */
 void ceduo_form_explain(struct form *form, struct text *text);
 
-/* Its value one step up (+1) or down (-1), as it would be typed; false where there is none, or the field has no steps. */
+/* Append its value one step up (+1) or down (-1), as it would be typed; false if the field has no steps. */
 bool ceduo_form_step(struct form *form, int direction, struct text *value);
 
 #endif

@@ -4,17 +4,10 @@
 
 #include <stdbool.h>
 
-/* A key as the program knows it: a Unicode code point, or one of these. */
-enum key {
-    K_NONE = 0,
-    K_CTRL_L = 12,
-    K_TAB = 9,
-    K_ENTER = 13,
-    K_CTRL_R = 18,
-    K_CTRL_U = 21,
-    K_ESCAPE = 27,
-    K_SPECIAL = 0x110000,
-    K_UP,
+/* A key as the program knows it: a Unicode code point, or one of the second row. */
+enum { K_NONE, K_TAB = 9, K_CTRL_L = 12, K_ENTER, K_CTRL_R = 18, K_CTRL_U = 21, K_ESCAPE = 27, K_SPECIAL = 0x110000 };
+enum {
+    K_UP = K_SPECIAL + 1,
     K_DOWN,
     K_LEFT,
     K_RIGHT,
@@ -22,15 +15,13 @@ enum key {
     K_END,
     K_PAGE_UP,
     K_PAGE_DOWN,
-    K_BACKSPACE,
     K_DELETE,
-    K_SHIFT_TAB,
-    K_F1,
-    K_F10 = K_F1 + 9
+    K_BACKSPACE,
+    K_SHIFT_TAB
 };
+#define K_F(n) (K_SHIFT_TAB + (n))
 
-/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word,
- * title. */
+/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, in small, key, its word, title. */
 #define VIEWS(V)                                                                                                               \
     V(SLOPE, slope, '1', "1", NP_("view", "slope"))                                                                            \
     V(STAND, stand, '2', "2", NP_("view", "stand"))                                                                            \
@@ -41,12 +32,10 @@ enum key {
     V(UNCERTAINTY, uncertainty, '7', "7", NP_("view", "uncertainty"))                                                          \
     V(OBSERVED, observed, '8', "8", NP_("view", "observed"))
 
-#define K_F(n) (K_F1 + (n)-1)
-
 #define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help, BY(show_view, VIEW_##NAME))
 
-/* The one table of actions, for keys, bar, help and manual: name, first key, its word, second key, its word, in the bar, what
- * it does, and how: a function of program.c with a number, or without; NULL: views alone do it. */
+/* The table of actions, for keys, bar, help and manual: name, key, its word, second key, its word, rank in the bar, what it does,
+ * and the function, with a number or without; NULL: views alone do it. */
 #define ACTIONS(X)                                                                                                             \
     X(UP, K_UP, "Up", 'k', "k", 0, N_("move up"), BY(move_lines, -1))                                                          \
     X(DOWN, K_DOWN, "Down", 'j', "j", 0, N_("move down"), BY(move_lines, 1))                                                   \
@@ -91,8 +80,8 @@ enum key {
     X(CHARSET, 'b', "b", K_NONE, "", 0, N_("braille, blocks or ASCII"), DO(next_charset))                                      \
     X(THEME, 't', "t", K_NONE, "", 0, N_("colours: dark, light, none"), DO(next_theme))                                        \
     X(REDRAW, K_CTRL_L, "Ctrl-L", K_NONE, "", 0, N_("draw the screen anew"), DO(redraw))                                       \
-    X(HELP, '?', "?", K_F1, "F1", 2, N_("help"), DO(show_help))                                                                \
-    X(QUIT, 'q', "q", K_F10, "F10", 2, N_("quit"), DO(ceduo_popup_quit))
+    X(HELP, '?', "?", K_F(1), "F1", 2, N_("help"), DO(show_help))                                                              \
+    X(QUIT, 'q', "q", K_F(10), "F10", 2, N_("quit"), DO(ceduo_popup_quit))
 
 enum action {
 #define X(NAME, key, word, key2, word2, bar, help, act) ACTION_##NAME,
@@ -113,8 +102,5 @@ extern const struct action_info ceduo_actions[ACTION_COUNT];
 
 /* The action of a key; ACTION_NONE. */
 enum action ceduo_action_find(int key);
-
-/* A key from its name in a script: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; K_NONE. */
-int ceduo_key_compute(const char *name);
 
 #endif

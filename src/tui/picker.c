@@ -125,8 +125,7 @@ bool ceduo_picker_has(const struct picker *p, const char *value)
 
 void ceduo_picker_filter(struct picker *p, const char *typed)
 {
-    p->matches = p->at = 0;
-    p->top = 0;
+    p->matches = 0;
     for (size_t i = 0; i < p->count; i++) {
         struct pick *pick = &p->picks[i];
         size_t at = p->matches;
@@ -138,40 +137,32 @@ void ceduo_picker_filter(struct picker *p, const char *typed)
         p->order[at] = i;
         p->matches++;
     }
+    p->lines = (struct viewport){.count = (int)p->matches};
     for (size_t i = 0; !typed[0] && i < p->matches; i++)
         if (p->picks[p->order[i]].now)
-            p->at = i;
+            p->lines.selected = (int)i;
 }
 
 void ceduo_picker_go_to(struct picker *p, const char *value)
 {
     for (size_t i = 0; i < p->matches; i++)
         if (strcmp(p->picks[p->order[i]].value, value) == 0)
-            p->at = i;
-}
-
-void ceduo_picker_move(struct picker *p, int by)
-{
-    long at = (long)p->at + by, last = (long)p->matches - 1;
-    at = at > last ? last : at;
-    p->at = at > 0 ? (size_t)at : 0;
+            p->lines.selected = (int)i;
 }
 
 const struct pick *ceduo_picker_at(const struct picker *p)
 {
-    return p->at < p->matches ? &p->picks[p->order[p->at]] : NULL;
+    return p->matches > 0 ? &p->picks[p->order[p->lines.selected]] : NULL;
 }
 
-int ceduo_picker_draw(struct picker *p, struct ceduo_cells *cells, struct ceduo_area area)
+void ceduo_picker_draw(struct picker *p, struct ceduo_cells *cells, struct ceduo_area area)
 {
-    int at = (int)p->at, n = (int)p->matches, height = area.height;
-    if (height < 1)
-        return 0;
-    p->top = at < p->top ? at : at >= p->top + height ? at + 1 - height : p->top;
-    for (int i = p->top; i < p->top + height && i < n; i++)
-        ceduo_canvas_draw_text(&cells->canvas, area.left, area.top + i - p->top, area.width,
-                               i == at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->picks[p->order[i]].text);
-    return (p->top > 0) + 2 * (p->top + height < n);
+    struct viewport *v = &p->lines;
+    viewport_fit(v, area.height > 0 ? area.height : 0, (int)p->matches);
+    viewport_show(v, v->selected, v->selected);
+    for (int i = v->first; i < v->first + v->rows && i < v->count; i++)
+        ceduo_canvas_draw_text(&cells->canvas, area.left, area.top + i - v->first, area.width,
+                               i == v->selected ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->picks[p->order[i]].text);
 }
 
 /* ---- files ---- */

@@ -4,6 +4,7 @@
 
 #include "base/arena.h"
 #include "view/canvas.h"
+#include "viewport.h"
 
 /* A line that is typed: a value, a file name, something to search. */
 struct line {
@@ -14,16 +15,10 @@ struct line {
 };
 
 void ceduo_line_set(struct line *line, const char *text);
+bool ceduo_line_key(struct line *line, int key); /* false: the key means nothing to it */
 
-/* What is said where a paste does not fit. */
-#define CEDUO_LINE_FULL N_("what was pasted is too long for this line, which stays as it was")
-
-/* Types a pasted text: line ends and tabs as one blank, no control characters. False if it does not fit: the line stays as it
- * was. */
+/* Type a pasted text, line ends and tabs as one blank, no control characters. False: it does not fit, the line stays. */
 bool ceduo_line_paste(struct line *line, const char *text);
-
-/* Handles a key; false where the key means nothing to it. */
-bool ceduo_line_key(struct line *line, int key);
 
 /* ---- the list ---- */
 
@@ -42,40 +37,32 @@ struct picker {
     size_t count, room;
     size_t *order; /* those that match, best first, after ceduo_picker_filter() */
     size_t matches, order_room;
-    size_t at; /* among those that match */
-    int top;   /* the first line shown */
+    struct viewport lines; /* of those that match */
 };
 
 void ceduo_picker_clear(struct picker *picker);
 
-/* Adds an item; unsafe bytes are shown as \xHH. What is typed is searched for in `name` alone. `now`: the cursor goes there. */
+/* Add an item; unsafe bytes are shown as \xHH. What is typed is searched for in `name` alone. `now`: the cursor goes there. */
 void ceduo_picker_add(struct picker *picker, const char *text, const char *name, const char *value, bool now);
-
-/* Whether a value is there already. */
 bool ceduo_picker_has(const struct picker *picker, const char *value);
 
-/* Leaves those that match; "": all, with the cursor on what is there at present. */
+/* Keep those that match; "": all, with the cursor on what is there at present. Or put the cursor on a value, if it is there. */
 void ceduo_picker_filter(struct picker *picker, const char *typed);
-
-/* Puts the cursor on a value, where it is there. */
 void ceduo_picker_go_to(struct picker *picker, const char *value);
-void ceduo_picker_move(struct picker *picker, int by);
 
 /* The item under the cursor; NULL: none matches. */
 const struct pick *ceduo_picker_at(const struct picker *picker);
-
-/* Draws lines from the first shown on; returns 1 where more stand above, + 2 where more stand below. */
-int ceduo_picker_draw(struct picker *picker, struct ceduo_cells *cells, struct ceduo_area area);
+void ceduo_picker_draw(struct picker *picker, struct ceduo_cells *cells, struct ceduo_area area);
 
 /* ---- files ---- */
 
-/* Adds what a path that is typed may go on to: folders, and files that end as given. */
+/* Add what a typed path may go on to: folders, and files with one of some endings (".csv .txt"). */
 void ceduo_picker_add_files(struct picker *picker, const char *typed, const char *endings);
 
-/* Whether a name ends in one of some endings (".csv .txt"), in small or capital letters. */
+/* True if a name has one of the endings, in small or capital letters. */
 bool ceduo_picker_is_file(const char *name, const char *endings);
 
-/* The longest that a typed path can be completed to without a choice; false where there is none. */
+/* Complete a typed path as far as there is no choice; false if there is nothing to complete. */
 bool ceduo_picker_complete(const struct picker *picker, struct line *line);
 
 #endif

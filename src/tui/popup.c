@@ -200,7 +200,7 @@ static int lines_of(int key, bool letters)
 static void text_key(struct app *app, struct popup *p, int key)
 {
     int by = lines_of(key, true);
-    p->top = ceduo_scroll_by(p->top, by);
+    viewport_scroll(&p->lines, by);
     if (by == 0)
         ceduo_popup_close(app);
 }
@@ -227,11 +227,11 @@ static void list_key(struct app *app, struct popup *p, int key)
     } else if (key == K_ENTER) {
         choose(app, p);
     } else if (by != 0) {
-        ceduo_picker_move(&p->picker, by);
+        viewport_move(&p->picker.lines, by);
     } else if (p->asks) {
         for (size_t i = 0; i < p->picker.matches; i++)
             if (p->picker.picks[p->picker.order[i]].text[0] == key) {
-                p->picker.at = i;
+                p->picker.lines.selected = (int)i;
                 choose(app, p);
                 return;
             }
@@ -264,7 +264,7 @@ static void fields_key(struct app *app, struct popup *p, int key)
     } else if (key == K_ESCAPE || key == K_SHIFT_TAB || (key == K_UP && !listed)) {
         go_to_field(app, p, p->at > 0 ? p->at - 1 : 0);
     } else if (listed && vertical) {
-        ceduo_picker_move(&p->picker, lines_of(key, false));
+        viewport_move(&p->picker.lines, lines_of(key, false));
         p->moved = true;
     } else if (key == K_TAB && p->endings && field->offer && ceduo_picker_complete(&p->picker, line)) {
         offer(app, p);
@@ -283,6 +283,19 @@ static void fields_key(struct app *app, struct popup *p, int key)
     }
 }
 
+/* The field of a form. */
+static void field_key(struct app *app, struct popup *p, int key)
+{
+    bool enters = key == K_ENTER || key == K_TAB;
+    app->message[0] = '\0';
+    if (!enters)
+        ceduo_line_key(&p->fields[0].line, key);
+    if (key == K_ESCAPE || (enters && p->filled(app, p)))
+        ceduo_popup_close(app);
+    if (key == K_TAB && !app->popup)
+        ceduo_form_move(ceduo_app_form(app), 0, 1);
+}
+
 /* ---- drawing ---- */
 
 static void draw_box(struct app *app, struct ceduo_area r, const char *title)
@@ -293,20 +306,19 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
         for (int x = 0; x < r.width; x++) {
             bool upright = x == 0 || x == r.width - 1, level = y == 0 || y == r.height - 1;
             const char *c = upright && level ? corners[y > 0][x > 0] : level ? "\xe2\x94\x80" : "\xe2\x94\x82";
-            if (!upright && !level)
-                continue;
-            ceduo_cells_label(app->cells, r.left + x, r.top + y, CEDUO_ROLE_AXIS, c);
+            if (upright || level)
+                ceduo_cells_label(app->cells, r.left + x, r.top + y, CEDUO_ROLE_AXIS, c);
         }
     ceduo_app_text(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, 0);
 }
 
 /* Marks on the edge of the box that there is more above or below. */
-static void draw_more(struct app *app, const struct popup *p, bool above, bool below)
+static void draw_more(struct app *app, const struct popup *p, const struct viewport *lines)
 {
     const struct ceduo_area *r = &p->box;
     const char *words[] = {_("more above"), _("more below")};
     for (int i = 0; i < 2; i++)
-        if (i == 0 ? above : below)
+        if (i == 0 ? lines->first > 0 : viewport_has_more(lines))
             ceduo_app_label(app, r->left + r->width - 4 - (int)ceduo_utf8_width(words[i]),
                             i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, " %s ", words[i]);
 }
@@ -326,30 +338,27 @@ static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines,
     note_lines = height > max && note_lines > max - 2 - LINES_MIN ? max - 2 - LINES_MIN : note_lines;
     height = height > max ? max : height;
     struct ceduo_area r = {(app->width - width) / 2, (app->height - height) / 2, width, height};
-    struct ceduo_area in = {r.left + 2, r.top + 1, r.width - 4, note_lines};
+    struct ceduo_area in = {r.left + 2, r.top + 1, r.width - 4, r.height - 2};
     p->box = r;
     draw_box(app, r, p->title);
     LOCAL_TEXT(note);
     ceduo_text_append(&note, note_lines > 0 ? ceduo_text_string(&p->text) : "");
-    ceduo_app_set_cursor(app, in, CEDUO_ROLE_DIM, &note);
-    in.top += note_lines;
-    in.height = r.height - 2 - note_lines;
+    ceduo_app_set_cursor(app, cut_top(&in, note_lines), CEDUO_ROLE_DIM, &note);
     return in;
 }
 
 static void draw_text(struct app *app, struct popup *p)
 {
     struct ceduo_area in = draw_frame(app, p, app->height, 0);
-    int last = ceduo_app_text_lines(app, ceduo_text_string(&p->text), in.width) - in.height;
-    p->top = ceduo_scroll_clamp(p->top, last);
-    ceduo_app_text(app, in, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), p->top);
-    draw_more(app, p, p->top > 0, p->top < last);
+    viewport_fit(&p->lines, in.height, ceduo_app_text_lines(app, ceduo_text_string(&p->text), in.width));
+    ceduo_app_text(app, in, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), p->lines.first);
+    draw_more(app, p, &p->lines);
 }
 
 static void draw_picks(struct app *app, struct popup *p, struct ceduo_area area)
 {
-    int more = ceduo_picker_draw(&p->picker, app->cells, area);
-    draw_more(app, p, more & 1, more & 2);
+    ceduo_picker_draw(&p->picker, app->cells, area);
+    draw_more(app, p, &p->picker.lines);
 }
 
 /* A line that is typed into, its end in sight. */
@@ -364,18 +373,14 @@ static void draw_list(struct app *app, struct popup *p)
 {
     int lines = p->picker.count > 2 ? (int)p->picker.count : 2;
     struct ceduo_area in = draw_frame(app, p, lines + !p->asks, NOTE_LINES);
-    if (p->asks) {
-        draw_picks(app, p, in);
-        return;
+    if (!p->asks) {
+        ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search:"));
+        int x = in.left + (int)ceduo_utf8_width(_("search:")) + 1;
+        draw_line(app, &p->fields[0].line, x, cut_top(&in, 1).top, in.left + in.width - x, true);
     }
-    ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search:"));
-    int x = in.left + (int)ceduo_utf8_width(_("search:")) + 1;
-    draw_line(app, &p->fields[0].line, x, in.top, in.left + in.width - x, true);
-    in.top++;
-    in.height--;
-    if (app->message[0])
+    if (app->message[0] && !p->asks)
         ceduo_app_text(app, in, CEDUO_ROLE_WARN, app->message, 0);
-    else if (p->picker.matches == 0)
+    else if (p->picker.matches == 0 && !p->asks)
         ceduo_app_text(app, in, CEDUO_ROLE_DIM, _("nothing matches"), 0);
     else
         draw_picks(app, p, in);
@@ -393,14 +398,14 @@ static void draw_fields(struct app *app, struct popup *p)
     int below = p->picture ? PICTURE_SHOWN : picks;
     struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2 + below, app->height);
     int x = in.left + 32, width = in.width - 32, n = (int)p->fields_count, at = (int)p->at;
-    int shown = n <= in.height - FOOT_MIN ? n : in.height - FOOT_MIN;
-    p->top = at < p->top ? at : at >= p->top + shown ? at + 1 - shown : p->top;
-    for (int i = p->top; i < p->top + shown; i++, in.top++, in.height--) {
-        ceduo_canvas_draw_text(&app->cells->canvas, in.left, in.top, 31, CEDUO_ROLE_DIM, p->fields[i].label);
-        draw_line(app, &p->fields[i].line, x, in.top, width, i == at);
+    viewport_fit(&p->lines, n <= in.height - FOOT_MIN ? n : in.height - FOOT_MIN, n);
+    viewport_show(&p->lines, at, at);
+    for (int i = p->lines.first; i < p->lines.first + p->lines.rows; i++) {
+        struct ceduo_area line = cut_top(&in, 1);
+        ceduo_canvas_draw_text(&app->cells->canvas, line.left, line.top, 31, CEDUO_ROLE_DIM, p->fields[i].label);
+        draw_line(app, &p->fields[i].line, x, line.top, width, i == at);
     }
-    if (shown < n)
-        draw_more(app, p, p->top > 0, p->top + shown < n);
+    draw_more(app, p, &p->lines);
     struct ceduo_area first = {in.left, in.top, in.width, in.height < 2 ? in.height : 2};
     ceduo_app_text(app, first, CEDUO_ROLE_WARN, app->message, 0);
     if (p->picture && (!p->fields[p->at].offer || p->picker.matches == 0) && !app->message[0])
@@ -416,6 +421,7 @@ static const struct {
     void (*draw)(struct app *app, struct popup *popup);
     const char *bar;
 } kinds[] = {[POPUP_TEXT] = {text_key, draw_text, N_("Up Down PgUp PgDn read on  any other key closes")},
+             [POPUP_FIELD] = {field_key, NULL, N_("Enter takes the value  Esc leaves it as it was  empty: the default")},
              [POPUP_LIST] = {list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab completes  Up Down move")},
              [POPUP_FIELDS] = {fields_key, draw_fields, N_("Enter next, at the last one done  Esc one back  Tab completes")}};
 
@@ -434,13 +440,20 @@ bool ceduo_popup_paste(struct app *app, const char *text)
     if (ceduo_line_paste(&p->fields[p->at].line, text))
         offer(app, p);
     else
-        ceduo_app_warn(app, "%s", _(CEDUO_LINE_FULL));
+        ceduo_app_warn(app, "%s", _("what was pasted is too long for this line, which stays as it was"));
     return true;
 }
 
 const char *ceduo_popup_bar(const struct app *app)
 {
     return app->popup->asks ? _("a letter, or Up Down and Enter  Esc cancel") : _(kinds[app->popup->kind].bar);
+}
+
+/* Write the note again. */
+static void preview(struct app *app, struct popup *p)
+{
+    ceduo_text_free(&p->text);
+    p->preview(app, p);
 }
 
 void ceduo_popup_browse(struct app *app)
@@ -453,27 +466,24 @@ void ceduo_popup_browse(struct app *app)
         return;
     p->value = pick->value;
     p->ahead_known = false;
-    ceduo_text_free(&p->text);
-    p->preview(app, p);
+    preview(app, p);
 }
 
-void ceduo_popup_previewed(struct app *app, const struct preview *preview)
+void ceduo_popup_previewed(struct app *app, const struct preview *ahead)
 {
     struct popup *p = app->popup;
     if (!p || p->kind == POPUP_TEXT || !p->preview || !p->value)
         return;
-    p->ahead = *preview;
+    p->ahead = *ahead;
     p->ahead_known = true;
-    ceduo_text_free(&p->text);
-    p->preview(app, p);
+    preview(app, p);
 }
 
 void ceduo_popup_draw(struct app *app)
 {
     struct popup *p = app->popup;
-    if (p->kind == POPUP_TEXT && p->preview) {
-        ceduo_text_free(&p->text);
-        p->preview(app, p);
-    }
-    kinds[p->kind].draw(app, p);
+    if (p->kind == POPUP_TEXT && p->preview)
+        preview(app, p);
+    if (kinds[p->kind].draw)
+        kinds[p->kind].draw(app, p);
 }

@@ -130,7 +130,8 @@ static bool filled_export(struct app *app, struct popup *p)
 static void ask_for_file(struct app *app, const char *export)
 {
     /* the report says how sure it is: that is computed while its file is named; a head is an edit */
-    app->live.busy |= ceduo_jobs_ask(app->live.jobs, JOB_UNCERTAINTY, &app->document.file, app->option, UNCERTAINTY_LEVELS);
+    app->live.busy |= ceduo_jobs_ask(
+        app->live.jobs, &(struct job_request){JOB_UNCERTAINTY, &app->document.file, app->option, .levels = UNCERTAINTY_LEVELS});
     struct popup *p = ceduo_popup_fields(app, _(exports[atoi(export)].what), export, filled_export);
     const char *file = exports[atoi(export)].file;
     p->endings = strrchr(file, '.');
@@ -150,7 +151,7 @@ static bool filled_head(struct app *app, struct popup *p)
         }
     if (head.length > 0) {
         ceduo_text_char(&head, '}');
-        if (!ceduo_app_edited(app, ceduo_document_set(&app->document, "page", head.bytes, &app->problems)))
+        if (!ceduo_app_edited(app, ceduo_document_set(&app->document, "page", head.bytes)))
             return false;
     }
     ask_for_file(app, p->path);

@@ -5,7 +5,6 @@
 
 #include "base/language.h"
 #include "popup.h"
-#include "view/report.h"
 #include "view/typed.h"
 
 enum { FIND_GOAL, FIND_TARGET, FIND_SURE, FIND_LO, FIND_HI };
@@ -44,18 +43,16 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
     while (row < GOALS_OFFERED && strcmp(typed, _(goals[row].words)) != 0 &&
            !(reading == CEDUO_GOAL_GOOD && goals[row].goal == search->goal))
         row++;
-    if (row == GOALS_OFFERED) {
+    if (row == GOALS_OFFERED)
         ceduo_app_warn(app, "%s",
                        reading == CEDUO_GOAL_NO_SHARE
                            ? _("a share is 0 to 1, as 0.05 for 5 %")
                            : _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
+    double amount = NAN;
+    if (row == GOALS_OFFERED || !ceduo_popup_number(app, p, FIND_TARGET, &amount))
         return false;
-    }
     search->goal = goals[row].goal;
     search->target = reading == CEDUO_GOAL_GOOD ? search->target : NAN;
-    double amount = NAN;
-    if (!ceduo_popup_number(app, p, FIND_TARGET, &amount))
-        return false;
     search->target = isnan(amount) ? search->target : amount / goals[row].per;
     if (ceduo_goal_is_share(search->goal) && search->target > 1)
         ceduo_app_warn(app, _("%g %s cannot be"), amount, _(goals[row].unit));
@@ -71,14 +68,14 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
 /* What the rules of the region ask of the trees that a cut leaves, where it is these that are looked for. */
 static void append_law(struct app *app, const char *path, struct text *text)
 {
-    const struct ceduo_option *o = ceduo_app_option(app);
+    const struct ceduo_belt *belt = ceduo_app_belt(app);
     const struct field *field = ceduo_search_field(app->scratch, path);
     const char *stand = ceduo_app_stand(app);
     bool standards = strncmp(path, stand, strlen(stand)) == 0 &&
                      (strcmp(field->key, "stay_per_ha") == 0 || strncmp(path + strlen(stand), ".trees[", 7) == 0);
-    if (!standards || app->belt >= o->belts_count)
+    if (!standards || !belt)
         return;
-    struct ceduo_compliance c = ceduo_regulation_check(&app->document.file.scene.rules, &o->belts[app->belt].stand);
+    struct ceduo_compliance c = ceduo_regulation_check(&app->document.file.scene.rules, &belt->stand);
     double own = app->document.file.scene.reserves_minimum;
     if (c.standards_item)
         ceduo_text_append_joined(text, " ", _("The rules of %s ask for %g standards per ha at least (%s, %u); %g are left."),
@@ -108,7 +105,7 @@ static bool filled_find(struct app *app, struct popup *p)
 {
     struct ceduo_search search;
     if (read_fields(app, p, &search)) {
-        ceduo_jobs_search(app->live.jobs, &app->document.file, &search);
+        ceduo_jobs_ask(app->live.jobs, &(struct job_request){JOB_SEARCH, &app->document.file, .levels = 1, .search = &search});
         ceduo_app_show_message(app, "%s", _("computing … Esc or another key stops it"));
     }
     return false;
@@ -148,7 +145,8 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
     if (!p || p->filled != filled_find)
         return;
     app->message[0] = '\0';
-    app->problems = answer->problems;
+    ceduo_problems_free(&app->document.problems);
+    app->document.problems = answer->problems;
     answer->problems = (struct problems){0};
     if (answer->status != CEDUO_OK || !read_fields(app, p, &search)) {
         ceduo_app_edited(app, false);
@@ -157,13 +155,8 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
     search.target = answer->target;
     search.rotation = answer->rotation;
     append_words(app, p, &search, answer, &words);
-    bool good = true;
-    if (found->found && !found->whole_range) {
-        good = ceduo_document_set(&app->document, p->path, NUMERAL(found->value), &app->problems);
-        ceduo_app_edited(app, good);
-    }
-    ceduo_problems_free(&app->problems);
-    if (good)
+    if (!found->found || found->whole_range ||
+        ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, NUMERAL(found->value))))
         ceduo_app_show_message(app, "%s", words.bytes);
     ceduo_popup_close(app);
 }
@@ -200,20 +193,19 @@ static void propose(struct app *app, const char *path, const struct field *f, co
     bool whole = f->type == FIELD_COUNT || strcmp(f->unit, "1/ha") == 0;
     double now;
     bool known = ceduo_number_read(written, &now) == CEDUO_NUMBER_GOOD;
-    *lo = known && now > 0 ? (f->type == FIELD_COUNT ? 1 : now / 10) : 1;
+    *lo = known && now > 0 && f->type != FIELD_COUNT ? now / 10 : 1;
     *hi = known && now > 0 ? now * 10 : 1000;
-    if (whole)
-        *lo = floor(*lo);
+    *lo = whole ? floor(*lo) : *lo;
     if (f->flags & FIELD_PLACE) {
         *lo = s->origin_x;
         *hi = s->origin_x + s->x[s->vertices - 1];
     }
     *lo = fmax(*lo, f->lo);
     *hi = fmin(*hi, f->hi);
-    if (!known)
-        return;
-    *lo = limit_of(app, path, whole, now, fmin(*lo, now));
-    *hi = limit_of(app, path, whole, now, fmax(*hi, now));
+    if (known) {
+        *lo = limit_of(app, path, whole, now, fmin(*lo, now));
+        *hi = limit_of(app, path, whole, now, fmax(*hi, now));
+    }
 }
 
 /* `written`: the value that is there. */
@@ -251,6 +243,10 @@ static void chose_number(struct app *app, struct popup *p)
 /* Ask which number of a list is looked for, one of the first nine. */
 static void ask_which(struct app *app, const char *path, const struct node *list)
 {
+    if (list->n == 1) {
+        ask(app, ceduo_app_format(app, "%s[0]", path), list->items[0]->text);
+        return;
+    }
     struct popup *p = ceduo_popup_list(app, _("Which of its numbers is looked for?"), "", chose_number);
     for (size_t i = 0; i < list->n && i < POPUP_DIGITS_MAX; i++)
         ceduo_popup_answer(p, (char)('1' + i), list->items[i]->kind == NODE_SCALAR ? list->items[i]->text : "",
@@ -263,9 +259,7 @@ void ceduo_popup_find(struct app *app)
     const struct node *node = cell ? ceduo_document_node(&app->document, cell->path) : NULL;
     bool usable = cell && !(cell->field->flags & FIELD_NOWHERE);
     enum field_type type = usable ? cell->field->type : FIELD_TEXT;
-    if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST && node->n == 1) /* nobody is asked which */
-        ask(app, ceduo_app_format(app, "%s[0]", cell->path), node->items[0]->text);
-    else if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST)
+    if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST)
         ask_which(app, cell->path, node);
     else if (type == FIELD_NUMBER || type == FIELD_COUNT || type == FIELD_SPREAD)
         ask(app, cell->path, cell->written);

@@ -10,18 +10,7 @@
 
 /* ==== a sample plot ==== */
 
-enum {
-    COUNT_AREA,
-    COUNT_ANGLE,
-    COUNT_STOOLS,
-    COUNT_SHOOTS,
-    COUNT_SHOOT_DBH,
-    COUNT_SHOOT_HEIGHT,
-    COUNT_TREES,
-    COUNT_TREE_DBH,
-    COUNT_TREE_HEIGHT,
-    COUNTS
-};
+enum { AREA, ANGLE, STOOLS, SHOOTS, SHOOT_DBH, SHOOT_HEIGHT, TREES, TREE_DBH, TREE_HEIGHT, COUNTS };
 _Static_assert(COUNTS <= POPUP_FIELDS_MAX, "one popup asks for all counts");
 
 static const struct {
@@ -32,16 +21,15 @@ static const struct {
     unsigned flags;
     const char *meaning;
 } rows[COUNTS] = {
-    [COUNT_AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE, N_("all was counted on it")},
-    [COUNT_ANGLE] = {N_("angle of the slope, degrees"), COUNTS, NULL, 90, FIELD_REQUIRED | FIELD_UNDER,
-                     N_("0 on level ground")},
-    [COUNT_STOOLS] = {N_("stools counted"), COUNTS, NULL, 1e6, 0, NULL},
-    [COUNT_SHOOTS] = {N_("shoots counted on them"), COUNTS, NULL, 1e6, 0, NULL},
-    [COUNT_SHOOT_DBH] = {N_("their mean diameter, cm"), COUNT_SHOOTS, "forest[0].stand.shoots[0].dbh_m", 0, 0, NULL},
-    [COUNT_SHOOT_HEIGHT] = {N_("their mean height, m"), COUNT_SHOOTS, "forest[0].stand.shoots[0].height_m", 0, 0, NULL},
-    [COUNT_TREES] = {N_("single trees counted"), COUNTS, NULL, 1e6, 0, NULL},
-    [COUNT_TREE_DBH] = {N_("their mean diameter, cm"), COUNT_TREES, "forest[0].stand.trees[0].dbh_m", 0, 0, NULL},
-    [COUNT_TREE_HEIGHT] = {N_("their mean height, m"), COUNT_TREES, "forest[0].stand.trees[0].height_m", 0, 0, NULL}};
+    [AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE, N_("all was counted on it")},
+    [ANGLE] = {N_("angle of the slope, degrees"), COUNTS, NULL, 90, FIELD_REQUIRED | FIELD_UNDER, N_("0 on level ground")},
+    [STOOLS] = {N_("stools counted"), COUNTS, NULL, 1e6, 0, NULL},
+    [SHOOTS] = {N_("shoots counted on them"), COUNTS, NULL, 1e6, 0, NULL},
+    [SHOOT_DBH] = {N_("their mean diameter, cm"), SHOOTS, "forest[0].stand.shoots[0].dbh_m", 0, 0, NULL},
+    [SHOOT_HEIGHT] = {N_("their mean height, m"), SHOOTS, "forest[0].stand.shoots[0].height_m", 0, 0, NULL},
+    [TREES] = {N_("single trees counted"), COUNTS, NULL, 1e6, 0, NULL},
+    [TREE_DBH] = {N_("their mean diameter, cm"), TREES, "forest[0].stand.trees[0].dbh_m", 0, 0, NULL},
+    [TREE_HEIGHT] = {N_("their mean height, m"), TREES, "forest[0].stand.trees[0].height_m", 0, 0, NULL}};
 
 /* The values in the units of files; false where one is not as it should be, which is said. */
 static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
@@ -57,9 +45,9 @@ static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
         if (sized && v[i] == 0)
             wrong = ceduo_app_format(app, _("%s: it is needed; %s"), _(rows[i].label), _(rows[rows[i].count].label));
     }
-    if (v[COUNT_SHOOTS] > 0 && v[COUNT_SHOOTS] < v[COUNT_STOOLS])
+    if (v[SHOOTS] > 0 && v[SHOOTS] < v[STOOLS])
         wrong = _("fewer shoots than stools: a stool has one shoot at least");
-    else if ((v[COUNT_SHOOTS] > 0) != (v[COUNT_STOOLS] > 0))
+    else if ((v[SHOOTS] > 0) != (v[STOOLS] > 0))
         wrong = _("stools and shoots belong together: count both");
     if (wrong)
         ceduo_app_warn(app, "%s", wrong);
@@ -74,16 +62,16 @@ static bool filled_counts(struct app *app, struct popup *p)
     struct changes changes = {.document = &app->document}, *c = &changes;
     if (!read_plot(app, p, v))
         return false;
-    double area = v[COUNT_AREA] * cos(v[COUNT_ANGLE] * M_PI / 180), per = 10000 / area; /* m2, horizontal */
-    const struct ceduo_stand *now = &ceduo_app_option(app)->belts[app->belt].stand;
+    double area = v[AREA] * cos(v[ANGLE] * M_PI / 180), per = 10000 / area; /* m2, horizontal */
+    const struct ceduo_stand *now = &ceduo_app_belt(app)->stand;
     const char *stools = ceduo_app_format(app, "%s.stools", p->path);
-    if (v[COUNT_STOOLS] > 0)
-        ceduo_changes_set(c, stools, "{per_ha: %.6g, spacing_m: %.10g}", v[COUNT_STOOLS] * per,
+    if (v[STOOLS] > 0)
+        ceduo_changes_set(c, stools, "{per_ha: %.6g, spacing_m: %.10g}", v[STOOLS] * per,
                           now->stools_per_ha > 0 ? now->spacing : SPACING);
     else
         ceduo_changes_add(c, CHANGE_DELETE, stools, NULL);
     for (int i = 0; i < 2; i++) { /* one class of stems in the place of those that stand there, or none */
-        const double *stems = &v[i == 0 ? COUNT_SHOOTS : COUNT_TREES];
+        const double *stems = &v[i == 0 ? SHOOTS : TREES];
         const char *list = ceduo_app_format(app, "%s.%s", p->path, i == 0 ? "shoots" : "trees");
         if (stems[0] > 0)
             ceduo_changes_set(c, list, "[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", stems[0] * per, stems[1], stems[2]);
@@ -92,10 +80,8 @@ static bool filled_counts(struct app *app, struct popup *p)
     }
     if (now->system == CEDUO_BARE)
         ceduo_changes_add(c, CHANGE_DELETE, ceduo_app_format(app, "%s.system", p->path), NULL);
-    LOCAL_TEXT(name);
-    ceduo_emit_scalar(&name, _("sample plot"), true);
-    ceduo_changes_add(c, CHANGE_SET, ceduo_app_format(app, "%s.name", p->path), name.bytes);
-    bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot"), &app->problems));
+    ceduo_changes_set(c, ceduo_app_format(app, "%s.name", p->path), "%s", ceduo_app_scalar(app, _("sample plot")));
+    bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot")));
     if (good)
         ceduo_app_show_message(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
     return good;
@@ -105,11 +91,11 @@ static bool filled_counts(struct app *app, struct popup *p)
 
 void ceduo_popup_counts(struct app *app)
 {
-    if (ceduo_app_option(app)->belts_count == 0) {
+    const struct ceduo_belt *belt = ceduo_app_belt(app);
+    if (!belt) {
         ceduo_app_show_message(app, "%s", _("there is no belt yet: a adds one in view 1"));
         return;
     }
-    const struct ceduo_belt *belt = &ceduo_app_option(app)->belts[app->belt];
     const struct ceduo_stand *stand = &belt->stand;
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     double fall = ceduo_slope_height(s, belt->from) - ceduo_slope_height(s, belt->to);
@@ -120,12 +106,12 @@ void ceduo_popup_counts(struct app *app)
                         "stay those of %s."),
                       belt->name);
     const double offered[COUNTS] = {
-        [COUNT_AREA] = 400,
-        [COUNT_ANGLE] = round(atan2(fabs(fall), belt->to - belt->from) * 180 / M_PI),
-        [COUNT_SHOOT_DBH] = stand->shoots_count ? stand->shoots[0].dbh * 100 : 0,
-        [COUNT_SHOOT_HEIGHT] = stand->shoots_count ? stand->shoots[0].height : 0,
-        [COUNT_TREE_DBH] = stand->trees_count ? stand->trees[0].dbh * 100 : 0,
-        [COUNT_TREE_HEIGHT] = stand->trees_count ? stand->trees[0].height : 0,
+        [AREA] = 400,
+        [ANGLE] = round(atan2(fabs(fall), belt->to - belt->from) * 180 / M_PI),
+        [SHOOT_DBH] = stand->shoots_count ? stand->shoots[0].dbh * 100 : 0,
+        [SHOOT_HEIGHT] = stand->shoots_count ? stand->shoots[0].height : 0,
+        [TREE_DBH] = stand->trees_count ? stand->trees[0].dbh * 100 : 0,
+        [TREE_HEIGHT] = stand->trees_count ? stand->trees[0].height : 0,
     };
     for (size_t i = 0; i < COUNTS; i++) {
         const char *value = offered[i] > 0 ? ceduo_number_spoken(ceduo_app_format(app, "%.4g", offered[i])) : "";
@@ -172,13 +158,11 @@ static bool read_survey(const char *path, struct survey_answers *answers, struct
 static void take_stand(struct app *app, const char *path, const char *value, const char *understood)
 {
     app->message[0] = '\0';
-    if (!ceduo_popup_replace_stand(app, path, value))
-        return;
-    if (app->message[0])
+    if (ceduo_popup_replace_stand(app, path, value) && app->message[0])
         ceduo_app_show_message(app, "%s; %s", ceduo_app_format(app, "%s", app->message), understood);
-    else
+    else if (!app->message[0])
         ceduo_app_show_message(app,
-                               ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
+                               ceduo_stand_grows(&ceduo_app_belt(app)->stand)
                                    ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
                                    : _("the stand of the survey; it has no growth and cutting; %s"),
                                understood);
@@ -192,7 +176,8 @@ static void try_survey(struct app *app, const char *path, const char *survey, st
     LOCAL_TEXT(value);
     LOCAL_TEXT(understood);
     bool asked = false;
-    if (read_survey(survey, answers, &value, &understood, &app->problems)) {
+    ceduo_problems_free(&app->document.problems);
+    if (read_survey(survey, answers, &value, &understood, &app->document.problems)) {
         take_stand(app, path, ceduo_text_string(&value), ceduo_text_string(&understood));
         return;
     }
@@ -232,11 +217,9 @@ static bool filled_form(struct app *app, struct popup *p)
 
 static void open_form(struct app *app, const char *path, const char *survey, const struct survey_answers *answers)
 {
-    const char *why = ceduo_text_string(&app->problems.text);
     struct popup *p = ceduo_popup_fields(app, _("How is the survey to be read?"), path, filled_form);
     p->kept = ceduo_arena_string(&p->arena, survey);
-    ceduo_text_add(&p->text, why, strcspn(why, "\n"));
-    ceduo_problems_free(&app->problems);
+    ceduo_problem_line(app->document.problems.wrong.items, &p->text);
     for (int q = 0; q < SURVEY_QUESTIONS; q++)
         if (answers->asked[q] || answers->given[q])
             ceduo_popup_choice(p, _(questions[q].label),
@@ -259,7 +242,7 @@ static void chose_survey(struct app *app, struct popup *p)
     try_survey(app, p->path, p->value, &(struct survey_answers){0});
 }
 
-void ceduo_popup_survey(struct app *app)
+static void ask_for_survey(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem, or for each class"),
                                        ceduo_app_stand(app), chose_survey);
@@ -268,4 +251,16 @@ void ceduo_popup_survey(struct app *app)
                         "see ceduo-stand(5)."));
     p->fields[0].offer = offer_surveys;
     p->endings = ".csv .txt";
+}
+
+bool ceduo_popup_is_measured(const char *stand)
+{
+    return strcmp(stand, STAND_COUNTED) == 0 || strcmp(stand, STAND_SURVEY) == 0;
+}
+
+bool ceduo_popup_ask_measured(struct app *app, const char *stand)
+{
+    if (ceduo_popup_is_measured(stand))
+        (strcmp(stand, STAND_COUNTED) == 0 ? ceduo_popup_counts : ask_for_survey)(app);
+    return ceduo_popup_is_measured(stand);
 }

@@ -62,11 +62,12 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
     const char *path = mark ? ceduo_check_memory(ceduo_arena_copy(&p->arena, typed, (size_t)(mark - typed))) : typed;
     if (ceduo_picker_is_file(path, p->endings)) {
         bool good = ceduo_csv_slope_read(&p->arena, path, mark ? mark + 1 : NULL, &points, &problems) && points.n > 1;
+        const struct problem *first = problems.wrong.items;
         if (!good)
-            wrong = points.lines          ? ceduo_arena_format(&p->arena, _("several lines: %s; add one to the name: %s#%.*s"),
-                                                               points.lines, path, (int)strcspn(points.lines, ","), points.lines)
-                    : problems.text.bytes ? problems.text.bytes
-                                          : _("a profile needs two points or more");
+            wrong = points.lines           ? ceduo_arena_format(&p->arena, _("several lines: %s; add one to the name: %s#%.*s"),
+                                                                points.lines, path, (int)strcspn(points.lines, ","), points.lines)
+                    : problems.wrong.n > 0 ? ceduo_arena_format(&p->arena, "%s: %s", first->place, first->message)
+                                           : _("a profile needs two points or more");
         a->understood = points.understood;
         a->first = good ? points.x[0] : 0;
         a->last = good ? points.x[points.n - 1] : 0;
@@ -81,7 +82,7 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
     if (!wrong && !make_profile(a, "") && !make_profile(a, "  reversed: true\n"))
         wrong = _("two points of the profile lie too close together for their distance from the first");
     if (wrong)
-        ceduo_app_warn(app, "%.*s", (int)strcspn(wrong, "\n"), wrong);
+        ceduo_app_warn(app, "%s", wrong);
     return !wrong;
 }
 
@@ -146,12 +147,6 @@ static void describe(struct popup *p, const struct answers *a)
 
 /* ---- reading ---- */
 
-/* A stand that is asked for when the slope is there. */
-static bool is_measured(const char *stand)
-{
-    return strcmp(stand, STAND_COUNTED) == 0 || strcmp(stand, STAND_SURVEY) == 0;
-}
-
 /* One field, of which it is said what is wrong; those before it are read. */
 static bool read_field(struct app *app, struct popup *p, size_t field, struct answers *a)
 {
@@ -168,29 +163,22 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
             p->fields[NEW_CONTROL].value->lo = fmax(a->release, a->face);
         return good;
     }
-    switch (field) {
-    case NEW_PROFILE: /* within which the places lie */
-        if (!read_profile(app, p, a))
-            return false;
-        for (size_t i = 0; i < 3; i++) {
-            static const size_t places[] = {NEW_RELEASE, NEW_FACE, NEW_CONTROL};
-            p->fields[places[i]].value->lo = a->first;
-            p->fields[places[i]].value->hi = a->last;
-        }
-        return true;
-    case NEW_MATERIAL:
-        if (ceduo_choice_find(&ceduo_material_words, typed) >= 0)
-            return true;
-        ceduo_app_warn(app, _("no ground '%s' in the library"), typed);
+    static const size_t places[] = {NEW_RELEASE, NEW_FACE, NEW_CONTROL}; /* they lie within the profile */
+    if (field == NEW_PROFILE && !read_profile(app, p, a))
         return false;
-    case NEW_STAND:
-        if (typed[0] == '\0' || is_measured(typed) || ceduo_file_find(&p->arena, typed, NULL, "stands"))
-            return true;
-        ceduo_app_warn(app, _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"), typed);
-        return false;
-    default:
-        return true;
+    for (size_t i = 0; i < 3 && field == NEW_PROFILE; i++) {
+        p->fields[places[i]].value->lo = a->first;
+        p->fields[places[i]].value->hi = a->last;
     }
+    bool ground = field != NEW_MATERIAL || ceduo_choice_find(&ceduo_material_words, typed) >= 0;
+    bool stand =
+        field != NEW_STAND || !typed[0] || ceduo_popup_is_measured(typed) || ceduo_file_find(&p->arena, typed, NULL, "stands");
+    if (!ground || !stand)
+        ceduo_app_warn(app,
+                       stand ? _("no ground '%s' in the library")
+                             : _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"),
+                       typed);
+    return ground && stand;
 }
 
 /* All fields up to one. */
@@ -246,11 +234,11 @@ static void append_scene(struct popup *p, const struct answers *a, struct text *
     if (!isnan(a->accepted))
         ceduo_text_format(yaml, ", accepted_kJ: %.10g", a->accepted);
     ceduo_text_append(yaml, "}\n");
-    if (!stand[0])
-        return;
-    ceduo_text_format(yaml, "forest:\n  - {from_m: %.10g, to_m: %.10g", a->face, a->control);
-    append_quoted(yaml, ", stand: ", is_measured(stand) ? "simple-coppice" : stand);
-    ceduo_text_append(yaml, "}\n");
+    if (stand[0]) {
+        ceduo_text_format(yaml, "forest:\n  - {from_m: %.10g, to_m: %.10g", a->face, a->control);
+        append_quoted(yaml, ", stand: ", ceduo_popup_is_measured(stand) ? "simple-coppice" : stand);
+        ceduo_text_append(yaml, "}\n");
+    }
 }
 
 static bool filled_new(struct app *app, struct popup *p)
@@ -260,13 +248,11 @@ static bool filled_new(struct app *app, struct popup *p)
     bool good = read_answers(app, p, NEW_STAND, &a);
     if (good) {
         append_scene(p, &a, &yaml);
-        good = ceduo_app_open_text(app, yaml.bytes);
+        good = ceduo_app_open(app, NULL, yaml.bytes);
     }
     release_answers(&a);
-    if (good && strcmp(p->fields[NEW_STAND].line.text, STAND_COUNTED) == 0)
-        ceduo_popup_counts(app);
-    else if (good && strcmp(p->fields[NEW_STAND].line.text, STAND_SURVEY) == 0)
-        ceduo_popup_survey(app);
+    if (good)
+        ceduo_popup_ask_measured(app, p->fields[NEW_STAND].line.text);
     return good;
 }
 
@@ -292,8 +278,9 @@ static void draw_profile(struct app *app, struct popup *p, struct ceduo_area are
     struct answers a = {.release = NAN};
     bool good = area.height >= PROFILE_MIN && p->at >= NEW_PROFILE &&
                 read_answers(app, p, p->at == NEW_PROFILE ? NEW_PROFILE : NEW_RELEASE, &a);
-    double face = good && p->at > NEW_PROFILE && read_field(app, p, NEW_FACE, &a) ? a.face - a.first : NAN;
-    if (good && p->at > NEW_PROFILE && read_field(app, p, NEW_CONTROL, &a)) {
+    bool later = good && p->at > NEW_PROFILE;
+    double face = later && read_field(app, p, NEW_FACE, &a) ? a.face - a.first : NAN;
+    if (later && read_field(app, p, NEW_CONTROL, &a)) {
         a.profile.scene.controls[0].x = a.control - a.first;
         a.profile.scene.controls[0].x_given = a.control;
     }

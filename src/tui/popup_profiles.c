@@ -2,12 +2,10 @@
 /* Lists to choose from: the words of a field, the program's and the user's files; and what each would do to the lights. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/slope.h"
 #include "io/file.h"
 #include "popup.h"
 #include "scene/choices.h"
@@ -19,21 +17,19 @@
 bool ceduo_popup_read_stand(const struct app *app, const char *value, struct scene_file *file)
 {
     LOCAL_PROBLEMS(problems);
-    LOCAL_TEXT(yaml);
-    ceduo_text_append(&yaml, "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
-                             "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: ");
-    ceduo_emit_scalar(&yaml, value, true);
-    ceduo_text_append(&yaml, "}]}");
     const char *name = app->document.path ? app->document.path : "preset";
-    *file = (struct scene_file){0};
-    bool good = ceduo_scene_load_text(file, name, yaml.bytes, &problems);
+    const char *yaml =
+        ceduo_app_format(app,
+                         "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
+                         "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: %s}]}",
+                         ceduo_app_scalar(app, value));
+    bool good = ceduo_scene_load_text(file, name, yaml, &problems);
     file->scene.rock = app->document.file.scene.rock;
     file->scene.simulation = app->document.file.scene.simulation;
     return good;
 }
 
-/* Stems, their mean diameter by basal area, age of the oldest shoots, basal area; then whose it is. `*said`: in Italian the
- * name of a stand of the program, instead of its file's name. */
+/* Stems, mean diameter, age of the oldest shoots, basal area, owner. `*said`: in Italian the name of a stand of the program. */
 static const char *describe_stand(struct app *app, const char *value, const char *whose, const char **said)
 {
     struct scene_file file;
@@ -70,8 +66,7 @@ static bool has_head(const char *path, const char *tag)
     return strstr(head, tag) != NULL;
 }
 
-/* Files of a kind ("stands", …), the first of each name: those of the program, or the user's own, those beside the scene first.
- * `whole`: those with the folder in their name. */
+/* Add files of a kind ("stands", …), the program's or the user's, those beside the scene first, with its folder if `whole`. */
 static void add_files(struct app *app, struct popup *p, const char *kind, bool shipped, bool whole, const char *now)
 {
     const char *scene = app->document.path && !app->document.shipped ? app->document.path : "", *slash = strrchr(scene, '/');
@@ -107,9 +102,9 @@ static void add_files(struct app *app, struct popup *p, const char *kind, bool s
 
 static popup_call chose_new_option;
 
-static void append_light(struct text *text, const char *name, enum ceduo_light light, enum ceduo_light now)
+static void append_light(struct text *text, const char *gap, const char *name, enum ceduo_light light, enum ceduo_light now)
 {
-    ceduo_text_format(text, _("%s %s"), name, ceduo_words_verdict(light));
+    ceduo_text_append_joined(text, gap, _("%s %s"), name, ceduo_words_verdict(light));
     if (light != now)
         ceduo_text_append_joined(text, " ", _("(now %s)"), ceduo_words_verdict(now));
 }
@@ -118,13 +113,11 @@ static void append_lights(struct app *app, struct text *text, const struct previ
 {
     const struct ceduo_result *r = app->live.result;
     const struct ceduo_index *now = r ? ceduo_result_last_index(r, app->option) : &f->index;
-    append_light(text, _("Contact"), f->index.contact, now->contact);
+    append_light(text, "", _("Contact"), f->index.contact, now->contact);
     if (isfinite(f->index.worst_adc))
         ceduo_text_format(text, _(", %.3g m"), f->index.worst_adc);
-    ceduo_text_append(text, "; ");
-    append_light(text, _("free run"), f->index.free_run, now->free_run);
-    ceduo_text_append(text, "; ");
-    append_light(text, _("energy"), f->index.energy, now->energy);
+    append_light(text, "; ", _("free run"), f->index.free_run, now->free_run);
+    append_light(text, "; ", _("energy"), f->index.energy, now->energy);
     if (!isnan(f->exceed))
         ceduo_text_append_joined(text, ", ", _("about %.0f of 1000 with too much"), 1000 * f->exceed);
     else if (!isnan(f->reach))
@@ -143,24 +136,28 @@ static void append_change(struct app *app, struct popup *p)
     }
     ceduo_text_append(&p->text, _("the lights: computing …\n"));
     bool all = p->chosen == chose_new_option; /* the stand in every belt */
-    if (!all)
-        ceduo_emit_scalar(&value, p->value, true);
-    else
+    if (all)
         ceduo_document_belts(&app->document, p->value, &value);
-    if (value.length < JOB_TEXT)
-        ceduo_jobs_preview(app->live.jobs, &app->document.file, all ? ceduo_app_forest(app) : p->path, value.bytes,
-                           app->option);
+    const char *path = all ? ceduo_app_forest(app) : p->path, *yaml = all ? value.bytes : ceduo_app_scalar(app, p->value);
+    if (strlen(yaml) < JOB_TEXT)
+        ceduo_jobs_ask(app->live.jobs,
+                       &(struct job_request){JOB_PREVIEW, &app->document.file, app->option, 1, path, yaml, NULL, NULL});
+}
+
+/* A ground of the library, if the words of a field are such; NULL: it is none. */
+static const struct ceduo_material *find_material(const struct field *f, const char *word)
+{
+    size_t n;
+    int i = f && f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, word) : -1;
+    return i < 0 ? NULL : &ceduo_materials(&n)[i];
 }
 
 static void preview_word(struct app *app, struct popup *p)
 {
-    size_t n;
-    const struct ceduo_material *rows = ceduo_materials(&n);
-    const struct field *f = ceduo_schema_at(p->path);
-    int i = f && f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, p->value) : -1;
-    if (i >= 0)
-        ceduo_text_format(&p->text, _("Rn %.3g, Rt %.3g (%s), roughness %.3g m, friction %.3g\n"), rows[i].rn, rows[i].rt,
-                          rows[i].source, rows[i].roughness, rows[i].friction);
+    const struct ceduo_material *m = find_material(ceduo_schema_at(p->path), p->value);
+    if (m)
+        ceduo_text_format(&p->text, _("Rn %.3g, Rt %.3g (%s), roughness %.3g m, friction %.3g\n"), m->rn, m->rt, m->source,
+                          m->roughness, m->friction);
     append_change(app, p);
 }
 
@@ -168,8 +165,8 @@ static void preview_word(struct app *app, struct popup *p)
 static void preview_stand(struct app *app, struct popup *p)
 {
     struct scene_file file = {0};
-    bool stand = strcmp(p->value, STAND_COUNTED) != 0 && strcmp(p->value, STAND_SURVEY) != 0;
-    if (!ceduo_popup_preview_treatment(app, p) && stand && ceduo_popup_read_stand(app, p->value, &file)) {
+    if (!ceduo_popup_preview_treatment(app, p) && !ceduo_popup_is_measured(p->value) &&
+        ceduo_popup_read_stand(app, p->value, &file)) {
         const struct ceduo_belt *b = &file.scene.options[0].belts[0];
         struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
         ceduo_text_format(&p->text, _("%s: %.0f stools, %.0f stems, %.0f trees per ha; basal area %.1f m2/ha\n"), b->name,
@@ -187,8 +184,7 @@ static void preview_stand(struct app *app, struct popup *p)
 
 /* ---- what goes with the stand that another one replaces ---- */
 
-/* The entry of a stand that the scene itself has: the file that the stand is read from has not the same. NULL if there is
- * none. */
+/* The entry of a stand, if the file that the stand is read from has not the same; otherwise NULL. */
 static const struct node *own_entry(const struct node *stand, const char *key)
 {
     const struct node *entry = ceduo_node_get(stand, key);
@@ -197,21 +193,18 @@ static const struct node *own_entry(const struct node *stand, const char *key)
     return entry && filed && ceduo_node_equal(entry, filed) ? NULL : entry;
 }
 
-static const char *name_of_stand(const struct app *app)
-{
-    return app->belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[app->belt].name : "";
-}
-
 bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *value)
 {
     static const char *const keys[2] = {"growth", "cutting"};
     const struct node *old = ceduo_document_node(&app->document, path);
-    const char *name = ceduo_app_format(app, "%s", name_of_stand(app));
+    const struct ceduo_belt *belt = ceduo_app_belt(app);
+    const char *name = ceduo_app_format(app, "%s", belt ? belt->name : "");
     bool changed[2] = {false, false}, dropped[2] = {false, false}; /* growth, cutting */
     path = ceduo_app_format(app, "%s", path);
     if (!ceduo_app_set(app, path, value))
         return false;
     const struct node *now = ceduo_document_node(&app->document, path);
+    belt = ceduo_app_belt(app);
     for (int i = 0; i < 2; i++) {
         const struct node *before = own_entry(old, keys[i]), *after = ceduo_node_get(now, keys[i]);
         dropped[i] = before && !after;
@@ -223,16 +216,15 @@ bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *va
                           changed[0] && changed[1] ? _("growth and cutting of '%s' are now those of '%s'")
                           : changed[0]             ? _("the growth of '%s' is now that of '%s'")
                                                    : _("the cutting of '%s' is now that of '%s'"),
-                          name, name_of_stand(app));
+                          name, belt->name);
     if (dropped[0] || dropped[1])
         ceduo_text_append_joined(&said, said.length > 0 ? "; " : "",
                                  dropped[0] && dropped[1] ? _("growth and cutting of '%s' are dropped: '%s' has none")
                                  : dropped[0]             ? _("the growth of '%s' is dropped: '%s' has none")
                                                           : _("the cutting of '%s' is dropped: '%s' has none"),
-                                 name, name_of_stand(app));
-    double year = ceduo_app_option(app)->belts[app->belt].cut_year;
-    if (!isnan(year) && ceduo_node_get(now, "cutting"))
-        ceduo_text_append_joined(&said, said.length > 0 ? "; " : "", _("it is cut in year %g as before"), year);
+                                 name, belt->name);
+    if (!isnan(belt->cut_year) && ceduo_node_get(now, "cutting"))
+        ceduo_text_append_joined(&said, said.length > 0 ? "; " : "", _("it is cut in year %g as before"), belt->cut_year);
     if (said.length > 0)
         ceduo_app_show_message(app, "%s", said.bytes);
     return true;
@@ -252,7 +244,7 @@ static void chose_new_option(struct app *app, struct popup *p)
     if (ceduo_popup_on_treatment(app, p->value))
         return;
     describe_stand(app, p->value, "", &name);
-    if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, p->value, name, &app->problems))) {
+    if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, p->value, name))) {
         ceduo_app_show_option(app, app->document.file.scene.options_count - 1);
         ceduo_app_show_message(app, _("added '%s'; Enter renames it, 2 changes its stand"), ceduo_app_option(app)->name);
     }
@@ -263,24 +255,15 @@ static const char *listed_name(const struct app *app, const char *path)
 {
     const struct node *node = ceduo_document_node(&app->document, path);
     bool reference = node && node->written && node->written->kind == NODE_SCALAR;
-    const char *file = reference ? node->written->text : "", *slash = strrchr(file, '/');
-    size_t n = slash ? strlen(slash + 1) : 0;
-    if (!slash)
-        return file;
-    return n > 5 && strcmp(slash + 1 + n - 5, ".yaml") == 0 ? ceduo_app_format(app, "%.*s", (int)n - 5, slash + 1) : slash + 1;
+    const char *file = reference ? node->written->text : "", *name = ceduo_file_name(file);
+    size_t n = strlen(name), ending = name > file && n > 5 && strcmp(name + n - 5, ".yaml") == 0 ? 5 : 0;
+    return ceduo_app_format(app, "%.*s", (int)(n - ending), name);
 }
 
 static void chose_stand(struct app *app, struct popup *p)
 {
-    if (strcmp(p->value, STAND_COUNTED) == 0)
-        ceduo_popup_counts(app);
-    else if (strcmp(p->value, STAND_SURVEY) == 0)
-        ceduo_popup_survey(app);
-    else {
-        LOCAL_TEXT(value);
-        ceduo_emit_scalar(&value, p->value, true);
-        ceduo_popup_replace_stand(app, p->path, ceduo_text_string(&value));
-    }
+    if (!ceduo_popup_ask_measured(app, p->value))
+        ceduo_popup_replace_stand(app, p->path, ceduo_app_scalar(app, p->value));
 }
 
 static void offer_measured(struct popup *p)
@@ -306,21 +289,19 @@ static void list_stands(struct app *app, const char *title, popup_call *chosen)
 void ceduo_popup_offer_stands(struct app *app, struct popup *p)
 {
     offer_measured(p);
-    for (int shipped = 0; shipped < 2; shipped++)
-        add_files(app, p, "stands", shipped, true, NULL);
+    add_files(app, p, "stands", false, true, NULL);
+    add_files(app, p, "stands", true, true, NULL);
 }
 
 /* `now`: what the file has, where a word of files is wanted; NULL: what is shown is taken. */
 static void add_word(struct popup *p, const struct field *f, const char *word, const char *now)
 {
     LOCAL_TEXT(shown);
-    size_t n;
-    const struct ceduo_material *grounds = ceduo_materials(&n);
-    int ground = f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, word) : -1;
+    const struct ceduo_material *ground = find_material(f, word);
     ceduo_shown_value(f, word, &shown);
     const char *name = ceduo_arena_string(&p->arena, ceduo_text_string(&shown));
-    if (ground >= 0)
-        ceduo_text_format(&shown, ": %s", _(grounds[ground].what));
+    if (ground)
+        ceduo_text_format(&shown, ": %s", _(ground->what));
     ceduo_picker_add(&p->picker, ceduo_text_string(&shown), name, now ? word : name, now && strcmp(word, now) == 0);
 }
 
@@ -334,13 +315,11 @@ void ceduo_popup_offer_grounds(struct app *app, struct popup *p)
 
 void ceduo_popup_presets(struct app *app)
 {
-    if (ceduo_app_option(app)->belts_count == 0)
-        ceduo_app_show_message(app, "%s", _("there is no belt yet: a adds one in view 1"));
+    const struct ceduo_belt *belt = ceduo_app_belt(app);
+    if (belt)
+        list_stands(app, ceduo_app_format(app, _("Stand of belt %zu, now '%s'"), app->belt + 1, belt->name), chose_stand);
     else
-        list_stands(app,
-                    ceduo_app_format(app, _("Stand of belt %zu, now '%s'"), app->belt + 1,
-                                     ceduo_app_option(app)->belts[app->belt].name),
-                    chose_stand);
+        ceduo_app_show_message(app, "%s", _("there is no belt yet: a adds one in view 1"));
 }
 
 void ceduo_popup_new_option(struct app *app)
@@ -363,8 +342,8 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
         return;
     }
     const char *now = listed_name(app, p->path);
-    for (int shipped = 0; shipped < 2; shipped++)
-        add_files(app, p, f->object->folder, shipped, false, now);
+    add_files(app, p, f->object->folder, false, false, now);
+    add_files(app, p, f->object->folder, true, false, now);
 }
 
 /* ---- a scene to open ---- */
@@ -374,8 +353,8 @@ static void offer_scenes(struct app *app, struct popup *p)
     const char *own = app->document.path && !app->document.shipped ? app->document.path : NULL;
     if (!strchr(p->fields[0].line.text, '/')) {
         ceduo_popup_offer_recoveries(app, p);
-        for (int shipped = 0; shipped < 2; shipped++)
-            add_files(app, p, "scenes", shipped, true, own);
+        add_files(app, p, "scenes", false, true, own);
+        add_files(app, p, "scenes", true, true, own);
     }
     ceduo_popup_offer_files(app, p);
 }
@@ -383,7 +362,7 @@ static void offer_scenes(struct app *app, struct popup *p)
 static void chose_scene(struct app *app, struct popup *p)
 {
     if (!ceduo_popup_open_recovery(app, p->value))
-        ceduo_app_open(app, p->value);
+        ceduo_app_open(app, p->value, NULL);
 }
 
 static void list_scenes(struct app *app)

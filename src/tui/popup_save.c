@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Saving, and all questions about unsaved work, that of this program and what others left behind. */
 #include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -19,24 +18,23 @@
 static bool save_to(struct app *app, const char *path)
 {
     bool anew;
+    const char *old = app->document.path; /* the file of before, if it is another */
+    old = old && strcmp(old, path) != 0 ? ceduo_app_format(app, "%s", ceduo_file_name(old)) : NULL;
     if (ceduo_document_is_shipped(path)) {
         ceduo_app_warn(app, "%s", _("This scene belongs to the program and is never written over; save your own copy."));
         return false;
     }
-    char from[256] = ""; /* the file of before, where it is another */
-    const char *old = app->document.path, *slash = old ? strrchr(old, '/') : NULL;
-    if (old && strcmp(old, path) != 0)
-        snprintf(from, sizeof from, "%s", slash ? slash + 1 : old);
     if (!ceduo_document_save(&app->document, path, &anew)) {
         int why = errno;
         ceduo_app_warn(app, "%s: %s", path, strerror(why));
         errno = why;
         return false;
     }
-    if (anew && from[0])
-        ceduo_app_show_message(app, _("saved %s; laid out anew, without the comments of %s"), path, from);
-    else if (anew)
-        ceduo_app_show_message(app, _("saved %s; laid out anew, the old file is %s.bak"), path, path);
+    if (anew)
+        ceduo_app_show_message(app,
+                               old ? _("saved %s; laid out anew, without the comments of %s")
+                                   : _("saved %s; laid out anew, the old file is %s.bak"),
+                               path, old ? old : path);
     else
         ceduo_app_show_message(app, _("saved %s"), path);
     if (app->once_saved)
@@ -78,16 +76,13 @@ void ceduo_popup_offer_files(struct app *app, struct popup *p)
 
 static bool filled_stand(struct app *app, struct popup *p)
 {
-    LOCAL_TEXT(value);
-    if (p->fields[0].line.text[0] == '\0') {
+    const char *name = p->fields[0].line.text;
+    if (name[0] == '\0')
         ceduo_app_warn(app, "%s", _("a name is needed"));
+    if (name[0] == '\0' || !ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, ceduo_app_scalar(app, name))))
         return false;
-    }
-    ceduo_emit_scalar(&value, p->fields[0].line.text, true);
-    bool good = ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, value.bytes, &app->problems));
-    if (good)
-        p->then(app);
-    return good;
+    p->then(app);
+    return true;
 }
 
 /* Asks for the name of the first such stand, and then goes on. False where there is none. */
@@ -123,10 +118,13 @@ static void ask_for_name(struct app *app, const char *why)
         ceduo_text_format(&p->text, _("It could not be saved: %s. Give another name, or one in another folder."), why);
     else if (d->shipped)
         ceduo_text_append(&p->text, _("This scene belongs to the program and is never written over; save your own copy."));
-    const char *slash = d->path && d->shipped ? strrchr(d->path, '/') : NULL;
     p->endings = ENDING;
     p->typed_wins = true;
-    ceduo_popup_choice(p, _("file"), slash ? slash + 1 : d->path ? d->path : "scene.yaml", ceduo_popup_offer_files);
+    ceduo_popup_choice(p, _("file"),
+                       !d->path     ? "scene.yaml"
+                       : d->shipped ? ceduo_file_name(d->path)
+                                    : d->path,
+                       ceduo_popup_offer_files);
 }
 
 void ceduo_popup_save_as(struct app *app)
@@ -217,9 +215,8 @@ static void add_recovery(const struct app *app, struct popup *p, const struct re
     struct tm tm;
     if (localtime_r(&r->when, &tm))
         strftime(date, sizeof date, "%Y-%m-%d %H:%M", &tm);
-    const char *slash = r->scene ? strrchr(r->scene, '/') : NULL;
     const char *words = ceduo_app_format(app, _("unsaved work of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
-                                         slash ? slash + 1 : _("never saved"));
+                                         r->scene ? ceduo_file_name(r->scene) : _("never saved"));
     const char *value = ceduo_app_format(app, RECOVERY "%s", r->file);
     if (key)
         ceduo_popup_answer(p, key, words, value);
@@ -255,13 +252,9 @@ bool ceduo_popup_open_recovery(struct app *app, const char *value)
         if (strcmp(list[i].file, value + strlen(RECOVERY)) != 0)
             continue;
         char *text = ceduo_recovery_text(list[i].file);
-        bool own =
-            list[i].scene != NULL; /* it has a place: the document is opened, unless it is this one, and the copy put there */
-        bool good =
-            text && (!own ? ceduo_app_open_text(app, text) : is_due(app, &list[i]) || ceduo_app_open(app, list[i].scene));
-        if (good && own)
-            good = ceduo_app_edited(app, ceduo_document_recover(&app->document, text, &app->problems));
-        if (good) {
+        if (text && (list[i].scene ? (is_due(app, &list[i]) || ceduo_app_open(app, list[i].scene, NULL)) &&
+                                         ceduo_app_edited(app, ceduo_document_recover(&app->document, text))
+                                   : ceduo_app_open(app, NULL, text))) {
             unlink(list[i].file); /* this program keeps a copy of its own now */
             app->opened = false;
             ceduo_app_show_message(app, "%s", _("your work is back; s saves it, u shows what was before"));

@@ -46,8 +46,7 @@ static const struct ceduo_belt *lent_belt(const struct lender *l)
     return &l->file.scene.options[0].belts[0];
 }
 
-/* Find the shipped stand with growth and cutting that is nearest to a species (otherwise hop hornbeam) and a system (otherwise
- * any). The caller releases l->file. */
+/* Find the shipped stand that grows and is cut, of a species or hop hornbeam and of a system. The caller releases l->file. */
 static void find_lender(struct app *app, int species, enum ceduo_system system, struct lender *l)
 {
     const char *const *folders = ceduo_file_folders(app->scratch);
@@ -98,9 +97,8 @@ static void lend(struct plan *p, size_t belt, const struct lender *l, const char
         ceduo_emit_flow(&value, map->items[i]);
         ceduo_text_append(&value, ", ");
     }
-    ceduo_text_append(&value, "source: {kind: assumed, text: ");
-    ceduo_emit_scalar(&value, ceduo_app_format(p->app, _("as in the stand '%s'"), lent_belt(l)->name), true);
-    ceduo_text_append(&value, "}}");
+    const char *source = ceduo_app_format(p->app, _("as in the stand '%s'"), lent_belt(l)->name);
+    ceduo_text_format(&value, "source: {kind: assumed, text: %s}}", ceduo_app_scalar(p->app, source));
     ceduo_changes_add(&p->edits, CHANGE_SET, ceduo_app_format(p->app, "forest[%zu].stand.%s", belt, key), value.bytes);
 }
 
@@ -169,10 +167,9 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
         ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.growth.shoots_old", stand), "%g",
                           lent_belt(&l)->stand.growth.shoots_old);
     if (selection && s->system != CEDUO_SELECTION_COPPICE) {
-        LOCAL_TEXT(name);
-        ceduo_emit_scalar(&name, ceduo_app_format(p->app, _("%s, as selection coppice"), belt->name), true);
+        const char *name = ceduo_app_format(p->app, _("%s, as selection coppice"), belt->name);
         ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.system", stand), "selection-coppice");
-        ceduo_changes_add(&p->edits, CHANGE_SET, ceduo_app_format(p->app, "%s.name", stand), name.bytes);
+        ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.name", stand), "%s", ceduo_app_scalar(p->app, name));
     }
     if (p->kind == CUT_NOW && !isnan(p->number))
         keep_standards(p, i, cut ? s : &lent_belt(&l)->stand);
@@ -186,7 +183,7 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
     ceduo_scene_release(&l.file);
 }
 
-/* Make the plan of a treatment for each belt of the option shown. free_plan() frees it. */
+/* Make the plan of a treatment for each belt of the option shown. The caller frees its texts. */
 static struct plan make_plan(struct app *app, enum treatment kind, double number)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
@@ -196,10 +193,15 @@ static struct plan make_plan(struct app *app, enum treatment kind, double number
     return p;
 }
 
-static void free_plan(struct plan *p)
+/* Append what is borrowed and what stays untreated, and free the texts. */
+static void end_plan(struct plan *p, struct text *text)
 {
-    ceduo_text_free(&p->borrowed);
-    ceduo_text_free(&p->untreated);
+    for (int i = 0; i < 2; i++) {
+        struct text *part = i == 0 ? &p->borrowed : &p->untreated;
+        if (part->length > 0)
+            ceduo_text_append_joined(text, text->length > 0 ? " " : "", "%s", part->bytes);
+        ceduo_text_free(part);
+    }
 }
 
 /* ---- the new option ---- */
@@ -226,23 +228,15 @@ static const char *name_option(const struct plan *p)
 static bool add_option(struct app *app, enum treatment kind, double number)
 {
     struct plan p = make_plan(app, kind, number);
-    bool good = p.treated > 0;
-    if (!good)
-        ceduo_app_warn(app, "%s", p.untreated.length > 0 ? p.untreated.bytes : _("There is no forest here to treat."));
-    else
-        good = ceduo_app_edited(
-            app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), &p.edits, &app->problems));
-    if (good && p.treated > 0) {
-        const struct ceduo_scene *scene = &app->document.file.scene;
-        LOCAL_TEXT(said);
+    LOCAL_TEXT(said);
+    bool good = p.treated > 0 &&
+                ceduo_app_edited(app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), &p.edits));
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    if (good)
         ceduo_text_format(&said, _("added '%s'."), scene->options[scene->options_count - 1].name);
-        if (p.borrowed.length > 0)
-            ceduo_text_append_joined(&said, " ", "%s", p.borrowed.bytes);
-        if (p.untreated.length > 0)
-            ceduo_text_append_joined(&said, " ", "%s", p.untreated.bytes);
-        ceduo_app_show_message(app, "%s", said.bytes);
-    }
-    free_plan(&p);
+    end_plan(&p, &said);
+    if (good || p.treated == 0)
+        ceduo_app_show_problem(app, !good, "%s", said.bytes ? said.bytes : _("There is no forest here to treat."));
     return good;
 }
 
@@ -288,11 +282,7 @@ bool ceduo_popup_preview_treatment(struct app *app, struct popup *p)
         return false;
     struct plan plan = make_plan(app, kind, NAN);
     ceduo_text_append(&p->text, _(treatments[kind].about));
-    if (plan.borrowed.length > 0)
-        ceduo_text_append_joined(&p->text, " ", "%s", plan.borrowed.bytes);
-    if (plan.untreated.length > 0)
-        ceduo_text_append_joined(&p->text, " ", "%s", plan.untreated.bytes);
-    free_plan(&plan);
+    end_plan(&plan, &p->text);
     return true;
 }
 

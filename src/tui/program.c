@@ -34,9 +34,8 @@ static void next_pane(struct app *app, int by)
 
 static void move_lines(struct app *app, int lines)
 {
-    struct view_state *state = ceduo_app_state(app);
-    if (state->pane == 0 && state->form.n > 0)
-        ceduo_form_move(&state->form, lines, 0);
+    if (ceduo_app_state(app)->pane == 0 && ceduo_app_form(app)->n > 0)
+        ceduo_form_move(ceduo_app_form(app), lines, 0);
     else
         ceduo_app_continue_form(app, lines);
 }
@@ -48,17 +47,16 @@ static void move_page(struct app *app, int by)
 
 static void move_column(struct app *app, int by)
 {
-    struct view_state *state = ceduo_app_state(app);
-    if (state->pane == 0 && state->form.n > 0)
-        ceduo_form_move(&state->form, 0, by);
+    if (ceduo_app_state(app)->pane == 0)
+        ceduo_form_move(ceduo_app_form(app), 0, by);
 }
 
 /* Moves the cursor of the form to the next line that holds what is searched for. */
 static void search_again(struct app *app)
 {
-    if (ceduo_form_search(ceduo_app_form(app), app->search))
-        ceduo_app_state(app)->pane = 0;
-    else
+    bool found = ceduo_form_search(ceduo_app_form(app), app->search);
+    ceduo_app_state(app)->pane *= !found;
+    if (!found)
         ceduo_app_show_message(app, _("'%s' is not found in this view"), app->search);
 }
 
@@ -156,6 +154,20 @@ static void show_help(struct app *app)
 
 /* ---- actions of all views ---- */
 
+const struct action_info ceduo_actions[ACTION_COUNT] = {
+#define X(NAME, key, word, key2, word2, bar, help, act) {key, key2, word, word2, bar, help},
+    ACTIONS(X)
+#undef X
+};
+
+enum action ceduo_action_find(int key)
+{
+    for (int i = 0; i < ACTION_COUNT; i++)
+        if (key != K_NONE && (ceduo_actions[i].key == key || ceduo_actions[i].key2 == key))
+            return (enum action)i;
+    return ACTION_NONE;
+}
+
 static void show_view(struct app *app, int view)
 {
     ceduo_app_show(app, (enum view_number)view);
@@ -181,10 +193,10 @@ static const struct act acts[ACTION_COUNT] = {ACTIONS(X)};
 /* The view's own, or that of all views. */
 static void act(struct app *app, enum action action)
 {
-    const struct act *own = ceduo_views[app->view]->acts[ceduo_app_state(app)->pane];
-    while (own && (own->function || own->plain) && own->action != action)
-        own++;
-    const struct act *a = own && (own->function || own->plain) ? own : &acts[action];
+    const struct act *a = ceduo_views[app->view]->acts[ceduo_app_state(app)->pane];
+    while (a && (a->function || a->plain) && a->action != action)
+        a++;
+    a = a && (a->function || a->plain) ? a : &acts[action];
     if (a->function)
         a->function(app, a->by);
     else if (a->plain)
@@ -197,10 +209,10 @@ static void act(struct app *app, enum action action)
 static void begin_input(struct app *app)
 {
     ceduo_arena_free(app->scratch);
-    if (!app->popup)
+    if (!app->popup) {
         app->message[0] = '\0';
-    if (!app->popup && !app->editing)
         app->once_saved = NULL;
+    }
 }
 
 /* Ends every input: updates offers of unsaved work, the popup's preview and the belt under the cursor. */
@@ -221,8 +233,6 @@ void ceduo_program_key(struct app *app, int key)
     begin_input(app);
     if (app->popup)
         ceduo_popup_key(app, key);
-    else if (app->editing)
-        ceduo_edit_key(app, key);
     else if (action != ACTION_NONE)
         act(app, action);
     end_input(app);
@@ -232,10 +242,8 @@ void ceduo_program_paste(struct app *app, const char *text)
 {
     begin_input(app);
     app->message[0] = '\0'; /* that of a popup, too */
-    if (app->popup ? !ceduo_popup_paste(app, text) : !app->editing)
+    if (!app->popup || !ceduo_popup_paste(app, text))
         ceduo_app_show_message(app, "%s", _("what was pasted goes nowhere: no field is open"));
-    else if (!app->popup && !ceduo_line_paste(&app->line, text))
-        ceduo_app_warn(app, "%s", _(CEDUO_LINE_FULL));
     end_input(app);
 }
 
@@ -244,7 +252,7 @@ void ceduo_program_click(struct app *app, int x, int y)
 {
     struct view_state *state = ceduo_app_state(app);
     size_t row = state->form.row, column = state->form.column;
-    if (app->popup || app->editing) /* a question stays */
+    if (app->popup) /* a question stays */
         return;
     begin_input(app);
     if (y == 0) {
@@ -261,7 +269,7 @@ void ceduo_program_click(struct app *app, int x, int y)
 
 void ceduo_program_wheel(struct app *app, int lines)
 {
-    if (app->editing && !app->popup)
+    if (app->popup && app->popup->kind == POPUP_FIELD)
         return;
     begin_input(app);
     if (app->popup)
@@ -271,19 +279,12 @@ void ceduo_program_wheel(struct app *app, int lines)
     end_input(app);
 }
 
-bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
-                          struct problems *problems)
+bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery)
 {
-    bool good = ceduo_app_create(app, path, charset, threads, no_recovery, problems);
+    bool good = ceduo_app_create(app, path, charset, threads, no_recovery);
     if (good)
         end_input(app);
     return good;
-}
-
-void ceduo_program_free(struct app *app)
-{
-    ceduo_popup_close(app);
-    ceduo_app_free(app);
 }
 
 bool ceduo_program_poll(struct app *app)

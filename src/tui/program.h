@@ -6,21 +6,14 @@
 
 /* Handles keys and the mouse. A popup gets a key first, then the open field, then the view; what is left is done here. */
 
-/* Same as ceduo_app_create() and ceduo_app_free(), including popups. */
-bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
-                          struct problems *problems);
-
-void ceduo_program_free(struct app *app);
+/* As ceduo_app_create(); offers unsaved work that was left behind. */
+bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery);
 
 void ceduo_program_key(struct app *app, int key);
 void ceduo_program_paste(struct app *app, const char *text); /* into the line that is being typed; otherwise nowhere */
 void ceduo_program_click(struct app *app, int x, int y);
 void ceduo_program_wheel(struct app *app, int by);
-
-/* Takes the news of the jobs, and what a search found. True where the screen has changed. */
-bool ceduo_program_poll(struct app *app);
-
-/* ---- a script (script.c) ---- */
+bool ceduo_program_poll(struct app *app); /* takes the results of the jobs; true if the screen has changed */
 
 /* Plays a script without a terminal, a command on each line (see ceduo-terminal(7)). Errors go to standard error. */
 enum script_end { SCRIPT_DONE, SCRIPT_WRONG, SCRIPT_UNREADABLE, SCRIPT_UNWRITTEN };

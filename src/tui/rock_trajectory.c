@@ -48,8 +48,7 @@ bool ceduo_app_follow_rock(struct app *app)
     bool same = s->n > 0 && s->key == key && s->rock == app->rock;
     if (!same) {
         s->n = s->at = s->stems_count = 0;
-        s->key = key;
-        s->rock = app->rock;
+        s->key = key, s->rock = app->rock;
         s->begun = ceduo_clock();
         const struct ceduo_trajectory_callbacks watch = {
             .enough = is_enough, .piece = add_piece, .stem = add_stem, .context = s};
@@ -130,10 +129,8 @@ void ceduo_app_step_rock(struct app *app, int by)
 {
     struct rock_trajectory *s = &app->trajectory;
     LOCAL_TEXT(text);
-    if (by > 0)
-        s->at = s->at < s->n ? s->at + 1 : s->n;
-    else if (by < 0)
-        s->at = s->at > 0 ? s->at - 1 : s->n;
+    if (by != 0) /* none is all of them */
+        s->at = by > 0 ? (s->at < s->n ? s->at + 1 : s->n) : s->at > 0 ? s->at - 1 : s->n;
     describe(s, &app->document.file.scene, &text);
     ceduo_app_show_message(app, "%s", text.bytes);
 }

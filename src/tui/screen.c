@@ -73,8 +73,7 @@ static bool draw_title(struct app *app)
     return fits;
 }
 
-/* The answer for the option shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty is computed, which may change
- * it. */
+/* The answer for the option shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty may change it. */
 static void draw_verdict(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
@@ -112,8 +111,7 @@ static void dim(struct app *app, struct ceduo_area area, const struct ceduo_cell
         }
 }
 
-/* Dims the figures of an earlier scene: as they are drawn, or from the last screen with figures if none of the option are
- * known. The answer always is that of the last screen. */
+/* Dim the figures of an earlier scene, or those of the last screen if none are known; the answer is that of the last screen. */
 static void dim_figures(struct app *app, struct ceduo_area column)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
@@ -123,9 +121,7 @@ static void dim_figures(struct app *app, struct ceduo_area column)
         if (!kept->cells)
             kept->cells = ceduo_check_memory(ceduo_cells_create(app->width, app->height, app->charset));
         memcpy(kept->cells->cell, app->cells->cell, (size_t)app->width * (size_t)app->height * sizeof *app->cells->cell);
-        kept->view = app->view;
-        kept->option = app->option;
-        kept->year = app->year;
+        *kept = (struct kept){kept->cells, app->view, app->option, app->year};
         return;
     }
     bool same = kept->cells && kept->option == app->option && (kept->year == app->year || kept->view != VIEW_ROTATION);
@@ -139,13 +135,19 @@ static void dim_figures(struct app *app, struct ceduo_area column)
         ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 1, CEDUO_ROLE_TEXT, _(" computing \xe2\x80\xa6"));
 }
 
+void ceduo_app_hint(struct app *app, const char *text)
+{
+    if (!app->message[0] && (!app->popup || app->popup->kind == POPUP_FIELD))
+        ceduo_app_show_message(app, "%s", text);
+}
+
 static void draw_explanation(struct app *app)
 {
     LOCAL_TEXT(text);
     LOCAL_TEXT(safe);
     enum ceduo_role role = CEDUO_ROLE_TEXT;
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
-    if (app->message[0] && !(app->popup && app->popup->kind != POPUP_TEXT && !app->popup->asks)) { /* which shows it */
+    if (app->message[0] && !(app->popup && app->popup->kind >= POPUP_LIST && !app->popup->asks)) { /* which shows it */
         ceduo_text_append(&text, app->message);
         role = app->message_bad ? CEDUO_ROLE_WARN : CEDUO_ROLE_GOOD;
     } else if (ceduo_app_state(app)->pane == 0) {
@@ -182,28 +184,32 @@ static bool draw_key(struct app *app, int *x, enum action action, const char *wo
 /* The view's own keys, then those of every view, of which the last ones always have room. */
 static void draw_bar(struct app *app)
 {
-    const struct bar_key *bar = ceduo_views[app->view]->bar;
+    const struct view *view = ceduo_views[app->view];
     int x = 0, room = app->width + 2;
-    if (app->popup || app->editing) {
-        ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM,
-                               app->popup ? ceduo_popup_bar(app)
-                                          : _("Enter takes the value  Esc leaves it as it was  empty: the default"));
+    if (app->popup) {
+        ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM, ceduo_popup_bar(app));
         return;
     }
     for (int i = 0; i < ACTION_COUNT; i++)
         room -= ceduo_actions[i].bar == 2 ? bar_width((enum action)i, ceduo_actions[i].help) : 0;
-    for (const struct bar_key *k = bar; k->word && draw_key(app, &x, k->action, k->word, &room);)
+    for (int k = 0; view->bar[k].word && draw_key(app, &x, view->bar[k].action, view->bar[k].word, &room);)
         k++;
     for (int rank = 1; rank <= 2; rank++) {
         for (int i = 0; i < ACTION_COUNT; i++) {
             bool own = ceduo_actions[i].bar != rank;
-            for (const struct bar_key *k = bar; k->word; k++)
-                own |= k->action == (enum action)i;
+            for (int k = 0; view->bar[k].word; k++)
+                own |= view->bar[k].action == (enum action)i;
             if (!own)
                 draw_key(app, &x, (enum action)i, ceduo_actions[i].help, &room);
         }
         room = app->width;
     }
+}
+
+void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
+{
+    const struct popup *p = app->popup && app->popup->kind == POPUP_FIELD ? app->popup : NULL;
+    ceduo_form_draw(ceduo_app_form(app), app->cells, area, p ? p->fields[0].line.text : NULL);
 }
 
 /* The newest figures. Warnings without room are only counted: view 4 has them. `titled`: the scene's title stands above. */

@@ -23,11 +23,35 @@ static enum script_end fail(const char *path, size_t line, const char *what, con
     return SCRIPT_WRONG;
 }
 
+/* A key from its name: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; K_NONE. */
+static int find_key(const char *name)
+{
+    static const struct {
+        const char *name;
+        int key;
+    } others[] = {{"Esc", K_ESCAPE}, {"Space", ' '}, {"Backspace", K_BACKSPACE},
+                  {"F8", K_F(8)},    {"F9", K_F(9)}, {"Ctrl-U", K_CTRL_U}};
+    uint32_t code;
+    size_t n = strlen(name);
+    if (n > 0 && ceduo_utf8_decode(name, n, &code) == n)
+        return (int)code;
+    for (int i = 0; i < ACTION_COUNT; i++) {
+        if (strcmp(ceduo_actions[i].word, name) == 0)
+            return ceduo_actions[i].key;
+        if (strcmp(ceduo_actions[i].word2, name) == 0)
+            return ceduo_actions[i].key2;
+    }
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (strcmp(others[i].name, name) == 0)
+            return others[i].key;
+    return K_NONE;
+}
+
 /* A script sees what a search found before its next key. */
 static void press_key(struct app *app, int key)
 {
     ceduo_program_key(app, key);
-    if (ceduo_jobs_wait_search(app->live.jobs))
+    if (ceduo_jobs_wait(app->live.jobs, false))
         ceduo_program_poll(app);
 }
 
@@ -62,7 +86,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
         *rest++ = '\0';
     if (strcmp(command, "key") == 0) {
         for (char *name = strtok_r(rest, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
-            int key = ceduo_key_compute(name);
+            int key = find_key(name);
             if (key == K_NONE)
                 return fail(path, line, _("no such key"), name, CEDUO_FOREIGN_MAX);
             press_key(app, key);
@@ -83,7 +107,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
             return fail(path, line, _("a width and a height are wanted"), rest, CEDUO_FOREIGN_MAX);
         ceduo_app_resize(app, width, height);
     } else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0) {
-        ceduo_jobs_wait(app->live.jobs);
+        ceduo_jobs_wait(app->live.jobs, true);
         ceduo_program_poll(app);
     } else {
         return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command, CEDUO_FOREIGN_MAX);
@@ -96,8 +120,7 @@ enum script_end ceduo_script_run(struct app *app, const char *path)
     LOCAL_ARENA(arena);
     LOCAL_PROBLEMS(problems);
     const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MAX, &problems);
-    if (problems.text.bytes)
-        fputs(problems.text.bytes, stderr);
+    fputs(ceduo_problems_print(&problems), stderr);
     char *text = source ? ceduo_arena_copy(&arena, source->bytes, source->length) : NULL;
     ceduo_app_resize(app, 80, 24);
     enum script_end end_of_it = text ? SCRIPT_DONE : SCRIPT_UNREADABLE;

@@ -57,8 +57,7 @@ static bool colours_wanted(void)
 
 /* ---- bracketed paste ---- */
 
-static bool pastes; /* the terminal may be asked to say where a paste begins and ends, and to take a copy; the Linux console
-                       cannot */
+static bool pastes; /* the terminal reports where a paste begins and ends, and takes a copy; the Linux console does not */
 #define PASTES_OFF "\033[?2004l"
 
 static void ask_for_pastes(bool on)
@@ -233,11 +232,6 @@ static struct {
 #define C1_LAST          0x9f
 #define STRINGS          "]PX^_" /* OSC, DCS, SOS, PM and APC begin a string that ST ends */
 
-static bool is_unfinished(void)
-{
-    return input.state != PLAIN && !input.pasting;
-}
-
 static bool is_quiet(void)
 {
     return ceduo_clock() - input.last > SEQUENCE_SECONDS;
@@ -255,12 +249,6 @@ static void press(struct app *app, wint_t c)
         input.length += ceduo_utf8_encode(c, input.pasted + input.length);
 }
 
-static void swallow(int characters)
-{
-    input.state = CHARACTERS;
-    input.characters = characters;
-}
-
 static void end_control(struct app *app, wint_t last)
 {
     input.state = PLAIN;
@@ -274,7 +262,8 @@ static void end_control(struct app *app, wint_t last)
         input.pasting = true;
         input.length = 0;
     } else if (input.number < 0 && (last == '[' || last == 'M')) { /* a function key of Linux; a click, in pieces */
-        swallow(last == '[' ? 1 : 3);
+        input.state = CHARACTERS;
+        input.characters = last == '[' ? 1 : 3;
     }
 }
 
@@ -300,7 +289,8 @@ static void take_character(struct app *app, wint_t c)
         input.state = CONTROL;
         input.number = -1;
     } else if (input.state == ESCAPED && !input.pasting && c == 'O') {
-        swallow(1);
+        input.state = CHARACTERS;
+        input.characters = 1;
     } else if (input.state == ESCAPED && !input.pasting && c < 128 && c > ' ' && strchr(STRINGS, (int)c)) {
         input.state = STRING;
     } else if (input.state == ESCAPED && !input.pasting && c >= ' ' && c != 127) {
@@ -372,13 +362,13 @@ static bool take_keys(struct app *app)
         for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
             key = (wint_t)keys[i].from == code ? keys[i].to : key;
         if (code >= KEY_F(1) && code <= KEY_F(10))
-            key = K_F1 + (int)code - KEY_F(1);
+            key = K_F((int)code - (int)KEY_F0);
         input.state = PLAIN;
         if (key != K_NONE && !input.pasting)
             ceduo_program_key(app, key);
     }
     take_escape(app);
-    if (is_unfinished() && is_quiet())
+    if (!input.pasting && is_quiet())
         input.state = PLAIN;
     return any;
 }
@@ -406,7 +396,7 @@ static void loop(struct app *app, bool colours)
         struct pollfd fds[3] = {{.fd = STDIN_FILENO, .events = POLLIN},
                                 {.fd = ceduo_jobs_fd(app->live.jobs), .events = POLLIN},
                                 {.fd = wake[0], .events = POLLIN}};
-        int n = poll(fds, 3, is_unfinished() ? 1000 * SEQUENCE_SECONDS : -1);
+        int n = poll(fds, 3, input.state != PLAIN && !input.pasting ? 1000 * SEQUENCE_SECONDS : -1);
         if (n < 0 && errno != EINTR)
             break;
         for (char bytes[32]; read(wake[0], bytes, sizeof bytes) > 0;)
@@ -415,7 +405,7 @@ static void loop(struct app *app, bool colours)
             break; /* the window is gone */
         if (interrupted) {
             interrupted = 0;
-            ceduo_program_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
+            ceduo_program_key(app, app->popup ? K_ESCAPE : 'q');
         }
         if (suspended)
             suspend();

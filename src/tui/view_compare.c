@@ -39,15 +39,16 @@ static void draw_table(struct app *app, struct ceduo_area area)
     if (shown < n)
         ceduo_page_para(&table, CEDUO_PAGE_NOTE, _("%zu\xe2\x80\x93%zu of %zu options; up, down: the others"), first + 1,
                         first + shown, n);
-    int used = ceduo_page_draw(&table, &app->cells->canvas, area, 0) + 1;
+    cut_top(&area, ceduo_page_draw(&table, &app->cells->canvas, area, 0) + 1);
     ceduo_page_free(&table);
     ceduo_pane_message(&said, &pane);
-    int lines = ceduo_page_draw(&said, &app->cells->canvas, (struct ceduo_area){0}, 0), rest = area.height - used;
-    struct ceduo_area below = {area.left, area.top + used, area.width - 2, lines < rest ? lines : rest};
-    ceduo_app_page(app, below, &said, &ceduo_app_state(app)->scroll);
-    if (n > 1 && rest - lines > TRADEOFF_MIN)
-        draw_picture(app, CEDUO_PLOT_TRADEOFF,
-                     (struct ceduo_area){area.left, below.top + lines + 1, area.width, rest - lines - 1});
+    int lines = ceduo_page_draw(&said, &app->cells->canvas, (struct ceduo_area){0}, 0);
+    struct ceduo_area words = cut_top(&area, lines < area.height ? lines : area.height);
+    words.width -= 2;
+    ceduo_app_page(app, words, &said);
+    cut_top(&area, 1);
+    if (n > 1 && area.height >= TRADEOFF_MIN)
+        draw_picture(app, CEDUO_PLOT_TRADEOFF, area);
 }
 
 /* The table with the picture that has room beside it, or one picture alone. */
@@ -72,8 +73,9 @@ static void draw(struct app *app, struct ceduo_area area)
 
 static void choose(struct app *app, long i)
 {
-    long n = (long)app->document.file.scene.options_count;
-    ceduo_app_show_option(app, (size_t)(i < 0 ? 0 : i >= n ? n - 1 : i));
+    struct viewport v = {.count = (int)app->document.file.scene.options_count};
+    viewport_move(&v, (int)i);
+    ceduo_app_show_option(app, (size_t)v.selected);
 }
 
 static void next_option(struct app *app, int by)
@@ -83,9 +85,8 @@ static void next_option(struct app *app, int by)
 
 static void copy_option(struct app *app)
 {
-    size_t at = app->option;
-    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", at, NULL, &app->problems)))
-        choose(app, (long)at + 1);
+    if (ceduo_app_edited(app, ceduo_document_duplicate(&app->document, "options", app->option, NULL)))
+        choose(app, (long)app->option + 1);
 }
 
 static void delete_option(struct app *app)
@@ -94,24 +95,21 @@ static void delete_option(struct app *app)
     const char *name = ceduo_app_format(app, "%s", ceduo_app_option(app)->name);
     if (app->document.file.scene.options_count < 2)
         ceduo_app_show_message(app, "%s", _("the only option stays"));
-    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems)))
+    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path)))
         ceduo_app_show_message(app, _("deleted: %s; u brings it back"), name);
 }
 
 static void move_option(struct app *app, int by)
 {
-    long to = (long)app->option + by;
-    if (to < 0 || to >= (long)app->document.file.scene.options_count)
-        return;
-    bool good = ceduo_document_move(&app->document, "options", app->option, (size_t)to, &app->problems);
-    if (ceduo_app_edited(app, good))
-        choose(app, to);
+    size_t to = app->option + (size_t)by; /* before the first it is larger than any */
+    if (to < app->document.file.scene.options_count &&
+        ceduo_app_edited(app, ceduo_document_move(&app->document, "options", app->option, to)))
+        choose(app, (long)to);
 }
 
 static bool filled_name(struct app *app, struct popup *p)
 {
-    return ceduo_app_edited(app,
-                            ceduo_document_rename_option(&app->document, app->option, p->fields[0].line.text, &app->problems));
+    return ceduo_app_edited(app, ceduo_document_rename_option(&app->document, app->option, p->fields[0].line.text));
 }
 
 static void rename_option(struct app *app)
@@ -121,18 +119,18 @@ static void rename_option(struct app *app)
                           ceduo_app_option(app)->name);
 }
 
-static const struct act acts[] = {{ACTION_UP, .function = next_option, .by = -1},
-                                  {ACTION_DOWN, .function = next_option, .by = 1},
-                                  {ACTION_TOP, .function = next_option, .by = -1000000},
-                                  {ACTION_BOTTOM, .function = next_option, .by = 1000000},
-                                  {ACTION_PAGE_UP, .function = ceduo_app_continue_form, .by = -4},
-                                  {ACTION_PAGE_DOWN, .function = ceduo_app_continue_form, .by = 4},
-                                  {ACTION_ADD, .plain = ceduo_popup_new_option},
-                                  {ACTION_DUPLICATE, .plain = copy_option},
-                                  {ACTION_DELETE, .plain = delete_option},
-                                  {ACTION_EARLIER, .function = move_option, .by = -1},
-                                  {ACTION_LATER, .function = move_option, .by = 1},
-                                  {ACTION_EDIT, .plain = rename_option},
+static const struct act acts[] = {KEY(UP, .function = next_option, .by = -1),
+                                  KEY(DOWN, .function = next_option, .by = 1),
+                                  KEY(TOP, .function = next_option, .by = -ALL_LINES),
+                                  KEY(BOTTOM, .function = next_option, .by = ALL_LINES),
+                                  KEY(PAGE_UP, .function = ceduo_app_continue_form, .by = -4),
+                                  KEY(PAGE_DOWN, .function = ceduo_app_continue_form, .by = 4),
+                                  KEY(ADD, .plain = ceduo_popup_new_option),
+                                  KEY(DUPLICATE, .plain = copy_option),
+                                  KEY(DELETE, .plain = delete_option),
+                                  KEY(EARLIER, .function = move_option, .by = -1),
+                                  KEY(LATER, .function = move_option, .by = 1),
+                                  KEY(EDIT, .plain = rename_option),
                                   {0}};
 
 const struct view ceduo_view_compare = {.panes = PANES,
@@ -140,9 +138,6 @@ const struct view ceduo_view_compare = {.panes = PANES,
                                         .build = build,
                                         .draw = draw,
                                         .acts = {acts, acts, acts},
-                                        .bar = {{ACTION_ADD, N_("add")},
-                                                {ACTION_NEXT_PANE, N_("picture")},
-                                                {ACTION_DUPLICATE, N_("copy")},
-                                                {ACTION_DELETE, N_("delete")},
-                                                {ACTION_EDIT, N_("name")},
-                                                {ACTION_PAGE_DOWN, N_("read on")}}};
+                                        .bar = {KEY(ADD, N_("add")), KEY(NEXT_PANE, N_("picture")), KEY(DUPLICATE, N_("copy")),
+                                                KEY(DELETE, N_("delete")), KEY(EDIT, N_("name")),
+                                                KEY(PAGE_DOWN, N_("read on"))}};

@@ -80,12 +80,12 @@ static void say_as_it_is(struct app *app, struct ceduo_page *page)
         const char *chance = p->p_value < 0.001 ? "<.001" : WRITTEN(p->p_value, 2);
         if (isnan(p->p_value))
             ceduo_text_format(&bad, " (%s)", _("no simulated rock does that"));
-        else if (p->inside)
-            ceduo_text_format(&bad, _(" (the mean fits, how the values are spread does not: p %s)"), chance);
-        else if (p->p_value >= CEDUO_MISFIT)
-            ceduo_text_format(&bad, _(" (the mean lies outside: p %s)"), chance);
         else
-            ceduo_text_format(&bad, " (p %s)", chance);
+            ceduo_text_format(&bad,
+                              p->inside                    ? _(" (the mean fits, how the values are spread does not: p %s)")
+                              : p->p_value >= CEDUO_MISFIT ? _(" (the mean lies outside: p %s)")
+                                                           : " (p %s)",
+                              chance);
     }
     if (bad.length > 0)
         ceduo_page_para(page, CEDUO_PAGE_NOTE, _("The scene as it is does not give what was seen: %s."), bad.bytes);
@@ -193,12 +193,10 @@ static const struct field *next_kind(const struct field *f)
 /* The first item of the list that has the group, and in it the key (NULL: any); NULL: none has. */
 static const struct node *first_with(const struct node *rows, const char *group, const char *key)
 {
-    for (size_t i = 0; i < rows->n; i++) {
-        const struct node *found = ceduo_node_get(rows->items[i], group);
-        if (found && (!key || ceduo_node_get(found, key)))
-            return found;
-    }
-    return NULL;
+    const struct node *found = NULL;
+    for (size_t i = 0; i < rows->n && !(found && (!key || ceduo_node_get(found, key))); i++)
+        found = ceduo_node_get(rows->items[i], group);
+    return found && (!key || ceduo_node_get(found, key)) ? found : NULL;
 }
 
 static void build(struct app *app, struct form *form)
@@ -253,10 +251,8 @@ static void draw(struct app *app, struct ceduo_area area)
     if (fit)
         state->pane = PANE_TEXT;
     int lines = state->pane == PANE_TEXT ? 0 : (int)state->form.n, form = area.height / 3 < lines ? area.height / 3 : lines;
-    if (form > 0) {
-        ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top + area.height - form, area.width, form});
-        area.height -= form + 1;
-    }
+    ceduo_app_draw_form(app, cut_bottom(&area, form));
+    cut_bottom(&area, form > 0);
     area.width -= 2; /* the mark of more below stands beside the text */
     struct ceduo_page page = {.width = (size_t)area.width};
     if (file->observations_count == 0) {
@@ -277,12 +273,11 @@ static void draw(struct app *app, struct ceduo_area area)
     int max = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0) - 1;
     int height = max > area.height / 2 ? max : area.height / 2;
     if (stops && height >= PICTURE_MIN) {
-        struct ceduo_area top = {area.left, area.top, area.width, height};
+        struct ceduo_area top = cut_top(&area, height);
         ceduo_plot_observed(&app->cells->canvas, &top, stops, file->scene.slope.origin_x);
-        area.top += height + 1;
-        area.height -= height + 1;
+        cut_top(&area, 1);
     }
-    ceduo_app_page(app, area, &page, &state->scroll);
+    ceduo_app_page(app, area, &page);
 }
 
 /* ---- which values are fitted, and between which bounds ---- */
@@ -392,22 +387,19 @@ static void start(struct app *app)
 static void take(struct app *app)
 {
     const struct fit *f = ceduo_live_fitted(&app->live);
-    if (!f && !app->live.fitting && ceduo_app_state(app)->pane == PANE_FORM && ceduo_app_form(app)->n > 0) {
+    if (!f && !app->live.fitting && ceduo_app_state(app)->pane == PANE_FORM && ceduo_app_form(app)->n > 0)
         ceduo_edit_start(app);
-        return;
-    }
-    if (!f) {
+    else if (!f)
         ceduo_app_show_message(app, "%s",
                                app->live.fitting ? _("the fit is not done yet; Esc stops it")
                                                  : _("c fits the ground to what was seen"));
+    if (!f)
         return;
-    }
     const struct ceduo_calibration_report r = report_of(f);
     LOCAL_TEXT(source);
     ceduo_calibration_sources(&source, &r);
     const struct fit_values values = {&f->answer, f->inputs, ceduo_text_string(&source), NULL};
-    bool good = ceduo_apply_fit(&app->document, &values, &app->problems);
-    if (ceduo_app_edited(app, good))
+    if (ceduo_app_edited(app, ceduo_apply_fit(&app->document, &values)))
         ceduo_app_show_message(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
 }
 
@@ -418,20 +410,14 @@ static void stop(struct app *app)
     ceduo_live_drop_fit(&app->live);
 }
 
-static const struct act acts[] = {{ACTION_COUNTS, .plain = start},
-                                  {ACTION_EDIT, .plain = take},
-                                  {ACTION_ADD, .plain = add},
-                                  {ACTION_STOP, .plain = stop},
-                                  {0}};
+static const struct act acts[] = {
+    KEY(COUNTS, .plain = start), KEY(EDIT, .plain = take), KEY(ADD, .plain = add), KEY(STOP, .plain = stop), {0}};
 
 const struct view ceduo_view_observed = {.panes = PANES,
                                          .observed = true,
                                          .build = build,
                                          .draw = draw,
                                          .acts = {acts, acts},
-                                         .bar = {{ACTION_ADD, N_("add")},
-                                                 {ACTION_COUNTS, N_("fit")},
-                                                 {ACTION_EDIT, N_("take the fit")},
-                                                 {ACTION_STOP, N_("leave it")},
-                                                 {ACTION_NEXT_PANE, N_("read on")},
-                                                 {ACTION_NEXT_OPTION, N_("next option")}}};
+                                         .bar = {KEY(ADD, N_("add")), KEY(COUNTS, N_("fit")), KEY(EDIT, N_("take the fit")),
+                                                 KEY(STOP, N_("leave it")), KEY(NEXT_PANE, N_("read on")),
+                                                 KEY(NEXT_OPTION, N_("next option"))}};

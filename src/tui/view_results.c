@@ -23,7 +23,7 @@ static void draw_page(struct app *app, struct ceduo_area area, const struct cedu
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
     }
     ceduo_pane_words(&page, &pane);
-    ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
+    ceduo_app_page(app, area, &page);
 }
 
 static void draw(struct app *app, struct ceduo_area area)
@@ -37,8 +37,8 @@ static void draw(struct app *app, struct ceduo_area area)
         page.left += half + 2;
         page.width -= half + 2;
     } else if (n > 0) { /* how often which energy comes, in place of the energies as bars */
-        page.height -= plot.height + 1;
-        plot.top += page.height + 1;
+        plot = cut_bottom(&page, plot.height);
+        cut_bottom(&page, 1);
     }
     for (int i = 0; i < n; i++, plot.top += plot.height + 1)
         ceduo_app_plot(app, plots[i], plot, &picture);
@@ -49,4 +49,4 @@ const struct view ceduo_view_results = {
     .panes = 1,
     .result = true,
     .draw = draw,
-    .bar = {{ACTION_DOWN, N_("read on")}, {ACTION_EXPORT, N_("export")}, {ACTION_NEXT_OPTION, N_("next option")}}};
+    .bar = {KEY(DOWN, N_("read on")), KEY(EXPORT, N_("export")), KEY(NEXT_OPTION, N_("next option"))}};

@@ -67,9 +67,9 @@ static void draw(struct app *app, struct ceduo_area area)
                                  _("The lumped law knows neither mass nor shape: on the ground they scale the "
                                    "energy alone."));
     int lines = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
-    ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top, area.width, area.height - lines - 1});
-    struct ceduo_area foot = {area.left, area.top + area.height - lines, area.width, lines};
-    ceduo_app_set_cursor(app, foot, CEDUO_ROLE_DIM, &text);
+    ceduo_app_set_cursor(app, cut_bottom(&area, lines), CEDUO_ROLE_DIM, &text);
+    cut_bottom(&area, 1);
+    ceduo_app_draw_form(app, area);
 }
 
 /* Deletes the class under the cursor, or the power law that is all blocks. */
@@ -79,15 +79,15 @@ static void delete_blocks(struct app *app)
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     if (!blocks || blocks->kind != NODE_MAP || !cell || strncmp(cell->path, "blocks.", 7) != 0)
         ceduo_items_delete(app);
-    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, "blocks", &app->problems)))
+    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, "blocks")))
         ceduo_app_show_message(app, "%s", _("blocks deleted: every rock is the one above; u brings them back"));
 }
 
-static const struct act acts[] = {{ACTION_ADD, .plain = ceduo_items_add_blocks}, {ACTION_DELETE, .plain = delete_blocks}, {0}};
+static const struct act acts[] = {KEY(ADD, .plain = ceduo_items_add_blocks), KEY(DELETE, .plain = delete_blocks), {0}};
 
 const struct view ceduo_view_rock = {
     .panes = 1,
     .build = build,
     .draw = draw,
     .acts = {acts},
-    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_ADD, N_("blocks")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")}}};
+    .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("blocks")), KEY(MORE, N_("more")), KEY(LESS, N_("less"))}};

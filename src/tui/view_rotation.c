@@ -8,9 +8,10 @@
 static void build(struct app *app, struct form *form)
 {
     ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m cut_year stand");
-    if (ceduo_app_option(app)->belts_count > 0) {
-        const char *stand = ceduo_app_stand(app), *name = ceduo_app_option(app)->belts[app->belt].name;
-        ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, name));
+    if (ceduo_app_belt(app)) {
+        const char *stand = ceduo_app_stand(app);
+        ceduo_form_heading(form,
+                           ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, ceduo_app_belt(app)->name));
         ceduo_form_fields(form, ceduo_app_format(app, "%s.", stand), "cutting.stay_per_ha cutting.rotation_years");
         ceduo_form_rest(form, ceduo_app_format(app, "%s.cutting", stand));
         ceduo_form_rest(form, ceduo_app_format(app, "%s.growth", stand));
@@ -91,29 +92,25 @@ static void draw(struct app *app, struct ceduo_area area)
     words = words > max ? max : words;
     int form = alone ? 0 : (area.height - words) / 3;
     form = form > form_min ? form : form_min;
-    int height = area.height - form - words;
-    struct ceduo_area top = {area.left, area.top, area.width, height};
-    struct ceduo_area text_area = {area.left, area.top + height, area.width, words};
     if (alone)
         ceduo_app_hint(app, _("left, right: another year; Tab: back to the form"));
-    ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &top, &picture);
-    ceduo_app_set_cursor(app, text_area, CEDUO_ROLE_TEXT, &text);
-    struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
-    ceduo_app_draw_form(app, below);
+    ceduo_app_draw_form(app, cut_bottom(&area, form));
+    ceduo_app_set_cursor(app, cut_bottom(&area, words), CEDUO_ROLE_TEXT, &text);
+    ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &area, &picture);
 }
 
 static void next_year(struct app *app, int by)
 {
     const struct ceduo_years *years = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
-    long n = years ? (long)years->count : 0, year = (long)app->year + by;
-    if (n > 0)
-        app->year = (size_t)(year < 0 ? 0 : year >= n ? n - 1 : year);
+    struct viewport v = {.selected = (int)app->year, .count = years ? (int)years->count : 0};
+    viewport_move(&v, by);
+    app->year = v.count > 0 ? (size_t)v.selected : app->year;
 }
 
-static const struct act acts[] = {{ACTION_RIGHT, .function = next_year, .by = 1},
-                                  {ACTION_LEFT, .function = next_year, .by = -1},
-                                  {ACTION_TOP, .function = next_year, .by = -1000000},
-                                  {ACTION_BOTTOM, .function = next_year, .by = 1000000},
+static const struct act acts[] = {KEY(RIGHT, .function = next_year, .by = 1),
+                                  KEY(LEFT, .function = next_year, .by = -1),
+                                  KEY(TOP, .function = next_year, .by = -ALL_LINES),
+                                  KEY(BOTTOM, .function = next_year, .by = ALL_LINES),
                                   {0}};
 
 const struct view ceduo_view_rotation = {
@@ -122,4 +119,4 @@ const struct view ceduo_view_rotation = {
     .draw = draw,
     .acts = {NULL, acts},
     .follow = ceduo_app_follow_belt,
-    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_NEXT_PANE, N_("years")}, {ACTION_NEXT_OPTION, N_("next option")}}};
+    .bar = {KEY(EDIT, N_("edit")), KEY(NEXT_PANE, N_("years")), KEY(NEXT_OPTION, N_("next option"))}};

@@ -62,6 +62,12 @@ static void build(struct app *app, struct form *form)
 
 /* ---- the cursor along the slope: where it is ---- */
 
+struct place {
+    double x; /* m, relative */
+    int zoom; /* 2^zoom times as near as the whole slope */
+    bool put; /* it was moved: x holds */
+};
+
 static double length_of(const struct app *app)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
@@ -71,21 +77,28 @@ static double length_of(const struct app *app)
 /* m, relative: in the middle of the slope until it is moved. */
 static double place_x(const struct app *app)
 {
-    double length = length_of(app);
-    return app->place.put ? fmin(app->place.x, length) : length / 2;
+    const struct place *p = ceduo_app_own(app);
+    return p->put ? fmin(p->x, length_of(app)) : length_of(app) / 2;
 }
 
 static void put_place(struct app *app, double x)
 {
-    app->place.x = fmin(fmax(0, x), length_of(app));
-    app->place.put = true;
+    struct place *p = ceduo_app_own(app);
+    p->x = fmin(fmax(0, x), length_of(app));
+    p->put = true;
+}
+
+/* m that are shown. */
+static double shown_length(const struct app *app)
+{
+    return ldexp(length_of(app), -((const struct place *)ceduo_app_own(app))->zoom);
 }
 
 /* By a hundredth of what is shown, onto a round number. */
 static void move_place(struct app *app, int by)
 {
     double origin = app->document.file.scene.slope.origin_x;
-    double step = ceduo_plot_round(ldexp(length_of(app), -app->place.zoom) / STEPS * 2, false);
+    double step = ceduo_plot_round(shown_length(app) / STEPS * 2, false);
     double at = (place_x(app) + origin) / step;
     put_place(app, (by > 0 ? floor(at + 1e-9) + by : ceil(at - 1e-9) + by) * step - origin);
 }
@@ -192,16 +205,13 @@ static void offer_ground(struct app *app, double x)
            !(there >= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "from_m")) &&
              there <= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "to_m"))))
         material++;
-    if (segments && segments->n > 0) {
-        size_t i = segments->n == 1 ? 0 : j;
-        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), i + 1), "", "slope.segments", i);
-        if (vertices)
-            offer_place(app, _("another ground from here on"), "+", "slope.segments", i);
-    } else if (material < n) {
-        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), material + 1), "", "slope.materials",
-                    material);
-        offer_place(app, _("another ground from here on"), "+", "slope.materials", material);
-    }
+    bool by_segment = segments && segments->n > 0;
+    size_t i = !by_segment ? material : segments->n == 1 ? 0 : j;
+    const char *list = by_segment ? "slope.segments" : "slope.materials";
+    if (by_segment || material < n)
+        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), i + 1), "", list, i);
+    if (by_segment ? vertices != NULL : material < n)
+        offer_place(app, _("another ground from here on"), "+", list, i);
     if (vertices && vertices->n <= LISTED_MAX) {
         double a = ceduo_node_item_number(vertices->items[j], 0), b = ceduo_node_item_number(vertices->items[j + 1], 0);
         bool first = there - a < b - there;
@@ -220,7 +230,7 @@ static void choose_at_place(struct app *app)
     const struct ceduo_option *o = ceduo_app_option(app);
     const char *forest = ceduo_app_forest(app);
     const char *controls = ceduo_document_node(&app->document, "controls_m") ? "controls_m" : "controls";
-    double x = place_x(app), near = NEAR * ldexp(length_of(app), -app->place.zoom);
+    double x = place_x(app), near = NEAR * shown_length(app);
     size_t belt = belt_at(app, x);
     ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->slope.origin_x), "", chose_place);
     if (belt < o->belts_count) {
@@ -257,82 +267,69 @@ static void draw(struct app *app, struct ceduo_area area)
     double mark = place_x(app);
     picture.span = &span;
     bool alone = ceduo_app_state(app)->pane != PANE_FORM;
-    if (app->place.zoom > 0) { /* the stretch around the cursor */
-        double length = length_of(app), shown = ldexp(length, -app->place.zoom);
-        picture.from = fmin(fmax(0, mark - shown / 2), length - shown);
+    double shown = shown_length(app);
+    if (shown < length_of(app)) { /* the stretch around the cursor */
+        picture.from = fmin(fmax(0, mark - shown / 2), length_of(app) - shown);
         picture.to = picture.from + shown;
     }
-    int form_height = alone ? 0 : area.height / 3;
+    ceduo_app_draw_form(app, cut_bottom(&area, alone ? 0 : area.height / 3));
     bool place = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: all rows for the slope at true scale */
-    int room = area.height - form_height;
-    int strips = place ? 0 : room >= 24 ? 2 : room >= 13 ? 1 : 0;
+    int room = area.height, strips = place ? 0 : room >= 24 ? 2 : room >= 13 ? 1 : 0, strip = room >= 24 ? room / 4 : 5;
     if (place)
         picture.mark = &mark;
-    int strip = room >= 24 ? room / 4 : 5;
     if (place)
         say_place(app);
     else if (alone)
         ceduo_app_hint(app, _("left, right: another rock; down, up: along its way; Tab: along the slope"));
-    struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
-    ceduo_app_plot(app, CEDUO_PLOT_PROFILE, profile, &picture);
-    struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
-    if (strips > 1) {
-        picture.no_x_axis = true;
-        ceduo_app_plot(app, CEDUO_PLOT_HEIGHT, next, &picture);
-        next.top += strip;
-    }
+    ceduo_app_plot(app, CEDUO_PLOT_PROFILE, cut_top(&area, room - strip * strips - !alone), &picture);
+    picture.no_x_axis = true;
+    if (strips > 1)
+        ceduo_app_plot(app, CEDUO_PLOT_HEIGHT, cut_top(&area, strip), &picture);
     picture.no_x_axis = strips < 2;
     if (strips > 0)
-        ceduo_app_plot(app, CEDUO_PLOT_ENERGY, next, &picture);
-    struct ceduo_area below = {area.left, area.top + area.height - form_height, area.width, form_height};
-    ceduo_app_draw_form(app, below);
+        ceduo_app_plot(app, CEDUO_PLOT_ENERGY, cut_top(&area, strip), &picture);
 }
 
 static void zoom(struct app *app, int by)
 {
     struct view_state *state = ceduo_app_state(app);
     state->pane = state->pane == PANE_FORM ? PANE_PLACE : state->pane;
-    by += app->place.zoom;
-    if (by < 0)
-        ceduo_app_show_message(app, "%s", _("this is the whole slope"));
-    else if (by > ZOOM_MAX)
-        ceduo_app_show_message(app, "%s", _("this is as near as it gets"));
+    struct place *p = ceduo_app_own(app);
+    by += p->zoom;
+    if (by < 0 || by > ZOOM_MAX)
+        ceduo_app_show_message(app, "%s", by < 0 ? _("this is the whole slope") : _("this is as near as it gets"));
     else
-        app->place.zoom = by;
+        p->zoom = by;
 }
 
-#define ZOOM_ACTS                                                                                                              \
-    {ACTION_ZOOM, .function = zoom, .by = 1}, {ACTION_UNZOOM, .function = zoom, .by = -1},                                     \
-    {                                                                                                                          \
-        0                                                                                                                      \
-    }
+#define ZOOM_ACTS KEY(ZOOM, .function = zoom, .by = 1), KEY(UNZOOM, .function = zoom, .by = -1)
 
-static const struct act form_acts[] = {ZOOM_ACTS};
+static const struct act form_acts[] = {ZOOM_ACTS, {0}};
 
 /* In the picture left and right go from rock to rock, up and down along its trajectory. */
-static const struct act rock_acts[] = {{ACTION_RIGHT, .function = ceduo_app_next_rock, .by = 1},
-                                       {ACTION_LEFT, .function = ceduo_app_next_rock, .by = -1},
-                                       {ACTION_DOWN, .function = ceduo_app_step_rock, .by = 1},
-                                       {ACTION_UP, .function = ceduo_app_step_rock, .by = -1},
-                                       ZOOM_ACTS};
+static const struct act rock_acts[] = {KEY(RIGHT, .function = ceduo_app_next_rock, .by = 1),
+                                       KEY(LEFT, .function = ceduo_app_next_rock, .by = -1),
+                                       KEY(DOWN, .function = ceduo_app_step_rock, .by = 1),
+                                       KEY(UP, .function = ceduo_app_step_rock, .by = -1),
+                                       ZOOM_ACTS,
+                                       {0}};
 
 /* Along the slope: left and right by steps, up and down from one point, border or control to the next. */
-static const struct act place_acts[] = {{ACTION_RIGHT, .function = move_place, .by = 1},
-                                        {ACTION_LEFT, .function = move_place, .by = -1},
-                                        {ACTION_DOWN, .function = jump, .by = 1},
-                                        {ACTION_UP, .function = jump, .by = -1},
-                                        {ACTION_EDIT, .plain = choose_at_place},
-                                        {ACTION_ADD, .plain = choose_at_place},
-                                        ZOOM_ACTS};
+static const struct act place_acts[] = {KEY(RIGHT, .function = move_place, .by = 1),
+                                        KEY(LEFT, .function = move_place, .by = -1),
+                                        KEY(DOWN, .function = jump, .by = 1),
+                                        KEY(UP, .function = jump, .by = -1),
+                                        KEY(EDIT, .plain = choose_at_place),
+                                        KEY(ADD, .plain = choose_at_place),
+                                        ZOOM_ACTS,
+                                        {0}};
 
 const struct view ceduo_view_slope = {.panes = PANES,
+                                      .own = sizeof(struct place),
                                       .build = build,
                                       .draw = draw,
                                       .acts = {form_acts, rock_acts, place_acts},
                                       .follow = follow,
-                                      .bar = {{ACTION_EDIT, N_("edit")},
-                                              {ACTION_ADD, N_("add")},
-                                              {ACTION_DELETE, N_("delete")},
-                                              {ACTION_NEXT_PANE, N_("picture")},
-                                              {ACTION_ZOOM, N_("nearer")},
-                                              {ACTION_NEXT_ROCK, N_("a rock")}}};
+                                      .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("add")), KEY(DELETE, N_("delete")),
+                                              KEY(NEXT_PANE, N_("picture")), KEY(ZOOM, N_("nearer")),
+                                              KEY(NEXT_ROCK, N_("a rock"))}};

@@ -12,14 +12,11 @@
 #define FIGURES 3 /* lines */
 
 /* How many there are comes last: then nothing of them may be missing. */
-static void build_low(struct form *form, const char *group)
+static void build_low(struct app *app, struct form *form, const char *group)
 {
     const struct object *fields = ceduo_schema_row(group)->object;
-    char path[FORM_PATH];
-    for (size_t i = 0; i < fields->n; i++) {
-        snprintf(path, sizeof path, "%.90s.%.60s", group, fields->fields[(i + 1) % fields->n].key);
-        ceduo_form_field(form, path, NULL);
-    }
+    for (size_t i = 0; i < fields->n; i++)
+        ceduo_form_field(form, ceduo_app_format(app, "%s.%s", group, fields->fields[(i + 1) % fields->n].key), NULL);
 }
 
 #define STEMS "dbh_m height_m volume_m3 dbh_sd_m"
@@ -27,9 +24,9 @@ static void build_low(struct form *form, const char *group)
 static void build(struct app *app, struct form *form)
 {
     ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m stand");
-    if (ceduo_app_option(app)->belts_count == 0)
+    const struct ceduo_belt *belt = ceduo_app_belt(app);
+    if (!belt)
         return;
-    const struct ceduo_belt *belt = &ceduo_app_option(app)->belts[app->belt];
     const struct ceduo_stand *s = &belt->stand;
     const char *path = ceduo_app_stand(app), *in = ceduo_app_format(app, "%s.", path);
     ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, belt->name));
@@ -63,9 +60,9 @@ static void build(struct app *app, struct form *form)
     ceduo_form_fields(form, in, "energy.model energy.u_J_m3 energy.fracture_ratio energy.offset energy.hit_below_m");
     ceduo_form_rest(form, ceduo_app_format(app, "%s.energy", path));
     ceduo_form_heading(form, _("Stumps"));
-    build_low(form, ceduo_app_format(app, "%s.stumps", path));
+    build_low(app, form, ceduo_app_format(app, "%s.stumps", path));
     ceduo_form_heading(form, _("Lying logs"));
-    build_low(form, ceduo_app_format(app, "%s.logs", path));
+    build_low(app, form, ceduo_app_format(app, "%s.logs", path));
     ceduo_form_fields(form, in, "name");
 }
 
@@ -77,20 +74,17 @@ static void add_warning(void *text, const char *sentence)
 /* The figures of the stand below the form, and above them what is unlikely about it. Returns how many lines that takes. */
 static int draw_figures(struct app *app, struct ceduo_area area)
 {
-    const struct ceduo_option *o = ceduo_app_option(app);
+    const struct ceduo_belt *belt = ceduo_app_belt(app);
     struct text text = {0}, unlikely = {0};
-    if (app->belt >= o->belts_count)
+    if (!belt)
         return 0;
-    const struct ceduo_belt *belt = &o->belts[app->belt];
     struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, belt);
     ceduo_words_unlikely(belt, &r, add_warning, &unlikely);
     ceduo_words_thick_stems(belt, add_warning, &unlikely);
     int lines = unlikely.length > 0 ? ceduo_app_text_lines(app, unlikely.bytes, area.width) : 0;
     lines = lines > area.height / 3 ? area.height / 3 : lines;
-    struct ceduo_area above = {area.left, area.top + area.height - FIGURES - lines, area.width, lines};
-    ceduo_app_set_cursor(app, above, CEDUO_ROLE_WARN, &unlikely);
-    area.top += area.height - FIGURES;
-    area.height = FIGURES;
+    struct ceduo_area figures = cut_bottom(&area, FIGURES);
+    ceduo_app_set_cursor(app, cut_bottom(&area, lines), CEDUO_ROLE_WARN, &unlikely);
     ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha."), r.stems_per_ha, r.basal_area);
     ceduo_text_char(&text, ' ');
     if (!r.bare)
@@ -99,7 +93,7 @@ static int draw_figures(struct app *app, struct ceduo_area area)
                           r.adc.interception, r.adc.crofton);
     if (!r.bare && !isnan(r.per_100m))
         ceduo_text_append_joined(&text, "; ", _("%.3g kJ per 100 m"), r.per_100m * J_TO_KJ);
-    ceduo_app_set_cursor(app, area, CEDUO_ROLE_DIM, &text);
+    ceduo_app_set_cursor(app, figures, CEDUO_ROLE_DIM, &text);
     return lines;
 }
 
@@ -109,15 +103,14 @@ static int draw_figures(struct app *app, struct ceduo_area area)
 static void draw_plan(struct app *app, struct ceduo_area area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app), pattern = picture;
-    if (app->belt >= ceduo_app_option(app)->belts_count)
+    if (!ceduo_app_belt(app))
         return;
     if (picture.stems_count > 0 && area.height >= BOTH_MIN) {
-        struct ceduo_area top = {area.left, area.top, area.width, area.height * 3 / 5};
+        struct ceduo_area top = cut_top(&area, area.height * 3 / 5);
         pattern.stems = NULL;
         pattern.stems_count = 0;
         ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &top, &pattern);
-        area.top += top.height + 1;
-        area.height -= top.height + 1;
+        cut_top(&area, 1);
     }
     ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &area, &picture);
 }
@@ -132,24 +125,20 @@ static void draw(struct app *app, struct ceduo_area area)
     area.height -= draw_figures(app, area);
     bool wide = area.width >= WIDE;
     int plan = !wide ? 0 : area.width < WIDER ? PLAN_MIN : area.width / 2 - 1;
-    struct ceduo_area form = {area.left, area.top, area.width - plan - (wide ? 1 : 0), area.height - FIGURES};
+    struct ceduo_area form = {area.left, area.top, area.width - plan - wide, area.height - FIGURES};
+    struct ceduo_area picture = {area.left + area.width - plan, area.top, plan, area.height - 4};
     if (!wide && area.height >= 30) { /* the plan below the form */
         form.height = area.height * 3 / 5;
-        struct ceduo_area below = {area.left, area.top + form.height, area.width, area.height - form.height - 4};
-        draw_plan(app, below);
+        picture = (struct ceduo_area){area.left, area.top + form.height, area.width, area.height - form.height - 4};
     }
     ceduo_app_draw_form(app, form);
-    struct ceduo_area beside = {area.left + area.width - plan, area.top, plan, area.height - 4};
-    if (wide)
-        draw_plan(app, beside);
+    if (picture.width > 0)
+        draw_plan(app, picture);
 }
 
 const struct view ceduo_view_stand = {.panes = 1,
                                       .build = build,
                                       .draw = draw,
                                       .follow = ceduo_app_follow_belt,
-                                      .bar = {{ACTION_EDIT, N_("edit")},
-                                              {ACTION_PRESETS, N_("stands")},
-                                              {ACTION_COUNTS, N_("sample plot")},
-                                              {ACTION_ADD, N_("add")},
-                                              {ACTION_DELETE, N_("delete")}}};
+                                      .bar = {KEY(EDIT, N_("edit")), KEY(PRESETS, N_("stands")), KEY(COUNTS, N_("sample plot")),
+                                              KEY(ADD, N_("add")), KEY(DELETE, N_("delete"))}};

@@ -24,11 +24,12 @@ static void build(struct app *app, struct form *form)
 /* The picture, what it means in words, and the ranges of the scene; picture and words scroll together. */
 static void draw(struct app *app, struct ceduo_area area)
 {
-    int form = ceduo_app_form(app)->n > 1 ? area.height / 4 : 1;
-    struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
-    struct ceduo_page page = {.width = (size_t)area.width - 2};
+    ceduo_app_draw_form(app, cut_bottom(&area, ceduo_app_form(app)->n > 1 ? area.height / 4 : 1));
+    cut_bottom(&area, 1);
+    area.width -= 2;
+    struct ceduo_page page = {.width = (size_t)area.width};
     struct ceduo_picture picture = ceduo_app_picture(app);
-    struct ceduo_pane pane = ceduo_app_pane(app, area.height - form - 1);
+    struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     const struct ceduo_uncertainty_report *r = pane.report->uncertainty;
     bool waits = app->over && r && r->answer && !r->over;
     picture.uncertainty = waits ? NULL : r;
@@ -44,28 +45,23 @@ static void draw(struct app *app, struct ceduo_area area)
                         r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
                         (unsigned long long)r->answer->evaluations,
                         (unsigned long long)(r->over ? CEDUO_UNCERTAINTY_YEAR_ROCKS : r->rocks));
-    area.height = pane.height;
-    area.width -= 2;
-    ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
-    ceduo_app_draw_form(app, below);
+    ceduo_app_page(app, area, &page);
 }
 
 static void turn(struct app *app)
 {
     app->over = !app->over;
-    ceduo_app_state(app)->scroll = 0;
+    ceduo_app_state(app)->text.first = 0;
 }
 
 /* ---- a range of one's own ---- */
 
 static bool is_named(const struct node *rows, const char *path)
 {
-    for (size_t i = 0; rows && rows->kind == NODE_LIST && i < rows->n; i++) {
-        const char *own = ceduo_node_text(rows->items[i], "path");
-        if (own && strcmp(own, path) == 0)
-            return true;
-    }
-    return false;
+    const char *own = NULL;
+    for (size_t i = 0; rows && i < rows->n && !(own && strcmp(own, path) == 0); i++)
+        own = ceduo_node_text(rows->items[i], "path");
+    return own && strcmp(own, path) == 0;
 }
 
 /* Names the most important input that the scene does not name yet, with the range that it has now. */
@@ -92,18 +88,18 @@ static void add(struct app *app)
         ceduo_uncertainty_input_end(&row, &r, f->order[i], 1);
         ceduo_text_char(&row, '}');
         size_t n = rows ? rows->n : 0;
-        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "uncertainty", n, row.bytes, &app->problems)))
+        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "uncertainty", n, row.bytes)))
             ceduo_form_go(ceduo_app_form(app), "uncertainty", n);
         return;
     }
     ceduo_app_show_message(app, "%s", _("every uncertain value has a range of the scene already"));
 }
 
-static const struct act acts[] = {{ACTION_ADD, .plain = add},
-                                  {ACTION_NEXT_PANE, .plain = turn},
-                                  {ACTION_LAST_PANE, .plain = turn},
-                                  {ACTION_PAGE_UP, .function = ceduo_app_continue_form, .by = -4},
-                                  {ACTION_PAGE_DOWN, .function = ceduo_app_continue_form, .by = 4},
+static const struct act acts[] = {KEY(ADD, .plain = add),
+                                  KEY(NEXT_PANE, .plain = turn),
+                                  KEY(LAST_PANE, .plain = turn),
+                                  KEY(PAGE_UP, .function = ceduo_app_continue_form, .by = -4),
+                                  KEY(PAGE_DOWN, .function = ceduo_app_continue_form, .by = 4),
                                   {0}};
 
 const struct view ceduo_view_uncertainty = {.panes = 1,
@@ -111,9 +107,6 @@ const struct view ceduo_view_uncertainty = {.panes = 1,
                                             .build = build,
                                             .draw = draw,
                                             .acts = {acts},
-                                            .bar = {{ACTION_EDIT, N_("edit")},
-                                                    {ACTION_ADD, N_("a range")},
-                                                    {ACTION_DELETE, N_("delete")},
-                                                    {ACTION_NEXT_PANE, N_("today or years")},
-                                                    {ACTION_NEXT_OPTION, N_("next option")},
-                                                    {ACTION_PAGE_DOWN, N_("read on")}}};
+                                            .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("a range")), KEY(DELETE, N_("delete")),
+                                                    KEY(NEXT_PANE, N_("today or years")), KEY(NEXT_OPTION, N_("next option")),
+                                                    KEY(PAGE_DOWN, N_("read on"))}};

@@ -102,8 +102,7 @@ int main(void)
     static struct hand h;
     printf("scene,what,keys,median_ms,p99_ms,most_ms\n");
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
-        struct problems problems = {0};
-        if (!ceduo_program_create(&h.app, scenes[i], CEDUO_CHARSET_BRAILLE, 2, true, &problems))
+        if (!ceduo_program_create(&h.app, scenes[i], CEDUO_CHARSET_BRAILLE, 2, true))
             return 1;
         ceduo_app_resize(&h.app, 200, 50);
         measure(&h, scenes[i], "views", views);
@@ -111,7 +110,7 @@ int main(void)
         measure(&h, scenes[i], "list of stands", list);
         measure(&h, scenes[i], "find", find);
         measure(&h, scenes[i], "open", open_scene);
-        ceduo_program_free(&h.app);
+        ceduo_app_free(&h.app);
     }
     return 0;
 }

@@ -57,14 +57,12 @@ int main(int argc, char **argv)
     (void)argc;
     size_t repeats = argument(argv, 1, 100, 1, EDITS_MAX);
     struct app app;
-    struct problems problems = {0};
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     static double first[EDITS_MAX], all[EDITS_MAX], stand[EDITS_MAX], wooded[EDITS_MAX];
-    if (!ceduo_program_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false,
-                              &problems))
+    if (!ceduo_program_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false))
         return 1;
     ceduo_app_resize(&app, 120, 40);
-    ceduo_jobs_wait(app.live.jobs);
+    ceduo_jobs_wait(app.live.jobs, true);
     printf("what,edits,median_ms,p99_ms,goal_median_ms,goal_p99_ms\n");
     for (size_t i = 0; i < repeats; i++) {
         ceduo_program_key(&app, '3');
@@ -88,7 +86,7 @@ int main(int argc, char **argv)
     report("key to a picture of 10000 rocks", all, repeats, 120, 0);
     report("edit of a stand to its index", stand, repeats, 5, 0);
     report("edit of a stand to 1000 rocks through it", wooded, repeats, 33, 100);
-    ceduo_program_free(&app);
+    ceduo_app_free(&app);
     nftw(state, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
     return 0;
 }

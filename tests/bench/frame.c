@@ -51,7 +51,7 @@ void read_scene(struct scene_file *file, const char *path)
 {
     struct problems problems = {0};
     if (!ceduo_scene_load(file, path, NULL, 0, &problems))
-        fail(ceduo_text_string(&problems.text));
+        fail(ceduo_problems_print(&problems));
     ceduo_problems_free(&problems);
 }
 

@@ -25,13 +25,13 @@ static void check_stand(struct arena *arena, const struct survey_file *survey, s
         if (root)
             ceduo_bind(&(struct binding){.arena = arena, .problems = problems, .notes = &notes, .invalid = &invalid},
                        ceduo_schema_stand(), root, &belt.stand);
-        if (!root || problems->count > 0) {
+        if (!root || problems->met > 0) {
             fprintf(stderr, "%s%s", ceduo_text_string(&problems->text), yaml.bytes);
             abort();
         }
         if (ceduo_stand_shoots(&belt.stand) < belt.stand.stools_per_ha)
             abort();
-    } else if (problems->count == 0) {
+    } else if (problems->met == 0) {
         abort();
     }
     ceduo_text_free(&yaml);
@@ -44,7 +44,7 @@ static void check_survey(const char *path)
     struct survey_file survey;
     if (ceduo_survey_read(&survey, &arena, path, NULL, &problems))
         check_stand(&arena, &survey, &problems);
-    else if (problems.count == 0)
+    else if (problems.met == 0)
         abort();
     ceduo_problems_free(&problems);
     ceduo_arena_free(&arena);
@@ -64,7 +64,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         for (size_t i = 0; i < points.n; i++)
             if (!isfinite(points.x[i]) || !isfinite(points.z[i]) || (i > 0 && !(points.x[i] > points.x[i - 1])))
                 abort();
-    } else if (problems.count == 0) {
+    } else if (problems.met == 0) {
         abort();
     }
     ceduo_problems_free(&problems);

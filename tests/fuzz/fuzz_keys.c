@@ -84,13 +84,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
     struct app app;
-    struct problems problems = {0};
-    if (!ceduo_program_create(&app, "fuzz.yaml", CEDUO_CHARSET_BRAILLE, 1, true, &problems))
+    if (!ceduo_program_create(&app, "fuzz.yaml", CEDUO_CHARSET_BRAILLE, 1, true))
         abort();
     (void)ceduo_script_run(&app, path);
     ceduo_screen_draw(&app);
-    ceduo_program_free(&app);
-    ceduo_problems_free(&problems);
+    ceduo_app_free(&app);
     close(fd);
     free(text);
     return 0;

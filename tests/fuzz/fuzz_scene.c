@@ -27,7 +27,7 @@ static void check_emitted(struct scene_file *file)
     struct scene_file again;
     struct problems problems = {0};
     if (!ceduo_scene_load_text(&again, NAME, text.bytes, &problems))
-        fail(problems.text.bytes, text.bytes);
+        fail(ceduo_problems_print(&problems), text.bytes);
     if (!ceduo_node_equal(file->root, again.root))
         fail("written out it is another scene", text.bytes);
     ceduo_scene_release(&again);
@@ -53,10 +53,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             fail("checked, but it cannot be computed", text);
         ceduo_pool_free(pool);
         check_emitted(&file);
-    } else if (problems.count == 0) {
+    } else if (problems.met == 0) {
         fail("refused without a word", text);
     }
-    ceduo_problems_finish(&problems);
+    ceduo_problems_print(&problems);
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
     free(text);

@@ -23,9 +23,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         sets[n++] = line;
     struct scene_file file;
     struct problems problems = {0};
-    if (!ceduo_scene_load(&file, scenes[size % 3], sets, n, &problems) && problems.count == 0)
+    if (!ceduo_scene_load(&file, scenes[size % 3], sets, n, &problems) && problems.met == 0)
         abort();
-    ceduo_problems_finish(&problems);
+    ceduo_problems_print(&problems);
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
     free(text);

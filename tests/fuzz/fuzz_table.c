@@ -76,10 +76,10 @@ static void check_use(const char *use, const char *path)
         last = strchr(last, '\n') + 1;
         check_observed(&file, last);
         check_draws(&file, last);
-    } else if (problems.count == 0) {
+    } else if (problems.met == 0) {
         fail("refused without a word", ceduo_text_string(&text));
     }
-    ceduo_problems_finish(&problems);
+    ceduo_problems_print(&problems);
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
     ceduo_text_free(&text);

@@ -236,7 +236,7 @@ static bool read_scene(void)
     bool good = !reading->name
                     ? ceduo_scene_load_text(&file, "scene", said, &problems)
                     : ceduo_scene_load(&file, strchr(reading->name, '.') ? path : reading->name, reading->sets, n, &problems);
-    ceduo_problems_finish(&problems);
+    ceduo_problems_print(&problems);
     assert_true(reading->wrong ? !good : good || problems.memory);
     if (reading->wrong && !problems.memory)
         add_text(&problems.text);
@@ -281,7 +281,7 @@ static bool read_survey(void)
     struct survey_file file;
     LOCAL_TEXT(yaml);
     bool good = ceduo_survey_read(&file, &arena, survey_path, NULL, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
-    ceduo_problems_finish(&problems);
+    ceduo_problems_print(&problems);
     assert_true(good || problems.memory);
     if (good)
         add_text(&yaml);

@@ -414,6 +414,27 @@ def test_report_head():
             expect_in(line, kept, "kept in the scene")
 
 
+NOTHING = """\
+ceduo: scene/1
+rock: {diameter_m: 0.5}
+release: {x_m: 2}
+slope: {vertices_m: [[0, 10], [15, 0], [300, 0]], materials: [{from_m: 0, to_m: 300, material: talus}]}
+controls: [{x_m: 290, accepted_kJ: 20}]
+forest: [{from_m: 10, to_m: 200, stand: simple-coppice}]
+"""
+
+
+def test_export_nothing():
+    """w: a report of a scene in which nothing arrives says nothing of how sure that is, though it is known"""
+    with Place() as place:
+        place.write("far.yaml", NOTHING)
+        place.play("wait idle\nkey w Down Down Down Down Down Enter Enter Enter Enter Enter Enter Enter\nwait idle\nkey Enter",
+                   "far.yaml")
+        report = place.text("ceduo.html")
+        expect_in("Nothing can be said", report)
+        expect("How sure is it?" not in report, "how sure it is")
+
+
 def test_export_command():
     """w: the batch command that is shown gives the same figures."""
     with Place() as place:

@@ -32,7 +32,6 @@ static const char stand[] =
 
 static char path[256];
 static struct document d;
-static struct problems problems;
 
 static void write_file(const char *name, const char *text)
 {
@@ -75,7 +74,6 @@ static int set_up(void **state)
 static void close_scene(void)
 {
     ceduo_document_close(&d);
-    ceduo_problems_free(&problems);
 }
 
 static int tear_down(void **state)
@@ -89,18 +87,18 @@ static int tear_down(void **state)
 static void must(bool good)
 {
     if (!good)
-        fail_msg("%s", problems.text.bytes);
+        fail_msg("%s", ceduo_problems_print(&d.problems));
 }
 
 static void open_scene(void)
 {
     close_scene();
-    must(ceduo_document_open(&d, path, NULL, 0, &problems));
+    must(ceduo_document_open(&d, path, NULL, 0));
 }
 
 static void set(const char *where, const char *value)
 {
-    must(ceduo_document_set(&d, where, value, &problems));
+    must(ceduo_document_set(&d, where, value));
 }
 
 static void set_millimetres(int mm)
@@ -256,23 +254,22 @@ static bool step(const char *const at[TABLE_COLUMNS])
     else if (IS("set"))
         set(a, b);
     else if (IS("refuse")) {
-        LOCAL_BY(ceduo_problems_free) struct problems found = {0};
         size_t before = d.at;
-        good = !ceduo_document_set(&d, a, b, &found) && strstr(found.text.bytes, at[3]) && d.at == before;
+        good = !ceduo_document_set(&d, a, b) && strstr(ceduo_problems_print(&d.problems), at[3]) && d.at == before;
     } else if (IS("set-all"))
-        good = ceduo_changes_make(changes_of(a, b), at[3], &problems);
+        good = ceduo_changes_make(changes_of(a, b), at[3]);
     else if (IS("duplicate"))
-        good = ceduo_document_duplicate(&d, a, k, *at[3] ? changes_of(at[3], at[4]) : NULL, &problems);
+        good = ceduo_document_duplicate(&d, a, k, *at[3] ? changes_of(at[3], at[4]) : NULL);
     else if (IS("add"))
-        good = ceduo_document_add_option(&d, a, a, &problems);
+        good = ceduo_document_add_option(&d, a, a);
     else if (IS("move"))
-        good = ceduo_document_move(&d, a, k, (size_t)atoi(at[3]), &problems);
+        good = ceduo_document_move(&d, a, k, (size_t)atoi(at[3]));
     else if (IS("split"))
-        good = ceduo_document_split_segment(&d, i, b, false, &problems);
+        good = ceduo_document_split_segment(&d, i, b, false);
     else if (IS("delete"))
-        good = ceduo_document_delete(&d, a, &problems);
+        good = ceduo_document_delete(&d, a);
     else if (IS("rename") || IS("cannot-rename"))
-        good = ceduo_document_rename_option(&d, i, b, &problems) == IS("rename");
+        good = ceduo_document_rename_option(&d, i, b) == IS("rename");
     else if (IS("undo") || IS("cannot-undo"))
         good = ceduo_document_undo_or_redo(&d, -1) == IS("undo");
     else if (IS("redo") || IS("cannot-redo"))
@@ -325,7 +322,7 @@ TEST(documents_go_through_their_steps)
         for (TABLE(row, "unit/documents.txt", section))
             if (!step(row.at))
                 fail_msg("%s, step %zu: %s %s %s %s: %s", section, row.rows, row.at[0], row.at[1], row.at[2], row.at[3],
-                         ceduo_text_string(&problems.text));
+                         ceduo_problems_print(&d.problems));
         assert_int_equal(tear_down(NULL), 0);
     }
 }
@@ -414,13 +411,13 @@ TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
     char *text = left_of(path, file);
     assert_non_null(text);
     open_scene();
-    assert_true(ceduo_document_recover(&d, text, &problems));
+    assert_true(ceduo_document_recover(&d, text));
     assert_true(d.file.scene.rock.diameter.mean == 0.123);
     assert_true(ceduo_document_undo_or_redo(&d, -1));
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
     free(text);
-    assert_false(ceduo_document_recover(&d, "[a, list]", &problems)); /* which is no scene */
-    assert_non_null(strstr(problems.text.bytes, "expected a mapping, not a list"));
+    assert_false(ceduo_document_recover(&d, "[a, list]")); /* which is no scene */
+    assert_non_null(strstr(ceduo_problems_print(&d.problems), "expected a mapping, not a list"));
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
 }
 
@@ -610,7 +607,7 @@ TEST_WITH(the_copy_leads_to_the_same_files, set_up, tear_down)
     strcpy(text, copy_of());
     ceduo_recovery_delete(&d.recovery);
     reopen(there);
-    must(ceduo_document_recover(&d, text, &problems));
+    must(ceduo_document_recover(&d, text));
     expect_files();
     assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 50);
 }
@@ -632,13 +629,11 @@ TEST(a_simplified_profile_is_taken_over)
                  {"release.x_m", "0", true},
                  {"rock.diameter_m", "2", true}};
     struct document own;
-    struct problems found = {0};
-    assert_true(ceduo_document_new(&own, text, &found));
+    assert_true(ceduo_document_new(&own, text));
     assert_true(ceduo_notes_print(own.file.notes, "assumed", "slope.tolerance_m"));
     for (size_t i = 0; i < LENGTH(edits); i++) {
-        assert_true(ceduo_document_set(&own, edits[i].path, edits[i].value, &found));
+        assert_true(ceduo_document_set(&own, edits[i].path, edits[i].value));
         assert_int_equal(ceduo_notes_print(own.file.notes, "assumed", "slope.tolerance_m"), edits[i].assumed);
     }
-    ceduo_problems_free(&found);
     ceduo_document_close(&own);
 }

@@ -149,7 +149,7 @@ static bool take(const char *path, struct text *text, size_t most)
     *text = (struct text){0};
     if (source)
         ceduo_text_add(text, source->bytes, source->length);
-    snprintf(told, sizeof told, "%s", ceduo_text_string(&problems.text));
+    snprintf(told, sizeof told, "%s", ceduo_problems_print(&problems));
     assert_ptr_equal(arena.sources, source);
     return source != NULL;
 }

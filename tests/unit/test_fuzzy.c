@@ -29,7 +29,7 @@ TEST(the_best_stands_first)
     ceduo_picker_filter(&p, "large");
     assert_int_equal(p.matches, 3);
     assert_string_equal(ceduo_picker_at(&p)->value, "2"); /* of two as good the first */
-    ceduo_picker_move(&p, 100);
+    viewport_move(&p.lines, 100);
     assert_string_equal(ceduo_picker_at(&p)->value, "1");
     ceduo_picker_filter(&p, "zzz");
     assert_null(ceduo_picker_at(&p));

@@ -53,7 +53,7 @@ TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
     assert_true(show());
     assert_false(show()); /* the same runs */
     assert_true(take().busy);
-    ceduo_jobs_wait(jobs);
+    ceduo_jobs_wait(jobs, true);
     assert_false(take().busy);
     assert_non_null(results.snapshot);
     assert_int_equal(results.snapshot->key, ceduo_jobs_key(&file.scene));
@@ -77,7 +77,7 @@ TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
 TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
 {
     assert_true(show());
-    ceduo_jobs_wait(jobs);
+    ceduo_jobs_wait(jobs, true);
     file.scene.rock.diameter.mean *= 1.1;
     assert_true(show());
     take();
@@ -109,8 +109,8 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
     struct ceduo_search search = search_of(500);
     double diameter = file.scene.rock.diameter.mean;
     show();
-    ceduo_jobs_search(jobs, &file, &search);
-    assert_true(ceduo_jobs_wait_search(jobs));
+    ceduo_jobs_ask(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
+    assert_true(ceduo_jobs_wait(jobs, false));
     take();
     assert_non_null(results.search);
     assert_int_equal(results.search->status, CEDUO_OK);
@@ -120,8 +120,8 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
     assert_true(alone.found.found);
     EXPECT(alone.found.value, ==, results.search->found.value);
     assert_int_equal(alone.found.evaluations, results.search->found.evaluations);
-    assert_false(ceduo_jobs_wait_search(jobs));
-    ceduo_jobs_wait(jobs);
+    assert_false(ceduo_jobs_wait(jobs, false));
+    ceduo_jobs_wait(jobs, true);
     take();
     assert_non_null(results.snapshot);
     assert_null(results.search);
@@ -130,8 +130,8 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
 /* A preview is waited for as a search is. */
 TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
 {
-    ceduo_jobs_preview(jobs, &file, "rock.diameter_m", "0.6", 0);
-    assert_true(ceduo_jobs_wait_search(jobs));
+    ceduo_jobs_ask(jobs, &(struct job_request){JOB_PREVIEW, &file, 0, 1, "rock.diameter_m", "0.6", NULL, NULL});
+    assert_true(ceduo_jobs_wait(jobs, false));
     take();
     assert_non_null(results.preview);
 }
@@ -140,7 +140,7 @@ TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
 TEST_WITH(the_other_law_comes_along, set_up, tear_down)
 {
     show();
-    ceduo_jobs_wait(jobs);
+    ceduo_jobs_wait(jobs, true);
     take();
     assert_non_null(results.others);
     assert_int_equal(results.others->options, 1);
@@ -151,23 +151,23 @@ TEST_WITH(the_other_law_comes_along, set_up, tear_down)
     for (size_t i = 0; i < 2; i++)
         file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* the scene's own law does not know it */
     assert_true(show());
-    ceduo_jobs_wait(jobs);
+    ceduo_jobs_wait(jobs, true);
     take();
     assert_non_null(results.others);
     EXPECT(results.others->items[0].arrivals.reach.mean, <, before);
     assert_null(results.snapshot);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     show();
-    ceduo_jobs_wait(jobs);
+    ceduo_jobs_wait(jobs, true);
     take();
     assert_null(results.others);
 }
 
 static const struct uncertainty *uncertainty(size_t shown, size_t levels)
 {
-    assert_true(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, shown, levels));
-    assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, shown, levels));
-    ceduo_jobs_wait(jobs);
+    assert_true(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
+    assert_false(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
+    ceduo_jobs_wait(jobs, true);
     take();
     assert_non_null(results.uncertainty);
     assert_true(results.uncertainty->file.root == file.root);
@@ -183,7 +183,7 @@ TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
                      12 + 12); /* of today, and of growth: two curves of four constants, two numbers of shoots, two densities */
     assert_int_equal(u->answer.points, CEDUO_UNCERTAINTY_POINTS);
     EXPECT(u->answer.figures[CEDUO_UNCERTAINTY_EXCEED].fit.p5, <, u->answer.figures[CEDUO_UNCERTAINTY_EXCEED].fit.p95);
-    assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, 0, UNCERTAINTY_LEVELS));
+    assert_false(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, 0, .levels = UNCERTAINTY_LEVELS}));
     assert_true(u->answer.rotation);
     ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
     file.scene.controls_count = 0;
@@ -232,13 +232,13 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
 TEST_WITH(a_search_is_stopped, set_up, tear_down)
 {
     struct ceduo_search search = search_of(CEDUO_ROCKS_MAX);
-    ceduo_jobs_search(jobs, &file, &search);
+    ceduo_jobs_ask(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
     struct timespec moment = {.tv_nsec = 200000000};
     nanosleep(&moment, NULL);
     assert_true(take().busy);
     double start = ceduo_clock();
     ceduo_jobs_stop(jobs, JOB_SEARCH);
-    ceduo_jobs_wait(jobs);
+    ceduo_jobs_wait(jobs, true);
     EXPECT(ceduo_clock() - start, <, 1); /* 0.1 s where nobody else wants the machine */
     take();
     assert_null(results.search);

@@ -38,9 +38,9 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
     put("scene.yaml", text.bytes);
     in_folder(path, "scene.yaml");
     bool good = ceduo_scene_load(file, path, sets, n, &problems);
-    if (good != !told || problems.count != !good || (told && !strstr(problems.text.bytes, told)))
+    if (good != !told || problems.wrong.count != !good || (told && !strstr(ceduo_problems_print(&problems), told)))
         fail_msg("%s\n%s\nis not told '%s' alone but:\n%s", text.bytes, n ? sets[0] : "", told ? told : "nothing",
-                 ceduo_text_string(&problems.text));
+                 ceduo_problems_print(&problems));
 }
 
 #define SHOOTS     "stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]"
@@ -350,13 +350,14 @@ TEST(shapes_of_changes)
         assert_true(ceduo_scene_load_text(&file, "scene", text.bytes, &problems));
         assert_true(ceduo_scene_set(&file, "--set", rows[i].set, &problems));
         assert_false(ceduo_scene_bind(&file, &problems));
+        ceduo_problems_print(&problems);
         char *proposed = strstr(problems.text.bytes, "give the whole rock: -s '");
         assert_non_null(proposed);
         proposed += strlen("give the whole rock: -s '");
         *strchr(proposed, '\'') = '\0';
         struct problems none = {0};
         if (!ceduo_scene_set(&file, "--set", proposed, &none) || !ceduo_scene_bind(&file, &none))
-            fail_msg("%s: %s: %s", rows[i].rock, proposed, none.text.bytes);
+            fail_msg("%s: %s: %s", rows[i].rock, proposed, ceduo_problems_print(&none));
     }
 }
 
@@ -375,10 +376,10 @@ TEST(problems_are_put_together)
     ceduo_problem(&problems, &source, 0, 0, "whole");
     ceduo_problem(&problems, NULL, 3, 3, "nowhere");
     assert_string_equal(
-        problems.text.bytes,
+        ceduo_problems_print(&problems),
         "file:1:2: a\n  one\n   ^\nfile:2:3: b\n   two\n    ^\nfile:3:1: empty\n"
         "file:9:1: beyond\nfile:4:90: behind\n  four\n      ^\nfile:4:300: far behind\n  \n  ^\nfile: whole\nnowhere\n");
-    assert_int_equal(problems.count, 8);
+    assert_int_equal(problems.wrong.count, 8);
     assert_int_equal(problems.met, 9);
     ceduo_problems_free(&problems);
     for (int shift = 0; shift < 3; shift++) {
@@ -388,8 +389,8 @@ TEST(problems_are_put_together)
         for (int i = 0; i < 600; i++)
             ceduo_text_append(&word, "\xe2\x80\xa6");
         ceduo_problem(&problems, NULL, 0, 0, "%s end", word.bytes);
-        assert_null(strstr(problems.text.bytes, "\\x"));
-        assert_non_null(strstr(problems.text.bytes, "\xe2\x80\xa6 end\n"));
+        assert_null(strstr(ceduo_problems_print(&problems), "\\x"));
+        assert_non_null(strstr(ceduo_problems_print(&problems), "\xe2\x80\xa6 end\n"));
         EXPECT(problems.text.length, >, 900);
         EXPECT(problems.text.length, <, 1100);
         ceduo_problems_free(&problems);
@@ -397,19 +398,17 @@ TEST(problems_are_put_together)
     char ends[1301] = {0}; /* of nothing but ends of characters neither beginning nor end is left */
     memset(ends, '\x80', sizeof ends - 1);
     ceduo_problem(&problems, NULL, 0, 0, "%s", ends);
-    assert_string_equal(problems.text.bytes, "\xe2\x80\xa6\n");
+    assert_string_equal(ceduo_problems_print(&problems), "\xe2\x80\xa6\n");
     ceduo_problems_free(&problems);
     for (int i = 0; i < 5000; i++)
         ceduo_problem(&problems, NULL, 0, 0, "kind %c%c%c", 'a' + i / 676, 'a' + i / 26 % 26, 'a' + i % 26);
-    ceduo_problems_finish(&problems);
-    assert_non_null(strstr(problems.text.bytes, "kind aat\n"));
-    assert_null(strstr(problems.text.bytes, "kind aau\n"));
-    assert_non_null(strstr(problems.text.bytes, "4980 more problems\n"));
+    assert_non_null(strstr(ceduo_problems_print(&problems), "kind aat\n"));
+    assert_null(strstr(ceduo_problems_print(&problems), "kind aau\n"));
+    assert_non_null(strstr(ceduo_problems_print(&problems), "4980 more problems\n"));
     ceduo_problems_free(&problems);
     for (int i = 0; i < 8; i++) /* of one kind, and on no line */
         ceduo_problem(&problems, NULL, 0, 0, "kind %d", i);
-    ceduo_problems_finish(&problems);
-    assert_string_equal(problems.text.bytes, "kind 0\n  and 7 more of this kind\n");
+    assert_string_equal(ceduo_problems_print(&problems), "kind 0\n  and 7 more of this kind\n");
     ceduo_problems_free(&problems);
 }
 
@@ -429,7 +428,7 @@ TEST(notes_are_found)
         "{from_m: 84, to_m: 90, stand: {energy: {source: {kind: assumed, text: own}}, source: {kind: measured, except: "
         "[energy]}}}]");
     if (!ceduo_scene_load_text(&file, "scene", text.bytes, &problems))
-        fail_msg("%s", problems.text.bytes);
+        fail_msg("%s", ceduo_problems_print(&problems));
     for (TABLE(row, "unit/sources.txt", "notes")) {
         const struct source_note *note = ceduo_notes_find(file.notes, row.at[0]);
         assert_string_equal(note ? note->text : "none", row.at[1]);

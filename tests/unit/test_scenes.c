@@ -26,7 +26,7 @@ static bool read_scene(struct scene_file *file, char told[4096])
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     in_folder(path, "scene.yaml");
     bool good = ceduo_scene_load(file, path, NULL, 0, &problems);
-    snprintf(told, 4096, "%s", ceduo_text_string(&problems.text));
+    snprintf(told, 4096, "%s", ceduo_problems_print(&problems));
     return good;
 }
 
@@ -237,7 +237,7 @@ TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
             expect_source(&file, maps[k][0], here ? row.at[2] : text ? plain : "", row.at[0]);
         }
         if (!ceduo_scene_bind(&file, &problems))
-            fail_msg("%s", problems.text.bytes);
+            fail_msg("%s", ceduo_problems_print(&problems));
     }
 }
 

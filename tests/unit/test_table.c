@@ -234,7 +234,7 @@ static void read_scene(struct scene_file *file, const char *path)
 {
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     if (!ceduo_scene_load(file, path, NULL, 0, &problems))
-        fail_msg("%s", problems.text.bytes);
+        fail_msg("%s", ceduo_problems_print(&problems));
 }
 
 /* Whether the scene is good with a value, and its keys then. */

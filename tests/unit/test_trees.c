@@ -17,7 +17,7 @@ static const struct node *parse(struct arena *arena, const struct text *text)
         (struct source){.name = "test", .bytes = ceduo_arena_copy(arena, text->bytes, text->length), .length = text->length};
     const struct node *root = ceduo_yaml_read(arena, source, &problems);
     if (!root)
-        fail_msg("%s\n%s", text->bytes, problems.text.bytes);
+        fail_msg("%s\n%s", text->bytes, ceduo_problems_print(&problems));
     return root;
 }
 

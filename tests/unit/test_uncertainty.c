@@ -49,8 +49,8 @@ static void open_wood(void)
     struct problems problems = {0};
     bool good = ceduo_scene_load_text(&file, "wood", wood, &problems);
     ceduo_scene_bind(&file, &problems);
-    if (!good || problems.count > 0)
-        fail_msg("%s", ceduo_text_string(&problems.text));
+    if (!good || problems.met > 0)
+        fail_msg("%s", ceduo_problems_print(&problems));
 }
 
 /* Uniform between lo and hi, at one place. */

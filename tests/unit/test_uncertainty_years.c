@@ -95,8 +95,8 @@ static void open_scene(void)
 {
     struct problems problems = {0};
     bool good = ceduo_scene_load_text(&file, "profiles/wood.yaml", scene, &problems) && ceduo_scene_bind(&file, &problems);
-    if (!good || problems.count > 0)
-        fail_msg("%s", ceduo_text_string(&problems.text));
+    if (!good || problems.met > 0)
+        fail_msg("%s", ceduo_problems_print(&problems));
     assert_true(ceduo_inputs_collect(&file, &inputs));
 }
 

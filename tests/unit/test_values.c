@@ -26,7 +26,7 @@ static char *told_of(const char *scene, const char *path, const char *value)
     ceduo_text_format(&set, "%s=%s", path, value);
     if (ceduo_scene_set(&file, "--set", set.bytes, &problems)) {
         ceduo_scene_bind(&file, &problems);
-        told = strdup(ceduo_text_string(&problems.text));
+        told = strdup(ceduo_problems_print(&problems));
     }
     return told;
 }
