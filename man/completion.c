@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes what completes ceduo's command line in a shell: completion bash|zsh. Options and their words come from the
- * program's own tables; parameters and profiles are asked of the program when they are wanted. */
+/* Write the completion of ceduo's command line for a shell: completion bash|zsh. Options and their words come from the tables
+ * of the program; the shell asks the program for parameters and profiles. */
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/arguments.h"
 
-/* The words that the value of an option is one of, or NULL. */
+/* Return the words allowed as value of an option, or NULL. */
 static const char *words_of(const struct option_row *row)
 {
     static char words[256];
@@ -53,12 +53,12 @@ static void put_pattern(const struct option_row *row)
     printf("--%s)", row->name);
 }
 
-/* Names of the options of a scene, a line each, from one rock of a run. */
+/* Print the names of the options of a scene, one per line, from a run of one rock. */
 #define OPTIONS(scene)                                                                                                         \
     "-b -q -n 1 -f csv --columns option -- " scene " 2>/dev/null |\n"                                                          \
     "            awk 'NR > 1 && !seen[$0]++ {if (sub(/^\"/, \"\") && sub(/\"$/, \"\")) gsub(/\"\"/, \"\\\"\"); print}'"
 
-/* Names hold blanks and quotes: they come one on a line, are never expanded, and readline quotes what is inserted. */
+/* Names may have blanks and quotes: one per line, never expanded; readline quotes the inserted name. */
 static const char *const bash_head =
     "# bash completion for ceduo\n"
     "\n"
@@ -143,7 +143,7 @@ static const char *const bash_head =
                       "    COMPREPLY=()\n"
                       "    case $prev in";
 
-/* Names of the scenes among the profiles, a line each, from the program's list. */
+/* Print the names of the scenes among the profiles, one per line, from the list of the program. */
 #define SCENES                                                                                                                 \
     "--list-profiles 2>/dev/null |\n"                                                                                          \
     "            awk 'match($0, / +scene  /) {print substr($0, 1, RSTART - 1)}'"
@@ -155,7 +155,7 @@ static void put_bash(const struct option_row *rows, size_t n)
 {
     puts(bash_head);
     for (size_t i = 0; i < n; i++) {
-        if (!rows[i].value || rows[i].value[0] == '[') /* without a value what follows is the next word */
+        if (!rows[i].value || rows[i].value[0] == '[') /* no value, or an optional one */
             continue;
         fputs("    ", stdout);
         put_pattern(&rows[i]);
@@ -191,7 +191,7 @@ static void put_bash(const struct option_row *rows, size_t n)
 
 /* ---- zsh ---- */
 
-/* A text between single quotes, in which zsh's _arguments takes [ ] and : for its own. */
+/* Print text in single quotes, with the characters [ ] : of _arguments escaped. */
 static void put_quoted(const char *text)
 {
     for (; *text; text++) {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes a table into a manual page, between its two marks: tables keys PAGE that of the keys of the terminal program (in a
- * third word's language), goals and search those of a search, ranges those of uncertainty, figures those of JSON, synopsis the forms of
- * the command line. */
+/* Write a table into a manual page, between its two marks: tables TABLE PAGE [LANGUAGE]. The tables are keys (of the terminal
+ * program, in LANGUAGE), goals and search (of --find), ranges (of uncertainty), figures (of JSON) and synopsis. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +15,7 @@
 #include "tui/keys.h"
 #include "view/figures.h"
 
-/* Text of a page: what troff would read as a request or an escape is hidden. */
+/* Print text with the characters of troff escaped. */
 static void put(FILE *out, const char *text)
 {
     for (; *text; text++) {
@@ -32,7 +31,7 @@ static void put(FILE *out, const char *text)
     }
 }
 
-/* A key as it is called: a single sign that mdoc would take for its own is hidden. */
+/* Print the name of a key, with a single delimiter of mdoc escaped. */
 static void put_key(FILE *out, const char *word)
 {
     fputs(" Ic ", out);
@@ -118,7 +117,7 @@ static bool is_listed(const struct ceduo_figure *figures)
     return list->title != NULL;
 }
 
-/* `within`: the path of the object that they are of, with its dot. */
+/* `within`: path of the object of the figures, with its dot. */
 static void put_figures(FILE *out, const char *within, const struct ceduo_figure *f)
 {
     for (; !ceduo_figure_is_end(f); f++) {
@@ -160,7 +159,7 @@ static void put_search(FILE *out)
 
 /* ---- the synopsis ---- */
 
-/* A form of the command line: an option for its mode, or several with | between them, and those that must go with it. */
+/* A form of the command line: the option of its mode, or several with | between them, and the option that it needs. */
 struct form {
     enum mode mode;
     const char *required, *more, *operand;
@@ -188,7 +187,7 @@ static const struct option_row *find_option(const char *name, size_t n)
     return row;
 }
 
-/* A value as the help shows it, in the words of mdoc: capitals are arguments, small letters are literal. */
+/* Print a value of the help in mdoc: capitals are arguments, small letters are literal. */
 static void put_value(FILE *out, const char *value)
 {
     bool literal = strchr(value, '|') || !value[0];
@@ -218,7 +217,7 @@ static void put_value(FILE *out, const char *value)
     }
 }
 
-/* `macro`: what comes before the option. */
+/* `macro`: text before the option. */
 static void put_option(FILE *out, const char *macro, const struct option_row *row, bool value)
 {
     if (row->letter)
@@ -229,7 +228,7 @@ static void put_option(FILE *out, const char *macro, const struct option_row *ro
         put_value(out, row->value);
 }
 
-/* True if a form may have an option. What prints a list or a stand takes the options of --survey. */
+/* True if a form may have an option. Forms that print a list or a stand have the options of --survey. */
 static bool takes(const struct form *form, const struct option_row *row)
 {
     bool list = form->mode >= MODE_PARAMETERS, years = strcmp(row->name, "years") == 0, rows = strcmp(row->name, "rows") == 0;
@@ -257,7 +256,7 @@ static bool takes(const struct form *form, const struct option_row *row)
     return needs[row->needs] && !(form->more && strcmp(form->more, row->name) == 0);
 }
 
-/* Letters come first, those without a value before the others; then names. */
+/* Options with a letter come first, without a value before with a value; then names. */
 static int compare_options(const void *a, const void *b)
 {
     const struct option_row *x = *(const struct option_row *const *)a, *y = *(const struct option_row *const *)b;
