@@ -161,10 +161,10 @@ def test_rotation():
     and the order is that over the years, as on the short page"""
     with Folder() as f:
         scene = doubtful(f, GROWS, STAYS)
-        words = " ".join(report(scene, few=("--sensitivity=64",))[1].text["body"].split())
-        figures = good("--sensitivity=64", "--years", "-n", 400, "-f", "json", scene).json()[0]
+        words = " ".join(report(scene, few=("--sensitivity=256",))[1].text["body"].split())
+        figures = good("--sensitivity=256", "--years", "-n", 400, "-f", "json", scene).json()[0]
         short = " ".join(good("-b", scene).out.split())
-        still = " ".join(report(doubtful(f, STAYS, STAYS.replace("300", "200")), few=("--sensitivity=64",))[1].text["body"].split())
+        still = " ".join(report(doubtful(f, STAYS, STAYS.replace("300", "200")), few=("--sensitivity=256",))[1].text["body"].split())
     rows = [row for row in figures["figures"] if row["figure"] == "rotation.exceed_probability"]
     first, second = sorted((row for row in rows if row["against"] is None), key=lambda row: row["value"])
     for row in (first, second):
