@@ -169,7 +169,7 @@ all-sanitizers:
 all-scenes:
 	@+$(MAKE) --no-print-directory SCENES=10000 TEST_SECONDS=20000 VARIANT=asan check-scenes
 all-clang: # its sanitizer tells of offsets to null pointers, gcc's does not
-	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz replay
+	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz FULL=1 replay
 all-threads:
 	@+$(MAKE) --no-print-directory VARIANT=tsan check-threads
 all-lint: lint
