@@ -26,15 +26,15 @@ taps = $(patsubst tests/%,$(T)/%.tap,$(patsubst %.c,%,$(1)))
 # Slow ones first, so that none runs alone at the end.
 CHECKED = $(filter-out $(if $(FULL),,$(call tagged,full)),$(call tagged,slow) $(SCRIPTS) $(C_TESTS))
 
-# Arbitrary bytes for the readers and keys. `make check` uses the seeds and this many changes of them, always the same; `make fuzz`
-# lets libFuzzer change them.
+# Arbitrary bytes for the readers and keys. `make check` uses the seeds and this many changes of them, always the same, check-all ten
+# times as many; `make fuzz` lets libFuzzer change them.
 FUZZERS := $(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 REPLAYS := $(FUZZERS:fuzz_%=$(T)/fuzz/replay_%)
-CHANGES_scene := 8000
-CHANGES_csv := 20000
-CHANGES_set := 3000
-CHANGES_table := 1000
-CHANGES_keys := 2000
+CHANGES_scene := 2000
+CHANGES_csv := 2000
+CHANGES_set := 1000
+CHANGES_table := 500
+CHANGES_keys := 1000
 SEEDS_scene := profiles/scenes/*.yaml
 
 # ---- goals that run tests ----
@@ -94,7 +94,7 @@ $(REPLAYS): $(T)/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz
 	$(link) $(LIBS)
 
 $(REPLAYS:=.tap): $(T)/fuzz/replay_%.tap: $(T)/fuzz/replay_% FORCE
-	@tests/run $@ $< $* $(CHANGES_$*) $(wildcard tests/fuzz/seeds/$*/*) $(SEEDS_$*)
+	@tests/run $@ $< $* $(CHANGES_$*)$(if $(FULL),0) $(wildcard tests/fuzz/seeds/$*/*) $(SEEDS_$*)
 
 $(FUZZERS:%=$(T)/fuzz/%): $(T)/fuzz/%: $(BUILD)/tests/fuzz/%.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
@@ -169,7 +169,7 @@ all-sanitizers:
 all-scenes:
 	@+$(MAKE) --no-print-directory SCENES=10000 TEST_SECONDS=20000 VARIANT=asan check-scenes
 all-clang: # its sanitizer tells of offsets to null pointers, gcc's does not
-	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz replay
+	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz FULL=1 replay
 all-threads:
 	@+$(MAKE) --no-print-directory VARIANT=tsan check-threads
 all-lint: lint

@@ -32,7 +32,7 @@ def test_unfinished():
         done = ceduo("--batch", "-n", 3, path)
         expect(done.status == RUN and "unfinished" in done.out, done)
         expect_in("what is not known was not computed", " ".join(done.out.split()), "what would take minutes")
-        done = ceduo("--batch", "--details", "-n", 3, path)
+        done = ceduo(*WHOLE, "-n", 3, path)
         words = " ".join(done.out.split())
         expect_in("3 of 3 never come to an end", words)
         expect_in("Energy: unknown.", words)

@@ -97,7 +97,7 @@ def test_values():
             wanted[f"{key} {i}"] = 5
     with Folder() as f:
         path = f.write("s.yaml", quarry(rows, slope=ground, release={"x_m": 1000}, controls=[{"x_m": 1090}]))
-        r = ceduo("--calibrate", "slope.segments[0].rt=0.85:0.95", "-n", 40, "-f", "json", path)
+        r = ceduo("--calibrate", "slope.segments[0].rt=0.85:0.95", "-n", 10, "-f", "json", path)
         expect_equal(r.status, DONE, r)
         found = {o["what"]: o for o in r.json()[0]["observations"]}
         expect_equal(sorted(found), sorted(wanted))

@@ -15,6 +15,8 @@ from harness import (CEDUO, DONE, INPUT, OUTPUT, PATIENCE, RUN, USAGE, Folder, S
 from pages import WHOLE
 from runs import ENDLESS, FOUR, PAPER
 
+PAGE = ("--batch", "-s", "uncertainty=none")  # what is not known takes most of the time of a page
+
 
 def test_energies_of_the_paper():
     """The page has what stems take as the paper: 67.5 m of each plot at its ADC and energy of a contact, and what Eq. 5 leaves"""
@@ -35,9 +37,9 @@ def test_several_scenes():
         expect_equal(done.status, INPUT)
         expect_equal([r["scene"] for r in done.json()], [str(PAPER), str(FOUR)])
         expect(f"{bad}:2:20: " in done.err and "missing.yaml" in done.err, done)
-        done = ceduo("--batch", "-n", 10, bad, PAPER)
+        done = ceduo(*PAGE, "-n", 10, bad, PAPER)
         expect_equal(done.status, INPUT)
-        expect(done.out == good("--batch", "-n", 10, PAPER).out, "a bad scene before it changes the table:", repr(done.out[:80]))
+        expect(done.out == good(*PAGE, "-n", 10, PAPER).out, "a bad scene before it changes the table:", repr(done.out[:80]))
         done = ceduo("--batch", "-f", "csv", "-n", 10, PAPER, bad)
         expect_equal((done.status, done.out), (INPUT, good("--batch", "-f", "csv", "-n", 10, PAPER).out), "CSV")
         target = f.path / "out.csv"
@@ -54,10 +56,10 @@ def test_highest_status():
     with Folder() as f:
         endless = f.write("endless.yaml", ENDLESS)
         bad = f.write("bad.yaml", "x")
-        expect_equal(ceduo("--batch", "-n", 1, endless, PAPER).status, RUN)
-        expect_equal(ceduo("--batch", "-n", 1, endless, bad, PAPER).status, INPUT)
-        expect_equal(ceduo("--batch", "-n", 1, bad, PAPER, "--option", "nope").status, INPUT)
-        expect_equal(ceduo("--batch", "-n", 1, bad, PAPER, "-o", "/dev/full").status, OUTPUT)
+        expect_equal(ceduo(*PAGE, "-n", 1, endless, PAPER).status, RUN)
+        expect_equal(ceduo(*PAGE, "-n", 1, endless, bad, PAPER).status, INPUT)
+        expect_equal(ceduo(*PAGE, "-n", 1, bad, PAPER, "--option", "nope").status, INPUT)
+        expect_equal(ceduo(*PAGE, "-n", 1, bad, PAPER, "-o", "/dev/full").status, OUTPUT)
 
 
 def test_stdin():
@@ -77,7 +79,7 @@ def test_stdin():
 
 def test_stdin_closed():
     """A closed standard input: no matter for files, an error for '-'"""
-    shell = ["sh", "-c", '"$0" "$@" <&-', CEDUO, "--batch", "-n", "10"]
+    shell = ["sh", "-c", '"$0" "$@" <&-', CEDUO, *PAGE, "-n", "10"]
     done = subprocess.run([*shell, str(PAPER)], env=environment(), capture_output=True, timeout=PATIENCE, check=False)
     expect(done.returncode == DONE and done.stdout and not done.stderr, done)
     done = subprocess.run([*shell, "-"], env=environment(), capture_output=True, timeout=PATIENCE, check=False)
@@ -89,9 +91,9 @@ def test_output_file():
     with Folder() as f:
         for form in ("table", "csv"):
             target = f.path / f"out.{form}"
-            done = good("--batch", "-f", form, "-o", target, PAPER, FOUR, "-n", 50)
+            done = good(*PAGE, "-f", form, "-o", target, PAPER, FOUR, "-n", 50)
             expect_equal(done.out, "")
-            expect_equal(target.read_text(), good("--batch", "-f", form, PAPER, FOUR, "-n", 50).out, form)
+            expect_equal(target.read_text(), good(*PAGE, "-f", form, PAPER, FOUR, "-n", 50).out, form)
             expect_equal(target.stat().st_mode & 0o777, 0o666 & ~umask(), "mode")
         expect_equal(f.names(), ["out.csv", "out.table"])
         good("--batch", "-o", "relative.txt", PAPER, "-n", 5, cwd=f.path)
@@ -109,7 +111,7 @@ def test_output_dash():
         f.write("seen.yaml", scene(slope=talus, observed=[{"passed": {"x_m": 60, "count": 4, "of": 4}}]))
         f.write("rows.csv", "id,rock.diameter_m\na,1\n")
         names = f.names()
-        for words in (["--batch", "-n", 50, PAPER], ["-b", "-f", "csv", "-n", 50, PAPER, FOUR], ["-b", "-f", "csv", "-n", 50, "-q", "--each", "rows.csv", PAPER],
+        for words in ([*PAGE, "-n", 50, PAPER], ["-b", "-f", "csv", "-n", 50, PAPER, FOUR], ["-b", "-f", "csv", "-n", 50, "-q", "--each", "rows.csv", PAPER],
                       ["--plot", "energy", "-n", 50, PAPER], ["--find", "forest[0].stand.stools.per_ha=500:3000", "--goal", "adc=9", "small.yaml"],
                       ["--sensitivity=2", "-f", "csv", "-n", 20, "small.yaml"],
                       ["-n", 60, "-f", "csv", "--calibrate", "slope.segments[0].rt=0.7:0.98", "seen.yaml"], ["--survey", "six-plots"],
@@ -119,11 +121,11 @@ def test_output_dash():
             expect_equal((dash.status, dash.out, dash.err), (plain.status, plain.out, plain.err), words)
             expect(plain.status == DONE and plain.out, plain)
             expect_equal(f.names(), names, words)
-        good("--batch", "-n", 5, "-o", "-", "-o", "last.txt", PAPER, cwd=f.path)
-        good("--batch", "-n", 5, "-o", "./-", PAPER, cwd=f.path)
+        good(*PAGE, "-n", 5, "-o", "-", "-o", "last.txt", PAPER, cwd=f.path)
+        good(*PAGE, "-n", 5, "-o", "./-", PAPER, cwd=f.path)
         expect_equal(sorted({*f.names()} - {*names}), ["-", "last.txt"])
         expect_equal(ceduo("--report", "x.html", "-o", "-", PAPER, cwd=f.path).status, USAGE)
-        expect("<html" in good("--report", "-", "-n", 50, PAPER, cwd=f.path).out, "a report")
+        expect("<html" in good("--report", "-", "-s", "uncertainty=none", "-n", 50, PAPER, cwd=f.path).out, "a report")
         expect_equal(ceduo("-b", "-f", "csv", "--each", "rows.csv", "--resume", "-o", "-", PAPER, cwd=f.path).status, USAGE)
 
 
@@ -171,11 +173,11 @@ def test_output_existing():
         target.chmod(0o640)
         link = f.path / "link.txt"
         link.symlink_to("out.txt")
-        wanted = good("--batch", "-n", 5, PAPER).out
-        good("--batch", "-n", 5, "-o", target, PAPER)
+        wanted = good(*PAGE, "-n", 5, PAPER).out
+        good(*PAGE, "-n", 5, "-o", target, PAPER)
         expect_equal((target.read_text() == wanted, target.stat().st_mode & 0o7777), (True, 0o640), "mode")
         target.write_text("old")
-        good("--batch", "-n", 5, "-o", link, PAPER)
+        good(*PAGE, "-n", 5, "-o", link, PAPER)
         expect(link.is_symlink() and target.read_text() == wanted, "the link was replaced")
         expect_equal(target.stat().st_mode & 0o7777, 0o640, "mode through a link")
         target.write_text("old")
@@ -191,25 +193,25 @@ def test_output_dangling():
     with Folder() as f:
         link = f.path / "link.txt"
         link.symlink_to("target.txt")
-        done = ceduo("--batch", "-n", 5, "-o", link, PAPER)
+        done = ceduo(*PAGE, "-n", 5, "-o", link, PAPER)
         expect(link.is_symlink(), "the link was replaced", done)
         expect_equal((done.status, done.err), (DONE, ""), done)
-        expect_equal((f.path / "target.txt").read_text(), good("--batch", "-n", 5, PAPER).out)
+        expect_equal((f.path / "target.txt").read_text(), good(*PAGE, "-n", 5, PAPER).out)
 
 
 def test_output_devices():
     """-o to a device goes straight: /dev/null is good, /dev/full is status 4, a FIFO's reader gets it"""
-    expect_equal(good("--batch", "-n", 5, "-o", "/dev/null", PAPER).out, "")
+    expect_equal(good(*PAGE, "-n", 5, "-o", "/dev/null", PAPER).out, "")
     expect(not Path("/dev/null").is_file(), "/dev/null was replaced")
-    done = ceduo("--batch", "-n", 5, "-o", "/dev/full", PAPER)
+    done = ceduo(*PAGE, "-n", 5, "-o", "/dev/full", PAPER)
     expect(done.status == OUTPUT and "/dev/full: " in done.err and done.out == "", done)
     with Folder() as f:
         fifo = f.path / "fifo"
         os.mkfifo(fifo)
         with subprocess.Popen(["cat", str(fifo)], stdout=subprocess.PIPE) as cat:
             try:
-                good("--batch", "-n", 5, "-o", fifo, PAPER)
-                expect_equal(cat.communicate(timeout=PATIENCE)[0].decode(), good("--batch", "-n", 5, PAPER).out, "FIFO")
+                good(*PAGE, "-n", 5, "-o", fifo, PAPER)
+                expect_equal(cat.communicate(timeout=PATIENCE)[0].decode(), good(*PAGE, "-n", 5, PAPER).out, "FIFO")
             finally:
                 cat.kill()
 
@@ -218,7 +220,7 @@ def test_output_impossible():
     """-o to a folder, into a missing folder, or to nothing: status 4, named, nothing left behind"""
     with Folder() as f:
         for target in (f.path, f.path / "no" / "out.txt", "", PAPER / "out.txt", f.path / ("x" * 300)):
-            done = ceduo("--batch", "-n", 5, "-o", target, PAPER, cwd=f.path)
+            done = ceduo(*PAGE, "-n", 5, "-o", target, PAPER, cwd=f.path)
             expect(done.status == OUTPUT and done.err and done.out == "", done)
         expect_equal(f.names(), [])
 
@@ -235,10 +237,10 @@ def test_output_told_first():
 
 def test_output_large():
     """-o of many scenes: what stdout gets"""
-    wanted = good("--batch", "-f", "csv", "-n", 10, *[PAPER] * 1000).out
+    wanted = good("--batch", "-f", "csv", "-n", 1, *[PAPER] * 1000).out
     expect(len(wanted) > 2_000_000, "bytes of output", len(wanted))
     with Folder() as f:
-        good("--batch", "-f", "csv", "-n", 10, "-o", f.path / "out.csv", *[PAPER] * 1000)
+        good("--batch", "-f", "csv", "-n", 1, "-o", f.path / "out.csv", *[PAPER] * 1000)
         expect_equal((f.path / "out.csv").read_text(), wanted, "rows")
 
 
@@ -258,11 +260,11 @@ def test_output_forbidden():
         target = f.write("locked/out.txt", "old")
         target.chmod(0o666)
         folder.chmod(0o555)
-        done = ceduo("--batch", "-n", 5, "-o", folder / "new.txt", "-", stdin=INLINE, cwd="/", **who)
+        done = ceduo(*PAGE, "-n", 5, "-o", folder / "new.txt", "-", stdin=INLINE, cwd="/", **who)
         expect(done.status == OUTPUT and "new.txt: " in done.err, done)
         folder.chmod(0o777)
         target.chmod(0o444)
-        done = ceduo("--batch", "-n", 5, "-o", target, "-", stdin=INLINE, cwd="/", **who)
+        done = ceduo(*PAGE, "-n", 5, "-o", target, "-", stdin=INLINE, cwd="/", **who)
         expect(done.status == OUTPUT and target.read_text() == "old", done)
         expect_equal([p.name for p in folder.iterdir()], ["out.txt"])
 
@@ -273,7 +275,7 @@ slope: {vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.35, rt: 0.875}]}
 controls_m: [75]
 """
 
-MODES = (("--batch", "-n", "5", str(PAPER)), ("--batch", "-f", "csv", "-n", "5", str(PAPER)), ("--help",), ("--version",),
+MODES = ((*PAGE, "-n", "5", str(PAPER)), ("--batch", "-f", "csv", "-n", "5", str(PAPER)), ("--help",), ("--version",),
          ("--list-parameters",), ("--list-profiles",))
 
 
@@ -284,10 +286,10 @@ def test_stdout_closed():
                               timeout=PATIENCE, check=False)
         expect(done.returncode == OUTPUT and done.stderr, mode, done)
     with Folder() as f:  # what is opened later must not become standard output or error
-        done = subprocess.run(["sh", "-c", '"$0" "$@" >&- 2>&-', CEDUO, "--batch", "-n", "5", "-o",
+        done = subprocess.run(["sh", "-c", '"$0" "$@" >&- 2>&-', CEDUO, *PAGE, "-n", "5", "-o",
                                str(f.path / "out.txt"), str(PAPER)], env=environment(), timeout=PATIENCE, check=False)
         expect_equal(done.returncode, DONE, "only the file is written")
-        expect_equal((f.path / "out.txt").read_text(), good("--batch", "-n", 5, PAPER).out)
+        expect_equal((f.path / "out.txt").read_text(), good(*PAGE, "-n", 5, PAPER).out)
 
 
 def test_stdout_full():

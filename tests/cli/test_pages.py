@@ -12,11 +12,11 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import ROOT, Folder, expect, expect_equal, good, run_all  # noqa: E402
+from harness import FULL, ROOT, Folder, expect, expect_equal, good, run_all  # noqa: E402
 from test_workflows import Machine, plain  # noqa: E402
 
 PAGES = sorted(p for p in (ROOT / "man").glob("*.[157]") if p.name != "ceduo-workflows.7")
-SLOW = () if os.environ.get("FULL") else ("ceduo-validation.7",)  # a fit of some minutes
+SLOW = () if FULL else ("ceduo-model.7", "ceduo-validation.7")  # a million rocks; a fit of some minutes
 MARKED = re.compile(r'^\.\\" (run|shows|file|keys)( \S+)?\n((?:(?!\.Bd|\.\\")[^\n]*\n)*\.Bd -literal[^\n]*\n)(.*?)^\.Ed$', re.M | re.S)
 CEDUO = re.compile(r"^(?!ceduo$|ceduo four\\-systems$).*\bceduo (\\?-|\S+\.yaml)", re.M)
 

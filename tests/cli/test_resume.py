@@ -97,11 +97,11 @@ def test_nothing_twice():
         with Folder() as f:
             valley(f, rows)
             start = time.monotonic()
-            expect_equal(resume(f, rocks=200000).status, DONE)
+            expect_equal(resume(f, rocks=60000).status, DONE)
             long = time.monotonic() - start
             before = (f.path / "part.csv").read_bytes()
             start = time.monotonic()
-            expect_equal(resume(f, rocks=200000).status, DONE)
+            expect_equal(resume(f, rocks=60000).status, DONE)
             expect(time.monotonic() - start < long / 2, "it is computed again")
             expect_equal((f.path / "part.csv").read_bytes(), before)
 

@@ -10,7 +10,7 @@ import math
 import random
 import re
 
-from harness import DONE, INPUT, PROFILES, USAGE, Folder, ceduo, expect, good, expect_equal, expect_in, expect_near, run_all, scene, stand
+from harness import DONE, FULL, INPUT, PROFILES, USAGE, Folder, ceduo, expect, good, expect_equal, expect_in, expect_near, run_all, scene, stand
 
 LAW = {"path": "forest[*].stand.energy.model", "one_of": ["brauner", "dorren"]}
 DENSITY = {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2750}
@@ -291,7 +291,7 @@ def test_growth():
 def test_growth_leaves_today_alone():
     """Figures of today are the same to the bit whether growth is assumed or measured"""
     named = {"uncertainty": [DENSITY, LAW]}
-    found = [answer({**two_options(kind=kind), **named}, "--years", points=64) for kind in ("assumed", "measured")]
+    found = [answer({**two_options(kind=kind), **named}, "--years=7:8", points=64) for kind in ("assumed", "measured")]
     for name in ("exceed_probability", "reach_probability", "energy_per_released_kJ"):
         ranges = [[(f["uncertainty"]["p5"], f["uncertainty"]["p95"], f["q2"], f["inputs"]) for f in result["figures"] if f["figure"] == name] for result in found]
         expect_equal(len(ranges[0]), 3, name)
@@ -432,21 +432,23 @@ def coppice(shoots, stay):
                  energy=ENERGY, growth=GROWTH, cutting={"rotation_years": 8, "stay_per_ha": [stay]})
 
 
-def rotating(**changes):
-    """Two woods that are cut, with what is in doubt of both"""
+def rotating(uncertainty=None, **changes):
+    """Two woods that are cut, with what is in doubt of both; rocks of many densities and stems of many strengths unless told"""
     options = [{"name": n, "forest": [{"from_m": 0, "to_m": 80, "stand": coppice(True, stay)}]} for n, stay in (("few", 50), ("many", 200))]
     what = measured(options=options, controls=[{"x_m": 90, "accepted_kJ": 120}],
-                    uncertainty=[{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in ROTATING.items()], **changes)
+                    uncertainty=uncertainty or [{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in ROTATING.items()], **changes)
     del what["forest"]
     return what
 
 
+HEAVY = {"path": "rock.density_kg_m3", "lo": 2450, "hi": 2750}  # explained by few points
 ROTATING = {"rock.density_kg_m3": (2000, 3000), "options[*].forest[0].stand.energy.u_J_m3": (5e4, 2e5)}
 
 
 def test_over_a_rotation_as_scenes_at_random():
     """--years: the mean over a rotation, of options and of their difference, as of 40 scenes drawn at random, within three errors"""
-    result = answer(rotating(), "--years", "--sensitivity=128", "-n", 100)
+    years = "--years" if FULL else "--years=1:3"
+    result = answer(rotating(), years, "-n", 100)
     figures = {(f["option"], f["against"]): f for f in result["figures"] if f["figure"] == "rotation.exceed_probability"}
     expect_equal(len(figures), 3)
     names, draw, seen = ("few", "many"), random.Random(3), {k: [] for k in figures}
@@ -455,7 +457,7 @@ def test_over_a_rotation_as_scenes_at_random():
         for _ in range(40):
             u = {p: draw.uniform(lo, hi) for p, (lo, hi) in ROTATING.items()}
             sets = [x for p, v in u.items() for k in ((0, 1) if "*" in p else (0,)) for x in ("-s", f"{p.replace('*', str(k))}={v!r}")]
-            run = good("-b", "--years", "-f", "json", "-n", 150, *sets, path).json()[0]
+            run = good("-b", years, "-f", "json", "-n", 150, *sets, path).json()[0]
             means = [o["rotation"]["exceed_probability"]["mean"] for o in run["options"]]
             errors = [o["rotation"]["exceed_probability"]["se"] for o in run["options"]]
             for (option, against), all_seen in seen.items():
@@ -473,19 +475,19 @@ def test_over_a_rotation_as_scenes_at_random():
 
 def test_over_a_rotation():
     """--years: two figures more, their ranks, and years that are given; without an accepted energy what arrives, by the index none"""
-    result = answer(rotating(), "--years", "-n", 32)
+    result = answer(rotating([HEAVY]), "--years", "-n", 32)
     expect_equal(sorted({f["figure"] for f in result["figures"]})[-2:], ["rotation.exceed_probability", "rotation.unprotected_energy"])
     expect_equal(len(result["figures"]), 3 * 5)
     (rank,) = result["ranking"]
     expect_equal((rank["over"], round(rank["probability"] + rank["equal"] + rank["worse"], 9)), ("rotation", 1))
-    expect_equal(answer(rotating(), "-n", 32)["ranking"][0]["over"], "today")
-    cut = figure(answer(rotating(), "--years=1:2", "-n", 32), "rotation.exceed_probability")
+    expect_equal(answer(rotating([HEAVY]), "-n", 32)["ranking"][0]["over"], "today")
+    cut = figure(answer(rotating([HEAVY]), "--years=1:2", "-n", 32), "rotation.exceed_probability")
     full = figure(result, "rotation.exceed_probability")
     expect(cut["value"] > full["value"] and cut["uncertainty"]["p50"] > full["uncertainty"]["p50"], "two years just after the cut", cut, full)
-    years = figure(answer(rotating(), "--years=1:2", "-n", 32), "rotation.unprotected_energy")
+    years = figure(answer(rotating([HEAVY]), "--years=1:2", "-n", 32), "rotation.unprotected_energy")
     expect_equal((years["value"], years["uncertainty"]["p95"]), (2, 2))
     expect_equal({i["at_lo"] for i in full["inputs"]}, {None})
-    what = rotating()
+    what = rotating([HEAVY])
     del what["controls"][0]["accepted_kJ"]
     arrives = answer(what, "--years=1:2", "-n", 32)
     expect_equal([f["figure"] for f in arrives["figures"] if "rotation" in f["figure"]], ["rotation.reach_probability"] * 3)
@@ -497,8 +499,7 @@ def test_over_a_rotation():
 
 def test_failing_years_outwards():
     """The page rounds the range of failing years outwards: 7.9 to 19.1 years are 7 to 20"""
-    what = rotating()
-    what["uncertainty"] = [DENSITY | {"lo": 2450}]
+    what = rotating([HEAVY])
     result, seen = answer(what, "--years", "-n", 32), 0
     with Folder() as f:
         page = good(f"--sensitivity={POINTS}", "--years", "-n", 32, f.write("s.yaml", what)).out
@@ -554,9 +555,9 @@ def test_equal_whatever_the_rocks():
         del what["forest"]
         with Folder() as f:
             path = f.write("s.yaml", what)
-            few, many = (good("--sensitivity=64", "-f", "json", "-n", rocks, path).json()[0]["ranking"][0] for rocks in (400, 4000))
+            few, many = (good("--sensitivity=64", "-f", "json", "-n", rocks, path).json()[0]["ranking"][0] for rocks in (400, 1600))
             words = [re.search(r"of what may be true.*?: ([a-z ]+)\.", " ".join(good("--sensitivity=64", "-n", rocks, path).out.split()))[1]
-                     for rocks in (400, 4000)]
+                     for rocks in (400, 1600)]
         for key in ("probability", "equal", "worse"):
             expect_near(few[key], many[key], 0.1, f"{trees}: {key}")
         expect(trees == 560 or words[0] == words[1], trees, words)  # of 560 the share lies just where the word changes
@@ -632,7 +633,7 @@ def test_too_few_points_for_a_range():
 def test_a_range_holds_its_value():
     """A range holds the value that it stands beside; what is left of it if an input is known is never wider"""
     for path in ("four-systems", "rotation", "paper-site"):
-        for f in good("--sensitivity=32", "-f", "json", "-n", 600, "--years", path).json()[0]["figures"]:
+        for f in good("--sensitivity=32", "-f", "json", "-n", 200, "--years", path).json()[0]["figures"]:
             where = f"{path}: {f['option']}, {f['figure']}, against {f['against']}"
             if f["value"] is not None:
                 expect(f["uncertainty"]["p5"] <= f["value"] <= f["uncertainty"]["p95"], where, f["uncertainty"]["p5"], f["value"], f["uncertainty"]["p95"])
@@ -659,7 +660,7 @@ def test_paths_can_be_set():
                     for end in ("lo", "hi"):
                         found.setdefault((tuple(i["paths"]), i[end]), {})[figures["option"], figures["figure"]] = i[f"at_{end}"]
             expect(len(found) >= 10, found)
-            for (paths_of_input, value), wanted in found.items():
+            for (paths_of_input, value), wanted in list(found.items())[::1 if FULL else 3]:  # each end of some
                 sets = [word for one in paths_of_input for word in ("-s", f"{one}={value}")]
                 run = good("-b", "-n", 60, "-f", "json", *sets, *option, path).json()[0]
                 for o in run["options"]:
@@ -672,7 +673,7 @@ def test_paths_can_be_set():
 
 def test_as_scenes_at_random():
     """The band of two options and of their difference is that of scenes drawn at random and set by the paths, within three errors"""
-    names, count, rocks = ("selection coppice", "large reserves"), 80, 600
+    names, count, rocks = ("selection coppice", "large reserves"), 80 if FULL else 40, 600
     option = [word for name in names for word in ("--option", name)]
     figures = [f for f in good("--sensitivity", "-f", "json", *option, "rotation").json()[0]["figures"] if f["figure"] == "exceed_probability"]
     inputs, draw, drawn = {i["path"]: i for f in figures for i in f["inputs"]}, random.Random(1), []
@@ -740,7 +741,7 @@ REFUSED = {
 def test_outside():
     """A value outside what it may be is said so wherever its doubt is told; of the shipped scenes none is"""
     def told(*args):
-        return " ".join(ceduo("-n", "100", *args).out.split())
+        return " ".join(ceduo("-n", "20", *args).out.split())
 
     changes = ("--set", "forest[0].stand.shoots[0].per_ha=20000")
     for args in (("-b",), ("--sensitivity=16",)):

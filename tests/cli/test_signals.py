@@ -121,14 +121,14 @@ def test_nohup():
     """A signal that the caller switched off stays off"""
     old = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
-        with subprocess.Popen([CEDUO, "--batch", "-n", "300000", str(PAPER)], stdout=subprocess.PIPE,
+        with subprocess.Popen([CEDUO, "--batch", "-n", "100000", str(PAPER)], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, env=environment()) as p:
             time.sleep(0.1)
             p.send_signal(signal.SIGHUP)
             out, err = p.communicate(timeout=PATIENCE)
     finally:
         signal.signal(signal.SIGHUP, old)
-    expect(p.returncode == DONE and b"300000" in out and err == b"", p.returncode, out, err)
+    expect(p.returncode == DONE and b"100000" in out and err == b"", p.returncode, out, err)
 
 
 def test_interrupt_between():

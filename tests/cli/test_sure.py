@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import DONE, USAGE, Folder, ceduo, expect, expect_equal, expect_in, expect_near, good, run_all, scene, stand  # noqa: E402
+from harness import DONE, FULL, USAGE, Folder, ceduo, expect, expect_equal, expect_in, expect_near, good, run_all, scene, stand  # noqa: E402
 
 PER_HA = "forest[0].stand.trees[{}].per_ha"
 STEPS = 1000 / 256  # between points
@@ -230,6 +230,8 @@ def test_share_in_the_worst_year():
     expect(worst <= goal and goal - worst < 3 * math.sqrt(goal * (1 - goal) / rocks), worst, goal)
     expect(not mean["found"] or mean["value"] < found["value"], "the mean keeps to it earlier", mean)
     expect_in("in the worst of the years ahead", page)
+    if not FULL:  # ten times what comes before; test_worst_year() has an index that is sure
+        return
     mapping["uncertainty"] = [{"path": "controls[0].accepted_kJ", "lo": 100, "hi": 140}]
     # The largest of 20 years of 32 rocks is too large, by the same rocks at all points: of many seeds none is found.
     sure = find(mapping, f"worst-exceed={goal}", 0.5, "-n", 100, "--seed", 6, path=path, lo=10, hi=600)["sure"]

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (PROFILES, Folder, belt, expect, expect_equal, expect_in, expect_near, good, result, run_all, scene, stand,
+from harness import (FULL, PROFILES, Folder, belt, expect, expect_equal, expect_in, expect_near, good, result, run_all, scene, stand,
                      wooded_scene)
 from pages import (WHOLE, blocks_of, cells_of_rows, columns, digits, expect_cells, expect_option, expect_order, expect_width,
                    half_of_mean, of_1000, section, table_row)
@@ -54,7 +54,7 @@ def test_table_width():
     """Tables of all shipped scenes and of long names stay within 80 columns"""
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
         for law in ("lumped", "crsp"):
-            expect_width(good(*WHOLE, "-n", 200, "-s", f"simulation.law={law}", path).out)
+            expect_width(good(*WHOLE, "-n", 200 if FULL else 50, "-s", f"simulation.law={law}", path).out)
     words = "a very long name that says all there is to say about it and then a little more, so that it must be cut "
     text = good(*WHOLE, "-n", 50, FOUR, "-s", f"title={words * 2}", "-s", f"options[0].name={words * 2}", "-s",
                 f"controls[0].name={words}", "-s", f"options[1].forest[0].stand.name={words}", "-s",
@@ -74,7 +74,7 @@ def test_table_width_survey():
 def test_table_widest():
     """Table: words longer than a line, wide characters and huge numbers keep its columns, 80 of them"""
     wide, word = "一二三四五六七八九十" * 8, "x" * 300
-    text = good(*WHOLE, "-n", 50, "-s", f"title={word}", "-s", f"options[0].name={wide}", "-s", "controls[0].x_m=134.123456789",
+    text = good(*WHOLE, "-n", 20, "-s", f"title={word}", "-s", f"options[0].name={wide}", "-s", "controls[0].x_m=134.123456789",
                 "-s", "controls[0].accepted_kJ=123456", "-s", "rock={diameter_m: 20}", FOUR).out
     expect(max(map(columns, text.splitlines())) <= 80, *(line for line in text.splitlines() if columns(line) > 80))
     flat = "".join(text.split())
@@ -108,7 +108,7 @@ def test_table_small():
 
 def test_table_one_rock():
     """Table: of one rock no error is known, whatever it weighs and however it is compared: a dash"""
-    for rock in ("{diameter_m: 0.5}", "{diameter_m: 20}", "{diameter_m: 500}", "{diameter_m: 0.001}"):
+    for rock in ("{diameter_m: 0.5}", "{diameter_m: 20}", "{diameter_m: 100}", "{diameter_m: 0.001}"):
         text = good(*WHOLE, "-n", 1, "-s", f"rock={rock}", FOUR).out
         expect(not re.search(r"\bnan\b", text), re.findall(".*nan.*", text))
         expect(all("±-" in cells[0] for cells in cells_of_rows(text) if cells[0] != "-"), cells_of_rows(text))

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (INPUT, USAGE, Folder, Suite, belt, ceduo, expect, expect_equal, expect_in, expect_near, good, result, stand, tests_of,
+from harness import (FULL, INPUT, USAGE, Folder, Suite, belt, ceduo, expect, expect_equal, expect_in, expect_near, good, result, stand, tests_of,
                      wooded_scene)
 from pages import WHOLE, expect_width
 from runs import expect_run
@@ -199,7 +199,7 @@ def test_laws_turn_the_order():
                            (dorren(1.5), {names[0]: 28.6, names[1]: 20.0}),
                            ({**BRAUNER, "offset": "dorren"}, {names[0]: 62.1, names[1]: 72.8})):
         changes = [w for n in names for w in ("-s", f"options[{n}].forest[0].stand.energy={json.dumps(energy)}")]
-        run = result("four-systems", *only, *changes, "-s", thin, "-n", 300000)
+        run = result("four-systems", *only, *changes, "-s", thin, "-n", 300000 if FULL else 100000)
         for option in run["options"]:
             found = 100 * option["controls"][-1]["wooded"]["exceed_probability"]
             expect_near(found, wanted[option["name"]], 0.5, f"{option['name']}, {energy}")

@@ -237,9 +237,9 @@ def test_readme():
         expect(found == wanted, "README.md has", found, "the program has", wanted)
     keys = (ROOT / "man" / "pictures" / "cuts.keys").read_text()
     expect([x for x in keys.splitlines() if x.startswith("key")] == [x for x in script.splitlines() if x.startswith("key")], keys)
-    found = drawn()
-    page = next(page for path, page in found if path.suffix == ".html")
-    for words in ("Serra Sant&#39;Abbondio", "foglio 12, particella 34", "24/11/2026", "strada comunale", "Firma"):
+    found = drawn() if FULL else []  # screens of as many rocks as ever
+    page = next((page for path, page in found if path.suffix == ".html"), None)
+    for words in () if page is None else ("Serra Sant&#39;Abbondio", "foglio 12, particella 34", "24/11/2026", "strada comunale", "Firma"):
         expect_in(words, page, "the report that the Italian keys write")
     for path, wanted in found:
         expect(path.suffix == ".html" or path.read_text(encoding="utf-8") == wanted, f"{path.name} is not what the program draws: make pictures")
@@ -326,6 +326,8 @@ def test_four_systems_keys():
 
 def test_four_systems_in_italian():
     """Four systems: the same keys on the Italian screens, with the figures that the Italian page names"""
+    if not FULL:
+        raise harness.Skip("in check-all; test_survey_in_italian() walks an Italian way, too")
     page = " ".join(PAGINA.read_text(encoding="utf-8").split())
     with Folder() as work, Machine() as machine:
         done = machine.run(blocks("four-systems", PAGINA)[-1], work.path, LANGUAGE="it", CEDUO_ROCKS="1024")

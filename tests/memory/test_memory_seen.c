@@ -217,7 +217,7 @@ TEST(workers_of_a_fit)
  * before it looks up again. */
 TEST(one_is_told_at_a_time)
 {
-    assert_int_equal(fit_of_one_round(2, 4000, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
+    assert_int_equal(fit_of_one_round(2, 1000, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
     assert_int_equal(told.most_inside, 1);
     assert_true(told.times > 1);
 }

@@ -285,7 +285,7 @@ TEST(random_scenes_of_rocks_that_are_not_round)
 /* Every reading of the paper's site: laws, theta, facets, scaled Rn, forest, with and without the friction bound. */
 TEST(the_papers_site)
 {
-    const uint64_t rocks = FULL_OR(3000, 1000);
+    const uint64_t rocks = FULL_OR(3000, 320);
     for (unsigned i = 0; i < CEDUO_LAW_COUNT * 2 * 2 * 2 * 4 * 2; i++) {
         struct paper_site site;
         char name[40];

@@ -3,13 +3,14 @@
 /* Random scenes in bulk and nasty ones by name: what holds on any ground (invariants.h), the same bits when run again, no
  * invalid operation, and counts that add up.
  *
- *   STRESS=SCENES STRESS_FIRST=FIRST test_stress     default 40000 random scenes; `make stress` has ten million
+ *   STRESS=SCENES STRESS_FIRST=FIRST test_stress     default 15000 random scenes, 40000 with FULL; `make stress` has ten million
  *
  * Invalid operations, divisions by zero and overflows are looked for while a rock goes its way, and fail the test; but
  * for flights whose horizontal speed is below 1e-150 m/s. For them the time to the next vertex overflows by design, even to
  * infinity, which times 0 is NaN, and a comparison with that is a contact. (Reading a scene may compare with NaN: that is
  * how it says that a number is not given.) */
 #include "expect.h"
+#include "full.h"
 #include "local.h"
 
 #include <fenv.h>
@@ -25,7 +26,7 @@
 #define CONTROLS      5
 #define ROCKS         11 /* of a nasty scene */
 
-static uint64_t scenes = 40000, first = 1000000;
+static uint64_t scenes, first = 1000000;
 static uint64_t run_rocks = 40;
 static int by_design; /* floating-point exceptions that may be raised */
 
@@ -462,6 +463,7 @@ TEST(a_million_segments)
 static int set_up(void **state)
 {
     (void)state;
+    scenes = FULL_OR(40000, 15000);
     if (getenv("STRESS"))
         scenes = strtoull(getenv("STRESS"), NULL, 10);
     if (getenv("STRESS_FIRST"))

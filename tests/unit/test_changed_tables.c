@@ -10,12 +10,13 @@
 #include <unistd.h>
 
 #include "expect.h"
+#include "full.h"
 #include "io/csv.h"
 #include "io/scene_file.h"
 #include "io/survey_file.h"
 #include "physics/line_scene.h"
 
-#define CHANGES 300
+#define CHANGES FULL_OR(300, 80)
 #define BYTES   4096
 
 static struct line_random state;

@@ -15,7 +15,7 @@
 #include "physics/paper_site.h"
 #include "scene/schema.h"
 
-#define ASKED   FULL_OR(100000, 20000)
+#define ASKED   FULL_OR(100000, 6000)
 #define SECONDS 20 /* for one question: then it hangs */
 
 static struct paper_site site;
@@ -302,7 +302,7 @@ static enum ceduo_status ask_any_other(void)
 /* A small number of them by default; 10^5 with FULL. */
 TEST(any_question_is_refused_or_computed)
 {
-    uint64_t asked = (uint64_t)FULL_OR(100000, 4000), computed = 0, refused = 0;
+    uint64_t asked = (uint64_t)FULL_OR(100000, 2000), computed = 0, refused = 0;
     for (uint64_t i = 0; i < asked; i++) {
         open_site();
         if (draw(3) == 0)
