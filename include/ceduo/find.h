@@ -49,8 +49,7 @@ struct ceduo_found {
  * The value passes itself; the next whole number on the other side of the crossing, or a value there within the
  * tolerance, was seen to fail. Where the goal is not monotone there may be crossings that are not seen. Turns of the
  * goal by less than 1e-12 of it count as rounding. No whole number in [lo, hi]: nothing is found, nothing looked at.
- * Whole values by bisection; others by Brent's method (GSL), by bisection where the goal is not finite or has steps:
- * at most 55 evaluations of whole values up to 10^12 and of others within the default tolerance.
+ * The crossing is bisected: at most 55 evaluations of whole values up to 10^12, and of others within the default tolerance.
  * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or what the goal returned: then *found tells only what was seen. */
 enum ceduo_status ceduo_find(const struct ceduo_find_def *def, struct ceduo_found *found);
 
