@@ -7,9 +7,9 @@
 #include "observe.h"
 
 /* Values of scenes that are fitted to what was seen there. The likelihood of a list is multinomial, of a count binomial, of a
- * mean normal (observe.h); their logarithms add. Every evaluation simulates the same rocks. A search over Sobol' points and by
- * the simplex of Nelder and Mead finds the best values; then adaptive Metropolis chains (Haario, Saksman and Tamminen 2001)
- * draw from the posterior, with a uniform prior within the bounds. */
+ * mean normal (observe.h); their logarithms add. Every evaluation simulates the same rocks. From the best of some Sobol'
+ * points adaptive Metropolis chains (Haario, Saksman and Tamminen 2001) draw from the posterior, with a uniform prior within
+ * the bounds. */
 
 #define CEDUO_CALIBRATION_MOST   12 /* values fitted at once */
 #define CEDUO_CALIBRATION_CHAINS 4
@@ -30,7 +30,7 @@ struct ceduo_calibration_scene {
     const struct ceduo_observation *observations;
 };
 
-enum ceduo_calibration_stage { CEDUO_SEARCH, CEDUO_REFINE, CEDUO_CHAINS };
+enum ceduo_calibration_stage { CEDUO_SEARCH, CEDUO_CHAINS };
 
 /* How far it is: the best values so far, in the files' units. */
 struct ceduo_calibration_state {
