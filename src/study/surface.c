@@ -35,7 +35,7 @@
 #define SAMPLES     64  /* of the bootstrap */
 #define CLASSES     8   /* values of an input that is taken as known */
 #define TABLE_MAX   12  /* functions of an input that is a table */
-#define RIDGES      56  /* that are tried */
+#define RIDGES      57  /* that are tried */
 #define SAME        1e-8
 #define SHIFT       UINT64_MAX /* the row of the shifts of Sobol' points */
 #define ENOUGH      CEDUO_DOUBT_EXPLAINED
@@ -92,7 +92,8 @@ struct solution {
     struct arena memory;
     struct chosen chosen;
     struct terms terms;
-    double *x, *means; /* x: a row for each point */
+    gsl_matrix_view x; /* a row for each point */
+    double *means;
     gsl_multifit_linear_workspace *work;
     double lambda, freedom;
     double *coefficient, *mean; /* of each group's terms, then of their mean */
@@ -100,7 +101,6 @@ struct solution {
     double *leverage;           /* of each point */
     double *change;             /* of the coefficients of the mean in a sample of the bootstrap */
     double *spread;             /* the variance of each coefficient where the values have variance 1 */
-    double *room;               /* as many as there are terms */
     double spare, kept;         /* the variance that the terms leave without noise; how much of the mean's remains is that */
 };
 
@@ -149,28 +149,21 @@ static double column_at(const struct ceduo_input *input, size_t column, size_t l
     return column < places ? x : x * x;
 }
 
-/* Makes a column orthonormal to the constant and to the `done` columns before it; false where nothing of it is left. */
+/* Make a column orthonormal to the constant and to the `done` columns before it. False if nothing of it is left. */
 static bool make_orthonormal(double *table, size_t levels, size_t done)
 {
-    double before = 0, after = 0, mean = 0, n = (double)levels;
-    for (size_t l = 0; l < levels; l++)
-        mean += table[l * TABLE_MAX + done] / n;
-    for (size_t l = 0; l < levels; l++) {
-        table[l * TABLE_MAX + done] -= mean;
-        before += table[l * TABLE_MAX + done] * table[l * TABLE_MAX + done] / n;
-    }
+    gsl_matrix_view all = gsl_matrix_view_array(table, levels, TABLE_MAX);
+    gsl_vector_view column = gsl_matrix_column(&all.matrix, done);
+    gsl_vector_add_constant(&column.vector, -gsl_stats_mean(table + done, TABLE_MAX, levels));
+    double before = gsl_blas_dnrm2(&column.vector), along, n = (double)levels;
     for (size_t k = 0; k < done; k++) {
-        double along = 0;
-        for (size_t l = 0; l < levels; l++)
-            along += table[l * TABLE_MAX + k] * table[l * TABLE_MAX + done] / n;
-        for (size_t l = 0; l < levels; l++)
-            table[l * TABLE_MAX + done] -= along * table[l * TABLE_MAX + k];
+        gsl_vector_view other = gsl_matrix_column(&all.matrix, k);
+        gsl_blas_ddot(&other.vector, &column.vector, &along);
+        gsl_blas_daxpy(-along / n, &other.vector, &column.vector);
     }
-    for (size_t l = 0; l < levels; l++)
-        after += table[l * TABLE_MAX + done] * table[l * TABLE_MAX + done] / n;
-    for (size_t l = 0; l < levels; l++)
-        table[l * TABLE_MAX + done] /= sqrt(after);
-    return after > SAME * before;
+    double after = gsl_blas_dnrm2(&column.vector);
+    gsl_vector_scale(&column.vector, sqrt(n) / after);
+    return after * after > SAME * before * before;
 }
 
 /* The functions of an input at quantile u. */
@@ -339,18 +332,10 @@ static double term_at(const struct ceduo_surface *s, const double *at, const str
 
 /* ---- one fit ---- */
 
-/* The share of a singular value that the ridge leaves. */
-static double filter(const struct solution *f, size_t k)
-{
-    double sigma = gsl_vector_get(f->work->S, k);
-    return sigma > 0 ? sigma * sigma / (sigma * sigma + f->lambda * f->lambda) : 0;
-}
-
 static int decompose(void *solution)
 {
-    const struct solution *f = solution;
-    gsl_matrix_view x = gsl_matrix_view_array(f->x, f->s->points, f->terms.n);
-    return gsl_multifit_linear_svd(&x.matrix, f->work);
+    struct solution *f = solution;
+    return gsl_multifit_linear_svd(&f->x.matrix, f->work);
 }
 
 /* Lists the terms, for which there are points enough, and decomposes their values; what was made last is taken again where it is of
@@ -369,22 +354,22 @@ static struct solution *solution_of(struct ceduo_surface *s, const struct chosen
     if (f->memory.failed)
         return NULL;
     size_t n = list_terms(s, chosen, &f->terms);
-    f->x = ceduo_arena_take(&f->memory, points * n * sizeof *f->x);
+    double *x = ceduo_arena_take(&f->memory, points * n * sizeof *x);
     f->means = ceduo_arena_take(&f->memory, n * sizeof *f->means);
     f->coefficient = ceduo_arena_take(&f->memory, (GROUPS + 1) * n * sizeof *f->coefficient);
     f->change = ceduo_arena_take(&f->memory, n * sizeof *f->change);
     f->spread = ceduo_arena_take(&f->memory, n * sizeof *f->spread);
-    f->room = ceduo_arena_take(&f->memory, n * sizeof *f->room);
     f->remains = ceduo_arena_take(&f->memory, (GROUPS + 1) * points * sizeof *f->remains);
     f->leverage = ceduo_arena_take(&f->memory, points * sizeof *f->leverage);
     f->work = gsl_multifit_linear_alloc(points, n);
+    if (!f->memory.failed)
+        f->x = gsl_matrix_view_array(x, points, n);
     for (size_t j = 0; j < n && !f->memory.failed; j++) {
-        for (size_t p = 0; p < points; p++) {
-            f->x[p * n + j] = term_at(s, s->at, &f->terms.items[j], p);
-            f->means[j] += f->x[p * n + j] / (double)points;
-        }
         for (size_t p = 0; p < points; p++)
-            f->x[p * n + j] -= f->means[j];
+            x[p * n + j] = term_at(s, s->at, &f->terms.items[j], p);
+        gsl_vector_view column = gsl_matrix_column(&f->x.matrix, j);
+        f->means[j] = gsl_stats_mean(x + j, n, points);
+        gsl_vector_add_constant(&column.vector, -f->means[j]);
     }
     if (!f->work || f->memory.failed || ceduo_gsl_try(decompose, f) != 0)
         return NULL;
@@ -394,34 +379,28 @@ static struct solution *solution_of(struct ceduo_surface *s, const struct chosen
     return f;
 }
 
-/* Coefficients of values y at the points: V filter(S)/S U' y. */
+/* Set the coefficients of values y at the points. */
 static void solve(const struct solution *f, const double *y, double *coefficient)
 {
-    size_t n = f->terms.n;
+    double ignored[2];
     gsl_vector_const_view values = gsl_vector_const_view_array(y, f->s->points);
-    gsl_vector_view along = gsl_vector_view_array(f->room, n), to = gsl_vector_view_array(coefficient, n);
-    gsl_blas_dgemv(CblasTrans, 1, f->work->A, &values.vector, 0, &along.vector);
-    for (size_t k = 0; k < n; k++)
-        f->room[k] *= filter(f, k) > 0 ? filter(f, k) / gsl_vector_get(f->work->S, k) : 0;
-    gsl_blas_dgemv(CblasNoTrans, 1, f->work->Q, &along.vector, 0, &to.vector);
+    gsl_vector_view to = gsl_vector_view_array(coefficient, f->terms.n);
+    gsl_multifit_linear_solve(f->lambda, &f->x.matrix, &values.vector, &to.vector, &ignored[0], &ignored[1], f->work);
 }
 
-/* Takes the ridge of the least score. GSL's own search ends at the smallest singular value, which of orthonormal functions is a
- * strong ridge already. */
-static void choose_ridge(struct solution *f, const double *y)
+/* Set the ridge of the least score. GSL's own ridges end at the smallest singular value, which is a strong ridge if functions are
+ * orthonormal. `room`: n. */
+static void choose_ridge(struct solution *f, const double *y, double *room)
 {
-    double tried[RIDGES], delta, best = INFINITY, max = gsl_vector_get(f->work->S, 0);
-    gsl_vector_view ridges = gsl_vector_view_array(tried, RIDGES), along = gsl_vector_view_array(f->room, f->terms.n);
+    double tried[RIDGES], scores[RIDGES], delta, max = gsl_vector_get(f->work->S, 0);
+    gsl_vector_view ridges = gsl_vector_view_array(tried, RIDGES), along = gsl_vector_view_array(room, f->terms.n);
+    gsl_vector_view score = gsl_vector_view_array(scores, RIDGES);
     gsl_vector_const_view values = gsl_vector_const_view_array(y, f->s->points);
     gsl_multifit_linear_gcv_init(&values.vector, &ridges.vector, &along.vector, &delta, f->work);
-    for (int i = 0; i <= RIDGES; i++) {
-        double lambda = max * pow(10, -7. * i / RIDGES);
-        double score = gsl_multifit_linear_gcv_calc(lambda, &along.vector, delta, f->work);
-        if (score < best) {
-            best = score;
-            f->lambda = lambda;
-        }
-    }
+    for (int i = 0; i < RIDGES; i++)
+        tried[i] = max * pow(10, -7. * i / (RIDGES - 1));
+    gsl_multifit_linear_gcv_curve(&ridges.vector, &along.vector, delta, &score.vector, f->work);
+    f->lambda = tried[gsl_vector_min_index(&score.vector)];
 }
 
 /* The mean of the products of two different groups' values, `stride` apart; `without`: but for those of one (GROUPS: of all). */
@@ -437,13 +416,20 @@ static double common_of(const double *values, size_t stride, size_t without)
     return (sum * sum - squares) / (n * (n - 1));
 }
 
-/* The variance that the terms leave, from all groups, or but for one. */
+/* The variance that the terms leave, from all groups or without one. */
 static double spare_of(const struct solution *f, size_t without)
 {
     double spare = 0;
     for (size_t p = 0; p < f->s->points; p++)
         spare += common_of(f->remains + p, f->s->points, without) / f->freedom;
     return fmax(0, spare);
+}
+
+/* The factor that leaves of n values, whose mean is 0, so much of their squares. */
+static double kept_of(double squares, const double *values, size_t n)
+{
+    double all = gsl_stats_tss_m(values, 1, n, 0);
+    return all > 0 ? sqrt(fmin(1, fmax(0, squares) / all)) : 0; /* untaken: rounding */
 }
 
 /* Fits the figure at hand by terms. NULL without memory. */
@@ -455,71 +441,58 @@ static struct solution *fit_terms(struct ceduo_surface *s, const struct chosen *
     size_t points = s->points, n = f->terms.n;
     const double *y = s->c.y;
     f->freedom = (double)points - 1;
-    f->lambda = 0;
     memset(f->spread, 0, n * sizeof *f->spread);
+    choose_ridge(f, y + GROUPS * points, f->change);
     memset(f->change, 0, n * sizeof *f->change);
-    choose_ridge(f, y + GROUPS * points);
-    const gsl_matrix *left = f->work->A, *right = f->work->Q;
-    for (size_t k = 0; k < n; k++)
-        f->freedom -= filter(f, k) * (2 - filter(f, k));
-    for (size_t j = 0; j < n; j++)
-        for (size_t k = 0; k < n && filter(f, k) > 0; k++) { /* the smallest singular values are the last */
-            double x = gsl_matrix_get(right, j, k) * filter(f, k) / gsl_vector_get(f->work->S, k);
-            f->spread[j] += x * x;
-        }
-    for (size_t p = 0; p < points; p++) {
-        f->leverage[p] = 1 / (double)points;
-        for (size_t k = 0; k < n; k++)
-            f->leverage[p] += gsl_matrix_get(left, p, k) * gsl_matrix_get(left, p, k) * filter(f, k);
-        f->leverage[p] = fmin(f->leverage[p], .99);
-    }
-    for (size_t g = 0; g <= GROUPS; g++) {
-        double *coefficient = f->coefficient + g * n, *remains = f->remains + g * points;
-        solve(f, y + g * points, coefficient);
-        for (size_t p = 0; p < points; p++) {
-            remains[p] = y[g * points + p];
-            for (size_t j = 0; j < n; j++)
-                remains[p] -= f->x[p * n + j] * coefficient[j];
-        }
-    }
-    double squares = 0;
     for (size_t p = 0; p < points; p++)
-        squares += f->left[p] * f->left[p] / f->freedom;
+        f->leverage[p] = 1 / (double)points;
+    for (size_t k = 0; k < n && gsl_vector_get(f->work->S, k) > 0; k++) { /* the largest are the first */
+        double sigma = gsl_vector_get(f->work->S, k), ridge = sigma * sigma + f->lambda * f->lambda;
+        double keep = sigma * sigma / ridge; /* share of a singular value that the ridge leaves */
+        f->freedom -= keep * (2 - keep);
+        for (size_t j = 0; j < n; j++)
+            f->spread[j] += pow(gsl_matrix_get(f->work->Q, j, k) * sigma / ridge, 2);
+        for (size_t p = 0; p < points; p++)
+            f->leverage[p] += pow(gsl_matrix_get(f->work->A, p, k), 2) * keep;
+    }
+    for (size_t p = 0; p < points; p++)
+        f->leverage[p] = fmin(f->leverage[p], .99);
+    for (size_t g = 0; g <= GROUPS; g++) {
+        gsl_vector_const_view values = gsl_vector_const_view_array(y + g * points, points);
+        gsl_vector_view coefficient = gsl_vector_view_array(f->coefficient + g * n, n);
+        gsl_vector_view remains = gsl_vector_view_array(f->remains + g * points, points);
+        solve(f, y + g * points, coefficient.vector.data);
+        gsl_multifit_linear_residuals(&f->x.matrix, &values.vector, &coefficient.vector, &remains.vector);
+    }
     f->spare = spare_of(f, GROUPS);
-    f->kept = squares > 0 ? sqrt(fmin(1, f->spare / squares)) : 0; /* untaken: rounding */
+    f->kept = kept_of(f->spare * f->freedom, f->left, points);
     return f;
 }
 
 /* ---- values ---- */
 
-/* Makes a figure the one at hand: `groups` of each point, of n figures their sum. */
+/* Make a figure the one at hand: `groups` of each point, of n figures their sum. */
 static void fill_column(struct column *c, const struct ceduo_groups *groups, size_t n)
 {
-    double points = (double)c->points, squares = 0, common = 0, *mean = c->y + GROUPS * c->points;
+    double common = 0, *mean = c->y + GROUPS * c->points;
     memset(c->y, 0, (GROUPS + 1) * c->points * sizeof *c->y);
-    c->means[GROUPS] = 0;
     for (size_t g = 0; g < GROUPS; g++) {
         double *y = c->y + g * c->points;
-        c->means[g] = 0;
-        for (size_t p = 0; p < c->points; p++) {
-            for (size_t i = 0; i < n; i++)
-                y[p] += groups[i * c->points + p].of[g];
-            c->means[g] += y[p] / points;
-        }
-        c->means[GROUPS] += c->means[g] / GROUPS;
+        for (size_t i = 0; i < n * c->points; i++)
+            y[i % c->points] += groups[i].of[g];
+        c->means[g] = gsl_stats_mean(y, 1, c->points);
         for (size_t p = 0; p < c->points; p++) {
             y[p] -= c->means[g];
             mean[p] += y[p] / GROUPS;
         }
     }
-    for (size_t p = 0; p < c->points; p++) {
-        squares += pow(mean[p], 2);
+    c->means[GROUPS] = gsl_stats_mean(c->means, 1, GROUPS);
+    for (size_t p = 0; p < c->points; p++)
         common += common_of(c->y + p, c->points, GROUPS);
-    }
-    c->variance = fmax(0, common) / (points - 1);
-    c->noise = fmax(0, squares - common) / (points - 1);
+    c->variance = fmax(0, common) / ((double)c->points - 1);
+    c->noise = fmax(0, gsl_stats_variance_m(mean, 1, c->points, 0) - common / ((double)c->points - 1));
     c->remains = c->y;
-    c->kept = squares > 0 ? sqrt(fmin(1, fmax(0, common) / squares)) : 0;
+    c->kept = kept_of(common, mean, c->points);
 }
 
 static void bound(const struct column *c, double *values)
@@ -572,16 +545,15 @@ static double student(void)
     return pow(gsl_cdf_tdist_Pinv(.975, GROUPS - 1) / CEDUO_Z95, 2);
 }
 
-/* What is read of the values, with its errors: by samples of the points, and by halves of the rocks against each other, as what
- * is read of sorted values turns at single ones (balanced half samples, McCarthy 1969). */
+/* What is read of the values; of samples of the points, and of halves of the rocks less the other halves, from which its errors
+ * are read, as what is read of sorted values turns at single ones (balanced half samples, McCarthy 1969). */
 struct band {
-    double ends[ENDS], sum[ENDS], squares[ENDS], of_rocks[ENDS];
+    double ends[ENDS], samples[SAMPLES][ENDS], halves[GROUPS - 1][ENDS];
 };
 
-static struct band read_band(const struct ceduo_surface *s)
+static void read_band(const struct ceduo_surface *s, struct band *band)
 {
     const struct column *c = &s->c;
-    struct band band = {0};
     double *values = s->room, *changes = values + c->points, *changed = changes + c->points, ends[2][ENDS];
     read_values(c, values);
     for (size_t half = 1; half < GROUPS; half++) {
@@ -592,30 +564,16 @@ static struct band read_band(const struct ceduo_surface *s)
             bound(c, changed);
             read_ends(changed, c->points, c->figure->limit, ends[other]);
         }
-        for (size_t i = 0; i < ENDS; i++) {
-            double between = ends[0][i] - ends[1][i];
-            band.of_rocks[i] += between * between / 4 / (GROUPS - 1);
-        }
+        for (size_t i = 0; i < ENDS; i++)
+            band->halves[half - 1][i] = ends[0][i] - ends[1][i];
     }
-    read_ends(values, c->points, c->figure->limit, band.ends);
-    return band;
-}
-
-static void add_sample(struct band *band, const struct column *c, double *values)
-{
-    double ends[ENDS];
-    read_ends(values, c->points, c->figure->limit, ends);
-    for (size_t i = 0; i < ENDS; i++) {
-        double change = ends[i] - band->ends[i];
-        band->sum[i] += change;
-        band->squares[i] += change * change;
-    }
+    read_ends(values, c->points, c->figure->limit, band->ends);
 }
 
 static double band_se(const struct band *b, enum end i)
 {
-    double mean = b->sum[i] / SAMPLES, of_points = fmax(0, b->squares[i] / SAMPLES - mean * mean) * SAMPLES / (SAMPLES - 1);
-    return sqrt(of_points + b->of_rocks[i] * student());
+    double of_rocks = gsl_stats_tss_m(&b->halves[0][i], ENDS, GROUPS - 1, 0) / 4 / (GROUPS - 1);
+    return sqrt(gsl_stats_variance(&b->samples[0][i], ENDS, SAMPLES) + of_rocks * student());
 }
 
 /* ---- shares ---- */
@@ -776,7 +734,8 @@ static bool read_solution(struct ceduo_surface *s, struct solution *f, struct ce
     s->c.remains = f->remains, s->c.kept = f->kept;
     fit->variance = fmax(0, found->all) + f->spare;
     read_quality(f, fit);
-    struct band band = read_band(s);
+    struct band band;
+    read_band(s, &band);
     for (size_t g = 0; g < GROUPS; g++) {
         fill_parts(f, g, other);
         add_squares(other, found, fit->noise, of_rocks);
@@ -787,7 +746,7 @@ static bool read_solution(struct ceduo_surface *s, struct solution *f, struct ce
             add_squares(other, found, fit->noise, of_points);
         }
         draw_values(f, b);
-        add_sample(&band, &s->c, s->values);
+        read_ends(s->values, s->points, s->c.figure->limit, band.samples[b]);
     }
     for (size_t i = 0; i < found->n; i++)
         fit->first[i] = (struct ceduo_share){share_of(found, fit->noise, i),
@@ -804,12 +763,13 @@ static bool read_solution(struct ceduo_surface *s, struct solution *f, struct ce
 /* Without a surface: the points alone, drawn anew. */
 static void read_points(struct ceduo_surface *s, struct ceduo_surface_fit *fit)
 {
-    struct band band = read_band(s);
+    struct band band;
+    read_band(s, &band);
     read_values(&s->c, fit->values);
     for (size_t b = 0; b < SAMPLES; b++) {
         for (size_t p = 0; p < s->points; p++)
             s->values[p] = fit->values[(size_t)(random_pair(b, p, 0, RANDOM_SAMPLE).u[1] * (double)s->points)];
-        add_sample(&band, &s->c, s->values);
+        read_ends(s->values, s->points, s->c.figure->limit, band.samples[b]);
     }
     set_band(fit, &band);
 }
@@ -845,11 +805,10 @@ static bool choose(struct ceduo_surface *s, struct chosen *chosen)
     for (size_t i = 0; i < s->inputs_count; i++)
         if ((!uses || uses[i]) && s->of[i].count > 0)
             chosen->used[chosen->n++] = i;
-    chosen->enough = s->c.variance > 0 && chosen->n > 0 && is_enough(s, chosen);
-    if (!chosen->enough && s->c.variance > 0 && chosen->n > 0) {
-        chosen->linear = true;
-        chosen->enough = is_enough(s, chosen);
-    }
+    if (!(s->c.variance > 0) || chosen->n == 0)
+        return true;
+    chosen->linear = !is_enough(s, chosen);
+    chosen->enough = is_enough(s, chosen);
     if (!chosen->enough)
         return true;
     struct chosen tried = *chosen;
