@@ -5,7 +5,6 @@
  * observations (predict.c). */
 #include "ceduo/calibrate.h"
 
-#include <gsl/gsl_qrng.h>
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
@@ -116,13 +115,9 @@ static int look_at_point(void *context, size_t i, size_t worker)
 static enum ceduo_status search(struct fitting *f)
 {
     size_t d = f->def->parameters_count, best[CHAINS];
-    gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)d);
-    if (!sequence) /* untaken: gsl */
-        return CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < POINTS; i++)
-        gsl_qrng_get(sequence, f->known + i * d);
-    gsl_qrng_free(sequence);
-    enum ceduo_status status = (enum ceduo_status)ceduo_parallel(&(struct parallel){POINTS, f->def->threads, look_at_point, f});
+    enum ceduo_status status = ceduo_surface_points(f->def->seed, POINTS, d, f->known);
+    if (status == CEDUO_OK)
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){POINTS, f->def->threads, look_at_point, f});
     gsl_sort_largest_index(best, CHAINS, f->known_values, 1, POINTS);
     for (size_t k = 0; k < CHAINS * d; k++) {
         double u = f->known[best[k / d] * d + k % d];

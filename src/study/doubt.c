@@ -31,9 +31,9 @@ struct rows {
     struct ceduo_groups *values; /* of each row, option and kind */
     enum ceduo_doubt_kind judged;
     double released;             /* J: mean energy per released rock without forest */
-    size_t *years, *first_year;  /* of each option how many, and where they begin; NULL: not asked for */
-    double *year_counts;         /* of each option how many years these stand for */
-    struct ceduo_groups *shares; /* of each year and point */
+    size_t years;                /* of each option; 0: not asked for */
+    double year_count;           /* years that these stand for */
+    struct ceduo_groups *shares; /* of each option, year and point */
     bool deciding; /* only figures that decide whether there are points enough are read; otherwise only the others */
     struct ceduo_doubt_ranking *ranking; /* that is made */
     size_t all;                          /* evaluations, for the progress */
@@ -81,8 +81,8 @@ static void read_point(void *context, const struct point *point, const struct br
         const struct ceduo_brief *b = &at[last].of[g];
         double share = r->judged == CEDUO_DOUBT_EXCEED ? weight * b->exceed_probability : b->reach_probability;
         double *mean = &values[CEDUO_DOUBT_MEAN].of[g]; /* of the years, added up as they come */
-        r->shares[(r->first_year[point->option] + point->slot - 1) * r->most + point->row - r->ends].of[g] = share;
-        *mean = (point->slot == 1 ? 0 : *mean) + share / (double)r->years[point->option];
+        r->shares[(point->option * r->years + point->slot - 1) * r->most + point->row - r->ends].of[g] = share;
+        *mean = (point->slot == 1 ? 0 : *mean) + share / (double)r->years;
     }
     if (point->slot > 0)
         return;
@@ -99,24 +99,15 @@ static void read_point(void *context, const struct point *point, const struct br
 /* Room for all rows, and for the years of a rotation. */
 static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
 {
-    size_t n = def->inputs_count, years = 0;
+    size_t n = def->inputs_count;
     *r = (struct rows){.def = def, .answer = answer, .ends = def->brief ? 0 : 2 * n, .options = def->scene->options_count};
     r->most = def->points_max > 0 ? def->points_max : CEDUO_DOUBT_POINTS_MAX;
     r->most = def->points > r->most ? def->points : r->most;
     r->u = ceduo_arena_take(&r->memory, (r->ends + r->most) * n * sizeof *r->u);
     r->values = ceduo_arena_take(&r->memory, (r->ends + r->most) * r->options * CEDUO_DOUBT_KINDS * sizeof *r->values);
-    if (def->rotation) {
-        r->years = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->years);
-        r->first_year = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->first_year);
-        r->year_counts = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->year_counts);
-    }
-    for (size_t i = 0; r->years && !r->memory.failed && i < r->options; i++) {
-        r->years[i] = ceduo_points_years(def);
-        r->year_counts[i] = (double)ceduo_points_window(def);
-        r->first_year[i] = years;
-        years += r->years[i];
-    }
-    r->shares = ceduo_arena_take(&r->memory, years * r->most * sizeof *r->shares);
+    r->years = def->rotation ? ceduo_points_years(def) : 0;
+    r->year_count = def->rotation ? (double)ceduo_points_window(def) : 0;
+    r->shares = ceduo_arena_take(&r->memory, r->options * r->years * r->most * sizeof *r->shares);
     if (r->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t row = 0; row < r->ends; row++)
@@ -247,7 +238,7 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
     bool judged = !f->difference && (f->kind == r->judged || f->kind == CEDUO_DOUBT_MEAN) && r->judged == CEDUO_DOUBT_EXCEED;
     double max = f->kind == CEDUO_DOUBT_ENERGY || f->kind == CEDUO_DOUBT_CONTACT ? INFINITY : 1;
     if (f->kind == CEDUO_DOUBT_FAILING)
-        max = fmax(r->year_counts[s->option], r->year_counts[s->against]);
+        max = r->year_count;
     for (size_t row = 0; row < r->ends; row++) {
         const struct ceduo_groups y = value_at(r, s, row, f->kind);
         f->at[row / 2][row % 2] = is_rotation(f->kind) ? NAN : ceduo_groups_mean(&y, def->rocks);
@@ -272,7 +263,7 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
 static bool is_there(const struct rows *r, enum ceduo_doubt_kind kind)
 {
     if (is_rotation(kind))
-        return r->years && (kind == CEDUO_DOUBT_MEAN || r->judged == CEDUO_DOUBT_EXCEED);
+        return r->years > 0 && (kind == CEDUO_DOUBT_MEAN || r->judged == CEDUO_DOUBT_EXCEED);
     bool share = kind == CEDUO_DOUBT_REACH || kind == CEDUO_DOUBT_EXCEED;
     return !r->def->brief || (share ? kind == r->judged : kind != CEDUO_DOUBT_ENERGY || kind == r->answer->main);
 }
@@ -319,19 +310,18 @@ static int count_years(void *context, size_t option, size_t worker)
     const struct rows *r = context;
     if (!is_asked(r, option))
         return CEDUO_OK;
-    size_t years = r->years[option], points = r->points;
-    double limit = limit_of(r->def->scene);
+    size_t years = r->years, points = r->points;
+    double limit = limit_of(r->def->scene), each = r->year_count / (double)years;
     struct subject s;
     enum ceduo_status status = open_subject(r, option, option, &s);
-    double *values = ceduo_arena_take(&s.memory, years * points * sizeof *values),
-           each = r->year_counts[option] / (double)years;
+    double *values = ceduo_arena_take(&s.memory, years * points * sizeof *values);
     struct ceduo_groups *y = ceduo_arena_take(&s.memory, years * points * sizeof *y);
     struct ceduo_groups *changes = ceduo_arena_take(&s.memory, years * points * sizeof *changes);
     status = s.memory.failed ? CEDUO_NO_MEMORY : status;
     if (status == CEDUO_OK) {
         choose_inputs(r, &s, CEDUO_DOUBT_FAILING);
         for (size_t k = 0; k < years; k++)
-            memcpy(y + k * points, r->shares + (r->first_year[option] + k) * r->most, points * sizeof *y);
+            memcpy(y + k * points, r->shares + (option * years + k) * r->most, points * sizeof *y);
         const struct ceduo_surface_figure figure = {.y = y, .uses = s.uses, .hi = 1, .limit = NAN};
         status = ceduo_surface_values(s.surface, &figure, years, values, changes);
     }
@@ -355,7 +345,7 @@ static bool wants_more(const struct rows *r)
 {
     const struct ceduo_doubt_answer *a = r->answer;
     for (size_t i = 0; i < r->options; i++)
-        for (size_t over = is_asked(r, i) ? 0 : 2; over < (r->years ? 2 : 1); over++) {
+        for (size_t over = is_asked(r, i) ? 0 : 2; over < (r->years > 0 ? 2 : 1); over++) {
             const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(a, i, over ? CEDUO_DOUBT_MEAN : a->main, false)->fit;
             if (fit->enough && !fit->linear ? fit->explained < CEDUO_DOUBT_EXPLAINED
                                             : fit->variance > 0 && r->points >= CEDUO_DOUBT_POINTS)
@@ -379,7 +369,7 @@ static void set_years(const struct rows *r, struct ceduo_years *const *years, bo
     double first[3] = {0};
     for (size_t i = 0, options = r->options; i < options; i++) {
         size_t control = years[i]->last_control;
-        double each = r->year_counts[i] / (double)years[i]->count; /* years that one year stands for */
+        double each = r->year_count / (double)years[i]->count; /* years that one year stands for */
         struct ceduo_years_summary s = ceduo_years_sum(years[i], control);
         struct ceduo_doubt_figure *f = &answer->figures[i * CEDUO_DOUBT_KINDS],
                                   *d = &answer->figures[figure_at(options, i, CEDUO_DOUBT_REACH, i > 0)];
@@ -420,7 +410,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
     q.run.threads = def->threads;
     q.run.cancel = def->cancel;
     q.run.arrivals_only = true;
-    q.years = rows->years;
+    q.years = rows->years > 0;
     q.window = def->window;
     q.year_rocks = CEDUO_DOUBT_OWN_YEAR_ROCKS;
     enum ceduo_status status = def->own ? CEDUO_OK : ceduo_ask(&q, NULL, &asked);
@@ -449,7 +439,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
         answer->main = judges ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_ENERGY;
         rows->judged = judges ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_REACH;
         rows->released = is->result->bare.arrivals[is->result->last_control].energy_per_released.mean;
-        if (rows->years)
+        if (rows->years > 0)
             set_years(rows, is->years, judges);
     }
     ceduo_answer_release(&asked);
@@ -569,14 +559,14 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
         if (2 * points > rows.most || !wants_more(&rows))
             break;
     }
-    answer->rotation = rows.years;
-    if (status == CEDUO_OK && rows.years && rows.judged == CEDUO_DOUBT_EXCEED)
+    answer->rotation = rows.years > 0;
+    if (status == CEDUO_OK && rows.years > 0 && rows.judged == CEDUO_DOUBT_EXCEED)
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){rows.options, def->threads, count_years, &rows});
     if (status == CEDUO_OK)
         status = read_figures(&rows, false);
     if (status == CEDUO_OK && !def->alone)
         status = rank_options(&rows, false, &answer->today);
-    if (status == CEDUO_OK && !def->alone && rows.years)
+    if (status == CEDUO_OK && !def->alone && rows.years > 0)
         status = rank_options(&rows, true, &answer->over_rotation);
     answer->points = rows.points;
     answer->rocks = enough.rocks;
@@ -614,13 +604,14 @@ size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_d
     if (decided || !f->fit.enough || !(f->fit.p5 <= limit && f->fit.p95 > limit))
         return 0;
     const struct ceduo_share *total = f->fit.total;
-    size_t first = f->order[0], second = SIZE_MAX;
-    for (size_t i = 1; i < f->uses; i++)
-        if (total[f->order[i]].value > total[first].value)
-            first = f->order[i];
-    for (size_t i = 0; i < f->uses; i++)
-        if (f->order[i] != first && (second == SIZE_MAX || total[f->order[i]].value > total[second].value))
-            second = f->order[i];
+    size_t first = SIZE_MAX, second = SIZE_MAX;
+    for (size_t i = 0; i < f->uses; i++) {
+        size_t at = f->order[i];
+        if (first == SIZE_MAX || total[at].value > total[first].value)
+            second = first, first = at;
+        else if (second == SIZE_MAX || total[at].value > total[second].value)
+            second = at;
+    }
     inputs[0] = first;
     inputs[1] = second;
     return second != SIZE_MAX && total[second].value >= ALSO * total[first].value ? 2 : 1;

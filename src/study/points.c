@@ -65,7 +65,8 @@ static struct brought *brought_by(const struct item *item, size_t i)
 static void tell_variant(const struct item *item, size_t i, bool simulated)
 {
     const struct points *p = item->work->points;
-    p->read(p->context, &item->point, simulated ? brought_by(item, i) : NULL);
+    if (p->read)
+        p->read(p->context, &item->point, simulated ? brought_by(item, i) : NULL);
     if (i % item->each + 1 == item->each && p->done)
         p->done(p->context);
 }

@@ -29,8 +29,8 @@ struct points {
     const struct ceduo_doubt_def *def;
     const double *u; /* rows of inputs */
     bool today;      /* slot 0 is asked for */
-    /* Called by several threads at once, each with points of its own rows: at each control, NULL where no rocks are
-     * simulated. */
+    /* Called by several threads at once, each with points of its own rows. `at`: one for each control, NULL if no rocks are
+     * simulated. May be NULL. */
     void (*read)(void *context, const struct point *point, const struct brought *at);
     void (*done)(void *context); /* a row is done; may be NULL; by several threads at once */
     void *context;
