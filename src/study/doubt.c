@@ -144,15 +144,6 @@ const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_
     return &answer->figures[figure_at(options, option, kind, difference)];
 }
 
-/* Puts index i, one more than there are, behind those of values that are no larger. */
-static void insert_index(const double *values, size_t i, size_t *order)
-{
-    size_t at = i;
-    for (; at > 0 && values[order[at - 1]] > values[i]; at--)
-        order[at] = order[at - 1];
-    order[at] = i;
-}
-
 /* What a surface is made of: an option, or its difference to another one, which inputs they have, and room for a figure at the
  * points and for what is left of it. */
 struct subject {
@@ -254,7 +245,7 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
     for (size_t i = 0; i < def->inputs_count; i++) {
         f->uses += s->uses[i];
         s->left[i] = !s->uses[i] ? INFINITY : isnan(f->fit.left[i]) ? 0 : f->fit.left[i];
-        insert_index(s->left, i, f->order);
+        ceduo_insert_index(s->left, i, i, f->order);
     }
     return CEDUO_OK;
 }
@@ -496,7 +487,7 @@ static enum ceduo_status rank_options(struct rows *r, bool rotation, struct cedu
     ranking->count = options - 1;
     for (size_t i = 0; i < options; i++) {
         values[i] = value_of(r, i, rotation ? CEDUO_DOUBT_MEAN : r->answer->main);
-        insert_index(values, i, ranks);
+        ceduo_insert_index(values, i, i, ranks);
     }
     for (size_t i = 0; i < ranking->count; i++)
         ranking->orders[i] = (struct ceduo_doubt_order){.better = ranks[i], .than = ranks[i + 1]};

@@ -184,6 +184,13 @@ size_t ceduo_points_years(const struct ceduo_doubt_def *def)
     return count < max ? count : max;
 }
 
+void ceduo_insert_index(const double *values, size_t index, size_t n, size_t *order)
+{
+    for (; n > 0 && values[order[n - 1]] > values[index]; n--)
+        order[n] = order[n - 1];
+    order[n] = index;
+}
+
 double ceduo_groups_mean(const struct ceduo_groups *y, uint64_t rocks)
 {
     double sum = 0;

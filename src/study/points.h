@@ -53,6 +53,9 @@ static inline uint64_t ceduo_points_met(uint64_t contacts, struct ceduo_stem_cou
 size_t ceduo_points_years(const struct ceduo_doubt_def *def);
 size_t ceduo_points_window(const struct ceduo_doubt_def *def);
 
+/* Insert an index into an order of n others, after those whose values are no larger. */
+void ceduo_insert_index(const double *values, size_t index, size_t n, size_t *order);
+
 /* Of groups that may differ by a rock. */
 double ceduo_groups_mean(const struct ceduo_groups *groups, uint64_t rocks);
 

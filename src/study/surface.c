@@ -134,6 +134,7 @@ struct ceduo_surface {
     struct solution solutions[2]; /* the last ones, without and with products */
     struct column c;              /* the figure at hand */
     struct parts found, other;    /* of it, and of a part of the rocks or of other points */
+    double *squares;              /* sums of squared differences of their shares, by the rocks and by the points */
     size_t *used;                 /* room for the inputs that are chosen, */
     double *room, *values;        /* for values of functions, and for one at each point */
 };
@@ -242,6 +243,7 @@ enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n,
     s->values = ceduo_arena_take(&s->memory, points * sizeof *s->values);
     take_parts(s, &s->found);
     take_parts(s, &s->other);
+    s->squares = ceduo_arena_take(&s->memory, 2 * s->found.n * sizeof *s->squares);
     for (size_t b = 0; !s->memory.failed && b < SAMPLES; b++)
         for (size_t p = 0; p < points; p++)
             s->multipliers[b * points + p] = gsl_cdf_ugaussian_Pinv(random_open(b, p, 0, RANDOM_SAMPLE));
@@ -585,63 +587,56 @@ static double share_of(const struct parts *p, double noise, size_t i)
     return p->of[i] / (whole + (whole < noise ? noise : 0)); /* of what is less than the noise it is close to 0 */
 }
 
-static void add_part(const struct solution *f, size_t j, double variance, struct parts *parts)
+/* The parts without one group (GROUPS: of all), of which the terms leave `spare`; with coefficients that change. */
+static void fill_parts(const struct solution *f, size_t without, double spare, const double *change, struct parts *parts)
 {
-    const struct term *term = &f->terms.items[j];
-    parts->all += variance;
-    for (size_t k = 0; k < term->n; k++) {
-        size_t input = f->s->input[term->f[k]];
-        parts->of[f->s->inputs_count + input] += variance;
-        if (term->n == 1)
-            parts->of[input] += variance;
-    }
-}
-
-static void clear_parts(struct parts *parts)
-{
+    const struct ceduo_surface *s = f->s;
     memset(parts->of, 0, parts->n * sizeof *parts->of);
     parts->all = 0;
-}
-
-static void fill_parts(const struct solution *f, size_t without, struct parts *parts)
-{
-    clear_parts(parts);
-    *parts->spare = without == GROUPS ? f->spare : spare_of(f, without);
-    for (size_t j = 0; j < f->terms.n; j++)
-        add_part(f, j, common_of(f->coefficient + j, f->terms.n, without) - *parts->spare * f->spread[j], parts);
+    *parts->spare = spare;
+    for (size_t j = 0; j < f->terms.n; j++) {
+        const struct term *term = &f->terms.items[j];
+        double variance = common_of(f->coefficient + j, f->terms.n, without) - spare * f->spread[j];
+        if (change)
+            variance += change[j] * (2 * f->mean[j] + change[j]) - f->spare * f->spread[j];
+        parts->all += variance;
+        for (size_t k = 0; k < term->n; k++) {
+            size_t input = s->input[term->f[k]];
+            parts->of[s->inputs_count + input] += variance;
+            parts->of[input] += term->n == 1 ? variance : 0;
+        }
+    }
 }
 
 /* With what the terms leave at each point, without noise, drawn anew: the coefficients change by f->change. */
 static void draw_parts(const struct solution *f, size_t sample, struct parts *parts)
 {
     const struct ceduo_surface *s = f->s;
-    const double *multiplier = s->multipliers + sample * s->points, *change = f->change;
-    double *drawn = s->values;
-    clear_parts(parts);
+    const double *multiplier = s->multipliers + sample * s->points;
+    double spare = 0;
     for (size_t p = 0; p < s->points; p++) {
-        drawn[p] = f->kept * f->left[p] / sqrt(1 - f->leverage[p]) * multiplier[p];
-        *parts->spare += f->kept * f->kept * f->left[p] * f->left[p] * multiplier[p] * multiplier[p] / f->freedom;
+        double drawn = f->kept * f->left[p] * multiplier[p];
+        s->values[p] = drawn / sqrt(1 - f->leverage[p]);
+        spare += drawn * drawn / f->freedom;
     }
-    solve(f, drawn, f->change);
-    for (size_t j = 0; j < f->terms.n; j++) {
-        double more = change[j] * (2 * f->mean[j] + change[j]) - f->spare * f->spread[j];
-        add_part(f, j, common_of(f->coefficient + j, f->terms.n, GROUPS) - f->spare * f->spread[j] + more, parts);
-    }
+    solve(f, s->values, f->change);
+    fill_parts(f, GROUPS, f->spare, f->change, parts);
+    *parts->spare = spare;
 }
 
-/* To s->values those of the surface at points shifted at random, with its coefficients changed and the remainder of any point. */
-static void draw_values(const struct solution *f, size_t sample)
+/* Set s->values to those of the surface at points shifted at random, with its coefficients changed and the remainder of any point;
+ * without a surface to `values` of points drawn anew. */
+static void draw_values(const struct ceduo_surface *s, const struct solution *f, size_t sample, const double *values)
 {
-    const struct ceduo_surface *s = f->s;
-    for (size_t i = 0; i < f->chosen.n; i++) {
+    for (size_t i = 0; f && i < f->chosen.n; i++) {
         size_t input = f->chosen.used[i];
         fill_functions(s, input, random_pair(sample, SHIFT, input, RANDOM_SAMPLE).u[0], s->room);
     }
     for (size_t p = 0; p < s->points; p++) {
         size_t other = (size_t)(random_pair(sample, p, 0, RANDOM_SAMPLE).u[1] * (double)s->points);
-        s->values[p] = s->c.means[GROUPS] + f->kept * f->left[other] / sqrt(1 - f->leverage[other]);
+        s->values[p] = f ? s->c.means[GROUPS] + f->kept * f->left[other] / sqrt(1 - f->leverage[other]) : values[other];
     }
-    for (size_t j = 0; j < f->terms.n; j++)
+    for (size_t j = 0; f && j < f->terms.n; j++)
         for (size_t p = 0; p < s->points; p++)
             s->values[p] += (f->mean[j] + f->change[j]) * (term_at(s, s->room, &f->terms.items[j], p) - f->means[j]);
     bound(&s->c, s->values);
@@ -708,13 +703,6 @@ static void read_quality(const struct solution *f, struct ceduo_surface_fit *fit
     fit->explained = 1 - fmax(0, common[0]) / common[1];
 }
 
-static void set_band(struct ceduo_surface_fit *fit, const struct band *b)
-{
-    fit->p5 = b->ends[P5], fit->p50 = b->ends[P50], fit->p95 = b->ends[P95];
-    fit->p5_se = band_se(b, P5), fit->p95_se = band_se(b, P95);
-    fit->below = (struct ceduo_share){b->ends[BELOW], band_se(b, BELOW)};
-}
-
 /* Adds the squares of what the shares of one differ from those of the other. */
 static void add_squares(const struct parts *a, const struct parts *b, double noise, double *sums)
 {
@@ -722,56 +710,42 @@ static void add_squares(const struct parts *a, const struct parts *b, double noi
         sums[i] += pow(share_of(a, noise, i) - share_of(b, noise, i), 2);
 }
 
-/* Shares with their errors, the band of the values with its own, and what is left of it. False without memory. */
-static bool read_solution(struct ceduo_surface *s, struct solution *f, struct ceduo_surface_fit *fit)
+/* Set shares with their errors, the range of the values with its own, and what is left of it. `f` NULL: the points alone. */
+static void read_solution(struct ceduo_surface *s, struct solution *f, struct ceduo_surface_fit *fit)
 {
     struct parts *found = &s->found, *other = &s->other;
-    double *of_rocks = calloc(2 * found->n, sizeof *of_rocks);
-    if (!of_rocks)
-        return false;
-    double *of_points = of_rocks + found->n;
-    fill_parts(f, GROUPS, found);
-    s->c.remains = f->remains, s->c.kept = f->kept;
-    fit->variance = fmax(0, found->all) + f->spare;
-    read_quality(f, fit);
+    double *of_rocks = s->squares, *of_points = of_rocks + found->n;
     struct band band;
-    read_band(s, &band);
-    for (size_t g = 0; g < GROUPS; g++) {
-        fill_parts(f, g, other);
+    memset(s->squares, 0, 2 * found->n * sizeof *s->squares);
+    if (f) {
+        fill_parts(f, GROUPS, f->spare, NULL, found);
+        s->c.remains = f->remains, s->c.kept = f->kept;
+        fit->variance = fmax(0, found->all) + f->spare;
+        read_quality(f, fit);
+    }
+    for (size_t g = 0; f && g < GROUPS; g++) {
+        fill_parts(f, g, spare_of(f, g), NULL, other);
         add_squares(other, found, fit->noise, of_rocks);
     }
+    read_band(s, &band);
+    read_values(&s->c, fit->values);
     for (size_t b = 0; b < SAMPLES; b++) {
-        if (f->kept > 0) {
+        if (f && f->kept > 0) {
             draw_parts(f, b, other);
             add_squares(other, found, fit->noise, of_points);
         }
-        draw_values(f, b);
+        draw_values(s, f, b, fit->values);
         read_ends(s->values, s->points, s->c.figure->limit, band.samples[b]);
     }
-    for (size_t i = 0; i < found->n; i++)
+    fit->p5 = band.ends[P5], fit->p50 = band.ends[P50], fit->p95 = band.ends[P95];
+    fit->p5_se = band_se(&band, P5), fit->p95_se = band_se(&band, P95);
+    fit->below = (struct ceduo_share){band.ends[BELOW], band_se(&band, BELOW)};
+    for (size_t i = 0; f && i < found->n; i++)
         fit->first[i] = (struct ceduo_share){share_of(found, fit->noise, i),
                                              sqrt(of_rocks[i] * student() * (GROUPS - 1) / GROUPS + of_points[i] / SAMPLES)};
     fit->whole = fit->first[found->n - 1];
-    set_band(fit, &band);
-    read_values(&s->c, fit->values);
-    for (size_t i = 0; i < s->inputs_count; i++) /* in the mean no more than now: what seems more is error */
+    for (size_t i = 0; f && i < s->inputs_count; i++) /* in the mean no more than now: what seems more is error */
         fit->left[i] = fmin(left_of(f, fit->values, i), fit->p95 - fit->p5);
-    free(of_rocks);
-    return true;
-}
-
-/* Without a surface: the points alone, drawn anew. */
-static void read_points(struct ceduo_surface *s, struct ceduo_surface_fit *fit)
-{
-    struct band band;
-    read_band(s, &band);
-    read_values(&s->c, fit->values);
-    for (size_t b = 0; b < SAMPLES; b++) {
-        for (size_t p = 0; p < s->points; p++)
-            s->values[p] = fit->values[(size_t)(random_pair(b, p, 0, RANDOM_SAMPLE).u[1] * (double)s->points)];
-        read_ends(s->values, s->points, s->c.figure->limit, band.samples[b]);
-    }
-    set_band(fit, &band);
 }
 
 /* Sorts the inputs by the variance that they bring in a fit without products, the most first; words before all, as they decide
@@ -784,15 +758,10 @@ static bool rank(struct ceduo_surface *s, const struct chosen *chosen)
     size_t *used = chosen->used;
     if (!f)
         return false;
-    fill_parts(f, GROUPS, &s->found);
-    for (size_t i = 0; i < chosen->n; i++)
-        if (is_word(s, used[i]))
-            total[used[i]] = INFINITY;
+    fill_parts(f, GROUPS, f->spare, NULL, &s->found);
     for (size_t i = 0; i < chosen->n; i++) {
-        size_t input = used[i], at = i;
-        for (; at > 0 && total[used[at - 1]] < total[input]; at--)
-            used[at] = used[at - 1];
-        used[at] = input;
+        total[used[i]] = is_word(s, used[i]) ? -INFINITY : -total[used[i]];
+        ceduo_insert_index(total, used[i], i, used);
     }
     return true;
 }
@@ -815,18 +784,18 @@ static bool choose(struct ceduo_surface *s, struct chosen *chosen)
     for (tried.leading = chosen->n; !is_enough(s, &tried);) /* without products there are enough */
         tried.leading--;
     chosen->leading = tried.leading;
-    bool ranked = tried.leading < chosen->n;
-    bool good = !ranked || rank(s, &tried);
+    double best = -INFINITY;
+    bool good = true, ranked = false;
     /* products of inputs that do nothing may stand for those of others: fewer are tried */
-    for (double best = -INFINITY; good && tried.leading > 0 && best < ENOUGH; tried.leading /= 2) {
-        struct ceduo_surface_fit fit;
-        if (best > -INFINITY && !ranked)
+    for (; good && tried.leading > 0 && best < ENOUGH; tried.leading /= 2) {
+        struct ceduo_surface_fit fit = {.explained = -INFINITY};
+        if (!ranked && tried.leading < chosen->n)
             good = ranked = rank(s, &tried);
         const struct solution *f = good ? fit_terms(s, &tried) : NULL;
         good = f;
         if (f)
             read_quality(f, &fit);
-        if (f && fit.explained > best)
+        if (fit.explained > best)
             best = fit.explained, chosen->leading = tried.leading;
     }
     return good;
@@ -841,10 +810,10 @@ static bool allocate_fit(struct ceduo_surface_fit *fit, size_t points, size_t n)
     fit->total = fit->first + n;
     fit->left = (double *)(fit->first + 2 * n + 1);
     fit->values = fit->left + n;
-    for (size_t i = 0; i < n; i++) {
-        fit->first[i] = fit->total[i] = (struct ceduo_share){NAN, NAN};
+    for (size_t i = 0; i <= 2 * n; i++)
+        fit->first[i] = (struct ceduo_share){NAN, NAN};
+    for (size_t i = 0; i < n; i++)
         fit->left[i] = NAN;
-    }
     return true;
 }
 
@@ -853,8 +822,8 @@ enum ceduo_status ceduo_surface_fit(struct ceduo_surface *s, const struct ceduo_
 {
     GSL_RETURNS_ERRORS;
     struct chosen chosen;
-    struct solution *f;
-    *fit = (struct ceduo_surface_fit){.q2 = NAN, .explained = NAN, .whole = {NAN, NAN}};
+    struct solution *f = NULL;
+    *fit = (struct ceduo_surface_fit){.q2 = NAN, .explained = NAN};
     s->c.figure = figure;
     fill_column(&s->c, figure->y, 1);
     fit->mean = s->c.means[GROUPS], fit->variance = s->c.variance, fit->noise = s->c.noise;
@@ -862,9 +831,9 @@ enum ceduo_status ceduo_surface_fit(struct ceduo_surface *s, const struct ceduo_
     fit->enough = good && chosen.enough;
     fit->linear = good && chosen.linear;
     if (fit->enough)
-        good = (f = fit_terms(s, &chosen)) && read_solution(s, f, fit);
-    else if (good)
-        read_points(s, fit);
+        good = (f = fit_terms(s, &chosen));
+    if (good)
+        read_solution(s, f, fit);
     if (!good)
         ceduo_surface_release(fit);
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
