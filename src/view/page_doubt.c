@@ -203,7 +203,7 @@ static struct ceduo_measure measure_of(const struct ceduo_doubt_report *r, size_
     if (a && a->released >= own) {
         own = a->released;
         m = energy ? ceduo_energy_released(a) : ceduo_judged(&s->controls[ceduo_scene_last_control(s)], a);
-    } else if (c && c->over.simulated > 0 && c->rocks > own) {
+    } else if (c && c->over->simulated > 0 && c->rocks > own) {
         own = c->rocks;
         m = ceduo_share(c->mean);
     } else {
