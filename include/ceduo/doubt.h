@@ -121,13 +121,6 @@ struct ceduo_doubt_order {
     double p5, p95; /* doubt of the figure that ranks them, the one less the other; as those of a figure */
 };
 
-/* The options in rank by the scene as it is. */
-struct ceduo_doubt_ranking {
-    bool rotation;                    /* by the mean over a rotation, otherwise by today's main figure */
-    size_t count;                     /* pairs: one less than options; 0: there is one option alone, or it is not known */
-    struct ceduo_doubt_order *orders; /* each option and the next one */
-};
-
 struct ceduo_doubt_answer {
     size_t points;
     uint64_t rocks; /* of each point */
@@ -136,7 +129,10 @@ struct ceduo_doubt_answer {
     size_t figures_count;
     struct ceduo_doubt_figure *figures; /* by option and kind, then the differences; see ceduo_doubt_figure_of() */
     enum ceduo_doubt_kind main;         /* too much energy where that is known, otherwise energy */
-    struct ceduo_doubt_ranking today, over_rotation;
+    size_t orders_count;                /* one less than options; 0: one option alone, or not known */
+    struct ceduo_doubt_order
+        *orders;          /* each option and the next one in rank by the scene as it is: by the mean over the rotation if
+                                       * that is there, otherwise by today's main figure */
     uint64_t evaluations; /* scenes computed; each is of all options, and of their years */
 };
 
@@ -149,9 +145,6 @@ void ceduo_doubt_free(struct ceduo_doubt_answer *answer);
 /* The figures over a rotation are there if answer->rotation is true. NULL: there is no such option or figure. */
 const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
                                                        enum ceduo_doubt_kind kind, bool difference);
-
-/* The order of the options that pages and views give: over the rotation where that is known, otherwise today's. */
-const struct ceduo_doubt_ranking *ceduo_doubt_verdict(const struct ceduo_doubt_answer *answer);
 
 /* Whether a light of the last control changes within the 90 % band of doubt: contact, free run, or energy
  * (CEDUO_DOUBT_EXCEED). Returns how many inputs it depends on above all, 1 or 2, the heaviest first; 0: it does not change, or

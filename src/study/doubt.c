@@ -35,8 +35,7 @@ struct rows {
     double year_count;           /* years that these stand for */
     struct ceduo_groups *shares; /* of each option, year and point */
     bool deciding; /* only figures that decide whether there are points enough are read; otherwise only the others */
-    struct ceduo_doubt_ranking *ranking; /* that is made */
-    size_t all;                          /* evaluations, for the progress */
+    size_t all;    /* evaluations, for the progress */
     atomic_size_t done;
     struct talk talk;
 };
@@ -449,8 +448,8 @@ static int compare_pair(void *context, size_t item, size_t worker)
 {
     (void)worker;
     const struct rows *r = context;
-    struct ceduo_doubt_order *o = &r->ranking->orders[item];
-    enum ceduo_doubt_kind kind = r->ranking->rotation ? CEDUO_DOUBT_MEAN : r->answer->main;
+    struct ceduo_doubt_order *o = &r->answer->orders[item];
+    enum ceduo_doubt_kind kind = r->answer->rotation ? CEDUO_DOUBT_MEAN : r->answer->main;
     struct subject s;
     struct ceduo_surface_fit found = {0};
     enum ceduo_status status = open_subject(r, o->better, o->than, &s);
@@ -475,28 +474,22 @@ static int compare_pair(void *context, size_t item, size_t worker)
     return (int)status;
 }
 
-static enum ceduo_status rank_options(struct rows *r, bool rotation, struct ceduo_doubt_ranking *ranking)
+static enum ceduo_status rank_options(struct rows *r)
 {
+    struct ceduo_doubt_answer *a = r->answer;
     size_t options = r->options, *ranks = ceduo_arena_take(&r->memory, options * sizeof *ranks);
     double *values = ceduo_arena_take(&r->memory, options * sizeof *values);
-    r->ranking = ranking;
-    ranking->rotation = rotation;
-    ranking->orders = calloc(options, sizeof *ranking->orders);
-    if (r->memory.failed || !ranking->orders)
+    a->orders = calloc(options, sizeof *a->orders);
+    if (r->memory.failed || !a->orders)
         return CEDUO_NO_MEMORY;
-    ranking->count = options - 1;
+    a->orders_count = options - 1;
     for (size_t i = 0; i < options; i++) {
-        values[i] = value_of(r, i, rotation ? CEDUO_DOUBT_MEAN : r->answer->main);
+        values[i] = value_of(r, i, a->rotation ? CEDUO_DOUBT_MEAN : a->main);
         ceduo_insert_index(values, i, i, ranks);
     }
-    for (size_t i = 0; i < ranking->count; i++)
-        ranking->orders[i] = (struct ceduo_doubt_order){.better = ranks[i], .than = ranks[i + 1]};
-    return (enum ceduo_status)ceduo_parallel(&(struct parallel){ranking->count, r->def->threads, compare_pair, r});
-}
-
-const struct ceduo_doubt_ranking *ceduo_doubt_verdict(const struct ceduo_doubt_answer *answer)
-{
-    return answer->rotation ? &answer->over_rotation : &answer->today;
+    for (size_t i = 0; i < a->orders_count; i++)
+        a->orders[i] = (struct ceduo_doubt_order){.better = ranks[i], .than = ranks[i + 1]};
+    return (enum ceduo_status)ceduo_parallel(&(struct parallel){a->orders_count, r->def->threads, compare_pair, r});
 }
 
 /* ---- all of it ---- */
@@ -556,9 +549,7 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
     if (status == CEDUO_OK)
         status = read_figures(&rows, false);
     if (status == CEDUO_OK && !def->alone)
-        status = rank_options(&rows, false, &answer->today);
-    if (status == CEDUO_OK && !def->alone && rows.years > 0)
-        status = rank_options(&rows, true, &answer->over_rotation);
+        status = rank_options(&rows);
     answer->points = rows.points;
     answer->rocks = enough.rocks;
     answer->evaluations = rows.ends + rows.points;
@@ -573,8 +564,7 @@ void ceduo_doubt_free(struct ceduo_doubt_answer *answer)
     for (size_t i = 0; i < answer->figures_count; i++)
         ceduo_surface_release(&answer->figures[i].fit);
     free(answer->figures);
-    free(answer->today.orders);
-    free(answer->over_rotation.orders);
+    free(answer->orders);
     *answer = (struct ceduo_doubt_answer){0};
 }
 

@@ -26,7 +26,7 @@ static double shown(const struct ceduo_place *p, double value)
 
 static const struct ceduo_doubt_order *order_of(const struct ceduo_place *p)
 {
-    return &ceduo_doubt_verdict(p->doubt->answer)->orders[p->item];
+    return &p->doubt->answer->orders[p->item];
 }
 
 static bool enter_figure(struct ceduo_place *p, size_t i)
@@ -58,7 +58,7 @@ static bool enter_first(struct ceduo_place *p, size_t i)
     return input != SIZE_MAX;
 }
 
-ENTER(enter_order, item, p->doubt->answer ? ceduo_doubt_verdict(p->doubt->answer)->count : 0)
+ENTER(enter_order, item, p->doubt->answer ? p->doubt->answer->orders_count : 0)
 
 static struct ceduo_value end_of(const struct ceduo_place *p, int end)
 {
@@ -117,7 +117,7 @@ VALUE(input_at_hi, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][1])
 VALUE(input_left, place, NUMBER, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
 VALUE(order_better, place, TEXT, WORD(scene_of(o)->options[order_of(o)->better].name_given))
 VALUE(order_than, place, TEXT, WORD(scene_of(o)->options[order_of(o)->than].name_given))
-VALUE(order_over, place, TEXT, WORD(ceduo_doubt_verdict(o->doubt->answer)->rotation ? "rotation" : "today"))
+VALUE(order_over, place, TEXT, WORD(o->doubt->answer->rotation ? "rotation" : "today"))
 
 #define NO_BAND    UNSAID ", or there are fewer than 20 points"
 #define FEW_POINTS "there are too few points, or nothing varies"

@@ -206,7 +206,7 @@ static void say_doubt(struct text *text, const struct ceduo_report *report)
         ceduo_text_then(text, "; ", "%s%s", SPAN(m, m.may_lo, m.may_hi), _(" by what is not known"));
     }
     ceduo_text_char(text, '.');
-    if (ceduo_doubt_verdict(doubt->answer)->count > 0) {
+    if (doubt->answer->orders_count > 0) {
         ceduo_text_char(text, ' ');
         ceduo_doubt_order_words(text, doubt, 0); /* how sure the best option is */
     }

@@ -421,11 +421,10 @@ void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report 
 void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *r, size_t i)
 {
     const struct ceduo_scene *s = &r->file->scene;
-    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
-    const struct ceduo_doubt_order *o = &ranking->orders[i];
+    const struct ceduo_doubt_order *o = &r->answer->orders[i];
     ceduo_text_format(text,
-                      ranking->rotation ? _("Over the years %s is better than %s in %.0f %% of what may be true")
-                                        : _("Today %s is better than %s in %.0f %% of what may be true"),
+                      r->answer->rotation ? _("Over the years %s is better than %s in %.0f %% of what may be true")
+                                          : _("Today %s is better than %s in %.0f %% of what may be true"),
                       s->options[o->better].name, s->options[o->than].name, o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
@@ -440,16 +439,15 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
 /* Each option and the next one, and how far apart they may lie. */
 static void add_orders(struct ceduo_page *page, const struct ceduo_doubt_report *r)
 {
-    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
-    enum ceduo_doubt_kind kind = ranking->rotation ? CEDUO_DOUBT_MEAN : r->answer->main;
-    for (size_t i = 0; i < ranking->count; i++) {
+    enum ceduo_doubt_kind kind = r->answer->rotation ? CEDUO_DOUBT_MEAN : r->answer->main;
+    for (size_t i = 0; i < r->answer->orders_count; i++) {
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
         LOCAL_TEXT(lo);
         LOCAL_TEXT(hi);
-        ceduo_doubt_value(&lo, kind, ranking->orders[i].p5);
-        ceduo_doubt_value(&hi, kind, ranking->orders[i].p95);
+        ceduo_doubt_value(&lo, kind, r->answer->orders[i].p5);
+        ceduo_doubt_value(&hi, kind, r->answer->orders[i].p95);
         ceduo_doubt_order_words(text, r, i);
-        if (isnan(ranking->orders[i].p5))
+        if (isnan(r->answer->orders[i].p5))
             continue;
         ceduo_text_then(text, " ",
                         kind == CEDUO_DOUBT_ENERGY ? _("The difference may be %s to %s kJ per released rock.")

@@ -303,9 +303,8 @@ void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
         return;
     ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
     ceduo_doubt_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, ceduo_doubt_main(r, pane->option), 1);
-    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
-    for (size_t i = 0; i < ranking->count; i++)
-        if (ranking->orders[i].better == pane->option || ranking->orders[i].than == pane->option)
+    for (size_t i = 0; i < r->answer->orders_count; i++)
+        if (r->answer->orders[i].better == pane->option || r->answer->orders[i].than == pane->option)
             ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
     const struct ceduo_doubt_figure *failing = ceduo_doubt_figure_of(r->answer, pane->option, CEDUO_DOUBT_FAILING, false);
     if (r->over && !isnan(failing->fit.p5))

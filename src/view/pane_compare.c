@@ -160,7 +160,7 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);
-        for (size_t i = 0; knows_rotation(pane) && i < ceduo_doubt_verdict(pane->report->doubt->answer)->count; i++)
+        for (size_t i = 0; knows_rotation(pane) && i < pane->report->doubt->answer->orders_count; i++)
             ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->doubt, i);
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);

@@ -284,7 +284,7 @@ static enum ceduo_status ask_doubt(struct ceduo_doubt_def def)
     enum ceduo_status status = ceduo_doubt_ask(&def, &answer);
     if (status == CEDUO_OK) {
         add(&answer.figures[CEDUO_DOUBT_ENERGY].fit.p50, sizeof answer.figures[CEDUO_DOUBT_ENERGY].fit.p50);
-        add(answer.today.orders, answer.today.count * sizeof answer.today.orders[0]);
+        add(answer.orders, answer.orders_count * sizeof answer.orders[0]);
         ceduo_doubt_free(&answer);
     }
     return status;
