@@ -10,10 +10,10 @@
 
 #include "base/parallel.h"
 
-#define KNOWN_BY  3    /* times as many places as terms: those within reach of the best set how much a place counts */
-#define SHARP     2.   /* of a log-likelihood: no place counts less for less than this */
-#define BLOCK     256  /* places between two looks at `cancel` */
-#define RIDGE     1e-9 /* relative, where the places do not tell all terms */
+#define KNOWN_BY  3     /* times as many places as terms: those within reach of the best set how much a place counts */
+#define SHARP     2.    /* of a log-likelihood: no place counts less for less than this */
+#define BLOCK     256   /* places between two looks at `cancel` */
+#define RIDGE     1e-13 /* relative, where the places do not tell all terms */
 #define TERMS(d)  (1 + (d) + (d) * ((d) + 1) / 2)
 #define TERMS_MAX TERMS(CEDUO_CALIBRATION_MOST)
 
@@ -88,6 +88,7 @@ enum ceduo_status ceduo_guess_learn(struct guess *g, const double *u, const doub
     }
     if (status == CEDUO_OK && gsl_linalg_cholesky_decomp1(squares) == 0) {
         gsl_linalg_cholesky_svx(squares, &found.vector);
+        now.coefficients[0] += values[best];
         ceduo_guess_release(g);
         *g = now;
     } else {

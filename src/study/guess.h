@@ -7,7 +7,7 @@
 
 #include "ceduo/calibrate.h"
 
-/* A cheap guess of a log-likelihood over the unit cube, up to a constant: a quadratic through all that is known, by weighted least
+/* A cheap guess of a log-likelihood over the unit cube: a quadratic through all that is known, by weighted least
  * squares; what is far below the best counts little. */
 struct guess {
     size_t dimensions, terms;
