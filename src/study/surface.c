@@ -478,17 +478,18 @@ static void fill_column(struct column *c, const struct ceduo_groups *groups, siz
 {
     double common = 0, *mean = c->y + GROUPS * c->points;
     memset(c->y, 0, (GROUPS + 1) * c->points * sizeof *c->y);
+    c->means[GROUPS] = 0;
     for (size_t g = 0; g < GROUPS; g++) {
         double *y = c->y + g * c->points;
         for (size_t i = 0; i < n * c->points; i++)
             y[i % c->points] += groups[i].of[g];
         c->means[g] = gsl_stats_mean(y, 1, c->points);
+        c->means[GROUPS] += c->means[g] / GROUPS; /* exactly 0 if groups cancel out */
         for (size_t p = 0; p < c->points; p++) {
             y[p] -= c->means[g];
             mean[p] += y[p] / GROUPS;
         }
     }
-    c->means[GROUPS] = gsl_stats_mean(c->means, 1, GROUPS);
     for (size_t p = 0; p < c->points; p++)
         common += common_of(c->y + p, c->points, GROUPS);
     c->variance = fmax(0, common) / ((double)c->points - 1);

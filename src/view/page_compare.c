@@ -88,7 +88,8 @@ void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
 void ceduo_page_worst(struct ceduo_page *page, const struct ceduo_choice *c)
 {
     ceduo_page_write(page, c->over->years > 0 ? "%s (%u)" : "-",
-                     c->over->simulated > 0 ? WRITTEN(1000 * c->worst.mean, 0) : WRITTEN(c->worst.mean, 3), c->over->worst_year);
+                     c->over->simulated > 0 ? WRITTEN(1000 * c->worst.mean, 0) : WRITTEN(c->worst.mean, 3),
+                     c->over->worst_year);
 }
 
 void ceduo_page_fails(struct ceduo_page *page, const struct ceduo_choice *c, size_t fails, bool known)
