@@ -203,7 +203,7 @@ static struct ceduo_measure measure_of(const struct ceduo_uncertainty_report *r,
     if (a && a->released >= own) {
         own = a->released;
         m = energy ? ceduo_energy_released(a) : ceduo_measure_exceeding(&s->controls[ceduo_scene_last_control(s)], a);
-    } else if (c && c->over.simulated > 0 && c->rocks > own) {
+    } else if (c && c->over->simulated > 0 && c->rocks > own) {
         own = c->rocks;
         m = ceduo_share(c->mean);
     } else {
@@ -426,11 +426,10 @@ void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncerta
 void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncertainty_report *r, size_t i)
 {
     const struct ceduo_scene *s = &r->file->scene;
-    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_ranking_by(r->answer);
-    const struct ceduo_uncertainty_order *o = &ranking->orders[i];
+    const struct ceduo_uncertainty_order *o = &r->answer->orders[i];
     ceduo_text_format(text,
-                      ranking->rotation ? _("Over the years %s is better than %s in %.0f %% of what may be true")
-                                        : _("Today %s is better than %s in %.0f %% of what may be true"),
+                      r->answer->rotation ? _("Over the years %s is better than %s in %.0f %% of what may be true")
+                                          : _("Today %s is better than %s in %.0f %% of what may be true"),
                       s->options[o->better].name, s->options[o->than].name, o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
@@ -445,16 +444,15 @@ void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncerta
 /* Each option and the next one, and how far apart they may lie. */
 static void add_orders(struct ceduo_page *page, const struct ceduo_uncertainty_report *r)
 {
-    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_ranking_by(r->answer);
-    enum ceduo_uncertainty_kind kind = ranking->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
-    for (size_t i = 0; i < ranking->count; i++) {
+    enum ceduo_uncertainty_kind kind = r->answer->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
+    for (size_t i = 0; i < r->answer->orders_count; i++) {
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
         LOCAL_TEXT(lo);
         LOCAL_TEXT(hi);
-        ceduo_uncertainty_value(&lo, kind, ranking->orders[i].p5);
-        ceduo_uncertainty_value(&hi, kind, ranking->orders[i].p95);
+        ceduo_uncertainty_value(&lo, kind, r->answer->orders[i].p5);
+        ceduo_uncertainty_value(&hi, kind, r->answer->orders[i].p95);
         ceduo_uncertainty_order_words(text, r, i);
-        if (isnan(ranking->orders[i].p5))
+        if (isnan(r->answer->orders[i].p5))
             continue;
         ceduo_text_append_joined(text, " ",
                                  kind == CEDUO_UNCERTAINTY_ENERGY ? _("The difference may be %s to %s kJ per released rock.")

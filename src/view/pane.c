@@ -123,7 +123,7 @@ static void add_light(struct ceduo_page *page, const struct ceduo_pane *pane, en
     const struct ceduo_choice *c = choice_ahead(pane);
     ceduo_page_light(page, today);
     if (c)
-        ceduo_page_light(page, !known || c->over.nothing ? CEDUO_UNKNOWN : fails > 0 ? CEDUO_FAIL : CEDUO_PASS);
+        ceduo_page_light(page, !known || c->over->nothing ? CEDUO_UNKNOWN : fails > 0 ? CEDUO_FAIL : CEDUO_PASS);
     else
         ceduo_page_cell_format(page, "%s", "");
 }
@@ -145,17 +145,17 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
     else
         ceduo_page_cell_format(page, _("ADC %s m %s %g"), BESIDE(index->worst_adc, 3, threshold),
                                than(index->contact, "<", "\xe2\x89\xa5"), threshold);
-    add_light(page, pane, index->contact, c->over.unprotected_contact, true);
+    add_light(page, pane, index->contact, c->over->unprotected_contact, true);
     ceduo_page_cell_format(page, _("%g m free %s %% %s %g"), threshold, PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MAX),
                            index->worst_free_run <= CEDUO_FREE_RUN_MAX ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MAX * 100);
-    add_light(page, pane, index->free_run, c->over.unprotected_free_run, true);
+    add_light(page, pane, index->free_run, c->over->unprotected_free_run, true);
     if (index->energy != CEDUO_UNKNOWN && wood)
         ceduo_page_cell_format(page, _("energy %s %% %s %s"), PERCENT(wood->exceed.mean, wood->limit),
                                than(index->energy, "\xe2\x89\xa4", ">"), ROUNDED(wood->limit * 100, 3));
     else
         ceduo_page_cell_format(page, "%s",
                                wood || !pane->report->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));
-    add_light(page, pane, index->energy, c->over.unprotected_energy, c->energy_known);
+    add_light(page, pane, index->energy, c->over->unprotected_energy, c->energy_known);
     if (pane->height >= HEIGHT_ALL && choice_ahead(pane))
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
 }
@@ -305,9 +305,8 @@ void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pa
         return;
     ceduo_uncertainty_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
     ceduo_uncertainty_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, ceduo_uncertainty_main(r, pane->option), 1);
-    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_ranking_by(r->answer);
-    for (size_t i = 0; i < ranking->count; i++)
-        if (ranking->orders[i].better == pane->option || ranking->orders[i].than == pane->option)
+    for (size_t i = 0; i < r->answer->orders_count; i++)
+        if (r->answer->orders[i].better == pane->option || r->answer->orders[i].than == pane->option)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
     const struct ceduo_uncertainty_figure *failing =
         ceduo_uncertainty_find_figure(r->answer, pane->option, CEDUO_UNCERTAINTY_FAILING, false);

@@ -71,7 +71,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     const struct ceduo_verdict *v = pane->report->verdict;
     const struct ceduo_choice *c = &v->choices[i];
     const struct ceduo_subject s = ceduo_subject_find(pane->report, i, r->last_control);
-    bool years = c->over.years > 0, rates = has_rates(pane), rotation = knows_rotation(pane);
+    bool years = c->over->years > 0, rates = has_rates(pane), rotation = knows_rotation(pane);
     ceduo_page_cell_role(page, i == pane->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
     if (rates)
         ceduo_page_cell_format(page, "%s", s.wooded ? EVERY(ceduo_hazard_feared(&s.wooded->hazard)) : "-");
@@ -91,7 +91,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     if (!years)
         ceduo_page_cell_format(page, PENDING);
     else if (rates)
-        ceduo_page_cell_format(page, "%s (%u)", WRITTEN(1 / (c->worst.mean * s.bare->hazard.per_year), 2), c->over.worst_year);
+        ceduo_page_cell_format(page, "%s (%u)", WRITTEN(1 / (c->worst.mean * s.bare->hazard.per_year), 2), c->over->worst_year);
     else if (v->wooded)
         ceduo_page_worst(page, c);
     else
@@ -99,8 +99,8 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     if (!years || rates)
         ceduo_page_cell_format(page, "%s", years ? DECISION(s.outcome.answer) : PENDING);
     else
-        ceduo_page_fails(page, c, v->wooded ? c->over.unprotected_energy : c->over.unprotected_contact,
-                         v->wooded ? c->energy_known : !c->over.nothing);
+        ceduo_page_fails(page, c, v->wooded ? c->over->unprotected_energy : c->over->unprotected_contact,
+                         v->wooded ? c->energy_known : !c->over->nothing);
     ceduo_page_number(page, c->yield.cut_per_year, 2);
     /* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all */
     bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;
@@ -160,8 +160,7 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);
-        for (size_t i = 0; knows_rotation(pane) && i < ceduo_uncertainty_ranking_by(pane->report->uncertainty->answer)->count;
-             i++)
+        for (size_t i = 0; knows_rotation(pane) && i < pane->report->uncertainty->answer->orders_count; i++)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->uncertainty, i);
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);

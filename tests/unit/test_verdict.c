@@ -156,10 +156,10 @@ TEST(an_edit_of_the_contact_model_leaves_no_years)
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     ceduo_live_follow(&live, &file, 0, 0, 0);
-    EXPECT(live.verdict.choices[0].over.years, ==, 0);
+    EXPECT(live.verdict.choices[0].over->years, ==, 0);
     follow_to_the_end();
-    EXPECT(live.verdict.choices[0].over.years, >, 0);
-    EXPECT(live.verdict.choices[0].over.simulated, ==, 0);
+    EXPECT(live.verdict.choices[0].over->years, >, 0);
+    EXPECT(live.verdict.choices[0].over->simulated, ==, 0);
     EXPECT_NAN(live.verdict.choices[0].mean.mean);
     close_scene();
 }
