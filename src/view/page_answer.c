@@ -258,12 +258,11 @@ void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *a)
     cell->half = ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ;
 }
 
-void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, enum ceduo_measure_name otherwise)
+void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *c)
 {
-    struct ceduo_page_cell *head = ceduo_page_head(page);
     const struct ceduo_measure m = ceduo_judged(c, NULL);
     bool kilo = fabs(c->accepted) < 1e6;
-    ceduo_text_put(&head->text, NAMED(m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD));
+    ceduo_text_put(&head->text, NAMED(m, CEDUO_SHORT_HEAD));
     ceduo_text_put(&head->written, NAMED(m, CEDUO_HEAD));
     if (!isnan(c->accepted))
         ceduo_text_format(&head->shorter, kilo ? "> %s kJ" : "> %s MJ", ROUNDED(c->accepted * (kilo ? 1e-3 : 1e-6), 3));
@@ -272,13 +271,6 @@ void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, en
 void ceduo_page_free_run(struct ceduo_page *page, double share)
 {
     ceduo_page_write(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MOST));
-}
-
-void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light)
-{
-    const char *const words[] = {[CEDUO_UNKNOWN] = "?", [CEDUO_PASS] = _("pass"), [CEDUO_FAIL] = _("FAIL")};
-    const enum ceduo_role roles[] = {[CEDUO_PASS] = CEDUO_ROLE_GOOD, [CEDUO_FAIL] = CEDUO_ROLE_BAD};
-    ceduo_page_mark(page, roles[light], words[light]);
 }
 
 void ceduo_page_yes(struct ceduo_page *page, bool yes)

@@ -275,7 +275,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
         ceduo_page_option(page, report, 0, true);
     }
     if (controls && !is_crowded(report))
-        ceduo_page_laws(page, report->result);
+        ceduo_page_laws(page, report);
     if (controls) {
         if (report->doubt && report->doubt->answer)
             ceduo_doubt_blocks(page, report->doubt, scene->options_count <= CROWD);

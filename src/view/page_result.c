@@ -99,7 +99,7 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
         CEDUO_PAGE_TABLE_OF(page, not_accepted);
     } else {
         CEDUO_PAGE_TABLE_OF(page, columns);
-        ceduo_page_limit(page, c, CEDUO_HEAD);
+        ceduo_page_limit(ceduo_page_head(page), c);
     }
     if (wooded)
         add_arrivals_row(page, _("through the wood"), c, wooded);
@@ -282,7 +282,7 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
     ceduo_page_say(page, CEDUO_PAGE_CAPTION,
                    _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"), SHORTEST(c->x_given));
     CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_page_limit(page, c, CEDUO_HEAD);
+    ceduo_page_limit(ceduo_page_head(page), c);
     bool left_out = false;
     for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
         const struct ceduo_block *b = &blocks[i];

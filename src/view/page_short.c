@@ -97,91 +97,6 @@ static void add_wood(struct ceduo_page *page, const struct ceduo_result *r)
     ceduo_page_write(page, "%s", "");
 }
 
-/* ---- several ---- */
-
-/* AHEAD: over the years and today. RATES: the same with blocks, in years from one rock to the next. TODAY: today alone, and its
- * range. */
-enum form { AHEAD, RATES, TODAY };
-
-static enum form form_of(const struct ceduo_report *report)
-{
-    if (report->result->scene->blocks_count > 0 && report->verdict->accepted)
-        return RATES;
-    return ceduo_report_ahead(report, 0) ? AHEAD : TODAY;
-}
-
-static void add_option(struct ceduo_page *page, const struct ceduo_report *report, enum form form, size_t i)
-{
-    const struct ceduo_result *r = report->result;
-    const struct ceduo_subject s = ceduo_subject_of(report, i, r->last_control);
-    ceduo_page_write(page, "%s", r->scene->options[i].name);
-    if (form == RATES) { /* how often, with both errors; whether that is accepted; the same today */
-        ceduo_page_write(page, "%s", YEARS(s.outcome.rate));
-        ceduo_page_write(page, "%s", DECISION(s.outcome.answer));
-        ceduo_page_write(page, "%s", EVERY(s.wooded ? ceduo_hazard_feared(&s.wooded->hazard) : s.outcome.rate));
-    } else if (form == AHEAD) {
-        ceduo_page_write(page, "%s", VALUE_OF(s.mean));
-        ceduo_page_write(page, "%s", isnan(s.mean.may_lo) ? "-" : MAY_BE(s.mean));
-        ceduo_page_worst(page, s.choice);
-        ceduo_page_fails(page, s.choice, s.choice->over.unprotected_energy, s.choice->energy_known);
-    }
-    if (form != RATES)
-        ceduo_page_write(page, "%s", VALUE_OF(s.today));
-    if (form == TODAY)
-        ceduo_page_write(page, "%s", isnan(s.today.may_lo) ? "-" : MAY_BE(s.today));
-    ceduo_page_write(page, "%s", BESIDE(s.index->worst_adc, 3, r->scene->simulation.threshold));
-    if (form != TODAY)
-        ceduo_page_number(page, s.choice->yield.cut_per_year, 2);
-}
-
-/* What differs between the options: over the years, and today. */
-static void add_options(struct ceduo_page *page, const struct ceduo_report *report)
-{
-#define OPTION "", 26, 2, 0
-#define TODAY_ N_("today"), -6, 0, 0
-#define ADC    N_("ADC"), -6, 0, 0
-#define FELLED NP_("head", "felled"), -7, 0, 0
-    static const struct ceduo_page_column ahead[] = {{OPTION},        {"", -5, 0, CEDUO_SPAN},
-                                                     {"", -10, 0, 0}, {"", -10, 0, 0},
-                                                     {"", -8, 0, 0},  {TODAY_},
-                                                     {ADC},           {FELLED}},
-                                          rates[] = {{OPTION}, {"", -14, 0, CEDUO_SPAN}, {"", 14, 2, 0}, {TODAY_}, {ADC},
-                                                     {FELLED}},
-                                          alone[] = {{OPTION}, {TODAY_}, {"", -10, 0, 0}, {ADC}};
-    const char *const below[][8] = {{_("mean"), _("range"), _("worst"), _("failing"), "", "m", P_("head", "m3/y"), NULL},
-                                    {_("mean, years"), _("accepted"), "", "m", P_("head", "m3/y"), NULL},
-                                    {"", _("range"), "m", NULL}};
-    static const struct {
-        const struct ceduo_page_column *columns;
-        size_t n, today; /* columns behind the name; the one of today */
-    } forms[] = {[AHEAD] = {ahead, 8, 4}, [RATES] = {rates, 6, 2}, [TODAY] = {alone, 4, 0}};
-    const struct ceduo_result *r = report->result;
-    const struct ceduo_control *c = &r->scene->controls[r->last_control];
-    const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control];
-    const struct ceduo_measure share = ceduo_judged(c, bare);
-    const struct ceduo_window *w = &report->verdict->choices[0].window;
-    enum form form = form_of(report);
-    ceduo_page_table(page, forms[form].columns, forms[form].n);
-    if (w->kind != CEDUO_WINDOW_ALIKE)
-        ceduo_text_format(&page->last->cells[1].text, form == TODAY ? "" : _("years %u to %u"), w->first, w->last);
-    if (form == RATES)
-        ceduo_text_format(ceduo_page_text(page), _("years between > %s kJ"), SHORTEST(ceduo_words_accepted(c)));
-    else
-        ceduo_page_write(page, "%s", NAMED(share, CEDUO_HEAD));
-    for (size_t i = 0; below[form][i]; i++)
-        ceduo_page_write(page, "%s", below[form][i]);
-    for (size_t i = 0; i < r->scene->options_count; i++)
-        add_option(page, report, form, i);
-    ceduo_page_write(page, "%s", _("without forest"));
-    for (size_t i = 0; below[form][i]; i++) {
-        struct text *text = ceduo_page_text(page);
-        if (i == forms[form].today && form == RATES)
-            ceduo_text_put(text, EVERY(ceduo_hazard_feared(&bare->hazard)));
-        else if (i == forms[form].today)
-            ceduo_text_put(text, VALUE_OF(share));
-    }
-}
-
 /* ---- what is assumed, and what is to be noted ---- */
 
 static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *report)
@@ -268,10 +183,10 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_question(page, r);
     if (n == 1)
         ceduo_page_add(page, CEDUO_PAGE_GAP);
-    if (n > 1 && !nothing && r->wooded)
-        add_options(page, report);
-    else if (n > 1 && !nothing)
-        ceduo_page_today(page, r);
+    if (n > 1 && !nothing) {
+        ceduo_page_shares(page, report, true);
+        ceduo_page_options(page, report, CEDUO_OPTIONS_SHORT, r->last_control, SIZE_MAX, 0, n);
+    }
     ceduo_page_answer(page, report);
     if (r->scene->blocks_count > 0 && !nothing)
         ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, ceduo_result_best(r, report->verdict), r->last_control);

@@ -387,7 +387,7 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
     }
     for (size_t rank = 9; rest < 0 && rank > 0; rank--)
         for (size_t i = 0; i < n; i++)
-            if (table->columns[i].flags >> 8 == rank && (!(table->columns[i].flags & CEDUO_KEPT) || rest + names < 0)) {
+            if (table->columns[i].flags >> 8 == rank && (rank >= CEDUO_MINOR || rest + names < 0)) {
                 rest += gap_of(p, &table->columns[i], i) + widths[i];
                 widths[i] = 0;
             }
@@ -427,18 +427,14 @@ static void print_table(struct printer *p, const struct ceduo_page_block *table)
     for (size_t row = heads ? 0 : n; row + n <= table->cells_count; row += n) {
         for (size_t i = 0; i < n; i++) {
             const struct ceduo_page_column *c = &table->columns[i];
-            bool spans = row == 0 && (c->flags & CEDUO_SPAN);
             int width = widths[i];
             if (width == 0 && c->width != 0)
                 continue;
-            if (spans)
-                width += c[1].gap + abs(c[1].width);
-            else if (c->width < 0)
+            if (c->width < 0)
                 width = -width;
             else if (row == 0 && i == n - 1 && c->width > 0) /* the last head is never cut */
                 width = 0;
             print_cell(p, c, &table->cells[row + i], gap_of(p, c, i), width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
-            i += spans;
         }
         while (!p->drawing && p->text->length > 0 && p->text->bytes[p->text->length - 1] == ' ')
             p->text->bytes[--p->text->length] = '\0';

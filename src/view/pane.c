@@ -2,6 +2,7 @@
 /* The column of figures that stands still beside every view, in the words of the paper; the energy that is left, in which the
  * paper's method ends; and what an option and its doubt mean in words. */
 #include <math.h>
+#include <string.h>
 
 #include "base/language.h"
 #include "page_parts.h"
@@ -313,4 +314,54 @@ void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
                        floor(failing->fit.p5), ceil(failing->fit.p95)); /* outwards */
     for (size_t i = 0; i < 3 && !r->over; i++)
         ceduo_doubt_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
+}
+
+/* ---- the options ---- */
+
+/* True if the uncertainty of the mean over the years is known. Then it stands beside that, otherwise today's beside today. */
+static bool knows_rotation(const struct ceduo_pane *pane)
+{
+    return pane->report->doubt && pane->report->doubt->answer && pane->report->doubt->answer->rotation &&
+           pane->report->verdict->wooded;
+}
+
+/* With blocks the options are judged by the years from one rock above the limit to the next. */
+static bool has_rates(const struct ceduo_pane *pane)
+{
+    return pane->report->result->wooded && pane->report->result->scene->blocks_count > 0 && pane->report->verdict->accepted;
+}
+
+void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    const struct ceduo_result *r = pane->report->result;
+    const struct ceduo_verdict *v = pane->report->verdict;
+    if (r->scene->blocks_count > 0 && r->scene->controls_count > 0)
+        ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, r->last_control);
+    if (v->n < 2) {
+        ceduo_page_note(page, _("One way to treat this forest so far. a adds another, y a copy of this one."));
+    } else {
+        LOCAL_TEXT(best);
+        ceduo_words_best(&best, r->scene, v);
+        for (size_t i = 0; knows_rotation(pane) && i < ceduo_doubt_verdict(pane->report->doubt->answer)->count; i++)
+            ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->doubt, i);
+        for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
+            ceduo_page_note(page, line);
+        if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
+            ceduo_page_note(page, _("The years ahead are being computed."));
+        if (!knows_rotation(pane)) /* of which the energy law is a part */
+            ceduo_words_turned(r, v, ceduo_page_note, page);
+    }
+    ceduo_words_windows(r->scene, ceduo_page_note, page);
+    ceduo_words_thin(r, ceduo_page_note, page);
+    if (v->wooded && !v->accepted)
+        ceduo_page_note(page, _(ceduo_words_unjudged));
+    if (!r->wooded)
+        ceduo_page_note(page, _(ceduo_words_by_index));
+    if (pane->report->busy)
+        ceduo_page_note(page, _("Computing: the figures become finer."));
+    if (v->n > 1 && r->wooded && v->accepted && !has_rates(pane))
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 bring too much."),
+                       CEDUO_EXCEED_MOST * 1000);
+    if (v->rotation.known && !v->rotation.uneven)
+        ceduo_words_counted(ceduo_page_add(page, CEDUO_PAGE_NOTE), v->choices[0].rocks);
 }

@@ -32,8 +32,7 @@ void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane);
 /* What doubt means for the option: both errors, what to measure first, whether it separates from others, what tests depend on. */
 void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane);
 
-/* The options side by side, one row each, from the option `first` on, at most `rows`; then what is to be said of them. */
-void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, size_t first, size_t rows);
+/* What is to be said of the options below their table. */
 void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane);
 
 #endif

@@ -183,14 +183,16 @@ struct ceduo_subject {
     size_t option, control;
     const struct ceduo_control *place;
     const struct ceduo_arrivals *bare, *wooded; /* wooded: NULL: not known */
-    const struct ceduo_index *index;
-    const struct ceduo_choice *choice; /* NULL: not known */
+    const struct ceduo_index *index;            /* NULL: without forest */
+    const struct ceduo_choice *choice;          /* NULL: not known */
+    const struct ceduo_other_energy *other;     /* NULL: not known, or no stem stands */
     struct ceduo_outcome outcome;
     struct ceduo_measure today,
         mean;    /* share by which the place is judged, and its mean over the years; with what may be true */
     bool apart;  /* the caller shows mean, worst year and today elsewhere */
     bool so_far; /* the uncertainty is still being computed */
 };
+/* `option` SIZE_MAX: without forest. */
 struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t option, size_t control);
 
 /* An option over the years ahead; NULL if they are not known, or are all as today. */

@@ -141,19 +141,24 @@ struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t 
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_verdict *v = report->verdict;
+    bool forest = option < r->scene->options_count;
     struct ceduo_subject s = {.report = report,
                               .option = option,
                               .control = control,
                               .place = &r->scene->controls[control],
                               .bare = &r->bare.arrivals[control],
-                              .wooded = ceduo_result_wooded(r, option, control),
-                              .index = &r->options[option].controls[control],
-                              .choice = v && option < v->n ? &v->choices[option] : NULL,
-                              .outcome = ceduo_report_outcome(report, option, control)};
+                              .wooded = forest ? ceduo_result_wooded(r, option, control) : &r->bare.arrivals[control],
+                              .index = forest ? &r->options[option].controls[control] : NULL,
+                              .choice = v && option < v->n ? &v->choices[option] : NULL};
+    const struct ceduo_other_energy *other = forest ? &r->options[option].others[control] : NULL;
+    s.other = other && other->known && other->stems ? other : NULL;
     s.today = ceduo_judged(s.place, s.wooded);
     s.mean = ceduo_share(s.choice ? s.choice->mean : (struct ceduo_portion){NAN, NAN});
-    ceduo_measure_doubt(&s.today, report->doubt, option, control);
-    ceduo_measure_doubt_over(&s.mean, report->doubt, option);
+    if (forest) {
+        s.outcome = ceduo_report_outcome(report, option, control);
+        ceduo_measure_doubt(&s.today, report->doubt, option, control);
+        ceduo_measure_doubt_over(&s.mean, report->doubt, option);
+    }
     return s;
 }
 
