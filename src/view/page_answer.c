@@ -250,14 +250,6 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
 
 /* ---- words and cells that several pages use ---- */
 
-void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *a)
-{
-    struct ceduo_page_cell *cell = ceduo_page_cell(page);
-    cell->kind = a->reached > 0 ? CEDUO_CELL_MEAN : CEDUO_CELL_NUMBER;
-    cell->value = a->reached > 0 ? a->energy.mean * J_TO_KJ : NAN;
-    cell->half = ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ;
-}
-
 void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *c)
 {
     const struct ceduo_measure m = ceduo_judged(c, NULL);

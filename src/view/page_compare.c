@@ -173,10 +173,11 @@ static double value_of(enum column column, const struct ceduo_subject *s)
     const struct ceduo_yield *yield = s->choice ? &s->choice->yield : NULL;
     const double values[COLUMNS] = {[TODAY] = s->today.value,
                                     [ADC] = index->worst_adc,
-                                    [MEAN_KJ] = ceduo_mean_energy(s->wooded).value,
-                                    [OTHER_KJ] = ceduo_mean_energy(s->other ? &s->other->arrivals : NULL).value,
+                                    [MEAN_KJ] = ceduo_measured(CEDUO_MEAN_KJ, s->wooded).value,
+                                    [OTHER_KJ] = ceduo_measured(CEDUO_MEAN_KJ, s->other ? &s->other->arrivals : NULL).value,
                                     [PER_100M] = index->per_100m * J_TO_KJ,
-                                    [LEFT] = s->index ? index->residual * J_TO_KJ : ceduo_mean_energy(s->bare).value,
+                                    [LEFT] =
+                                        s->index ? index->residual * J_TO_KJ : ceduo_measured(CEDUO_MEAN_KJ, s->bare).value,
                                     [FELLED] = yield ? yield->cut_per_year : NAN,
                                     [STANDING] = yield ? yield->standing : NAN};
     return values[column];
@@ -204,13 +205,13 @@ static const char *share_of(struct ceduo_measure share, struct ceduo_estimate ra
 static const char *cell_of(enum column column, const struct ceduo_subject *s, char room[CEDUO_WORDS_ROOM])
 {
     const struct ceduo_choice *c = s->choice && s->choice->over.years > 0 ? s->choice : NULL;
-    const struct ceduo_hazard *h = s->wooded ? &s->wooded->hazard : NULL;
+    const struct ceduo_hazard *h = ceduo_hazard_at(s->wooded);
     const char *unknown = s->report->busy && !c && s->index ? PENDING : "-";
     bool rates = has_rates(s->report), judged = c && !c->over.nothing;
     double left = h && column >= WEAK && column <= STRONG ? h->intensity[column - WEAK].left : NAN;
     switch (column) {
     case TODAY:
-        return share_of(s->today, h ? ceduo_hazard_feared(h) : CEDUO_NO_ESTIMATE, rates, unknown, room);
+        return share_of(s->today, ceduo_feared(s->wooded), rates, unknown, room);
     case RANGE:
         return isnan(s->today.may_lo) || !isnan(s->mean.may_lo) || rates ? "" : ceduo_measure_may_be(s->today, room);
     case MEAN:
@@ -220,7 +221,7 @@ static const char *cell_of(enum column column, const struct ceduo_subject *s, ch
     case WORST:
         return !c || c->over.simulated == 0 ? unknown
                                             : print(room, "%s (%u)",
-                                                    rates ? WRITTEN(1 / (c->worst.mean * s->bare->hazard.per_year), 2)
+                                                    rates ? WRITTEN(1 / (c->worst.mean * ceduo_hazard_at(s->bare)->per_year), 2)
                                                           : WRITTEN(1000 * c->worst.mean, 0),
                                                     c->over.worst_year);
     case ROTATION:
@@ -321,7 +322,7 @@ static void add_row(struct ceduo_page *page, const enum column *set, const struc
         else if (column == BAR)
             add_bar(page, set[i + 1], s, scales[i].limit);
         else if (column >= RETURN_1)
-            ceduo_page_return(page, s->wooded ? &s->wooded->hazard : NULL, (size_t)(1 + column - RETURN_1));
+            ceduo_page_return(page, ceduo_hazard_at(s->wooded), (size_t)(1 + column - RETURN_1));
         else if (!s->index && !(column == TODAY || column == MEAN_KJ || column == LEFT || column >= WEAK))
             ceduo_page_write(page, "%s", "");
         else
@@ -505,10 +506,7 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
     begin(page, report, r->last_control, set);
     for (const struct ceduo_year *y = years->years; y < years->years + years->count; y++) {
         char name[CEDUO_WORDS_ROOM];
-        struct ceduo_subject s = ceduo_subject_of(report, option, r->last_control);
-        s.index = &y->controls[r->last_control];
-        s.wooded = y->wooded.rocks > 0 ? &y->wooded.arrivals[r->last_control] : NULL;
-        s.today = ceduo_judged(s.place, s.wooded);
+        const struct ceduo_subject s = ceduo_subject_in(report, option, y);
         add_row(page, set, &s, NULL, CEDUO_ROLE_TEXT, print(name, "%4u %s", y->year, y->cut ? P_("head", "cut") : ""));
     }
     ceduo_page_trim(page);

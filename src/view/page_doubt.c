@@ -202,7 +202,7 @@ static struct ceduo_measure measure_of(const struct ceduo_doubt_report *r, size_
     struct ceduo_measure m = ceduo_share((struct ceduo_portion){NAN, NAN});
     if (a && a->released >= own) {
         own = a->released;
-        m = energy ? ceduo_energy_released(a) : ceduo_judged(&s->controls[ceduo_scene_last_control(s)], a);
+        m = energy ? ceduo_measured(CEDUO_RELEASED_KJ, a) : ceduo_judged(&s->controls[ceduo_scene_last_control(s)], a);
     } else if (c && c->over.simulated > 0 && c->rocks > own) {
         own = c->rocks;
         m = ceduo_share(c->mean);

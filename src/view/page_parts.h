@@ -68,6 +68,15 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_report *report)
 bool ceduo_report_has_hazard(const struct ceduo_report *report);
 void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report, size_t control, bool first);
 
+/* What arrives at a control through the forest of a subject and, `with_bare`, without it: as many figures as a screen of so many lines
+ * has room for, or all of them. */
+#define CEDUO_LINES_SHORT 18 /* of the short page */
+#define CEDUO_LINES_WHOLE 1000
+void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *subject, int lines, bool with_bare);
+
+/* The three tests of an option with their limits, and what the index says. */
+void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *subject, int lines);
+
 /* Percentiles of the rocks that arrive at a control, with their intervals: through the forest of an option (SIZE_MAX: none), and
  * without forest. */
 void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *result, size_t option, size_t control,
@@ -82,7 +91,6 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
 
 /* ---- words and cells that several of them use ---- */
 
-void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *arrivals); /* cell of the energy, with its error */
 /* Write the head of a column of the share that a control is judged by: "> 50 kJ", or "arrive" without an accepted energy. */
 void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *control);
 void ceduo_page_free_run(struct ceduo_page *page, double share);

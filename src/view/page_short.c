@@ -40,63 +40,6 @@ static void add_title(struct ceduo_page *page, const struct ceduo_report *report
 
 /* ---- one option ---- */
 
-/* What arrives with stems on the way (NULL: not known) beside what arrives without them; where none stand that alone. */
-static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, bool stems)
-{
-    static const struct ceduo_page_column columns[] = {
-        {N_("of 1000 rocks"), 40, 2, 0}, {NP_("head", "without wood"), -14, 0, 0}, {NP_("head", "with the wood"), -16, 0, 0}};
-    const struct ceduo_control *c = &r->scene->controls[r->last_control];
-    const struct ceduo_arrivals *arrivals[] = {&r->bare.arrivals[r->last_control], ceduo_result_wooded(r, 0, r->last_control)};
-    struct ceduo_measure figures[2][4];
-    for (size_t i = 0; i < 2; i++) {
-        figures[i][0] = ceduo_arriving(arrivals[i]);
-        figures[i][1] = ceduo_judged(c, arrivals[i]);
-        figures[i][2] = ceduo_mean_energy(arrivals[i]);
-        figures[i][3] = ceduo_energy_p95(arrivals[i]);
-        figures[i][2].digits = 3; /* as many as the other one */
-    }
-    ceduo_page_table(page, columns, stems ? 3 : 2);
-    for (size_t k = 0; k < 4; k++) {
-        if (k == 1 && isnan(c->accepted))
-            continue;
-        ceduo_page_write(page, "%s", NAMED(figures[0][k], CEDUO_PHRASE));
-        for (size_t i = 0; i < (stems ? 2 : 1); i++)
-            ceduo_page_write(page, "%s", VALUE_OF(figures[i][k]));
-    }
-    ceduo_page_write(page, "%s", _("stopped by stems, at rest before"));
-    for (size_t i = 0; i < (stems ? 2 : 1); i++)
-        ceduo_page_write(page, arrivals[i] ? "%.0f, %.0f" : "-",
-                         arrivals[i] ? 1000 * arrivals[i]->missed[CEDUO_STOPPED_BY_STEMS] : 0,
-                         arrivals[i] ? 1000 * arrivals[i]->missed[CEDUO_AT_REST] : 0);
-}
-
-static void add_wood(struct ceduo_page *page, const struct ceduo_result *r)
-{
-    static const struct ceduo_page_column columns[] = {
-        {N_("on the way"), 40, 2, 0}, {"", -14, 0, 0}, {NP_("head", "limit"), -15, 0, 0}, {NP_("head", "kept"), -7, 0, 0}};
-    const struct ceduo_index *s = ceduo_result_last_index(r, 0);
-    const char *threshold = SHORTEST(r->scene->simulation.threshold);
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    if (s->length > 0 && s->longest_gap > r->scene->simulation.threshold) { /* the reason why neither is kept */
-        ceduo_page_write(page, "%s", _("gap without forest, m"));
-        ceduo_page_write(page, "%s", ROUNDED(s->longest_gap, 6));
-        ceduo_page_write(page, _("at most %s"), threshold);
-        ceduo_page_yes(page, false);
-    }
-    ceduo_page_write(page, "%s", _("distance between contacts (ADC), m"));
-    ceduo_page_write(page, "%s", BESIDE(s->length > 0 ? s->worst_adc : NAN, 3, r->scene->simulation.threshold));
-    ceduo_page_write(page, _("below %s"), threshold);
-    ceduo_page_yes(page, s->worst_adc < r->scene->simulation.threshold);
-    ceduo_page_write(page, _("chance of %s m without a contact"), threshold);
-    ceduo_page_free_run(page, s->worst_free_run);
-    ceduo_page_write(page, _("at most %.0f %%"), 100 * CEDUO_FREE_RUN_MOST);
-    ceduo_page_yes(page, s->worst_free_run <= CEDUO_FREE_RUN_MOST);
-    ceduo_page_write(page, "%s", _("energy taken by stems, left (index), kJ"));
-    ceduo_page_write(page, "%s, %s", WRITTEN(s->dissipated * J_TO_KJ, 3), WRITTEN(s->residual * J_TO_KJ, 3));
-    ceduo_page_write(page, "%s", "");
-    ceduo_page_write(page, "%s", "");
-}
-
 /* ---- what is assumed, and what is to be noted ---- */
 
 static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *report)
@@ -105,9 +48,6 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     size_t n = r->scene->options_count;
     if (report->doubt && report->doubt->answer)
         ceduo_doubt_outside(report->doubt, ceduo_page_warn_once, notes);
-    if (r->scene->controls_count > 0 && !isnan(ceduo_result_last_index(r, 0)->measured))
-        ceduo_page_say(notes, CEDUO_PAGE_WARNING, _("One rock that was measured here had %s kJ."),
-                       WRITTEN(ceduo_result_last_index(r, 0)->measured * J_TO_KJ, 3));
     ceduo_words_thin(r, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_rules(notes, r, i, false);
@@ -192,9 +132,11 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
         ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, ceduo_result_best(r, report->verdict), r->last_control);
     if (n == 1 && !nothing) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
-        add_arrivals(page, r, ceduo_plot_has_stems(&r->scene->options[0]));
-        if (ceduo_plot_has_stems(&r->scene->options[0]))
-            add_wood(page, r);
+        const bool stems = ceduo_plot_has_stems(&r->scene->options[0]);
+        const struct ceduo_subject s = ceduo_subject_of(report, stems ? 0 : SIZE_MAX, r->last_control);
+        ceduo_page_arrivals(page, &s, CEDUO_LINES_SHORT, true);
+        if (stems)
+            ceduo_page_tests(page, &s, CEDUO_LINES_SHORT);
     }
     ceduo_page_sure(page, report);
     ceduo_page_over(page, report);

@@ -23,9 +23,6 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
 /* The ADC of each belt beside the threshold, and a gap; nothing without forest. */
 void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane);
 
-/* The energy that is left at the last control: without forest, by the index, simulated. */
-void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane);
-
 /* All of an option in words, and what is to be said of the run. */
 void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane);
 

@@ -127,14 +127,28 @@ void ceduo_measure_doubt(struct ceduo_measure *measure, const struct ceduo_doubt
 /* The same of its mean over the years, which is known where that was asked for. */
 void ceduo_measure_doubt_over(struct ceduo_measure *measure, const struct ceduo_doubt_report *doubt, size_t option);
 
-/* The mean energy of the rocks that arrive, that below which 95 % of them stay, and that of all released, in kJ. */
-struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *arrivals);
-struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *arrivals);
-struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *arrivals);
+/* Of 1000 those that end before the control, by how they end; of those that arrive the mean and the 95th percentile of the energy,
+ * the 95th percentile of the height under them, the mean speed, the mean of the stems hit; the mean energy of all released. */
+enum ceduo_measured {
+    CEDUO_STOPPED,
+    CEDUO_RESTED,
+    CEDUO_GONE,
+    CEDUO_ENDLESS,
+    CEDUO_MEAN_KJ,
+    CEDUO_P95_KJ,
+    CEDUO_RELEASED_KJ,
+    CEDUO_P95_HEIGHT,
+    CEDUO_SPEED,
+    CEDUO_STEMS_HIT,
+    CEDUO_MEASURED
+};
+struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo_arrivals *arrivals);
 
-/* Of 1000 those that end before the control in one way; the height under the rocks that 95 % of those that arrive stay below, m. */
-struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *arrivals, enum ceduo_end end);
-struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *arrivals);
+uint64_t ceduo_released(const struct ceduo_arrivals *arrivals); /* rocks */
+
+/* How often, and with how much; the rate of what is feared. Without blocks, or of NULL, NULL and NaN. */
+const struct ceduo_hazard *ceduo_hazard_at(const struct ceduo_arrivals *arrivals);
+struct ceduo_estimate ceduo_feared(const struct ceduo_arrivals *arrivals);
 
 /* Strings of a measure, which live as long as the block that calls: a name; its value, "-" if it is not known; an interval, "453–501";
  * both, "480 (453–501)"; shorter, "480 ±27" or "480±27" with nothing `between`, and "480" of one rock, whose error is not known. MAY_BE:
@@ -194,6 +208,8 @@ struct ceduo_subject {
 };
 /* `option` SIZE_MAX: without forest. */
 struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t option, size_t control);
+/* In a year of an option, at the last control. */
+struct ceduo_subject ceduo_subject_in(const struct ceduo_report *report, size_t option, const struct ceduo_year *year);
 
 /* An option over the years ahead; NULL if they are not known, or are all as today. */
 static inline const struct ceduo_choice *ceduo_report_ahead(const struct ceduo_report *report, size_t option)

@@ -162,6 +162,16 @@ struct ceduo_subject ceduo_subject_of(const struct ceduo_report *report, size_t 
     return s;
 }
 
+struct ceduo_subject ceduo_subject_in(const struct ceduo_report *report, size_t option, const struct ceduo_year *year)
+{
+    struct ceduo_subject s = ceduo_subject_of(report, option, report->result->last_control);
+    s.index = &year->controls[s.control];
+    s.wooded = year->wooded.rocks > 0 ? &year->wooded.arrivals[s.control] : NULL;
+    s.choice = NULL;
+    s.today = ceduo_judged(s.place, s.wooded);
+    return s;
+}
+
 const char *ceduo_words_decided(enum ceduo_judgement judgement)
 {
     return _(judgements[judgement].verdict);
