@@ -50,7 +50,7 @@ enum ceduo_page_flag {
 #define CEDUO_DROPPED(rank) ((unsigned)(rank) << 8)
 #define CEDUO_MINOR         6
 
-enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_MEAN, CEDUO_CELL_BAR };
+enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_BAR };
 
 /* A bar in shares of its column, see ceduo_page_scale(); only sinks that draw show it. NaN: not there. */
 struct ceduo_page_bar {
@@ -65,7 +65,7 @@ struct ceduo_page_cell {
     enum ceduo_role role;      /* of its text in a pane, or of its bar; BLANK: as the others */
     struct text text, shorter; /* shorter: where there is no room for the other; may be empty */
     struct text written;       /* of a head: written out, on pages that have room; may be empty */
-    double value, half;        /* a number; half the width of a mean's interval, NaN where it has none */
+    double value;              /* a number */
     int digits;                /* of the number, where there is room for them */
     struct ceduo_page_bar bar;
 };

@@ -43,27 +43,6 @@ const char *ceduo_words_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_
     return room;
 }
 
-void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
-{
-    const struct ceduo_control *c = &r->scene->controls[control];
-    const struct ceduo_hazard *wooded = hazard_of(r, option + 1, control);
-    LOCAL_TEXT(place);
-    LOCAL_TEXT(rock);
-    ceduo_words_place(&place, c);
-    if (isnan(c->accepted))
-        ceduo_text_put(&rock, _("A rock"));
-    else
-        ceduo_text_format(&rock, _("A rock with more than %s kJ"), SHORTEST(ceduo_words_accepted(c)));
-    ceduo_text_format(text, _("%s reaches %s every %s years today without forest"), rock.bytes, place.bytes,
-                      YEARS(ceduo_hazard_feared(hazard_of(r, 0, control))));
-    if (wooded && r->scene->options_count > 1)
-        ceduo_text_then(text, ", ", _("every %s years with '%s'"), YEARS(ceduo_hazard_feared(wooded)),
-                        r->scene->options[option].name);
-    else if (wooded)
-        ceduo_text_then(text, ", ", _("every %s years through the wood"), YEARS(ceduo_hazard_feared(wooded)));
-    ceduo_text_char(text, '.');
-}
-
 /* ---- energies of return periods ---- */
 
 void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *h, size_t i)
@@ -135,7 +114,6 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
                          "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
                        r->bare.arrivals[c].hazard.per_year, (unsigned long long)r->bare.rocks,
                        r->bare.arrivals[c].hazard.effective);
-    ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, ceduo_result_best(r, report->verdict), c);
     ceduo_page_say(
         page, CEDUO_PAGE_CAPTION,
         _("Years from one such rock to the next, and what arrives weak, medium and strong, in %% of what does without "

@@ -7,6 +7,7 @@
 
 #include "base/language.h"
 #include "page_parts.h"
+#include "plot.h"
 #include "scene/choices.h"
 #include "typed.h"
 
@@ -229,13 +230,14 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
 static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
                       const struct ceduo_option_result *found)
 {
-    static const struct ceduo_page_column columns[] = {{NP_("head", "m|from, to, m"), 10, 4, CEDUO_WHOLE},
-                                                       {N_("stand"), 27, 0, 0},
-                                                       {N_("ADC m|ADC, m"), -7, 0, 0},
-                                                       {NULL, 6, 1, 0},
-                                                       {NP_("head", "free run|chance of a free run"), -9, 0, 0},
-                                                       {NP_("head", "kJ|energy taken, kJ"), -7, 0, 0},
-                                                       {N_("kJ/100 m|taken per 100 m, kJ"), -9, 0, 0}};
+    static const struct ceduo_page_column columns[] = {
+        {N_("stand"), 10, 2, CEDUO_FILLS},
+        {NP_("head", "m|from, to, m"), 1, 1, CEDUO_FITS | CEDUO_DROPPED(4)},
+        {N_("ADC m|ADC, m"), -5, 1, CEDUO_FITS},
+        {NULL, -5, 1, CEDUO_FITS},
+        {NP_("head", "free run|chance of a free run"), -7, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
+        {NP_("head", "kJ|energy taken, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(2)},
+        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(3)}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *head = ceduo_page_head(page);
     ceduo_text_format(&head->text, "<%s m", SHORTEST(scene->simulation.threshold));
@@ -243,10 +245,12 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
     for (size_t i = 0; i < o->belts_count; i++) {
         const struct ceduo_belt *b = &o->belts[i];
         const struct ceduo_stand_result *s = &found->stands[i];
+        LOCAL_TEXT(name);
+        ceduo_plot_belt_name(&name, b);
+        ceduo_page_mark(page, CEDUO_ROLE_BELT, ceduo_text_string(&name));
         ceduo_page_write(page, "%s\xe2\x80\x93%s", SHORTEST(b->from_given), SHORTEST(b->to_given));
-        ceduo_page_write(page, "%s%s", b->name, b->assumed ? "*" : "");
         ceduo_page_write(page, "%s", BESIDE(s->adc_m, 3, scene->simulation.threshold));
-        ceduo_page_yes(page, s->passes_threshold);
+        ceduo_page_light(page, s->passes_threshold ? CEDUO_PASS : CEDUO_FAIL);
         ceduo_page_free_run(page, s->free_run_probability);
         ceduo_page_number(page, s->dissipated * J_TO_KJ, 3);
         ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
@@ -455,7 +459,7 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
         if (whole && r->bare.rocks > 0)
             ceduo_page_percentiles(page, r, i, k, bare);
         ceduo_page_design(page, report, i, k);
-        if (whole && k == 0 && option->belts_count > 0)
+        if (k == 0 && option->belts_count > 0)
             add_belts(page, r->scene, option, &r->options[i]);
         if (k == 0)
             say_other_forms(page, r->scene, option, &r->options[i]);

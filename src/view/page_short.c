@@ -128,8 +128,6 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
         ceduo_page_options(page, report, CEDUO_OPTIONS_SHORT, r->last_control, SIZE_MAX, 0, n);
     }
     ceduo_page_answer(page, report);
-    if (r->scene->blocks_count > 0 && !nothing)
-        ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, ceduo_result_best(r, report->verdict), r->last_control);
     if (n == 1 && !nothing) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
         const bool stems = ceduo_plot_has_stems(&r->scene->options[0]);

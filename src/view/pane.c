@@ -82,29 +82,6 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
 
 /* ---- tables and words of views 4 and 7 ---- */
 
-void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane)
-{
-    static const struct ceduo_page_column columns[] = {
-        {N_("ADC"), 10, 0, CEDUO_FILLS}, {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(1)}, {"", -6, 1, CEDUO_FITS}, {"", 1, 1, 0}};
-    const struct ceduo_option *option = &pane->report->result->scene->options[pane->option];
-    double threshold = pane->report->result->scene->simulation.threshold;
-    if (option->belts_count == 0)
-        return;
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_text_format(&page->last->cells[2].text, _("< %s m"), SHORTEST(threshold));
-    for (size_t i = 0; i < option->belts_count; i++) {
-        const struct ceduo_belt *belt = &option->belts[i];
-        const struct ceduo_stand_result *r = &pane->report->result->options[pane->option].stands[i];
-        LOCAL_TEXT(name);
-        ceduo_plot_belt_name(&name, belt);
-        ceduo_page_mark(page, CEDUO_ROLE_BELT, ceduo_text_string(&name));
-        ceduo_page_write(page, "%s\xe2\x80\x93%s m", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
-        ceduo_page_write(page, isfinite(r->adc_m) ? _("%s m") : "%s", BESIDE(r->adc_m, 3, threshold));
-        ceduo_page_light(page, r->passes_threshold ? CEDUO_PASS : CEDUO_FAIL);
-    }
-    ceduo_page_add(page, CEDUO_PAGE_GAP);
-}
-
 void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     const struct ceduo_report *report = pane->report;
@@ -120,16 +97,11 @@ void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
     const struct ceduo_doubt_report *r = pane->report->doubt;
     if (!r || !r->answer || isnan(ceduo_doubt_main(r, pane->option)->fit.p5))
         return;
-    ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
     ceduo_doubt_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, ceduo_doubt_main(r, pane->option), 1);
     const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
     for (size_t i = 0; i < ranking->count; i++)
         if (ranking->orders[i].better == pane->option || ranking->orders[i].than == pane->option)
             ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
-    const struct ceduo_doubt_figure *failing = ceduo_doubt_figure_of(r->answer, pane->option, CEDUO_DOUBT_FAILING, false);
-    if (r->over && !isnan(failing->fit.p5))
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Years that fail: %.0f, may be %.0f\xe2\x80\x93%.0f."), failing->value,
-                       floor(failing->fit.p5), ceil(failing->fit.p95)); /* outwards */
     for (size_t i = 0; i < 3 && !r->over; i++)
         ceduo_doubt_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
 }
@@ -153,8 +125,6 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     const struct ceduo_result *r = pane->report->result;
     const struct ceduo_verdict *v = pane->report->verdict;
-    if (r->scene->blocks_count > 0 && r->scene->controls_count > 0)
-        ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, r->last_control);
     if (v->n < 2) {
         ceduo_page_note(page, _("One way to treat this forest so far. a adds another, y a copy of this one."));
     } else {

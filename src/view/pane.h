@@ -20,9 +20,6 @@ struct ceduo_pane {
  * at its end are warnings. */
 size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane);
 
-/* The ADC of each belt beside the threshold, and a gap; nothing without forest. */
-void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane);
-
 /* All of an option in words, and what is to be said of the run. */
 void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane);
 

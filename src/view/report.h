@@ -60,9 +60,6 @@ const char *ceduo_doubt_measured(const struct ceduo_doubt_report *report, size_t
 /* Adds what was found as blocks: a section with tables and what to measure first; of `all` also the mean over a rotation, and how
  * sure the order of the options is. */
 void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *report, bool all);
-/* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
-void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
-
 /* The option that advice is about: the one that lets least pass today in the mean of plausible cases. */
 size_t ceduo_doubt_chosen(const struct ceduo_doubt_report *report);
 

@@ -99,7 +99,6 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *result,
 void ceduo_words_counted(struct text *text, uint64_t rocks);
 
 /* How often what is feared at a control happens, in one sentence; "13" and "13 (9–14)" years. */
-void ceduo_words_hazard(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 const char *ceduo_words_every(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
 const char *ceduo_words_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
 #define EVERY(rate) ceduo_words_every(rate, (char[CEDUO_WORDS_ROOM]){0})
