@@ -77,11 +77,12 @@ struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo
                                [CEDUO_GONE] = {N_("left the slope"), N_("left the slope before")},
                                [CEDUO_ENDLESS] = {N_("unfinished"), N_("never come to an end")},
                                [CEDUO_MEAN_KJ] = {N_("mean kJ"), N_("mean energy of those that arrive, kJ")},
-                               [CEDUO_P95_KJ] = {N_("95 % below kJ"), N_("95 % of those stay below, kJ")},
+                               [CEDUO_P95_KJ] = {N_("95 % below kJ"), N_("95 % stay below, kJ")},
                                [CEDUO_RELEASED_KJ] = {N_("kJ a rock"), N_("energy per released rock, kJ")},
-                               [CEDUO_P95_HEIGHT] = {N_("95 % below m"), N_("95 % of those stay below, m up")},
+                               [CEDUO_P95_HEIGHT] = {N_("95 % below m"), N_("95 % stay below, m above ground")},
                                [CEDUO_SPEED] = {N_("mean m/s"), N_("mean speed of those that arrive, m/s")},
-                               [CEDUO_STEMS_HIT] = {N_("stems hit"), N_("stems hit by one that arrives")}};
+                               [CEDUO_STEMS_HIT] = {N_("stems hit"), N_("stems hit by one that arrives")},
+                               [CEDUO_P95_TOP] = {N_("95 % below m"), N_("95 % stay below, m up")}};
     static const struct ceduo_arrivals none;
     const struct ceduo_arrivals *a = arrivals ? arrivals : &none;
     const double halves[CEDUO_MEASURED] = {[CEDUO_MEAN_KJ] = J_TO_KJ * ceduo_half_width(a->energy.se, a->reached),
@@ -97,12 +98,13 @@ struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo
                                            [CEDUO_RELEASED_KJ] = J_TO_KJ * a->energy_per_released.mean,
                                            [CEDUO_P95_HEIGHT] = a->height.p95,
                                            [CEDUO_SPEED] = a->speed.mean,
-                                           [CEDUO_STEMS_HIT] = a->contacts.mean};
+                                           [CEDUO_STEMS_HIT] = a->contacts.mean,
+                                           [CEDUO_P95_TOP] = a->top_p95};
     double value = a->released > 0 ? values[what] : NAN, half = halves[what] > 0 ? halves[what] : NAN;
     return (struct ceduo_measure){.value = value,
                                   .lo = value - half,
                                   .hi = value + half,
-                                  .half = NAN,
+                                  .half = half,
                                   .may_lo = NAN,
                                   .may_hi = NAN,
                                   .digits = what < CEDUO_MEAN_KJ ? 0 : 3,
@@ -111,7 +113,32 @@ struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo
 
 uint64_t ceduo_released(const struct ceduo_arrivals *a)
 {
-    return a->released;
+    return a ? a->released : 0;
+}
+
+uint64_t ceduo_reached(const struct ceduo_arrivals *a)
+{
+    return a ? a->reached : 0;
+}
+
+uint64_t ceduo_unfinished(const struct ceduo_arrivals *a)
+{
+    return a->unfinished;
+}
+
+const struct ceduo_distribution *ceduo_spread(enum ceduo_spread what, const struct ceduo_arrivals *a)
+{
+    return what == CEDUO_SPREAD_SPEED ? &a->speed : what == CEDUO_SPREAD_ENERGY ? &a->energy : &a->height;
+}
+
+bool ceduo_is_close_call(const struct ceduo_arrivals *a)
+{
+    return a && a->exceed.lo <= a->limit && a->exceed.hi > a->limit && ceduo_energy_light(a) != CEDUO_UNKNOWN;
+}
+
+const struct ceduo_topography *ceduo_topography_at(const struct ceduo_arrivals *a)
+{
+    return &a->topography;
 }
 
 const struct ceduo_hazard *ceduo_hazard_at(const struct ceduo_arrivals *a)
@@ -157,7 +184,7 @@ const char *ceduo_measure_may_be(struct ceduo_measure m, char room[CEDUO_WORDS_R
 
 const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char room[CEDUO_WORDS_ROOM])
 {
-    bool known = !isnan(m.value) && !isnan(m.half);
+    bool known = !isnan(m.value) && !isnan(m.half) && m.digits == 0;
     snprintf(room, CEDUO_WORDS_ROOM, known ? "%s%s\xc2\xb1%.0f" : "%s", VALUE_OF(m), between, ceil(m.half));
     return room;
 }

@@ -170,8 +170,7 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
             mean = fmax(mean, v->choices[i].mean.half);
     }
     if (!r->wooded) {
-        ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"),
-                          WRITTEN(ceduo_half_width(bare->energy.se, bare->reached) * J_TO_KJ, 2));
+        ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"), WRITTEN(ceduo_measured(CEDUO_MEAN_KJ, bare).half, 2));
     } else if (r->scene->options_count == 1) {
         const struct ceduo_measure m = ceduo_judged(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
         ceduo_text_put(&error, SPAN(m, m.lo, m.hi));

@@ -17,7 +17,7 @@
 /* Name, head, width, flags. BAR is a bar of the column after it. */
 #define COLUMN_LIST(X)                                                                                                         \
     X(NAME, N_("option"), 10, CEDUO_FILLS)                                                                                     \
-    X(BAR, "", 6, CEDUO_FILLS | CEDUO_DROPPED(7))                                                                              \
+    X(BAR, "", 6, CEDUO_FILLS | CEDUO_DROPPED(5))                                                                              \
     X(TODAY, NULL, -5, CEDUO_FITS)                                                                                             \
     X(RANGE, NP_("head", "range"), -5, CEDUO_FITS | CEDUO_DROPPED(4))                                                          \
     X(TO_FIRST, NP_("head", "to first|difference to the first option"), -8, CEDUO_FITS)                                        \
@@ -338,7 +338,7 @@ static void add_row(struct ceduo_page *page, const enum column *set, const struc
 
 static void begin(struct ceduo_page *page, const struct ceduo_report *report, size_t control, const enum column *set)
 {
-    struct ceduo_page_column chosen[COLUMNS_SHOWN];
+    struct ceduo_page_column chosen[COLUMNS_SHOWN] = {0};
     const struct ceduo_control *c = &report->result->scene->controls[control];
     size_t n = 0;
     bool ahead = false;
@@ -410,6 +410,8 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     const struct ceduo_report report = {.result = result};
     room = n <= room ? n : room - 1;
     ceduo_page_options(d->page, &report, CEDUO_OPTIONS_BARS, d->picture->control, d->picture->option, 0, room);
+    if (ceduo_reached(d->bare_arrivals) == 0)
+        ceduo_page_line(d->page, CEDUO_ROLE_DIM, "%s", _("no rock arrives"));
     if (room < n)
         ceduo_page_say(d->page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(n - room));
     ceduo_result_free(result);
@@ -517,9 +519,9 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
 
 void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    static const struct ceduo_page_column columns[1 + BESIDE_MAX] = {{N_("year"), 15, 2, 0}, {"", -7, 0, 0}, {"", -7, 0, 0},
-                                                                     {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0},
-                                                                     {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0}};
+    static const struct ceduo_page_column beside[1 + BESIDE_MAX] = {{N_("year"), 15, 2, 0}, {"", -7, 0, 0}, {"", -7, 0, 0},
+                                                                    {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0},
+                                                                    {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0}};
     const struct ceduo_result *r = report->result;
     const struct ceduo_control *control = last_control(r);
     size_t n = r->scene->options_count;
@@ -527,7 +529,7 @@ void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report 
                    NAMED(ceduo_judged(control, NULL), CEDUO_HEAD), SHORTEST(control->x_given));
     for (size_t from = 0; from < n; from += BESIDE_MAX) {
         size_t to = from + BESIDE_MAX < n ? from + BESIDE_MAX : n;
-        ceduo_page_table(page, columns, 1 + to - from);
+        ceduo_page_table(page, beside, 1 + to - from);
         for (size_t i = from; i < to; i++)
             ceduo_text_format(&page->last->cells[1 + i - from].text, "%zu", i + 1);
         for (size_t k = 0; k < report->years[0]->count; k++) {

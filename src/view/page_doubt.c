@@ -200,8 +200,8 @@ static struct ceduo_measure measure_of(const struct ceduo_doubt_report *r, size_
     uint64_t own = r->answer->own_rocks;
     own = r->over && own > CEDUO_DOUBT_OWN_YEAR_ROCKS ? CEDUO_DOUBT_OWN_YEAR_ROCKS : own;
     struct ceduo_measure m = ceduo_share((struct ceduo_portion){NAN, NAN});
-    if (a && a->released >= own) {
-        own = a->released;
+    if (a && ceduo_released(a) >= own) {
+        own = ceduo_released(a);
         m = energy ? ceduo_measured(CEDUO_RELEASED_KJ, a) : ceduo_judged(&s->controls[ceduo_scene_last_control(s)], a);
     } else if (c && c->over.simulated > 0 && c->rocks > own) {
         own = c->rocks;

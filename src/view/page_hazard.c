@@ -9,18 +9,15 @@
 #include "page_parts.h"
 #include "plot.h"
 
-/* What arrives at a control without forest (item 0) and through the forest of each option. NULL: not known. */
+/* Without forest (item 0) and through the forest of each option. NULL: not known. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_result *r, size_t item, size_t control)
 {
-    const struct ceduo_arrivals *a = item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control);
-    return a ? &a->hazard : NULL;
+    return ceduo_hazard_at(item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control));
 }
 
 static const char *name_of(const struct ceduo_result *r, size_t item)
 {
-    return item == 0                      ? _("without forest")
-           : r->scene->options_count == 1 ? _("through the wood")
-                                          : r->scene->options[item - 1].name;
+    return item == 0 ? _("without forest") : r->scene->options_count == 1 ? _("with forest") : r->scene->options[item - 1].name;
 }
 
 /* ---- in words ---- */
@@ -85,7 +82,8 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
             struct text *cell = ceduo_page_text(page); /* which of all have it at that return period, by their numbers */
             for (size_t k = 0; k <= r->scene->options_count; k++) {
                 const struct ceduo_hazard *h = hazard_of(r, k, control);
-                if (h && ceduo_intensity_of(h->returns[t].energy.mean) == i)
+                const struct ceduo_estimate energy = h ? h->returns[t].energy : CEDUO_NO_ESTIMATE;
+                if (h && ceduo_intensity_of(energy.mean) == i)
                     ceduo_text_format(cell, cell->length > 0 ? " %zu" : "%zu", k);
             }
             ceduo_text_put(cell, cell->length == 0 ? "\xc2\xb7" : "");
@@ -112,8 +110,7 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
                        _("%g blocks come down a year. Rare large ones were simulated as often as small ones and "
                          "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
-                       r->bare.arrivals[c].hazard.per_year, (unsigned long long)r->bare.rocks,
-                       r->bare.arrivals[c].hazard.effective);
+                       hazard_of(r, 0, c)->per_year, (unsigned long long)r->bare.rocks, hazard_of(r, 0, c)->effective);
     ceduo_page_say(
         page, CEDUO_PAGE_CAPTION,
         _("Years from one such rock to the next, and what arrives weak, medium and strong, in %% of what does without "

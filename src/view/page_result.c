@@ -70,7 +70,7 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
     if (!isnan(c->accepted))
         ceduo_text_then(place, ", ", _("withstands %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
                         ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
-    ceduo_words_topography(place, &report->result->bare.arrivals[i].topography, false);
+    ceduo_words_topography(place, ceduo_topography_at(&report->result->bare.arrivals[i]), false);
 }
 
 /* A row: name, through the forest, without it; each shorter where its column is narrow. */
@@ -95,7 +95,7 @@ static void add_figure(struct ceduo_page *page, struct ceduo_measure wood, struc
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s, int lines, bool with_bare)
 {
     enum { LOW = 15, MIN = 18, ALL = 24, WHOLE = CEDUO_LINES_WHOLE };
-    static const int least[CEDUO_MEASURED] = {LOW, MIN, LOW, LOW, LOW, LOW, WHOLE, ALL, WHOLE, WHOLE};
+    static const int least[CEDUO_P95_TOP] = {LOW, MIN, LOW, LOW, LOW, LOW, WHOLE, ALL, WHOLE, WHOLE};
     const struct ceduo_arrivals *wood = s->index ? s->wooded : NULL, *bare = with_bare ? s->bare : NULL;
     bool whole = lines >= WHOLE, nothing = !whole && ceduo_says_nothing(s->bare), blocks = ceduo_hazard_at(s->bare);
     int width = page->width >= CEDUO_PAGE_WIDTH ? 18 : page->width >= PANE_WIDE ? 15 : 7;
@@ -116,7 +116,7 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
         add_row(page, (const char *const[3][2]){{_("years from one such rock to the next"), _("years apart")},
                                                 {YEARS(ceduo_feared(wood)), EVERY(ceduo_feared(wood))},
                                                 {YEARS(ceduo_feared(bare)), EVERY(ceduo_feared(bare))}});
-    for (enum ceduo_measured what = 0; what < CEDUO_MEASURED; what++) {
+    for (enum ceduo_measured what = 0; what < CEDUO_P95_TOP; what++) {
         const struct ceduo_measure through = ceduo_measured(what, wood), without = ceduo_measured(what, bare);
         bool any = through.value > 0 || without.value > 0, mean = what >= CEDUO_MEAN_KJ;
         int from = least[what];
@@ -298,7 +298,7 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
 {
 #define SAME(value) WRITTEN(value, (value) > 0 ? decimals + (int)floor(log10(value)) + 1 : 1)
     const struct ceduo_index *index = &r->options[option].controls[control];
-    double mean = r->bare.arrivals[control].energy.mean * J_TO_KJ, taken = index->dissipated * J_TO_KJ;
+    double mean = ceduo_measured(CEDUO_MEAN_KJ, &r->bare.arrivals[control]).value, taken = index->dissipated * J_TO_KJ;
     double left = index->residual * J_TO_KJ;
     int decimals = mean > 0 ? (int)fmax(0, 3 - floor(log10(mean))) : 1; /* of all three, so that what is written is true */
     LOCAL_TEXT(rest);
@@ -345,8 +345,8 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
         ceduo_page_number(page, b->diameter, 3);
         ceduo_page_number(page, b->adc, 3);
         ceduo_page_number(page, b->contacts, 3);
-        ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(c, b->arrivals.released > 0 ? &b->arrivals : NULL)));
-        left_out |= b->arrivals.released == 0;
+        ceduo_page_write(page, "%s", INTERVAL(ceduo_judged(c, ceduo_released(&b->arrivals) > 0 ? &b->arrivals : NULL)));
+        left_out |= ceduo_released(&b->arrivals) == 0;
     }
     if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
@@ -400,11 +400,11 @@ void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *
         if (!a)
             continue;
         CEDUO_PAGE_TABLE_OF(page, columns);
-        ceduo_text_format(&ceduo_page_head(page)->text, i == 0 ? _("with forest, %llu of %llu") : _("without, %llu of %llu"),
-                          (unsigned long long)a->reached, (unsigned long long)a->released);
-        add_percentiles(page, _("speed, m/s"), &a->speed, 1);
-        add_percentiles(page, _("energy, kJ"), &a->energy, J_TO_KJ);
-        add_percentiles(page, _("underside, m up"), &a->height, 1);
+        ceduo_text_format(&ceduo_page_head(page)->text, i == 0 ? _("forest, %llu of %llu") : _("without, %llu of %llu"),
+                          (unsigned long long)ceduo_reached(a), (unsigned long long)ceduo_released(a));
+        add_percentiles(page, _("speed, m/s"), ceduo_spread(CEDUO_SPREAD_SPEED, a), 1);
+        add_percentiles(page, _("energy, kJ"), ceduo_spread(CEDUO_SPREAD_ENERGY, a), J_TO_KJ);
+        add_percentiles(page, _("underside, m up"), ceduo_spread(CEDUO_SPREAD_HEIGHT, a), 1);
     }
 }
 
@@ -422,14 +422,16 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control), *bare = &r->bare.arrivals[control];
     bool calibrated = ceduo_notes_say(report->file->notes, "calibrated", "slope");
     double survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD), blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD);
-    double model = FACTOR(calibrated), speed = survey * model, energy = J_TO_KJ * speed * speed * blocks;
-    if (d->survey < 0 || d->blocks < 0 || isnan(bare->speed.p95))
+    double model = FACTOR(calibrated), speed = survey * model, energy = speed * speed * blocks;
+    if (d->survey < 0 || d->blocks < 0 || ceduo_reached(bare) == 0)
         return;
-    for (const struct ceduo_arrivals *a = wooded && !isnan(wooded->speed.p95) ? wooded : bare; a; a = a == bare ? NULL : bare)
+    for (const struct ceduo_arrivals *a = ceduo_reached(wooded) > 0 ? wooded : bare; a; a = a == bare ? NULL : bare)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
                        _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height of the block's top %s m."),
                        a == bare ? _("without forest") : _("as long as the forest stands as in this option"),
-                       WRITTEN(a->speed.p95 * speed, 3), WRITTEN(a->energy.p95 * energy, 3), SHOWN(a->top_p95));
+                       WRITTEN(ceduo_spread(CEDUO_SPREAD_SPEED, a)->p95 * speed, 3),
+                       WRITTEN(ceduo_measured(CEDUO_P95_KJ, a).value * energy, 3),
+                       SHOWN(ceduo_measured(CEDUO_P95_TOP, a).value));
     ceduo_page_say(
         page, CEDUO_PAGE_DETAIL,
         _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, %s. Energy: 95th "

@@ -53,7 +53,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     ceduo_page_line(page, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
     if (pane->height >= HEIGHT_ALL) {
         LOCAL_TEXT(angles);
-        ceduo_words_topography(&angles, &r->bare.arrivals[r->last_control].topography, true);
+        ceduo_words_topography(&angles, ceduo_topography_at(s.bare), true);
         ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", ceduo_text_string(&angles));
     }
     ceduo_page_arrivals(page, &s, pane->height, true);
@@ -115,12 +115,6 @@ static bool knows_rotation(const struct ceduo_pane *pane)
            pane->report->verdict->wooded;
 }
 
-/* With blocks the options are judged by the years from one rock above the limit to the next. */
-static bool has_rates(const struct ceduo_pane *pane)
-{
-    return pane->report->result->wooded && pane->report->result->scene->blocks_count > 0 && pane->report->verdict->accepted;
-}
-
 void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     const struct ceduo_result *r = pane->report->result;
@@ -147,7 +141,7 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_note(page, _(ceduo_words_by_index));
     if (pane->report->busy)
         ceduo_page_note(page, _("Computing: the figures become finer."));
-    if (v->n > 1 && r->wooded && v->accepted && !has_rates(pane))
+    if (v->n > 1 && r->wooded && v->accepted && r->scene->blocks_count == 0)
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 bring too much."),
                        CEDUO_EXCEED_MOST * 1000);
     if (v->rotation.known && !v->rotation.uneven)

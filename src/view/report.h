@@ -100,7 +100,7 @@ enum ceduo_measure_name {
 
 struct ceduo_measure {
     double value, lo, hi;                   /* in the unit shown; NaN: not known, or no interval */
-    double half;                            /* of a share: half the width of its interval, not rounded */
+    double half;                            /* half the width of the interval, not rounded */
     double may_lo, may_hi;                  /* 90 % of what may be true; NaN: not known, see ceduo_measure_doubt() */
     int digits;                             /* significant; 0: a whole number */
     const char *names[CEDUO_MEASURE_NAMES]; /* marked for translation; %s in a name is the limit */
@@ -137,11 +137,23 @@ enum ceduo_measured {
     CEDUO_P95_HEIGHT,
     CEDUO_SPEED,
     CEDUO_STEMS_HIT,
+    CEDUO_P95_TOP, /* of the height of the rocks' tops */
     CEDUO_MEASURED
 };
 struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo_arrivals *arrivals);
 
-uint64_t ceduo_released(const struct ceduo_arrivals *arrivals); /* rocks */
+/* Numbers of rocks; 0 of NULL. */
+uint64_t ceduo_released(const struct ceduo_arrivals *arrivals);
+uint64_t ceduo_reached(const struct ceduo_arrivals *arrivals);
+uint64_t ceduo_unfinished(const struct ceduo_arrivals *arrivals);
+
+/* Distribution of those that arrive: m/s, J, m above ground. */
+enum ceduo_spread { CEDUO_SPREAD_SPEED, CEDUO_SPREAD_ENERGY, CEDUO_SPREAD_HEIGHT };
+const struct ceduo_distribution *ceduo_spread(enum ceduo_spread what, const struct ceduo_arrivals *arrivals);
+
+/* True if more rocks may change the test of energy. `arrivals` may be NULL. */
+bool ceduo_is_close_call(const struct ceduo_arrivals *arrivals);
+const struct ceduo_topography *ceduo_topography_at(const struct ceduo_arrivals *arrivals);
 
 /* How often, and with how much; the rate of what is feared. Without blocks, or of NULL, NULL and NaN. */
 const struct ceduo_hazard *ceduo_hazard_at(const struct ceduo_arrivals *arrivals);

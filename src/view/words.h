@@ -16,6 +16,7 @@
 
 /* Takes sentences one by one. */
 typedef void ceduo_words_say(void *context, const char *sentence);
+void ceduo_words_format(ceduo_words_say *say, void *context, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* Append "271 points, 13 after simplifying to 0.5 m" of a profile, or its points alone if none is left out. */
 void ceduo_words_points(struct text *text, const struct ceduo_slope *slope);
@@ -130,13 +131,10 @@ void ceduo_append_with(struct text *text, const char *sentence, const char *stri
  * "none" where infinite. */
 void ceduo_words_number(struct text *text, double value, int digits);
 
-/* The same in a string, for a sentence, and "991 (984–995)", of 1000 rocks with the 95 % interval: it lives as long as the block in
- * which it is made. */
+/* The same in a string, for a sentence: it lives as long as the block in which it is made. */
 const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
 const char *ceduo_words_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
-const char *ceduo_words_shown_of_1000(double probability, double lo, double hi, char room[CEDUO_NUMBER_ROOM]);
-#define WRITTEN(value, digits)     ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
-#define WRITTEN_OF_1000(p, lo, hi) ceduo_words_shown_of_1000(p, lo, hi, (char[CEDUO_NUMBER_ROOM]){0})
+#define WRITTEN(value, digits) ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
 /* A figure beside the limit that it is judged by, with so many digits or as it takes to lie where it does: 29.98 below 30;
  * a share in percent. */
 const char *ceduo_words_beside(double value, int digits, double limit, char room[CEDUO_NUMBER_ROOM]);
