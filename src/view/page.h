@@ -48,7 +48,7 @@ enum ceduo_page_flag {
 
 /* Columns without room are left out, the highest rank first: from CEDUO_MINOR on, at most 9, before names are cut. */
 #define CEDUO_DROPPED(rank) ((unsigned)(rank) << 8)
-#define CEDUO_MINOR         6
+#define CEDUO_MINOR         7
 
 enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_BAR };
 

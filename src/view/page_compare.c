@@ -21,12 +21,12 @@
     X(TODAY, NULL, -5, CEDUO_FITS)                                                                                             \
     X(RANGE, NP_("head", "range"), -5, CEDUO_FITS | CEDUO_DROPPED(4))                                                          \
     X(TO_FIRST, NP_("head", "to first|difference to the first option"), -8, CEDUO_FITS)                                        \
-    X(ENERGY, NP_("light", "E|test of energy"), 1, CEDUO_FITS | CEDUO_DROPPED(7))                                              \
+    X(ENERGY, NP_("light", "E|test of energy"), 1, CEDUO_FITS | CEDUO_DROPPED(6))                                              \
     X(MEAN_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, CEDUO_FITS)                                    \
     X(ADC, N_("ADC m|ADC of the worst belt, m"), -5, CEDUO_FITS)                                                               \
-    X(CONTACT, NP_("light", "C|test of contact"), 1, CEDUO_FITS | CEDUO_DROPPED(7))                                            \
+    X(CONTACT, NP_("light", "C|test of contact"), 1, CEDUO_FITS | CEDUO_DROPPED(6))                                            \
     X(MEET_NONE, NP_("head", "free run|chance of a free run"), -7, CEDUO_FITS)                                                 \
-    X(FREE_RUN, NP_("light", "F|test of free runs"), 1, CEDUO_FITS | CEDUO_DROPPED(7))                                         \
+    X(FREE_RUN, NP_("light", "F|test of free runs"), 1, CEDUO_FITS | CEDUO_DROPPED(6))                                         \
     X(PER_100M, N_("kJ/100 m|taken per 100 m, kJ"), -5, CEDUO_FITS)                                                            \
     X(LEFT, NP_("head", "left kJ|energy left, kJ"), -5, CEDUO_FITS)                                                            \
     X(MEAN, N_("mean"), -5, CEDUO_FITS | CEDUO_DROPPED(1))                                                                     \

@@ -70,7 +70,7 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
 
 /* What arrives at a control through the forest of a subject and, `with_bare`, without it: as many figures as a screen of so many lines
  * has room for, or all of them. */
-#define CEDUO_LINES_SHORT 18 /* of the short page */
+#define CEDUO_LINES_SHORT 17 /* of the short page */
 #define CEDUO_LINES_WHOLE 1000
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *subject, int lines, bool with_bare);
 

@@ -95,7 +95,7 @@ static void add_figure(struct ceduo_page *page, struct ceduo_measure wood, struc
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s, int lines, bool with_bare)
 {
     enum { LOW = 15, MIN = 18, ALL = 24, WHOLE = CEDUO_LINES_WHOLE };
-    static const int least[CEDUO_P95_TOP] = {LOW, MIN, LOW, LOW, LOW, LOW, WHOLE, ALL, WHOLE, WHOLE};
+    static const int least[CEDUO_P95_TOP] = {LOW, MIN, MIN, LOW, LOW, LOW, WHOLE, ALL, WHOLE, WHOLE};
     const struct ceduo_arrivals *wood = s->index ? s->wooded : NULL, *bare = with_bare ? s->bare : NULL;
     bool whole = lines >= WHOLE, nothing = !whole && ceduo_says_nothing(s->bare), blocks = ceduo_hazard_at(s->bare);
     int width = page->width >= CEDUO_PAGE_WIDTH ? 18 : page->width >= PANE_WIDE ? 15 : 7;

@@ -121,8 +121,6 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     bool nothing = ceduo_page_says_nothing(r);
     add_title(page, report);
     ceduo_page_question(page, r);
-    if (n == 1)
-        ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (n > 1 && !nothing) {
         ceduo_page_shares(page, report, true);
         ceduo_page_options(page, report, CEDUO_OPTIONS_SHORT, r->last_control, SIZE_MAX, 0, n);
