@@ -15,7 +15,7 @@ static void build(struct app *app, struct form *form)
 
 enum { PANE_TABLE, PANE_COMPARE, PANE_TRADEOFF, PANES };
 
-#define HEADS        2   /* lines above the table */
+#define HEADS        3   /* lines above the table */
 #define WORDS_MIN    4   /* lines of what is said below it, where there are so many options */
 #define TRADEOFF_MIN 11  /* lines of the picture of protection against yield */
 #define BESIDE_MIN   128 /* columns that hold the table and a picture beside it */

@@ -19,7 +19,7 @@
     X(NAME, N_("option"), 10, CEDUO_FILLS)                                                                                     \
     X(BAR, "", 6, CEDUO_FILLS | CEDUO_DROPPED(5))                                                                              \
     X(TODAY, NULL, -5, CEDUO_FITS)                                                                                             \
-    X(RANGE, NP_("head", "range"), -5, CEDUO_FITS | CEDUO_DROPPED(4))                                                          \
+    X(RANGE, NP_("head", "range"), -5, CEDUO_FITS | CEDUO_DROPPED(5))                                                          \
     X(TO_FIRST, NP_("head", "to first|difference to the first option"), -8, CEDUO_FITS)                                        \
     X(ENERGY, NP_("light", "E|test of energy"), 1, CEDUO_FITS | CEDUO_DROPPED(6))                                              \
     X(MEAN_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, CEDUO_FITS)                                    \
@@ -36,7 +36,7 @@
     X(FAIL, NULL, -4, CEDUO_FITS | CEDUO_DROPPED(2))                                                                           \
     X(FAIL_CONTACT, NP_("head", "fail C|years in which contact fails"), -4, CEDUO_FITS | CEDUO_DROPPED(2))                     \
     X(FAIL_FREE_RUN, NP_("head", "fail F|years in which free runs fail"), -4, CEDUO_FITS | CEDUO_DROPPED(2))                   \
-    X(FELLED, NP_("head", "m3/ha y|felled, m3 per ha and year"), -4, CEDUO_FITS | CEDUO_DROPPED(3))                            \
+    X(FELLED, NP_("head", "m3/y|felled, m3 per ha and year"), -4, CEDUO_FITS | CEDUO_DROPPED(3))                               \
     X(ROTATION, NP_("head", "rotation|mean over a whole rotation"), -5, CEDUO_FITS | CEDUO_DROPPED(5))                         \
     X(STANDING, NP_("head", "m3/ha|standing, m3 per ha"), -4, CEDUO_FITS)                                                      \
     X(MARK, "", 1, CEDUO_FITS | CEDUO_DROPPED(8))                                                                              \
@@ -45,6 +45,7 @@
     X(OTHER_LAW, NP_("head", "other law"), 7, CEDUO_FITS)                                                                      \
     X(OTHER, N_("of 1000"), -5, CEDUO_FITS)                                                                                    \
     X(OTHER_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, CEDUO_FITS)                                   \
+    X(APART, N_("today"), -5, CEDUO_FITS)                                                                                      \
     X(WEAK, NP_("head", "% weak"), -6, CEDUO_FITS)                                                                             \
     X(MEDIUM, NP_("head", "% medium"), -6, CEDUO_FITS)                                                                         \
     X(STRONG, NP_("head", "% strong"), -6, CEDUO_FITS)                                                                         \
@@ -87,7 +88,7 @@ static const enum column shown[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
     [CEDUO_OPTIONS_BARS] = {{NAME, BAR, ADC, CONTACT, BAR, PER_100M, BAR, LEFT},
                             {NAME, BAR, TODAY, ENERGY, BAR, MEAN_KJ, BAR, ADC, CONTACT}},
     [CEDUO_OPTIONS_LAWS] = {{NAME}, {NAME, LAW, TODAY, MEAN_KJ, OTHER_LAW, OTHER, OTHER_KJ}},
-    [CEDUO_OPTIONS_RATES] = {{NAME, TODAY, WEAK, MEDIUM, STRONG}, {NAME, TODAY, WEAK, MEDIUM, STRONG}},
+    [CEDUO_OPTIONS_RATES] = {{NAME, APART, WEAK, MEDIUM, STRONG}, {NAME, APART, WEAK, MEDIUM, STRONG}},
     [CEDUO_OPTIONS_RETURNS] = {{NAME, RETURN_1, RETURN_2, RETURN_3}, {NAME, RETURN_1, RETURN_2, RETURN_3}},
     [CEDUO_OPTIONS_OF_YEARS] = {{NAME, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M},
                                 {NAME, TODAY, ENERGY, MEAN_KJ, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M}}};
@@ -211,7 +212,10 @@ static const char *cell_of(enum column column, const struct ceduo_subject *s, ch
     double left = h && column >= WEAK && column <= STRONG ? h->intensity[column - WEAK].left : NAN;
     switch (column) {
     case TODAY:
-        return share_of(s->today, ceduo_feared(s->wooded), rates, unknown, room);
+        return rates && s->wooded ? ceduo_words_every(ceduo_feared(s->wooded), room)
+                                  : share_of(s->today, CEDUO_NO_ESTIMATE, false, unknown, room);
+    case APART:
+        return share_of(s->today, ceduo_feared(s->wooded), true, unknown, room);
     case RANGE:
         return isnan(s->today.may_lo) || !isnan(s->mean.may_lo) || rates ? "" : ceduo_measure_may_be(s->today, room);
     case MEAN:
@@ -323,7 +327,7 @@ static void add_row(struct ceduo_page *page, const enum column *set, const struc
             add_bar(page, set[i + 1], s, scales[i].limit);
         else if (column >= RETURN_1)
             ceduo_page_return(page, ceduo_hazard_at(s->wooded), (size_t)(1 + column - RETURN_1));
-        else if (!s->index && !(column == TODAY || column == MEAN_KJ || column == LEFT || column >= WEAK))
+        else if (!s->index && !(column == TODAY || column == MEAN_KJ || column == LEFT || column >= APART))
             ceduo_page_write(page, "%s", "");
         else
             ceduo_page_mark(page,
@@ -344,7 +348,7 @@ static void begin(struct ceduo_page *page, const struct ceduo_report *report, si
     bool ahead = false;
     for (; set[n]; n++) {
         chosen[n] = columns[set[n]];
-        ahead |= set[n] == MEAN || set[n] == WEAK;
+        ahead |= set[n] == MEAN;
     }
     ceduo_page_table(page, chosen, n);
     for (size_t i = 0; i < n; i++) {
@@ -434,7 +438,7 @@ void ceduo_page_shares(struct ceduo_page *page, const struct ceduo_report *repor
     else
         ceduo_text_format(text, _("At %s m"), place);
     if (ahead)
-        ceduo_text_then(text, ", ", _("today and over years %u to %u"), ahead->window.first, ahead->window.last);
+        ceduo_text_then(text, "; ", _("years %u to %u"), ahead->window.first, ahead->window.last);
 }
 
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report)

@@ -78,7 +78,7 @@ static void add_row(struct ceduo_page *page, const char *const texts[3][2])
 {
     for (int i = 0; i < 3; i++) {
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
-        ceduo_text_put(&cell->text, texts[i][0]);
+        ceduo_text_put(&cell->text, texts[i][i == 0 && page->width < CEDUO_PAGE_WIDTH]); /* names of a pane are all brief */
         ceduo_text_put(&cell->shorter, texts[i][1]);
     }
 }
@@ -98,20 +98,20 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
     static const int least[CEDUO_P95_TOP] = {LOW, MIN, MIN, LOW, LOW, LOW, WHOLE, ALL, WHOLE, WHOLE};
     const struct ceduo_arrivals *wood = s->index ? s->wooded : NULL, *bare = with_bare ? s->bare : NULL;
     bool whole = lines >= WHOLE, nothing = !whole && ceduo_says_nothing(s->bare), blocks = ceduo_hazard_at(s->bare);
-    int width = page->width >= CEDUO_PAGE_WIDTH ? 18 : page->width >= PANE_WIDE ? 15 : 7;
+    int width = page->width >= CEDUO_PAGE_WIDTH ? 18 : page->width >= PANE_WIDE ? 14 : 7;
     const struct ceduo_page_column columns[] = {
-        {N_("of 1000 rocks"), 13, 2, CEDUO_FILLS}, {"", -width, 0, 0}, {"", width == 15 ? -7 : -width, 0, 0}};
+        {N_("of 1000"), 13, 2, CEDUO_FILLS}, {"", -width, 0, 0}, {"", width == 14 ? -8 : -width, 0, 0}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *heads = page->last->cells;
     ceduo_text_put(&heads[1].text, _("with forest"));
-    ceduo_text_put(&heads[1].shorter, _("forest"));
+    ceduo_text_format(&heads[1].shorter, "%s ", _("forest")); /* apart from the next one */
     ceduo_text_put(&heads[2].text, _("without forest"));
     ceduo_text_put(&heads[2].shorter, _("without"));
     add_figure(page, ceduo_arriving(wood), ceduo_arriving(bare));
     if (!isnan(s->place->accepted) && !nothing)
         add_figure(page, ceduo_judged(s->place, wood), ceduo_judged(s->place, bare));
     if (!whole && !nothing && wood && !isnan(s->today.may_lo) && page->width < CEDUO_PAGE_WIDTH)
-        add_row(page, (const char *const[3][2]){{_("  90 % range"), ""}, {MAY_BE(s->today), ""}, {"", ""}});
+        add_row(page, (const char *const[3][2]){{"", _("  90 % range")}, {MAY_BE(s->today), ""}, {"", ""}});
     if (blocks && !nothing) /* what matters if blocks of all sizes come down */
         add_row(page, (const char *const[3][2]){{_("years from one such rock to the next"), _("years apart")},
                                                 {YEARS(ceduo_feared(wood)), EVERY(ceduo_feared(wood))},
@@ -144,8 +144,7 @@ static void add_test(struct ceduo_page *page, const struct ceduo_subject *s, con
 static void add_name(struct ceduo_page *page, const char *name, const char *shorter)
 {
     struct ceduo_page_cell *cell = ceduo_page_cell(page);
-    ceduo_text_put(&cell->text, name);
-    ceduo_text_put(&cell->shorter, shorter);
+    ceduo_text_put(&cell->text, page->width < CEDUO_PAGE_WIDTH ? shorter : name);
 }
 
 static void add_index(struct ceduo_page *page, const char *name, const char *shorter, const char *value)
@@ -187,7 +186,8 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     add_test(page, s, ceduo_text_string(&accepted), index->energy, c->over.unprotected_energy, c->energy_known);
     if (isnan(index->residual)) /* no rock arrives without forest */
         return;
-    add_index(page, _("energy taken by stems (index), kJ"), _("taken kJ"), WRITTEN(index->dissipated * J_TO_KJ, 3));
+    if (lines >= CEDUO_LINES_SHORT)
+        add_index(page, _("energy taken by stems (index), kJ"), _("taken kJ"), WRITTEN(index->dissipated * J_TO_KJ, 3));
     add_index(page, _("energy left (index), kJ"), _("left kJ"),
               index->exhausted ? _("none") : WRITTEN(index->residual * J_TO_KJ, 3));
     if (!isnan(index->measured) && lines >= CEDUO_LINES_SHORT)

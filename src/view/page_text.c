@@ -337,12 +337,14 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
         names += c->flags & CEDUO_FILLS ? widths[i] - abs(c->width) : 0; /* what they can be cut by */
         rest -= gap_of(p, c, i) + widths[i];
     }
-    for (size_t rank = 9; rest < 0 && rank > 0; rank--)
+    for (size_t rank = 9; rest < 0 && rank > 0; rank--) {
+        bool dropped = rank >= CEDUO_MINOR || rest + names < 0;
         for (size_t i = 0; i < n; i++)
-            if (table->columns[i].flags >> 8 == rank && (rank >= CEDUO_MINOR || rest + names < 0)) {
+            if (dropped && table->columns[i].flags >> 8 == rank) {
                 rest += gap_of(p, &table->columns[i], i) + widths[i];
                 widths[i] = 0;
             }
+    }
     for (size_t i = 0; i < n; i++)
         bars += has_bars[i] && widths[i] > 0;
     for (size_t i = 0; i < n; i++) { /* names take what is missing, or what is left where there is no bar */

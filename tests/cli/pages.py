@@ -70,7 +70,7 @@ def arrivals_of(text):
     """The tables of what arrives, one after another: [{"wooded" or "bare": {name of a row: cell}}]."""
     tables, sides = [], []
     for line in text.splitlines():
-        head = re.match(r"^  of 1000 rocks +((?:with|without) forest)(?: +(without forest))?$", line)
+        head = re.match(r"^  of 1000 +((?:with|without) forest)(?: +(without forest))?$", line)
         row = sides and re.match(rf"^  (\S.*?) +{' +'.join([CELL] * len(sides))}$", line)
         if head:
             sides = [SIDES[side] for side in head.groups() if side]

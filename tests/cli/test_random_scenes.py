@@ -29,6 +29,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (CEDUO, DONE, INPUT, RUN, SANITIZED, SLOWER, Failure, Folder, Suite, ceduo, expect,  # noqa: E402
                      expect_equal, expect_schema, good, no_constant, without_unusual, of_today)
 import random_scenes  # noqa: E402
+from pages import arrivals_of  # noqa: E402
 from runs import is_formula  # noqa: E402
 
 SCENES = int(os.environ.get("SCENES") or (500 if os.environ.get("FULL") else 250))

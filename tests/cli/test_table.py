@@ -123,7 +123,7 @@ def test_table_splinter():
     with Folder() as f:
         path = f.write("s.yaml", scene(rock={"shape": "ellipsoid", "axes_m": [1e-320, 1, 1], "mass_kg": 50}))
         text = good(*WHOLE, "-n", 5, path).out
-        expect_in("of 1000 rocks", text)
+        expect_in("with forest", text)
         expect("Blocks of other sizes" not in text, text)
 
 

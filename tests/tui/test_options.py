@@ -106,7 +106,7 @@ def test_contact_reason():
 def test_index_zero():
     """Where no stems take anything the index takes 0, not -0."""
     screen = fast("key 5 Down Down\nwait idle\ndump", "options.yaml")[0]
-    expect(re.search(r"^taken 0 left [\d.]+ kJ$", screen.now, re.M), screen)
+    expect(re.search(r"^taken kJ +0$", screen.now, re.M), screen)
 
 
 def test_rename_refused():

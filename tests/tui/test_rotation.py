@@ -234,7 +234,7 @@ def test_no_stems():
                                   "bare.yaml")
     expect_in("m: no stems.", flat(years))
     expect(re.search(r"bare +2–38 m +none", belts.body), belts)
-    expect(re.search(r"^30 m free 100\.0 % > 10 +✘$", years.now, re.M), years)
+    expect(re.search(r"^free run % +100\.0 +≤ 10 ✘$", years.now, re.M), years)
 
 
 def test_figures():

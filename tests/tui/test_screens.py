@@ -96,14 +96,14 @@ def check_now(screen, scene, charset):
     expect_in("Rock 0.68 m, 512.3 kg", now)
     expect_in("At 135 m, end of the forest", now)
     sign, to, least, most = ("\\+-", "-", ">=", "<=") if charset == "ascii" else ("±", "–", "≥", "≤")
-    share = "-" if by_index else rf"\d+ \(\d+{to}\d+\)" if screen.width >= 120 else rf"\d+{sign}\d+"
-    figure = "-" if by_index else r"[\d.]+"
-    energy = r"energy: not judged +\?\?" if by_index else r"energy [\d.]+ % > 5 +\S\S"
-    for pattern in (r"^of 1000 +wood +bare$", rf"^arrive +{share} +\d+$", rf"^above 50 kJ +{share} +\d+$",
-                    rf"^mean kJ +{figure} +[\d.]+$", rf"^95 % below kJ +{figure} +[\d.]+$",
-                    *[rf"^95 % below m +{figure} +[\d.]+$"] * (screen.height > 24),
-                    r"^ADC [\d.]+ m < 30 +\S\S$", rf"^30 m free [\d.]+ % {most} 10 +\S\S$", rf"^{energy}$",
-                    r"^taken [\d.]+ left [\d.]+ kJ$", r"^finished, \d+ rocks$"):
+    share = "" if by_index else rf" +\d+ \(\d+{to}\d+\)" if screen.width >= 120 else rf" +\d+{sign}\d+"
+    figure = "" if by_index else r" +[\d.]+"
+    energy = r"energy % +- +\?\?" if by_index else rf"energy % +[\d.]+ +{most} 5 \S\S"
+    for pattern in (rf"^of 1000{'' if by_index else ' +(with )?forest'} +without$", rf"^arrive{share} +\d+$", rf"^above 50 kJ{share} +\d+$",
+                    rf"^mean kJ{figure} +[\d.]+$", rf"^95 % below kJ{figure} +[\d.]+$",
+                    *[rf"^95 % below m{figure} +[\d.]+$"] * (screen.height > 24),
+                    r"^ADC m +[\d.]+ +< 30 \S\S$", rf"^free run % +[\d.]+ +{most} 10 \S\S$", rf"^{energy}$",
+                    r"^taken kJ +[\d.]+$", r"^left kJ +[\d.]+$", r"^finished, \d+ rocks$"):
         expect(re.search(pattern, now, re.M), f"nothing like {pattern!r} in the column on the right:", now)
     found = lights(screen, charset)
     expect_equal(found, {"Contact": "passes", "Free run": "passes", "Energy": "unknown" if by_index else "FAILS"}, "lights")
@@ -118,7 +118,7 @@ def check_now(screen, scene, charset):
         check_pairs(screen)
     check_verdict(screen, by_index, charset)
     if "paper-site" in scene:
-        expect_equal("measured 62.3 kJ (one rock)" in now, screen.height > 24, "the rock that was filmed")
+        expect_equal(bool(re.search(r"^measured kJ +62\.3$", now, re.M)), screen.height > 18, "the rock that was filmed")
         counted = screen.height == 24 and re.search(r"^! \d remarks? more: view 4$", now, re.M)
         expect(counted or "Eq. 6 gives" in now, "the warning about ADS 2", now)
 
