@@ -81,8 +81,7 @@ struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo
                                [CEDUO_RELEASED_KJ] = {N_("kJ a rock"), N_("energy per released rock, kJ")},
                                [CEDUO_P95_HEIGHT] = {N_("95 % below m"), N_("95 % stay below, m above ground")},
                                [CEDUO_SPEED] = {N_("mean m/s"), N_("mean speed of those that arrive, m/s")},
-                               [CEDUO_STEMS_HIT] = {N_("stems hit"), N_("stems hit by one that arrives")},
-                               [CEDUO_P95_TOP] = {N_("95 % below m"), N_("95 % stay below, m up")}};
+                               [CEDUO_STEMS_HIT] = {N_("stems hit"), N_("stems hit by one that arrives")}};
     static const struct ceduo_arrivals none;
     const struct ceduo_arrivals *a = arrivals ? arrivals : &none;
     const double halves[CEDUO_MEASURED] = {[CEDUO_MEAN_KJ] = J_TO_KJ * ceduo_half_width(a->energy.se, a->reached),

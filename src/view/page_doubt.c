@@ -505,8 +505,8 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     uint64_t rocks;
     measure_of(r, 0, &rocks);
     ceduo_page_say(page, CEDUO_PAGE_NOTE,
-                   _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
-                     "reduces it. %llu scenes were computed."),
+                   _("Sampling is the error of %llu rocks; more rocks reduce it. The 90 %% range is what is not known; only "
+                     "measuring reduces it. %llu scenes were computed."),
                    (unsigned long long)rocks, (unsigned long long)r->answer->evaluations);
     LOCAL_TEXT(points);
     ceduo_doubt_points(&points, r);
