@@ -235,9 +235,9 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
         {NP_("head", "m|from, to, m"), 1, 1, CEDUO_FITS | CEDUO_DROPPED(4)},
         {N_("ADC m|ADC, m"), -5, 1, CEDUO_FITS},
         {NULL, -5, 1, CEDUO_FITS},
-        {NP_("head", "free run|chance of a free run"), -7, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
-        {NP_("head", "kJ|energy taken, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(2)},
-        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(3)}};
+        {NP_("head", "free run|chance of a free run"), -7, 1, CEDUO_FITS | CEDUO_DROPPED(7)},
+        {NP_("head", "kJ|energy taken, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(8)},
+        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(9)}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *head = ceduo_page_head(page);
     ceduo_text_format(&head->text, "<%s m", SHORTEST(scene->simulation.threshold));
@@ -454,6 +454,8 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_result *r = report->result;
     const struct ceduo_option *option = &r->scene->options[i];
     bool whole = page->width >= CEDUO_PAGE_WIDTH; /* a pane stands beside pictures and a column that say the rest */
+    if (option->belts_count > 0 && r->scene->controls_count > 0)
+        add_belts(page, r->scene, option, &r->options[i]);
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         add_place(page, report, k);
         add_arrivals(page, report, i, k, bare);
@@ -461,8 +463,6 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
         if (whole && r->bare.rocks > 0)
             ceduo_page_percentiles(page, r, i, k, bare);
         ceduo_page_design(page, report, i, k);
-        if (k == 0 && option->belts_count > 0)
-            add_belts(page, r->scene, option, &r->options[i]);
         if (k == 0)
             say_other_forms(page, r->scene, option, &r->options[i]);
         say_residual(page, r, i, k);

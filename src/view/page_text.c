@@ -283,7 +283,7 @@ static void print_cell(struct printer *p, const struct ceduo_page_column *column
     }
     size_t room = (size_t)abs(width) + ((column->flags & (CEDUO_FITS | CEDUO_FILLS)) != 0);
     write_cell(p, &text, cell, room);
-    if (p->width >= CEDUO_PAGE_WIDE && cell->written.length > 0 && (width == 0 || fits(&cell->written, room))) {
+    if (p->width >= CEDUO_PAGE_WIDE && !p->drawing && cell->written.length > 0 && (width == 0 || fits(&cell->written, room))) {
         ceduo_text_free(&text);
         append_safe(p, &text, cell->written.bytes);
     }
@@ -356,7 +356,8 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
         widths[i] += more;
         rest -= more;
     }
-    for (size_t i = 0; i < n && p->width >= CEDUO_PAGE_WIDE; i++) { /* heads that are written out, as far as they have room */
+    for (size_t i = 0; i < n && p->width >= CEDUO_PAGE_WIDE && !p->drawing;
+         i++) { /* heads that are written out, as far as they have room */
         int more = (int)ceduo_utf8_width(ceduo_text_string(&table->cells[i].written)) + 1 - widths[i];
         if (widths[i] == 0 || more <= 0 || more > rest)
             continue;
