@@ -510,6 +510,8 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
     const enum column *set = shown[CEDUO_OPTIONS_OF_YEARS][r->wooded];
     ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Year by year, up to %s m:"), SHORTEST(last_control(r)->x_given));
     begin(page, report, r->last_control, set);
+    ceduo_text_cut(&page->last->cells[0].text, 0);
+    ceduo_text_put(&page->last->cells[0].text, _("year"));
     for (const struct ceduo_year *y = years->years; y < years->years + years->count; y++) {
         char name[CEDUO_WORDS_ROOM];
         const struct ceduo_subject s = ceduo_subject_in(report, option, y);
