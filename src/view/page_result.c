@@ -125,7 +125,8 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
         if (lines >= from && (any || what == CEDUO_STOPPED || what == CEDUO_RESTED || mean) && !(nothing && mean))
             add_figure(page, through, without);
     }
-    ceduo_page_trim(page);
+    if (page->width >= CEDUO_PAGE_WIDTH) /* a pane keeps its columns while rocks fall */
+        ceduo_page_trim(page);
 }
 
 /* Signs of a test today and in the worst year ahead: it fails if it does so in any of n years. */

@@ -96,10 +96,10 @@ def check_now(screen, scene, charset):
     expect_in("Rock 0.68 m, 512.3 kg", now)
     expect_in("At 135 m, end of the forest", now)
     sign, to, least, most = ("\\+-", "-", ">=", "<=") if charset == "ascii" else ("±", "–", "≥", "≤")
-    share = "" if by_index else rf" +\d+ \(\d+{to}\d+\)" if screen.width >= 120 else rf" +\d+{sign}\d+"
-    figure = "" if by_index else r" +[\d.]+"
+    share = " +-" if by_index else rf" +\d+ \(\d+{to}\d+\)" if screen.width >= 120 else rf" +\d+{sign}\d+"
+    figure = " +-" if by_index else r" +[\d.]+"
     energy = r"energy % +- +\?\?" if by_index else rf"energy % +[\d.]+ +{most} 5 \S\S"
-    for pattern in (rf"^of 1000{'' if by_index else ' +(with )?forest'} +without$", rf"^arrive{share} +\d+$", rf"^above 50 kJ{share} +\d+$",
+    for pattern in (r"^of 1000 +(with )?forest +without$", rf"^arrive{share} +\d+$", rf"^above 50 kJ{share} +\d+$",
                     rf"^mean kJ{figure} +[\d.]+$", rf"^95 % below kJ{figure} +[\d.]+$",
                     *[rf"^95 % below m{figure} +[\d.]+$"] * (screen.height > 24),
                     r"^ADC m +[\d.]+ +< 30 \S\S$", rf"^free run % +[\d.]+ +{most} 10 \S\S$", rf"^{energy}$",
