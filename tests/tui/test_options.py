@@ -100,7 +100,7 @@ def test_contact_reason():
     screen = fast("key 5 Down\nwait idle\ndump", "options.yaml")[0]
     expect(re.search(r"^ADC m +143 +< 30 ✘$", screen.now, re.M), "the ADC", screen)
     screen = fast("key 5 Down Down\nwait idle\ndump", "options.yaml")[0]
-    expect(re.search(r"^ADC: no stems +✘$", screen.now, re.M), screen)
+    expect(re.search(r"^ADC m +none +< 30 ✘$", screen.now, re.M), screen)
 
 
 def test_index_zero():

@@ -174,7 +174,7 @@ def compared(screen):
     """The table of view 5: (name, {head: cell}); best: the word beside the mean."""
     beside = 84 if screen.width - screen.side - 2 >= 128 else None  # the picture of the options stands behind that
     lines = [line[:beside].rstrip() for line in screen.body.split("\n")]
-    at = next(i for i, line in enumerate(lines) if re.search(r"(today|ADC m) .*fail", line))
+    at = next(i for i, line in enumerate(lines) if re.search(r"(today|ADC m) .*(fail|worst|m[³3]/y|C F)", line))
     heads = [(m.group(0).replace("m3", "m³"), m.end()) for m in re.finditer("|".join(HEADS), lines[at])]
     rows = []
     for line in lines[at + 1:]:
