@@ -170,8 +170,7 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
             mean = fmax(mean, v->choices[i].mean.half);
     }
     if (!r->wooded) {
-        ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"),
-                          WRITTEN(ceduo_half_width(bare->energy.se, bare->reached) * J_TO_KJ, 2));
+        ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"), WRITTEN(ceduo_measured(CEDUO_MEAN_KJ, bare).half, 2));
     } else if (r->scene->options_count == 1) {
         const struct ceduo_measure m = ceduo_measure_exceeding(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
         ceduo_text_append(&error, SPAN(m, m.lo, m.hi));
@@ -252,20 +251,11 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
 
 /* ---- words and cells that several pages use ---- */
 
-void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *a)
+void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *c)
 {
-    struct ceduo_page_cell *cell = ceduo_page_cell(page);
-    cell->kind = a->reached > 0 ? CEDUO_CELL_MEAN : CEDUO_CELL_NUMBER;
-    cell->value = a->reached > 0 ? a->energy.mean * J_TO_KJ : NAN;
-    cell->half = ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ;
-}
-
-void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, enum ceduo_measure_name otherwise)
-{
-    struct ceduo_page_cell *head = ceduo_page_head(page);
     const struct ceduo_measure m = ceduo_measure_exceeding(c, NULL);
     bool kilo = fabs(c->accepted) < 1e6;
-    ceduo_text_append(&head->text, NAMED(m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD));
+    ceduo_text_append(&head->text, NAMED(m, CEDUO_SHORT_HEAD));
     ceduo_text_append(&head->written, NAMED(m, CEDUO_HEAD));
     if (!isnan(c->accepted))
         ceduo_text_format(&head->shorter, kilo ? "> %s kJ" : "> %s MJ", ROUNDED(c->accepted * (kilo ? 1e-3 : 1e-6), 3));
@@ -274,13 +264,6 @@ void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, en
 void ceduo_page_free_run(struct ceduo_page *page, double share)
 {
     ceduo_page_cell_format(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MAX));
-}
-
-void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light)
-{
-    const char *const words[] = {[CEDUO_UNKNOWN] = "?", [CEDUO_PASS] = _("pass"), [CEDUO_FAIL] = _("FAIL")};
-    const enum ceduo_role roles[] = {[CEDUO_PASS] = CEDUO_ROLE_GOOD, [CEDUO_FAIL] = CEDUO_ROLE_BAD};
-    ceduo_page_cell_role(page, roles[light], words[light]);
 }
 
 void ceduo_page_yes(struct ceduo_page *page, bool yes)

@@ -276,7 +276,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
         ceduo_page_option(page, report, 0, true);
     }
     if (controls && !is_crowded(report))
-        ceduo_page_laws(page, report->result);
+        ceduo_page_laws(page, report);
     if (controls) {
         if (report->uncertainty && report->uncertainty->answer)
             ceduo_uncertainty_blocks(page, report->uncertainty, scene->options_count <= CROWD);

@@ -5,6 +5,7 @@
 
 #include "base/language.h"
 #include "plot.h"
+#include "report.h"
 
 struct chart_size {
     int axis, below;   /* columns of the left axis, rows of the bottom axis */
@@ -59,7 +60,8 @@ static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_
 {
     const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_find(d->picture->snapshot, d->scene, item - 1);
     const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
-    return a && a->hazard.curve ? &a->hazard : NULL;
+    const struct ceduo_hazard *h = ceduo_hazard_at(a);
+    return h && h->curve ? h : NULL;
 }
 
 static enum ceduo_role role_of(size_t item)

@@ -174,24 +174,24 @@ void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t o
     const char *law = ceduo_words_law(ceduo_energy_words.names[o->model]);
     if (!o->known || !o->stems)
         return;
-    if (isnan(a->energy.mean)) {
+    const struct ceduo_measure energy = ceduo_measured(CEDUO_MEAN_KJ, a);
+    if (isnan(energy.value)) {
         ceduo_text_format(text, _("With the energy law %s no rock arrives."), law);
         return;
     }
-    const char *mean = WRITTEN(a->energy.mean * J_TO_KJ, 3);
-    const char *half = WRITTEN(ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ, 2);
-    const char *reach = WRITTEN_OF_1000(a->reach.mean, a->reach.lo, a->reach.hi);
-    if (isnan(a->exceed.mean))
+    const char *mean = WRITTEN(energy.value, 3), *half = WRITTEN(energy.half, 2), *reach = INTERVAL(ceduo_measure_arriving(a));
+    const struct ceduo_control *c = &r->scene->controls[control];
+    if (isnan(c->accepted))
         ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
                           mean, half);
     else
         ceduo_text_format(text,
                           _("With the energy law %s: %s of 1000 arrive, %s with more than it withstands; the mean of those "
                             "that arrive is %s \xc2\xb1%s kJ."),
-                          law, reach, WRITTEN_OF_1000(a->exceed.mean, a->exceed.lo, a->exceed.hi), mean, half);
-    if (a->released < ceduo_result_rocks(r))
+                          law, reach, INTERVAL(ceduo_measure_exceeding(c, a)), mean, half);
+    if (ceduo_released(a) < ceduo_result_rocks(r))
         ceduo_text_append_joined(text, " ", _("Under this law the first %llu rocks alone were simulated."),
-                                 (unsigned long long)a->released);
+                                 (unsigned long long)ceduo_released(a));
 }
 
 static double of_1000(const struct ceduo_result *r, size_t option, bool other)

@@ -19,7 +19,7 @@ FIGURE_NAMES = ("arrive", "above 250 kJ", "mean kJ", "95 % below kJ")
 
 def index_of(screen):
     """What the index takes and leaves, of the column on the right."""
-    found = re.search(r"^taken ([\d.]+) left ([\d.]+) kJ$", screen.now, re.M)
+    found = re.search(r"^taken kJ +([\d.]+)\nleft kJ +([\d.]+)$", screen.now, re.M)
     expect(found, "no index in the column on the right:", screen.now)
     return float(found.group(1)), float(found.group(2))
 

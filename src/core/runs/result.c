@@ -157,7 +157,8 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
         return CEDUO_NO_MEMORY;
     enum ceduo_status status = copy(bare, &r->bare);
     for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
-        memcpy(r->options[i].differences, differences + i * controls, controls * sizeof *differences);
+        if (differences)
+            memcpy(r->options[i].differences, differences + i * controls, controls * sizeof *differences);
         if (others)
             memcpy(r->options[i].others, others + i * controls, controls * sizeof *others);
         if (wooded[i])
