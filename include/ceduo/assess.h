@@ -8,99 +8,100 @@
 
 enum ceduo_light { CEDUO_UNKNOWN, CEDUO_PASS, CEDUO_FAIL };
 
-#define CEDUO_FREE_RUN_MOST 0.1  /* chance of a free run that a belt may leave */
-#define CEDUO_ARRIVE_LEAST  1000 /* of so many released one must arrive without forest */
+#define CEDUO_FREE_RUN_MOST 0.1  /* maximum probability of a free run through a belt */
+#define CEDUO_ARRIVE_LEAST  1000 /* one in this many rocks must arrive without forest; otherwise the forest is not judged */
 
-/* One belt of an option, as the index sees it. */
+/* Index of one belt of an option. */
 struct ceduo_stand_result {
     double length; /* m */
     double stems_per_ha, stools_per_ha, trees_per_ha, basal_area;
     bool bare;
-    bool felled;                 /* of a year: it is what a cut of this year left */
-    enum ceduo_rule rule;        /* the one that was applied; without meaning where bare */
-    struct ceduo_adc adc;        /* infinite where bare */
-    double adc_m;                /* of that rule */
+    bool felled;                 /* in a year of ceduo_years: left by a cut in this year */
+    enum ceduo_rule rule;        /* applied rule; not valid if bare */
+    struct ceduo_adc adc;        /* infinite if bare */
+    double adc_m;                /* m, by `rule` */
     bool passes_threshold;       /* counting stems from simulation.contact_dbh on */
-    double free_run_probability; /* no contact over the threshold: exp(-T/crofton); counting likewise */
+    double free_run_probability; /* probability of no contact over the threshold: exp(-T/crofton), for the same stems */
     double contacts;             /* L/ADC (Eq. 2) */
-    double energy_per_contact;   /* J; NaN where bare */
+    double energy_per_contact;   /* J; NaN if bare */
     double dissipated;           /* J over the belt (Eq. 4) */
-    double per_100m;             /* J: of that */
+    double per_100m;             /* J dissipated per 100 m */
     unsigned warnings;           /* enum ceduo_stand_warning */
     struct ceduo_compliance rules;
-    double grouped_per_ha; /* of the trees */
+    double grouped_per_ha; /* trees in groups */
     double stumps_per_ha, logs_per_ha;
 };
 
-#define CEDUO_THICK_DBH 0.08 /* m: thinner shoots are met, but hardly stop anything; assumed */
+#define CEDUO_THICK_DBH 0.08 /* m: rocks meet thinner shoots, which hardly stop any; assumed */
 
-/* What the lights of contact and free run say where stems count from some dbh on. Contact passes where every belt
- * is under the threshold, free run where every belt leaves few of them; neither does where a gap is longer than the threshold. */
+/* Lights of contact and free run, counting stems from a minimum dbh on. Contact passes if the ADC of each belt is below the
+ * threshold, free run if each belt leaves few free runs. Both fail if a gap is longer than the threshold. */
 struct ceduo_meeting {
-    double worst_adc;      /* m, the largest of the belts; infinite where no belt is, or one without stems that count */
-    double worst_free_run; /* the largest of the belts; 1 where no belt is */
+    double worst_adc;      /* m, maximum over the belts; infinite without a belt, or if a belt has no counted stems */
+    double worst_free_run; /* maximum over the belts; 1 without a belt */
     enum ceduo_light contact, free_run;
 };
 
-/* The belts between the release and one control, as the index sees them. */
+/* Index of the belts between the release and one control. */
 struct ceduo_index {
     double length;      /* wooded metres */
     double longest_gap; /* m without forest, from the release to the control */
     double contacts, meet_nothing_probability;
     double dissipated;                /* J (Eq. 4) */
-    double per_100m;                  /* J: of that, over what is wooded; 0 without forest */
+    double per_100m;                  /* J dissipated per 100 wooded metres; 0 without forest */
     double residual;                  /* Eq. 5: max(0, bare mean - dissipated); NaN if no rock arrives */
-    bool exhausted;                   /* it was cut at 0 */
-    double measured;                  /* J: half M v2 of the measured speed; NaN without one */
-    double worst_adc, worst_free_run; /* as in struct ceduo_meeting, of stems from simulation.contact_dbh on */
+    bool exhausted;                   /* residual was clamped to 0 */
+    double measured;                  /* J: M v2/2 of the measured speed; NaN if none was measured */
+    double worst_adc, worst_free_run; /* as in struct ceduo_meeting, for stems from simulation.contact_dbh on */
     enum ceduo_light contact, free_run, energy;
-    struct ceduo_meeting thick; /* of stems from CEDUO_THICK_DBH on, or from contact_dbh if that is more */
+    struct ceduo_meeting thick; /* for stems from CEDUO_THICK_DBH on, or from contact_dbh if that is larger */
 };
 
-/* Whether the lights of contact and free run would say anything else of the thick stems alone. */
+/* True if the contact or free-run light would differ counting thick stems only. */
 bool ceduo_index_hangs_on_thin(const struct ceduo_index *index);
 
-/* Pass if the share of the released that exceeds the accepted energy is at most the limit of the control. Unknown for NULL,
- * without an accepted energy, and if rocks that never came to an end decide it. */
+/* Return CEDUO_PASS if the share of the released rocks that exceed the accepted energy is at most the limit of the control.
+ * Unknown for NULL, without an accepted energy, or if unfinished rocks decide it. */
 enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 
-/* Beyond these a warning asks to check the ground: mean speed (m/s) and 95th percentile of the height (m) at a control. Assumed. */
+/* Limits of the mean speed (m/s) and of the 95th percentile of the height (m) at a control. Above them a warning asks to check
+ * the ground. Assumed. */
 #define CEDUO_SPEED_USUAL  35.0
 #define CEDUO_HEIGHT_USUAL 10.0
 
-/* Whether nothing can be said of a forest: even without it no rock arrives, or fewer than one of CEDUO_ARRIVE_LEAST released
- * if at least that many were simulated, or the ground contradicts the terrain (CEDUO_TERRAIN_CONTRADICTS). Unfinished rocks count
- * as arriving. False if no rock was simulated. */
+/* True if the forest cannot be judged. Either too few rocks arrive even without it: none, or fewer than one in
+ * CEDUO_ARRIVE_LEAST if at least that many were simulated. Or the ground contradicts the terrain (CEDUO_TERRAIN_CONTRADICTS).
+ * Unfinished rocks count as arriving. False if no rock was simulated. */
 bool ceduo_says_nothing(const struct ceduo_arrivals *bare);
 
-/* Compare the rocks that arrive without forest with the terrain. Rocks usually reach places under a steep reach or shadow angle, and
- * rarely places under a flat one. Evans and Hungr (1993) suggest 27.5 degrees as the smallest shadow angle. The limits are
- * assumed. */
+/* Compare the rocks that arrive without forest with the terrain. Rocks usually reach places under a steep reach or shadow
+ * angle, and rarely reach places under a flat one. Evans and Hungr (1993) suggest 27.5 degrees as the smallest shadow angle.
+ * The limits are assumed. */
 #define CEDUO_REACH_STEEP  35.0 /* degrees */
 #define CEDUO_SHADOW_STEEP 32.0
 #define CEDUO_SHADOW_FLAT  24.0
-#define CEDUO_ARRIVE_FEW   0.01 /* share of the released that is few at a steep place, */
-#define CEDUO_ARRIVE_MANY  0.1  /* and many at a flat one */
-#define CEDUO_BENCH_LENGTH 10.0 /* m: a bench or ditch of this length may well hold rocks */
+#define CEDUO_ARRIVE_FEW   0.01 /* share of the released below which few arrive at a steep place */
+#define CEDUO_ARRIVE_MANY  0.1  /* share above which many arrive at a flat place */
+#define CEDUO_BENCH_LENGTH 10.0 /* m: a bench or ditch of this length may hold rocks */
 enum ceduo_terrain { CEDUO_TERRAIN_AGREES, CEDUO_TERRAIN_CONTRADICTS, CEDUO_TERRAIN_BENCH, CEDUO_TERRAIN_FAR };
-/* AGREES: nothing is unusual, or no rock was simulated. CONTRADICTS: few arrive at a steep place. BENCH: likewise, but a bench lies
- * before it. FAR: many arrive at a flat place. */
+/* AGREES: nothing is unusual, or no rock was simulated. CONTRADICTS: few arrive at a steep place. BENCH: likewise, but a bench
+ * lies before it. FAR: many arrive at a flat place. */
 enum ceduo_terrain ceduo_terrain(const struct ceduo_arrivals *bare);
 
-/* Judge whether the share of the released that exceeds the accepted energy is at most the limit of the control. Uses one energy law
- * and the sampling error alone. `wooded` may be NULL (not simulated). Return CEDUO_UNANSWERED without an accepted energy, or if
- * `wooded` is NULL and the slope without forest does not meet the limit. */
+/* Judge whether the share of the released that exceeds the accepted energy is at most the limit of the control. Uses one energy
+ * law and the sampling error alone. `wooded` may be NULL (not simulated). Return CEDUO_UNANSWERED without an accepted energy,
+ * or if `wooded` is NULL and the slope without forest does not meet the limit. */
 enum ceduo_judgement { CEDUO_UNANSWERED, CEDUO_YES, CEDUO_NO, CEDUO_NOT_DECIDED, CEDUO_DEPENDS, CEDUO_NOTHING };
 enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded);
 
 /* Judge whether a share is at most a limit; CEDUO_NOT_DECIDED if its interval holds the limit. */
 enum ceduo_judgement ceduo_judge_share(struct ceduo_estimate share, double limit);
 
-/* A belt by itself. */
+/* Assess one belt. */
 struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt);
 
-/* The belts of `option` between the mean release and the place x. `bare_mean` is the mean energy (J) of the rocks that
- * reach x without forest, NaN where none does. */
+/* Assess the belts of `option` between the mean release and the control. `bare_mean` is the mean energy (J) of the rocks that
+ * reach the control without forest; NaN: none does. */
 struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const struct ceduo_option *option,
                                       const struct ceduo_control *control, double bare_mean);
 

@@ -5,41 +5,41 @@
 #include "flag.h"
 #include "run.h"
 
-/* The same scene with blocks of other sizes: what a forest does to small blocks it does not do to large ones. */
+/* A scene with blocks of other sizes. A forest that stops small blocks need not stop large ones. */
 struct ceduo_block {
-    double volume;         /* m3 */
-    double mass, diameter; /* kg, m: of the mean rock */
-    double adc;            /* m, by the scene's rule: the worst belt before the control; infinite where there is none */
-    double contacts;       /* with stems up to the control, by that rule (Eq. 2 of Ciabocco et al. 2009) */
-    struct ceduo_arrivals arrivals; /* through the forest; 0 released: not simulated, or left out as too dear */
+    double volume;                  /* m3 */
+    double mass, diameter;          /* kg, m: of the mean rock */
+    double adc;                     /* m, by the scene's rule: worst belt before the control; infinite without a belt */
+    double contacts;                /* with stems up to the control, by the same rule (Eq. 2 of Ciabocco et al. 2009) */
+    struct ceduo_arrivals arrivals; /* through the forest; released == 0: not simulated, or skipped as too expensive */
     bool own;                       /* the scene's own block */
 };
 
-/* 0.05, 0.2, 1, 5 m3: the limits of the rock classes of the Swiss guideline NaiS (Frehner et al. 2005), and 1 m3 between;
- * and the scene's own. */
+/* Number of sizes: 0.05, 0.2, 1, 5 m3, and the scene's own. They are the limits of the rock classes of the Swiss guideline NaiS
+ * (Frehner et al. 2005), with 1 m3 added. */
 #define CEDUO_BLOCKS 5
 
-/* A rock of the same shape and density `factor` times as long in every dimension; spreads are scaled with the sizes. */
+/* Return the rock scaled by `factor` in every dimension, with the same shape and density. Spreads are scaled with the sizes. */
 struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double factor);
 
 struct ceduo_blocks_def {
     const struct ceduo_scene *scene;
     const struct ceduo_option *option;
     size_t control;
-    uint64_t rocks; /* of each size */
-    /* A size may cost about so much, in contacts and stems drawn: where that is not enough it has fewer blocks, and below 10, or
-     * where they meet hundreds of times as many stems as the scene's own, none. */
+    uint64_t rocks; /* per size */
+    /* Work limit per size, in contacts plus stems drawn. A size over the limit gets fewer blocks. It is skipped if fewer than
+     * 10 fit, or if blocks meet hundreds of times as many stems as the scene's own. */
     double effort;
-    const struct ceduo_arrivals *own; /* of the scene's own block, taken if at least as many were simulated; may be NULL */
+    const struct ceduo_arrivals *own; /* of the scene's own block, used if at least `rocks` were simulated; may be NULL */
     unsigned threads;                 /* at most CEDUO_THREADS_MOST; 0: one */
     const ceduo_flag *cancel;         /* may be NULL */
 };
 
-/* The last control, as many rocks as the scene says, whatever they cost; the option is the first. */
+/* Return the default: last control, first option, the scene's number of rocks, no work limit. */
 struct ceduo_blocks_def ceduo_blocks_def_default(const struct ceduo_scene *scene);
 
-/* Simulates blocks of each size through the forest to the control; sorted by volume. With the contact model index none is
- * simulated. CEDUO_CANCELLED, CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT, or what ceduo_run_create() says. */
+/* Simulate blocks of each size through the forest to the control; sorted by volume. With the contact model index no rock is
+ * simulated. Return CEDUO_CANCELLED, CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or a status of ceduo_run_create(). */
 enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_block blocks[CEDUO_BLOCKS]);
 
 #endif

@@ -4,32 +4,32 @@
 
 #include "assess.h"
 
-/* The same rocks under the other energy law of stems. Two published laws disagree about thin stems (Brauner et al. 2005;
- * Dorren et al. 2006), and nobody knows yet which of them holds there; so what follows from both is shown. */
+/* The same rocks under the other energy law of stems. Two published laws disagree about thin stems (Brauner et al. 2005; Dorren
+ * et al. 2006). Neither has been validated there, so results are shown for both. */
 
-/* What another law would change is seen with few rocks: the first of the scene's, whole blocks of them. */
+/* Few rocks show the effect of the other law: the first ones of the scene, in whole blocks. */
 #define CEDUO_OTHER_ROCKS ((uint64_t)10 * CEDUO_BLOCK_ROCKS)
 
-/* What another law makes of an option at one control. */
+/* Results of an option at one control under the other law. */
 struct ceduo_other_energy {
     bool known;
-    bool stems; /* there are any; otherwise no law changes anything */
+    bool stems; /* the option has stems; otherwise no law has an effect */
     enum ceduo_energy_model model;
-    struct ceduo_arrivals arrivals;   /* where it is known; of a pool of at most CEDUO_OTHER_ROCKS */
-    enum ceduo_judgement judgement;   /* of the control by this law; CEDUO_DEPENDS: one law says yes, the other no */
-    struct ceduo_difference to_first; /* to the first option under its other law; NaN: not known */
+    struct ceduo_arrivals arrivals;   /* valid if known; of at most CEDUO_OTHER_ROCKS rocks */
+    enum ceduo_judgement judgement;   /* of the control by this law; CEDUO_DEPENDS: the two laws contradict */
+    struct ceduo_difference to_first; /* to the first option under its other law; NaN: unknown */
 };
 
-/* The other law of an option: brauner where all its stems follow dorren, otherwise dorren. */
+/* Return the other law of an option: brauner if all its stems follow dorren, otherwise dorren. */
 enum ceduo_energy_model ceduo_other_law(const struct ceduo_option *option);
 
-/* The scene with that law in every stand of its options. Their belts are its own, all else is shared with `scene`. False without
- * memory. Release it in any case. */
+/* Copy a scene with the other law in every stand. `other` owns its belts and shares all else with `scene`. False without
+ * memory. Caller releases `other` in any case. */
 bool ceduo_other_scene(const struct ceduo_scene *scene, struct ceduo_scene *other);
 void ceduo_other_scene_release(struct ceduo_scene *other);
 
-/* Reads a control of the run of an option under its other law. `first`: that of the first option. Both may be missing.
- * CEDUO_NO_MEMORY or CEDUO_OK. */
+/* Read a control from the run of an option under its other law. `first` is this run of the first option. Both may be NULL.
+ * Return CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_other_read(const struct ceduo_option *option, const struct ceduo_run *run,
                                    const struct ceduo_run *first, size_t control, struct ceduo_other_energy *other);
 

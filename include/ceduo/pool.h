@@ -4,61 +4,62 @@
 
 #include "run.h"
 
-/* The runs of a scene: one without forest and one for each forest, each made once however often it is asked for. All fly
- * the same rocks with the same random numbers, so that their differences are those of the forests. */
+/* The runs of a scene: one without forest and one for each forest, each simulated once and then reused. All use equal rocks
+ * with equal random numbers, so that their differences are caused by the forests. */
 struct ceduo_pool;
 
-/* A pool for the scene of `def`, whose `option` is not looked at. CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
+/* Create a pool for the scene of `def`; its `option` is ignored. Return CEDUO_NO_MEMORY or a status of ceduo_scene_check(). */
 enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct ceduo_pool **pool);
 void ceduo_pool_free(struct ceduo_pool *pool);
 
-/* A pool for the scene of `def` from what was kept: *pool is turned to it, see ceduo_pool_turn(), or freed and made anew
- * where its rocks meet anything else than a forest that differs. *pool may be NULL; it is NULL unless CEDUO_OK. A pool
- * that is kept simulates as it was made: threads, cancel and progress stay those. */
+/* Reuse *pool for the scene of `def` by ceduo_pool_turn() if only the forests differ; otherwise free and recreate it. *pool may
+ * be NULL; it is NULL unless CEDUO_OK is returned. A reused pool keeps its threads, cancel and progress. */
 enum ceduo_status ceduo_pool_for(const struct ceduo_run_def *def, struct ceduo_pool **pool);
 
-/* The run through the forest of `option` (NULL: without forest), as long as it is; the pool's. CEDUO_NO_MEMORY. */
+/* Get the run through the forest of `option` (NULL: without forest) at its current length. The pool owns it.
+ * CEDUO_NO_MEMORY. */
 enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_option *option, struct ceduo_run **run);
 
-/* All that a scene's results need: for each option the run without forest, and unless the contact model is index that
- * through its forest, and where the pool is for that also under the other energy law. Once more for one scene it does nothing. CEDUO_NO_MEMORY or CEDUO_OK. */
+/* Create all runs that the results need: one without forest and, unless the contact model is index, one through each forest. If
+ * `other_energy` is set, each forest also gets a run under the other energy law. Calling it again for the same scene has no
+ * effect. Return CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool);
 
-/* The run of that forest if the pool has it, otherwise NULL. */
+/* Return the run through the forest of `option`, or NULL if the pool has none. */
 struct ceduo_run *ceduo_pool_find(const struct ceduo_pool *pool, const struct ceduo_option *option);
 
-/* The run through the forest of `option` (NULL: without forest), made as long as `rocks`. */
+/* Get the run through the forest of `option` (NULL: without forest) with at least `rocks` rocks. */
 enum ceduo_status ceduo_pool_simulate(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t rocks,
                                       struct ceduo_run **run);
 
-/* Makes every run of the pool as long as `rocks`, as ceduo_run_extend(). */
+/* Extend every run of the pool to `rocks`, as ceduo_run_extend(). */
 enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks);
 
-#define CEDUO_FEW_ROCKS 100 /* arrivals below which a mean is not waited for */
+#define CEDUO_FEW_ROCKS 100 /* with fewer arrivals the tolerance is ignored */
 
-/* Whether the 95 % half-width of a mean of so many arrivals is at most `tolerance` of it, or they are too few to wait for. */
+/* True if the 95 % half-width of a mean of `reached` arrivals is at most `tolerance` × the mean, or if there are too few. */
 bool ceduo_mean_is_precise(uint64_t reached, struct ceduo_estimate mean, double tolerance);
 
-/* Makes them longer, from one block on by an eighth each time, until the 95 % half-width of the mean energy of every run at every
- * control that at least CEDUO_FEW_ROCKS of its rocks reach is below `tolerance` of it, or `max` rocks are done. `*met`:
- * whether it is. */
+/* Extend all runs, from one block on by an eighth each time, until the mean energies are precise or `max` rocks are done. At
+ * every control with at least CEDUO_FEW_ROCKS arrivals the 95 % half-width must be below `tolerance` × the mean. *met: true if
+ * it is. */
 enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t max, bool *met);
 
-/* Turns the pool to a scene that differs in nothing but its forests and options, names and titles. Runs of forests that
- * it has no more are freed, but for the CEDUO_POOL_SPARE that were asked for last. */
+/* Switch the pool to a scene that differs only in forests, options, names and titles. Frees runs of forests that the scene no
+ * longer has, except the CEDUO_POOL_SPARE most recently used. */
 #define CEDUO_POOL_SPARE 16
 void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene);
 
-/* Frees runs that the scene does not need, as those of years, the oldest first, until the samples of all runs take no
- * more than CEDUO_POOL_BYTES. */
+/* Free runs that the scene does not need, such as those of years, oldest first, until the samples of all runs take at most
+ * CEDUO_POOL_BYTES. */
 #define CEDUO_POOL_BYTES ((size_t)256 * 1024 * 1024)
 void ceduo_pool_trim(struct ceduo_pool *pool);
 
-/* What was done so far. */
+/* Work done so far. */
 struct ceduo_work {
-    uint64_t rocks, contacts; /* simulated, with the ground: of all runs */
+    uint64_t rocks, contacts; /* rocks simulated, contacts with the ground; all runs */
     struct ceduo_stem_counts stems;
-    uint64_t runs, reused; /* made; asked for once more */
+    uint64_t runs, reused; /* runs created; requests served by an existing run */
 };
 struct ceduo_work ceduo_pool_work(const struct ceduo_pool *pool);
 

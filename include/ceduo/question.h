@@ -5,7 +5,7 @@
 #include "blocks.h"
 #include "years.h"
 
-/* The one way to ask for runs: simulate this scene so far, and read it.
+/* The only interface for runs: simulate a scene and read its results.
  *
  *     struct ceduo_question question = ceduo_question_default(&scene);
  *     struct ceduo_answer answer;
@@ -14,39 +14,39 @@
  *         printf("%g\n", answer.result->options[0].wooded.arrivals[0].reach.mean);
  *     ceduo_answer_release(&answer); */
 struct ceduo_question {
-    struct ceduo_run_def run;   /* the scene, and how its rocks are simulated; its option is not looked at */
-    uint64_t rocks;             /* in each run, at most CEDUO_ROCKS_MOST; 0: none, for what stands and index say without */
-    double tolerance;           /* > 0: fewer, as soon as ceduo_pool_until() knows the mean energies to this */
-    size_t only;                /* the run of this option alone: through its forest, by the index without forest. Of what
-                               * was not simulated nothing is known. CEDUO_ALL_OPTIONS: without forest and through each */
-    bool years;                 /* each option year by year, with as many rocks */
-    struct ceduo_window window; /* those years; step 0: those of ceduo_window_in() */
-    bool rotations;             /* the whole rotation of each option as well: ceduo_window_of() */
-    uint64_t year_rocks;        /* rocks of each year, at most as many as in a run; 0: as many */
-    bool years_apart;           /* each year has rocks of its own, see ceduo_years_simulate_apart(); not with blocks */
-    unsigned years_most;        /* > 0: at most this many years, evenly spread over those */
-    uint64_t block_rocks;       /* > 0: blocks of other sizes to the last control, at the most so many of each, and no dearer
-                           * than the runs without forest and through it */
+    struct ceduo_run_def run; /* the scene, and how its rocks are simulated; its option is ignored */
+    uint64_t rocks;           /* per run, at most CEDUO_ROCKS_MOST; 0: only stands and index are computed */
+    double tolerance;         /* > 0: stop as soon as mean energies reach this relative precision, see ceduo_pool_until() */
+    /* Simulate this option only: through its forest, with contact model index without forest. Results of all other runs are
+     * unknown. CEDUO_ALL_OPTIONS: without forest and through each. */
+    size_t only;
+    bool years;                 /* also each option year by year */
+    struct ceduo_window window; /* the years; step 0: ceduo_window_in() */
+    bool rotations;             /* also the whole rotation of each option: ceduo_window_of() */
+    uint64_t year_rocks;        /* rocks per year, at most `rocks`; 0: `rocks` */
+    bool years_apart;           /* each year has independent rocks, see ceduo_years_simulate_apart(); not with blocks */
+    unsigned years_most;        /* > 0: at most this many years, evenly spread */
+    uint64_t block_rocks; /* > 0: at most n blocks of each other size, to the last control, for at most the work of the runs */
 };
 #define CEDUO_ALL_OPTIONS SIZE_MAX
 
-/* All options of the scene, as many rocks as it says, no years, no other sizes. */
+/* Return the default: all options, the scene's number of rocks, no years, no other sizes. */
 struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene);
 
 struct ceduo_answer {
     struct ceduo_result *result;
     bool tolerance_met;
     size_t years_count;             /* options */
-    struct ceduo_years **years;     /* one for each option, NULL of those that `only` leaves out; NULL: not asked for */
+    struct ceduo_years **years;     /* one per option, NULL if excluded by `only`; NULL: not requested */
     struct ceduo_years **rotations; /* likewise */
-    struct ceduo_block *blocks;     /* CEDUO_BLOCKS for each option; NULL: not asked for, or the rock has no other sizes */
-    struct ceduo_work work;         /* of all runs of the pool; without the blocks, and without years_apart's years */
+    struct ceduo_block *blocks;     /* CEDUO_BLOCKS per option; NULL: not requested, or the rock has no other sizes */
+    struct ceduo_work work;         /* of all runs of the pool; without blocks and years_apart */
 };
 
-/* `pool` (may be NULL) keeps the runs from one question to the next, see ceduo_pool_for(): *pool is NULL at first, and
- * the caller's to free. What the scene points to must outlive answer and pool. CEDUO_CANCELLED, CEDUO_NO_MEMORY,
- * CEDUO_BAD_ARGUMENT (no such option, too many rocks or threads, a window that is none, a scene without options) or what
- * ceduo_scene_check() says: then the answer is empty. Release it in any case. */
+/* Simulate and read a scene. `pool` (may be NULL) keeps the runs between calls, see ceduo_pool_for(). *pool is NULL at first;
+ * caller frees it. Everything that the scene points to must outlive answer and pool. Return CEDUO_CANCELLED, CEDUO_NO_MEMORY,
+ * CEDUO_BAD_ARGUMENT (no such option, too many rocks or threads, an invalid window, a scene without options) or a status of
+ * ceduo_scene_check(). The answer is empty then. Caller releases it in any case. */
 enum ceduo_status ceduo_ask(const struct ceduo_question *question, struct ceduo_pool **pool, struct ceduo_answer *answer);
 void ceduo_answer_release(struct ceduo_answer *answer);
 

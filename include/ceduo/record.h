@@ -5,16 +5,16 @@
 #include "flag.h"
 #include "trajectory.h"
 
-/* What rocks do on their way, beside what they bring to controls: for what was seen of real rocks. The rocks are those of a
- * run, followed one by one: it takes several times as long. */
+/* Statistics of whole trajectories, for comparison with observed rocks. The rocks are those of a run, simulated one by one,
+ * which takes several times as long. */
 
 struct ceduo_stretch {
     double from, to; /* m, relative */
 };
 
-/* Means along a stretch, over the horizontal metres that a rock covers of it. */
+/* Means along a stretch, over the horizontal metres that a rock covers in it. */
 struct ceduo_stretch_means {
-    double length;                /* those metres; 0: it did not enter it, and the others are NaN */
+    double length;                /* m covered, >= 0; 0: the rock did not enter, and the means are NaN */
     double speed, height, energy; /* m/s; clearance of the underside, m; J */
 };
 
@@ -30,17 +30,17 @@ struct ceduo_record_def {
     uint64_t rocks;
     size_t stretches_count;
     const struct ceduo_stretch *stretches;
-    bool blows;               /* on stems */
+    bool blows;               /* record impacts on stems */
     const ceduo_flag *cancel; /* may be NULL */
 };
 
-/* Without forest, as many rocks as the scene says, no stretches, no blows. */
+/* Return the default: without forest, the scene's number of rocks, no stretches, no blows. */
 struct ceduo_record_def ceduo_record_def_default(const struct ceduo_scene *scene);
 
 struct ceduo_rock_record {
     double mass, moment;
-    double stop_x;                        /* NaN: it did not stop on the slope */
-    double largest_speed, largest_height; /* m/s; clearance of the underside, m; from its release on */
+    double stop_x;                        /* m, relative; NaN: did not stop on the slope */
+    double largest_speed, largest_height; /* m/s; clearance of the underside, m; maxima from the release on */
 };
 
 struct ceduo_record {
@@ -49,10 +49,11 @@ struct ceduo_record {
     struct ceduo_crossing *crossings;  /* [rock][control] */
     struct ceduo_stretch_means *means; /* [rock][stretch] */
     size_t blows_count;
-    struct ceduo_blow *blows; /* in the order of the rocks */
+    struct ceduo_blow *blows; /* sorted by rock */
 };
 
-/* CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or what ceduo_scene_check() says, with nothing to release, or CEDUO_OK. */
+/* Simulate and record. Return CEDUO_OK, or CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or a status of
+ * ceduo_scene_check() with nothing to release. */
 enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_record *record);
 void ceduo_record_release(struct ceduo_record *record);
 

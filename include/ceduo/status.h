@@ -2,11 +2,11 @@
 #ifndef CEDUO_STATUS_H
 #define CEDUO_STATUS_H
 
-/* What a call returns, and how ceduo_status_text() says it. Which file, field or item is meant, the caller knows. */
+/* Results of a call, each with its ceduo_status_text(). The text does not name the file, field or item: the caller knows it. */
 #define CEDUO_STATUSES(X)                                                                                                      \
     X(OK, "done")                                                                                                              \
     X(NO_MEMORY, "out of memory")                                                                                              \
-    X(CANCELLED, "cancelled") /* by the caller's flag; the run holds whatever was finished before */                           \
+    X(CANCELLED, "cancelled") /* by the caller's flag; the run keeps the finished rocks */                                     \
     X(BAD_ROCK, "a size, mass or density of the rock is missing, not finite or not above 0")                                   \
     X(BAD_SLOPE, "the slope has fewer than two vertices, its x does not rise, or a coefficient is outside its range")          \
     X(RELEASE_OFF_SLOPE, "the release, or a part of its spread, lies beyond the slope")                                        \
@@ -27,13 +27,13 @@ enum ceduo_status {
 #undef X
 };
 
-/* A sentence in English, without a full stop; never NULL. */
+/* Return a sentence in English without a full stop; never NULL. */
 const char *ceduo_status_text(enum ceduo_status status);
 
 #define CEDUO_VERSION "0.4.0"
 
-/* That of the library which runs. Before 1.0 structures may differ between versions: a program compares it with the
- * CEDUO_VERSION that it was compiled with. */
+/* Return the version of the running library. Before 1.0 structures may differ between versions: a program must compare it with
+ * its own CEDUO_VERSION. */
 const char *ceduo_version(void);
 
 #endif
