@@ -2,7 +2,7 @@
 #ifndef CEDUO_FLAG_H
 #define CEDUO_FLAG_H
 
-/* A flag that another thread raises to end a call soon; the same in C and in C++. */
+/* A flag that another thread sets to end a call soon. It has the same layout in C and in C++. */
 #ifdef __cplusplus
 #include <atomic>
 typedef std::atomic<bool> ceduo_flag;

@@ -12,7 +12,7 @@
 #define PAGE ((size_t)16 * 1024)
 
 struct arena_page {
-    struct arena_page *before;
+    struct arena_page *prev;
     size_t size, used;
     max_align_t bytes[];
 };
@@ -20,19 +20,19 @@ struct arena_page {
 void *ceduo_arena_take(struct arena *arena, size_t size)
 {
     size_t align = alignof(max_align_t);
-    bool too_much = size > SIZE_MAX / 2;
-    size = too_much ? size : (size + align - 1) / align * align;
-    if (!too_much && (!arena->page || arena->page->size - arena->page->used < size)) {
-        size_t room = size > PAGE ? size : PAGE;
-        struct arena_page *page = calloc(1, sizeof *page + room);
+    bool out_of_memory = size > SIZE_MAX / 2;
+    size = out_of_memory ? size : (size + align - 1) / align * align;
+    if (!out_of_memory && (!arena->page || arena->page->size - arena->page->used < size)) {
+        size_t capacity = size > PAGE ? size : PAGE;
+        struct arena_page *page = calloc(1, sizeof *page + capacity);
         if (page) {
-            page->size = room;
-            page->before = arena->page;
+            page->size = capacity;
+            page->prev = arena->page;
             arena->page = page;
         }
-        too_much = !page;
+        out_of_memory = !page;
     }
-    if (too_much) {
+    if (out_of_memory) {
         ceduo_no_memory();
         arena->failed = true;
         return NULL;
@@ -43,15 +43,15 @@ void *ceduo_arena_take(struct arena *arena, size_t size)
     return p;
 }
 
-void *ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
+void *ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *capacity, size_t size)
 {
-    if (n + more <= *room)
+    if (n + more <= *capacity)
         return items;
-    size_t all = 2 * n + more;
-    void *grown = ceduo_arena_take(arena, all * size);
+    size_t new_capacity = 2 * n + more;
+    void *grown = ceduo_arena_take(arena, new_capacity * size);
     if (grown && n > 0)
         memcpy(grown, items, n * size);
-    *room = grown ? all : *room;
+    *capacity = grown ? new_capacity : *capacity;
     return grown;
 }
 
@@ -88,9 +88,9 @@ char *ceduo_arena_format(struct arena *arena, const char *format, ...)
 void ceduo_arena_free(struct arena *arena)
 {
     while (arena->page) {
-        struct arena_page *before = arena->page->before;
+        struct arena_page *prev = arena->page->prev;
         free(arena->page);
-        arena->page = before;
+        arena->page = prev;
     }
     *arena = (struct arena){0};
 }

@@ -4,7 +4,7 @@
 
 #include <time.h>
 
-/* Seconds of a clock that only goes forward. */
+/* Return the seconds of a monotonic clock. */
 static inline double ceduo_clock(void)
 {
     struct timespec t;

@@ -16,14 +16,14 @@ double ceduo_log(double x)
     return small ? result - 54 * 0.6931471805599453 : result;
 }
 
-/* What rounding adds to 1 + x, it adds to its logarithm in proportion (W. Kahan). */
+/* The rounding error of 1 + x and that of its logarithm are proportional, and cancel out (W. Kahan). */
 double ceduo_log1p(double x)
 {
     double y = 1 + x;
     return y == 1 || isinf(y) ? x : ceduo_log(y) * (x / (y - 1));
 }
 
-/* 2^k for k of normal numbers. */
+/* Return 2^k. Requires a normal result. */
 static double power_of_two(int k)
 {
     return elementary_real((uint64_t)(k + 1023) << 52);
@@ -37,11 +37,11 @@ double ceduo_exp(double x)
         return INFINITY;
     double e, whole;
     elementary_exp_parts(&x, &e, &whole);
-    int k = (int)whole, half = k / 2; /* 2^k may be no normal number where the result is */
+    int k = (int)whole, half = k / 2; /* 2^k may overflow or be subnormal although the result is normal */
     return e * power_of_two(half) * power_of_two(k - half);
 }
 
-/* As with log1p: the quotient forgives what rounding does to e^x. */
+/* As with log1p, the quotient cancels the rounding error of e^x. */
 double ceduo_expm1(double x)
 {
     double e = ceduo_exp(x);
@@ -55,18 +55,18 @@ double ceduo_pow(double x, double y)
     return ceduo_exp(y * ceduo_log(x));
 }
 
-/* atan(x) = atan(c) + atan((x - c)/(1 + x c)) from a c = i/8 nearby, for x up to 1; beyond, pi/2 - atan(1/x). */
+/* atan(x) = atan(c) + atan((x - c)/(1 + x c)) with the nearest c = i/8 for x <= 1; for x > 1 pi/2 - atan(1/x). */
 double ceduo_atan(double x)
 {
-    static const double of_eighths[] = {0,
-                                        0.12435499454676144,
-                                        0.24497866312686415,
-                                        0.35877067027057225,
-                                        0.46364760900080615,
-                                        0.5585993153435624,
-                                        0.6435011087932844,
-                                        0.7188299996216245,
-                                        0.7853981633974483};
+    static const double atan_of_eighths[] = {0,
+                                             0.12435499454676144,
+                                             0.24497866312686415,
+                                             0.35877067027057225,
+                                             0.46364760900080615,
+                                             0.5585993153435624,
+                                             0.6435011087932844,
+                                             0.7188299996216245,
+                                             0.7853981633974483};
     double a = fabs(x);
     if (isnan(x))
         return x;
@@ -77,13 +77,13 @@ double ceduo_atan(double x)
     double c = i / 8.0, t = (a - c) / (1 + a * c), q = t * t, sum = 1.0 / 13;
     for (int n = 11; n >= 3; n -= 2)
         sum = 1.0 / n - sum * q;
-    double y = of_eighths[i] + (t - t * (q * sum));
+    double y = atan_of_eighths[i] + (t - t * (q * sum));
     if (large)
         y = (1.5707963267948966 - y) + 6.123233995736766e-17;
     return copysign(y, x);
 }
 
-/* Newton's method from a third of the exponent. */
+/* Newton's method, starting from a third of the exponent. */
 double ceduo_cbrt(double x)
 {
     if (x == 0 || !isfinite(x))
@@ -102,7 +102,7 @@ double ceduo_cbrt(double x)
 double ceduo_length(double x, double y)
 {
     double square = x * x + y * y;
-    if (square < 0x1p-900) /* exact in the next line, where digits were lost here */
+    if (square < 0x1p-900) /* squares that lose digits are scaled */
         return sqrt((x * 0x1p600) * (x * 0x1p600) + (y * 0x1p600) * (y * 0x1p600)) * 0x1p-600;
     return sqrt(square);
 }
@@ -116,7 +116,7 @@ void ceduo_direction(uint64_t i, uint64_t n, double *cosine, double *sine)
     *sine = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
 }
 
-/* 1/2 + phi(z) (z + z3/3 + z5/(3 5) + …), of which no term cancels another. */
+/* 1/2 + phi(z) (z + z3/3 + z5/(3 5) + …), without cancellation. */
 double ceduo_normal_chance(double z)
 {
     double term = z, sum = z;
@@ -127,17 +127,17 @@ double ceduo_normal_chance(double z)
     return 0.5 + sum * 0.3989422804014327 * ceduo_exp(-0.5 * (z * z));
 }
 
-static double ratio_of(const double above[8], const double below[8], double r)
+static double rational(const double numerator[8], const double denominator[8], double r)
 {
-    double p = above[7], q = below[7];
+    double p = numerator[7], q = denominator[7];
     for (int i = 6; i >= 0; i--) {
-        p = p * r + above[i];
-        q = q * r + below[i];
+        p = p * r + numerator[i];
+        q = q * r + denominator[i];
     }
     return p / q;
 }
 
-/* Wichura 1988, algorithm AS 241, PPND16. */
+/* Algorithm AS 241, PPND16 (Wichura 1988). */
 double ceduo_normal_quantile(double p)
 {
     static const double middle[2][8] = {
@@ -157,8 +157,8 @@ double ceduo_normal_quantile(double p)
          1.84631831751005468180e-5, 1.42151175831644588870e-7, 2.04426310338993978564e-15}};
     double q = p - 0.5;
     if (fabs(q) <= 0.425)
-        return q * ratio_of(middle[0], middle[1], 0.180625 - q * q);
+        return q * rational(middle[0], middle[1], 0.180625 - q * q);
     double r = sqrt(-ceduo_log(q < 0 ? p : 1 - p));
-    double z = r <= 5 ? ratio_of(side[0], side[1], r - 1.6) : ratio_of(tail[0], tail[1], r - 5);
+    double z = r <= 5 ? rational(side[0], side[1], r - 1.6) : rational(tail[0], tail[1], r - 5);
     return q < 0 ? -z : z;
 }

@@ -5,9 +5,9 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Functions of one number that a rock's trajectory depends on, or the stand of a year through which it flies. The C
- * library's differ between machines in the last bit, as some have fused multiply-adds; these give the same bits
- * everywhere, within an ulp, atan within two, log1p and expm1 within three. */
+/* Elementary functions for trajectories and for stands of a year. Those of the C library differ between machines in the last
+ * bit, because some have fused multiply-adds. These give the same bits everywhere. Errors are at most 1 ulp, for atan 2, for
+ * log1p and expm1 3. */
 double ceduo_log(double x);
 double ceduo_log1p(double x); /* log(1 + x), x > -1 */
 double ceduo_exp(double x);
@@ -15,16 +15,16 @@ double ceduo_expm1(double x); /* e^x - 1 */
 double ceduo_atan(double x);
 double ceduo_cbrt(double x);
 
-/* x to the power y, for x > 0, within 2^-52 (1 + |y log(x)|) of itself. */
+/* Return x to the power y, for x > 0; the relative error is at most 2^-52 (1 + |y log(x)|). */
 double ceduo_pow(double x, double y);
 
-/* sqrt(x2 + y2), where neither square is too large for a double. */
+/* Return sqrt(x2 + y2). Requires that neither square overflows. */
 double ceduo_length(double x, double y);
 
-/* sin and cos of 2 pi i/n. */
+/* Set the cosine and sine of 2 pi i/n. */
 void ceduo_direction(uint64_t i, uint64_t n, double *cosine, double *sine);
 
-/* The normal law: the chance of less than z, for |z| <= 3; and the z of which p is the chance, for 0 < p < 1. */
+/* Distribution function of the standard normal distribution for |z| <= 3, and its inverse for 0 < p < 1. */
 double ceduo_normal_chance(double z);
 double ceduo_normal_quantile(double p);
 
@@ -47,7 +47,7 @@ static inline double elementary_real(uint64_t i)
 #define AS_BITS(p)       elementary_bits(p)
 #define AS_REAL(p)       elementary_real(p)
 #define LESS(p, q)       ((p) < (q))
-#define PICK(m, p, q)    ((m) ? (p) : (q))
+#define BLEND(m, p, q)   ((m) ? (p) : (q))
 #define ELEMENTARY(name) elementary_##name
 #include "elementary_text.h"
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Logarithm, exponential, sine and cosine by their power series: the same bits with any libm, optimisation and lane.
- * This is the text of each; whoever includes it has said for which numbers: REAL, a double or a vector of doubles;
- * BITS, as many uint64_t; AS_BITS(p) and AS_REAL(p), the one read as the other; LESS(p, q), where the constant p is less
- * than q; PICK(m, p, q), p where m holds, and q elsewhere; ELEMENTARY(name), what the function is called. It forgets them at the end. */
+/* Logarithm, exponential, sine and cosine by their power series: the same bits with any libm, optimisation and lane. The
+ * including file defines REAL, a double or a vector of doubles; BITS, the uint64_t of the same size; AS_BITS(p) and AS_REAL(p),
+ * conversions of the bits; LESS(p, q) for a constant p; BLEND(m, p, q), p if m is set, otherwise q; ELEMENTARY(name), the name
+ * of a function. All are undefined at the end. */
 
-/* log(x) of an x that is normal, finite and above 0, within an ulp. x = 2^k (1 + f) with 1 + f near 1; with
- * s = f/(2 + f), log(1 + f) = 2(s + s^3/3 + s^5/5 + …). */
+/* log(x) of a normal, finite x > 0, within an ulp. x = 2^k (1 + f) with 1 + f near 1; with s = f/(2 + f), log(1 + f) = 2(s +
+ * s^3/3 + s^5/5 + …). */
 static inline void ELEMENTARY(log)(const REAL *x, REAL *result)
 {
     const uint64_t one = 0x3ff0000000000000, root_of_half = 0x3fe6a09e667f3bcd;
@@ -25,12 +25,12 @@ static inline void ELEMENTARY(log)(const REAL *x, REAL *result)
     *result = k * ln2_hi - ((half - (s * (half + series) + k * ln2_lo)) - f);
 }
 
-/* e^x = *e 2^*whole for |x| <= 746, *e near 1, within an ulp. With r = x - whole log(2), (e^r - 1 - r)/r2 by the series,
- * whose terms are added in pairs: none waits for all before it. */
+/* e^x = *e 2^*whole for |x| <= 746, *e near 1, within an ulp. With r = x - whole log(2), (e^r - 1 - r)/r2 by the series, added
+ * in pairs so that few additions depend on each other. */
 static inline void ELEMENTARY(exp_parts)(const REAL *x, REAL *e, REAL *whole)
 {
     const double ln2_hi = 0x1.62e42feep-1, ln2_lo = 0x1.a39ef35793c76p-33;
-    REAL k = (*x * 1.4426950408889634 + 0x1.8p52) - 0x1.8p52; /* so large a number has no fraction */
+    REAL k = (*x * 1.4426950408889634 + 0x1.8p52) - 0x1.8p52; /* rounds to an integer */
     REAL r = (*x - k * ln2_hi) - k * ln2_lo, r2 = r * r, r4 = r2 * r2;
     REAL low = (1.0 / 2 + r * (1.0 / 6)) + r2 * (1.0 / 24 + r * (1.0 / 120));
     REAL middle = (1.0 / 720 + r * (1.0 / 5040)) + r2 * (1.0 / 40320 + r * (1.0 / 362880));
@@ -39,12 +39,12 @@ static inline void ELEMENTARY(exp_parts)(const REAL *x, REAL *e, REAL *whole)
     *whole = k;
 }
 
-/* e^x for |x| <= 700, where it is a normal number. */
+/* e^x for |x| <= 700, so that the result is a normal number. */
 static inline void ELEMENTARY(exp)(const REAL *x, REAL *result)
 {
     REAL e, k;
     ELEMENTARY(exp_parts)(x, &e, &k);
-    *result = e * AS_REAL((AS_BITS(k + 0x1.8p52) + 1023) << 52); /* the last bits of that are the integer's */
+    *result = e * AS_REAL((AS_BITS(k + 0x1.8p52) + 1023) << 52); /* the lowest bits of the sum are the integer */
 }
 
 /* Sine and cosine of an angle in [-pi/2, pi/2], within 2e-16. */
@@ -53,7 +53,7 @@ static inline void ELEMENTARY(sincos)(const REAL *angle, REAL *sine, REAL *cosin
     const double half_pi_hi = 1.5707963267948966, half_pi_lo = 6.123233995736766e-17;
     const uint64_t sign = 0x8000000000000000;
     REAL a = AS_REAL(AS_BITS(*angle) & ~sign);
-    REAL y = PICK(LESS(0.7853981633974483, a), (half_pi_hi - a) + half_pi_lo, a); /* sin a = cos(pi/2 - a) */
+    REAL y = BLEND(LESS(0.7853981633974483, a), (half_pi_hi - a) + half_pi_lo, a); /* sin a = cos(pi/2 - a) */
     REAL q = y * y;
     REAL s = q * (1.0 / 355687428096000.0) - 1.0 / 1307674368000.0;
     s = s * q + 1.0 / 6227020800.0;
@@ -71,8 +71,8 @@ static inline void ELEMENTARY(sincos)(const REAL *angle, REAL *sine, REAL *cosin
     c = c * q + 1.0 / 24.0;
     c = c * q - 1.0 / 2.0;
     c = c * q + 1.0;
-    *cosine = PICK(LESS(0.7853981633974483, a), s, c);
-    *sine = AS_REAL(AS_BITS(PICK(LESS(0.7853981633974483, a), c, s)) | (AS_BITS(*angle) & sign));
+    *cosine = BLEND(LESS(0.7853981633974483, a), s, c);
+    *sine = AS_REAL(AS_BITS(BLEND(LESS(0.7853981633974483, a), c, s)) | (AS_BITS(*angle) & sign));
 }
 
 #undef REAL
@@ -80,5 +80,5 @@ static inline void ELEMENTARY(sincos)(const REAL *angle, REAL *sine, REAL *cosin
 #undef AS_BITS
 #undef AS_REAL
 #undef LESS
-#undef PICK
+#undef BLEND
 #undef ELEMENTARY

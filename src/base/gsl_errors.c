@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* GSL has one handler of errors for all threads, and its own aborts. While calls of the library run, ours stands there: it lets
- * the threads of these calls go on, and hands the errors of others to the handler that was there before. The last call that
- * ends puts that back. */
+/* GSL has one error handler for all threads, and its default handler aborts. While calls of the library run, on_error() is
+ * installed. It ignores errors of their threads and passes errors of other threads to the saved handler. The last call to end
+ * restores the saved handler. */
 #include "gsl_errors.h"
 
 #include <gsl/gsl_errno.h>
@@ -12,26 +12,26 @@
 #include "must.h"
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static size_t calls;                /* that run */
-static gsl_error_handler_t *before; /* the caller's; NULL: GSL's own */
-static _Thread_local bool within;   /* this thread is in such a call */
-static _Thread_local jmp_buf *way_out;
+static size_t active_calls;                /* library calls that are running */
+static gsl_error_handler_t *saved_handler; /* the caller's; NULL: GSL's default */
+static _Thread_local bool in_library;      /* this thread is in a library call */
+static _Thread_local jmp_buf *oom_jump;
 
 static void on_error(const char *reason, const char *file, int line, int error)
 {
-    if (within) {
+    if (in_library) {
         if (error == GSL_ENOMEM)
             ceduo_no_memory();
-        if (error == GSL_ENOMEM && way_out)
-            longjmp(*way_out, 1);
+        if (error == GSL_ENOMEM && oom_jump)
+            longjmp(*oom_jump, 1);
         return;
     }
     pthread_mutex_lock(&lock);
-    gsl_error_handler_t *theirs = before;
+    gsl_error_handler_t *callers_handler = saved_handler;
     pthread_mutex_unlock(&lock);
-    if (theirs) { /* untaken: end */
-        theirs(reason, file, line, error);
-    } else { /* it prints what is wrong and aborts */
+    if (callers_handler) { /* untaken: end */
+        callers_handler(reason, file, line, error);
+    } else { /* the default handler prints the error and aborts */
         gsl_set_error_handler(NULL);
         gsl_error(reason, file, line, error);
     }
@@ -39,35 +39,35 @@ static void on_error(const char *reason, const char *file, int line, int error)
 
 bool ceduo_gsl_enter(void)
 {
-    bool was = within;
-    within = true;
+    bool was_in_library = in_library;
+    in_library = true;
     pthread_mutex_lock(&lock);
-    if (calls++ == 0)
-        before = gsl_set_error_handler(on_error);
+    if (active_calls++ == 0)
+        saved_handler = gsl_set_error_handler(on_error);
     pthread_mutex_unlock(&lock);
-    return was;
+    return was_in_library;
 }
 
-void ceduo_gsl_leave(const bool *was)
+void ceduo_gsl_leave(const bool *was_in_library)
 {
     pthread_mutex_lock(&lock);
-    if (--calls == 0) {
-        gsl_error_handler_t *now = gsl_set_error_handler(before);
-        if (now != on_error) /* the caller has set another meanwhile */
-            gsl_set_error_handler(now);
+    if (--active_calls == 0) {
+        gsl_error_handler_t *current_handler = gsl_set_error_handler(saved_handler);
+        if (current_handler != on_error) /* the caller has set another handler in the meantime */
+            gsl_set_error_handler(current_handler);
     }
     pthread_mutex_unlock(&lock);
-    within = *was;
+    in_library = *was_in_library;
 }
 
 int ceduo_gsl_try(int (*call)(void *context), void *context)
 {
     GSL_RETURNS_ERRORS;
-    jmp_buf out;
+    jmp_buf jump;
     volatile int status = GSL_ENOMEM;
-    way_out = &out;
-    if (setjmp(out) == 0) /* untaken: twice */
+    oom_jump = &jump;
+    if (setjmp(jump) == 0) /* untaken: twice */
         status = call(context);
-    way_out = NULL;
+    oom_jump = NULL;
     return status;
 }

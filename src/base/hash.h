@@ -7,9 +7,9 @@
 #include <stdint.h>
 #include <string.h>
 
-/* A hash of numbers: begin with HASH_START, mix in one after the other. Each step maps different values to different hashes, so
- * that a change of one number alone is never missed. Pointers and structs do not compile: an address differs from one run of
- * the program to the next, and padding has any value. */
+/* A hash of numbers: begin with HASH_START and mix in one after the other. Each step maps different values to different hashes,
+ * so that a change of one number is always detected. Pointers and structs do not compile, because an address differs between
+ * runs of the program, and padding is undefined. */
 #define HASH_START 14695981039346656037u
 
 static inline void hash_word(uint64_t *hash, uint64_t value)
@@ -27,7 +27,7 @@ static inline void hash_numbers(uint64_t *hash, const double *numbers, size_t n)
     }
 }
 
-/* The hash of n bytes, the same on every machine: against what gets lost or changed on the way, not against malice. */
+/* Return the hash of n bytes, the same on every machine. It detects accidental changes, not malicious ones. */
 static inline uint64_t hash_string(const char *bytes, size_t n)
 {
     uint64_t hash = HASH_START ^ (uint64_t)n;
@@ -39,31 +39,31 @@ static inline uint64_t hash_string(const char *bytes, size_t n)
     return hash;
 }
 
-/* A count or word; no pointer can be multiplied. */
+/* Mix in an integer. The product rejects pointers. */
 #define hash_count(hash, value) hash_word(hash, 1u * (value))
 
-/* Doubles by their bits: -0 and 0 differ, NaN is like NaN. */
+/* Mix in the bits of a double: -0 and 0 differ, NaN equals NaN. */
 #define hash_double(hash, value) hash_numbers(hash, &(const double){value}, 1)
 
-/* n doubles at a pointer to double, not at a pointer to anything else. */
+/* Mix in n doubles. Accepts only a pointer to double. */
 #define hash_doubles(hash, doubles, n)                                                                                         \
     hash_numbers(hash, _Generic((doubles), double * : (doubles), const double * : (doubles)), n)
 
-/* All doubles of an array, not of a pointer. */
+/* Mix in all doubles of an array. Rejects a pointer. */
 #define hash_array(hash, array)                                                                                                \
     do {                                                                                                                       \
         _Static_assert(!__builtin_types_compatible_p(__typeof__(array), __typeof__(&(array)[0])), "an array, not a pointer");  \
         hash_doubles(hash, array, sizeof(array) / sizeof(array)[0]);                                                           \
     } while (0)
 
-/* Doubles one after the other. */
+/* Mix in the listed doubles. */
 #define hash_each(hash, ...)                                                                                                   \
     do {                                                                                                                       \
         const double hashed_numbers[] = {__VA_ARGS__};                                                                         \
         hash_array(hash, hashed_numbers);                                                                                      \
     } while (0)
 
-/* n bytes of a string. */
+/* Return the hash of n bytes of a string. */
 #define hash_bytes(bytes, n) hash_string(_Generic((bytes), char * : (bytes), const char * : (bytes)), n)
 
 #endif

@@ -21,7 +21,7 @@ static void append_string(struct text *text, const char *string)
             ceduo_text_char(text, (char)code);
         } else if (!ceduo_utf8_printable(code) && code <= 0xffff) {
             ceduo_text_format(text, "\\u%04x", (unsigned)code);
-        } else if (!ceduo_utf8_printable(code)) { /* in the two halves of UTF-16 */
+        } else if (!ceduo_utf8_printable(code)) { /* as a UTF-16 surrogate pair */
             unsigned high = 0xd7c0 + (code >> 10), low = 0xdc00 + (code & 0x3ff);
             ceduo_text_format(text, "\\u%04x\\u%04x", high, low);
         } else {

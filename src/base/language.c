@@ -4,26 +4,28 @@
 #include <locale.h>
 #include <string.h>
 
-static _Thread_local bool of_data;
+static _Thread_local bool data_language;
 
 void ceduo_language_of_data(bool on)
 {
-    of_data = on;
+    data_language = on;
 }
 
 const char *ceduo_translate(const char *string)
 {
-    return of_data || !string[0] ? string : gettext(string); /* the translation of nothing is the header of the file */
+    return data_language || !string[0] ? string : gettext(string); /* the translation of "" is the header of the catalogue */
 }
 
 const char *ceduo_in_language(const char *english, const char *italian)
 {
-    return italian && strcmp(ceduo_translate(N_("en")), "it") == 0 ? italian : english; /* whose translation is its own code */
+    return italian && strcmp(ceduo_translate(N_("en")), "it") == 0
+               ? italian
+               : english; /* each catalogue translates "en" to its own code */
 }
 
 const char *ceduo_translate_n(const char *one, const char *many, unsigned long n)
 {
-    return of_data ? n == 1 ? one : many : dcngettext(NULL, one, many, n, LC_MESSAGES);
+    return data_language ? n == 1 ? one : many : dcngettext(NULL, one, many, n, LC_MESSAGES);
 }
 
 const char *ceduo_translate_in(const char *marked)

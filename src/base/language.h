@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Mark text for translation: whole sentences, with ngettext() if a number decides on the form. N_ only marks: scene, core and study
- * know no language; the caller that shows their text translates it with _(). Text in files, JSON and CSV is never translated. cli/say.c sets
- * the language; `make po` brings marked text into src/po. */
+/* Mark text for translation: whole sentences, with ngettext() if a number determines the form. N_ only marks text, because
+ * scene, core and study do not translate; the caller that displays their text translates it with _(). Text in files, JSON and
+ * CSV is never translated. cli/say.c sets the language; `make po` brings marked text into src/po. */
 #ifndef CEDUO_LANGUAGE_H
 #define CEDUO_LANGUAGE_H
 
@@ -15,7 +15,7 @@
 #define NP_(context, string) context "\004" string
 #define P_(context, string)  ceduo_translate_in(NP_(context, string))
 
-/* One of two forms, by the number. */
+/* Return the singular or the plural form, by n. */
 #undef ngettext
 #define ngettext(one, many, n) ceduo_translate_n(one, many, n)
 
@@ -26,7 +26,7 @@ const char *ceduo_translate_in(const char *marked);
 /* Return the text of a file in the language of the program. `italian` may be NULL. */
 const char *ceduo_in_language(const char *english, const char *italian);
 
-/* While on, text of this thread stays English: sentences in JSON and CSV are the same in every language. */
+/* While on, text of this thread stays English, so that sentences in JSON and CSV do not depend on the language. */
 void ceduo_language_of_data(bool on);
 
 #endif

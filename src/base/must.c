@@ -14,7 +14,7 @@ void ceduo_no_memory(void)
 
 bool ceduo_memory_lost(void)
 {
-    bool was = lost;
+    bool was_lost = lost;
     lost = false;
-    return was;
+    return was_lost;
 }

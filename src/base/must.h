@@ -5,19 +5,19 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* Running out of memory. The library returns an error. The program sets a hook, which restores the terminal, prints a sentence and
- * ends the program: there text, arenas and ceduo_grow() never fail, and need no check. */
+/* Handling of out-of-memory. The library returns an error. The program sets a hook that restores the terminal, prints a message
+ * and ends the program, so that text, arenas and ceduo_grow() never fail and need no check. */
 
-/* Does not return; any thread may call it. NULL: an error is returned. */
+/* Called by any thread; must not return. NULL: functions return an error. */
 extern void (*ceduo_memory_hook)(void);
 
-/* Note that memory ran out, and call the hook if there is one. */
+/* Set the out-of-memory flag of this thread, and call the hook if there is one. */
 void ceduo_no_memory(void);
 
-/* True if memory ran out in this thread since the last call. Call it once after many small allocations. */
+/* Return and clear the out-of-memory flag of this thread. Check it once after many small allocations. */
 bool ceduo_memory_lost(void);
 
-/* Return the allocated memory, never NULL. */
+/* Return `allocated`; end the program if it is NULL. */
 static inline void *ceduo_must(void *allocated)
 {
     if (!allocated) {
@@ -27,8 +27,8 @@ static inline void *ceduo_must(void *allocated)
     return allocated;
 }
 
-/* Grow an array of n items of `size` bytes so that it holds one more; `*capacity` is the number that it holds. Returns the array, which
- * may have moved. NULL on failure: the array stays as it was. */
+/* Grow an array of n items of `size` bytes to hold one more. *capacity is its capacity. Returns the array, which may have
+ * moved. NULL on failure: the array is unchanged. */
 static inline void *ceduo_grow(void *items, size_t n, size_t *capacity, size_t size)
 {
     if (n < *capacity)

@@ -6,16 +6,16 @@
 
 #include "gsl_errors.h"
 
-struct crew {
+struct shared_state {
     const struct parallel *work;
     atomic_size_t next, workers;
     atomic_int status;
 };
 
-static void *take_items(void *context)
+static void *run_items(void *context)
 {
     GSL_RETURNS_ERRORS;
-    struct crew *c = context;
+    struct shared_state *c = context;
     size_t worker = atomic_fetch_add(&c->workers, 1);
     for (size_t i; atomic_load(&c->status) == 0 && (i = atomic_fetch_add(&c->next, 1)) < c->work->n;) {
         int good = 0, status = c->work->item(c->work->context, i, worker);
@@ -27,14 +27,14 @@ static void *take_items(void *context)
 
 int ceduo_parallel(const struct parallel *work)
 {
-    struct crew crew = {.work = work};
+    struct shared_state shared_state = {.work = work};
     size_t n = work->threads < work->n ? work->threads : work->n, started = 0;
     pthread_t *threads = n > 1 ? malloc((n - 1) * sizeof *threads) : NULL;
-    while (threads && started + 1 < n && pthread_create(&threads[started], NULL, take_items, &crew) == 0)
+    while (threads && started + 1 < n && pthread_create(&threads[started], NULL, run_items, &shared_state) == 0)
         started++;
-    take_items(&crew);
+    run_items(&shared_state);
     while (started > 0)
         pthread_join(threads[--started], NULL);
     free(threads);
-    return atomic_load(&crew.status);
+    return atomic_load(&shared_state.status);
 }

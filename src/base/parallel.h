@@ -6,13 +6,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Items 0…n - 1 on several threads, the caller's among them. Each thread takes the next item as soon as it is free. If no thread can
- * be started, the caller does all. The result of an item must not depend on the thread or on the order. */
+/* Items 0…n - 1 on several threads, including the caller's. Each idle thread runs the next item. If no thread can be started,
+ * the caller runs all. The result of an item must not depend on the thread or on the order. */
 struct parallel {
     size_t n;
     unsigned threads;
-    /* `worker`: 0…threads - 1, of one thread at a time, to index memory of a thread. Returns 0 to go on; another status ends the
-     * work. */
+    /* `worker`, 0…threads - 1, indexes per-thread state. 0: continue; anything else stops the loop. */
     int (*item)(void *context, size_t item, size_t worker);
     void *context;
 };
@@ -20,14 +19,14 @@ struct parallel {
 /* Return 0 after all items, otherwise the first status that is not 0. No item begins after it. */
 int ceduo_parallel(const struct parallel *work);
 
-/* True if the caller has raised its flag. `cancel` may be NULL. */
+/* True if the caller has set its flag. `cancel` may be NULL. */
 static inline bool ceduo_cancelled(const atomic_bool *cancel)
 {
     return cancel && atomic_load_explicit(cancel, memory_order_relaxed);
 }
 
-/* Guard for a callback that one thread at a time may call. A thread that finds it taken goes on without the call: missed progress
- * is soon reported again. Starts zeroed. */
+/* Guard for a callback that one thread at a time may call. If it is busy, a thread skips the call: progress is soon reported
+ * again. Starts zeroed. */
 struct talk {
     atomic_flag busy;
 };

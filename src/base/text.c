@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Growing strings, and numbers as text and back. A text owns its bytes; ceduo_text_free() gives them back. The shortest
- * decimal of a number is found by printing more and more digits until it reads back as the same. */
 #include "text.h"
 
 #include <float.h>
@@ -20,19 +18,19 @@ static bool reserve(struct text *text, size_t more)
 {
     if (text->failed)
         return false;
-    if (more < text->room - text->length)
+    if (more < text->capacity - text->length)
         return true;
-    size_t room = text->room ? text->room : 64;
-    while (room < text->length + more + 1)
-        room *= 2;
-    char *bytes = realloc(text->bytes, room);
+    size_t capacity = text->capacity ? text->capacity : 64;
+    while (capacity < text->length + more + 1)
+        capacity *= 2;
+    char *bytes = realloc(text->bytes, capacity);
     if (!bytes) {
         ceduo_no_memory();
         text->failed = true;
         return false;
     }
     text->bytes = bytes;
-    text->room = room;
+    text->capacity = capacity;
     return true;
 }
 
@@ -73,25 +71,25 @@ void ceduo_text_char(struct text *text, char c)
 
 /* ---- numbers with a dot ---- */
 
-static locale_t dotted; /* of the process; never freed */
-static pthread_once_t once = PTHREAD_ONCE_INIT;
+static locale_t dot_locale; /* of the process; never freed */
+static pthread_once_t dotted_once = PTHREAD_ONCE_INIT;
 
-/* glibc returns a constant for "C": this cannot fail. */
-static void make_dotted(void)
+/* Cannot fail: glibc returns a constant for "C". */
+static void create_dot_locale(void)
 {
-    dotted = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    dot_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
 }
 
-static locale_t dotted_locale(void)
+static locale_t get_dot_locale(void)
 {
-    pthread_once(&once, make_dotted);
-    return dotted;
+    pthread_once(&dotted_once, create_dot_locale);
+    return dot_locale;
 }
 
-/* As vsnprintf(), with a dot in every locale. Allocates no memory. */
-static int vformat_dotted(char *to, size_t size, const char *format, va_list args)
+/* As vsnprintf(), with a decimal point in every locale. Allocates no memory. */
+static int format_with_dot(char *to, size_t size, const char *format, va_list args)
 {
-    locale_t before = uselocale(dotted_locale());
+    locale_t before = uselocale(get_dot_locale());
     int n = vsnprintf(to, size, format, args);
     uselocale(before);
     return n;
@@ -101,14 +99,14 @@ int ceduo_decimal_format(char *to, size_t size, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    int n = vformat_dotted(to, size, format, args);
+    int n = format_with_dot(to, size, format, args);
     va_end(args);
     return n;
 }
 
 double ceduo_decimal_read(const char *string)
 {
-    return strtod_l(string, NULL, dotted_locale());
+    return strtod_l(string, NULL, get_dot_locale());
 }
 
 char *ceduo_number_spoken(char *number)
@@ -120,31 +118,31 @@ char *ceduo_number_spoken(char *number)
 
 __attribute__((format(printf, 2, 0))) static void format_plain(struct text *text, const char *format, va_list args)
 {
-    va_list again;
-    va_copy(again, args);
-    int n = vformat_dotted(NULL, 0, format, args);
+    va_list args_copy;
+    va_copy(args_copy, args);
+    int n = format_with_dot(NULL, 0, format, args);
     if (n >= 0 && reserve(text, (size_t)n)) { /* untaken: system */
-        vformat_dotted(text->bytes + text->length, (size_t)n + 1, format, again);
+        format_with_dot(text->bytes + text->length, (size_t)n + 1, format, args_copy);
         text->length += (size_t)n;
     }
-    va_end(again);
+    va_end(args_copy);
 }
 
-/* Return the length of %'.1f and its like without the %, 0 if a format does not begin with one. Only translations have them: ISO C
- * knows no such flag. */
-static size_t spoken_length(const char *format)
+/* Return the length of a format like %'.1f without the %, or 0 if there is none. Only translations have such formats: ISO C has
+ * no such flag. */
+static size_t localized_length(const char *format)
 {
     size_t n = strncmp(format, "%'", 2) == 0 ? 2 + strspn(format + 2, "-+ #.*0123456789") : 0;
     return n > 0 && format[n] && strchr("efg", format[n]) ? n : 0;
 }
 
-/* Numbers that begin with %' stand between two marks while they are printed, by which their dots are found. */
-static void format_spoken(struct text *text, const char *format, va_list args)
+/* Print each number of a %' format between two marks, and then replace the dots between marks. */
+static void format_localized(struct text *text, const char *format, va_list args)
 {
     LOCAL_TEXT(marked);
     LOCAL_TEXT(printed);
     for (const char *c = format; *c; c++) {
-        size_t n = spoken_length(c);
+        size_t n = localized_length(c);
         if (n > 0) {
             ceduo_text_format(&marked, "\1%%%.*s\2", (int)n - 1, c + 2);
             c += n;
@@ -155,7 +153,7 @@ static void format_spoken(struct text *text, const char *format, va_list args)
         }
     }
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wformat-nonliteral" /* what is printed is that of the format */
+#pragma GCC diagnostic ignored "-Wformat-nonliteral" /* the arguments match the original format */
     format_plain(&printed, ceduo_text_string(&marked), args);
 #pragma GCC diagnostic pop
     bool number = false;
@@ -169,7 +167,7 @@ static void format_spoken(struct text *text, const char *format, va_list args)
 void ceduo_text_vformat(struct text *text, const char *format, va_list args)
 {
     if (strstr(format, "%'"))
-        format_spoken(text, format, args);
+        format_localized(text, format, args);
     else
         format_plain(text, format, args);
 }
@@ -223,18 +221,18 @@ void ceduo_text_safe(struct text *text, const char *string)
     ceduo_text_safe_n(text, string, strlen(string));
 }
 
-char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
+char *ceduo_number_shortest(double value, char buffer[CEDUO_NUMBER_ROOM])
 {
     if (!isfinite(value))
-        return strcpy(room, "null");
+        return strcpy(buffer, "null");
     if (value == 0)
-        return strcpy(room, "0"); /* and never -0 */
-    /* A number that has a decimal of 15 digits or fewer is printed by 15 digits as just that; below the smallest normal number
-     * each has to be tried. 17 always read back. */
+        return strcpy(buffer, "0"); /* also for -0 */
+    /* Begin with 15 digits: %g drops trailing zeros, so shorter decimals come out, too. Subnormal numbers begin with 1. 17
+     * digits always suffice. */
     int digits = fabs(value) < DBL_MIN ? 1 : 15;
-    while (ceduo_decimal_format(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value), ceduo_decimal_read(room) != value)
+    while (ceduo_decimal_format(buffer, CEDUO_NUMBER_ROOM, "%.*g", digits, value), ceduo_decimal_read(buffer) != value)
         digits++;
-    return room;
+    return buffer;
 }
 
 #define DIGITS "0123456789"
@@ -254,7 +252,7 @@ enum ceduo_number_reading ceduo_number_read(const char *string, double *value)
     if (digits > 0 && (*p == 'e' || *p == 'E')) {
         p += p[1] == '-' || p[1] == '+' ? 2 : 1;
         more = strspn(p, DIGITS);
-        digits = more; /* of the exponent: it has one at least */
+        digits = more; /* of the exponent: at least one is required */
         p += more;
     }
     if (digits == 0 || *p)
@@ -274,7 +272,7 @@ enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double
     if (number < lo || number > hi)
         return CEDUO_NUMBER_TOO_LARGE;
     *value = (uint64_t)number;
-    if (string[strspn(string, DIGITS)] == '\0') { /* digits may say more than a double holds */
+    if (string[strspn(string, DIGITS)] == '\0') { /* more digits than a double can hold */
         *value = strtoull(string, NULL, 10);
         if (*value > (uint64_t)hi)
             return CEDUO_NUMBER_TOO_LARGE;
@@ -288,7 +286,7 @@ void ceduo_text_csv(struct text *text, const char *value)
     double number;
     bool negative = *value == '-' && value[1] && ceduo_number_read(value, &number) == CEDUO_NUMBER_NONE;
     bool formula = *value && (strchr("=+@\t", *value) || negative);
-    ceduo_text_put(&safe, formula ? "'" : ""); /* a spreadsheet computes what begins so; an apostrophe keeps it as it is */
+    ceduo_text_put(&safe, formula ? "'" : ""); /* an apostrophe prevents a spreadsheet from computing it */
     ceduo_text_safe(&safe, value);
     const char *bytes = ceduo_text_string(&safe);
     if (!strpbrk(bytes, ",\"")) {
@@ -299,10 +297,10 @@ void ceduo_text_csv(struct text *text, const char *value)
             ceduo_text_add(text, *bytes == '"' ? "\"\"" : bytes, *bytes == '"' ? 2 : 1);
         ceduo_text_char(text, '"');
     }
-    text->failed |= safe.failed; /* NOLINT(clang-analyzer-unix.Malloc): it does not know that `safe` is freed here */
+    text->failed |= safe.failed; /* NOLINT(clang-analyzer-unix.Malloc): false positive: `safe` is freed here */
 }
 
-/* Levenshtein's distance between short words. */
+/* Levenshtein distance of short words. */
 static size_t distance(const char *a, const char *b)
 {
     size_t row[64], n = strlen(b);
@@ -326,7 +324,7 @@ static size_t distance(const char *a, const char *b)
 const char *ceduo_text_nearest(const char *word, const char *const *words, size_t n)
 {
     const char *best = NULL;
-    size_t length = strlen(word), min = length < 3 ? length : length / 2 + 2; /* a letter at least must be the same */
+    size_t length = strlen(word), min = length < 3 ? length : length / 2 + 2; /* at least one letter must be equal */
     for (size_t i = 0; i < n; i++) {
         size_t d = distance(word, words[i]);
         bool longer = length > 0 && strncmp(words[i], word, length) == 0; /* dbh for dbh_m */
@@ -338,29 +336,30 @@ const char *ceduo_text_nearest(const char *word, const char *const *words, size_
     return best;
 }
 
-#define LETTERS_MOST 64
+#define LETTERS_MAX 64
 
-enum { ANY = 1, TOGETHER = 9, WORD = 8, START = 4 };
+enum { MATCH = 1, ADJACENT = 9, WORD_START = 8, TEXT_START = 4 };
 
-/* The best of all ways in which the letters stand in the text: best[k] is that of the first k letters, the last of
- * them at the byte before the one looked at (`ending`), or anywhere before it (`best`). */
+/* Dynamic programming over the bytes of the text. best[k] is the highest score of the first k letters so far; ending[k] is the
+ * highest score with letter k at the previous byte. */
 int ceduo_fuzzy_match(const char *typed, const char *text)
 {
-    int best[LETTERS_MOST + 1], ending[LETTERS_MOST + 1];
+    int best[LETTERS_MAX + 1], ending[LETTERS_MAX + 1];
     size_t n = strlen(typed);
-    n = n < LETTERS_MOST ? n : LETTERS_MOST;
+    n = n < LETTERS_MAX ? n : LETTERS_MAX;
     for (size_t k = 0; k <= n; k++)
         best[k] = ending[k] = k == 0 ? 0 : -1;
     for (size_t i = 0; text[i]; i++) {
         for (size_t k = n; k > 0; k--) {
             bool same = strncasecmp(text + i, typed + k - 1, 1) == 0;
-            int worth = ANY + (i == 0 || strchr(" -_/.(,", text[i - 1]) ? WORD : 0) + (i == 0 ? START : 0), here = -1;
+            int gain = MATCH + (i == 0 || strchr(" -_/.(,", text[i - 1]) ? WORD_START : 0) + (i == 0 ? TEXT_START : 0),
+                best_here = -1;
             if (same && best[k - 1] >= 0)
-                here = best[k - 1] + worth;
-            if (same && k > 1 && ending[k - 1] >= 0 && ending[k - 1] + TOGETHER + worth > here)
-                here = ending[k - 1] + TOGETHER + worth;
-            ending[k] = here;
-            best[k] = here > best[k] ? here : best[k];
+                best_here = best[k - 1] + gain;
+            if (same && k > 1 && ending[k - 1] >= 0 && ending[k - 1] + ADJACENT + gain > best_here)
+                best_here = ending[k - 1] + ADJACENT + gain;
+            ending[k] = best_here;
+            best[k] = best_here > best[k] ? best_here : best[k];
         }
         ending[0] = -1;
     }

@@ -7,11 +7,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A string that grows. Starts zeroed; `bytes` is NULL or ends in NUL. If memory runs out, `failed` stays set and nothing more is
- * added: check it once at the end, or call ceduo_memory_lost(). In the program memory never fails (must.h). */
+/* A growing string. Starts zeroed; `bytes` is NULL or ends in NUL. If memory runs out, `failed` stays set and nothing more is
+ * appended: check it once at the end, or call ceduo_memory_lost(). In the program memory never fails (must.h). */
 struct text {
     char *bytes;
-    size_t length, room;
+    size_t length, capacity;
     bool failed;
 };
 
@@ -19,17 +19,17 @@ void ceduo_text_add(struct text *text, const char *bytes, size_t n);
 void ceduo_text_put(struct text *text, const char *string);
 /* Remove all but the first `length` bytes. */
 void ceduo_text_cut(struct text *text, size_t length);
-/* Append a string in the quotes of a shell. */
+/* Append a string in shell quotes. */
 void ceduo_text_quoted(struct text *text, const char *string);
 void ceduo_text_char(struct text *text, char c);
 void ceduo_text_format(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* %'.1f and its like, in translations, print the decimal sign of the language. */
+/* In translations, %'.1f and similar formats print the decimal sign of the language. */
 void ceduo_text_vformat(struct text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
-/* Append `between`, such as "; ", then a clause or sentence. */
+/* Append `between`, such as "; ", then the formatted text. */
 void ceduo_text_then(struct text *text, const char *between, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void ceduo_text_free(struct text *text);
 
-/* A text that is freed at the end of its block. */
+/* Declare a text that is freed at the end of its block. */
 #define LOCAL_TEXT(name) __attribute__((cleanup(ceduo_text_free))) struct text name = {0}
 
 /* Append n words with a separator between them. */
@@ -41,40 +41,40 @@ static inline const char *ceduo_text_string(const struct text *text)
     return text->bytes ? text->bytes : "";
 }
 
-/* Append a string that is safe to print: control characters and bytes that are no UTF-8 become \xHH. */
+/* Append a string that is safe to print: control characters and invalid UTF-8 become \xHH. */
 void ceduo_text_safe(struct text *text, const char *string);
 void ceduo_text_safe_n(struct text *text, const char *string, size_t n);
 
-/* Print the shortest decimal that reads back as the same number; "null" if it is not finite. Returns `room`. */
+/* Print the shortest decimal that reads back as the same number; "null" if it is not finite. Returns `buffer`. */
 #define CEDUO_NUMBER_ROOM 32
-char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM]);
-/* The same in memory of the block around it. */
+char *ceduo_number_shortest(double value, char buffer[CEDUO_NUMBER_ROOM]);
+/* As ceduo_number_shortest(), into memory of the enclosing block. */
 #define NUMERAL(value) ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0})
 
 /* Replace each dot by the decimal sign of the language. Returns `number`. */
 char *ceduo_number_spoken(char *number);
 
-/* As snprintf(), and strtod() without its second argument, but with a dot in every locale of the host program: in Italian or German
- * strtod() reads "9.81" as 9. */
+/* As snprintf(), and strtod() without its second argument, but with a decimal point in every locale. In an Italian or German
+ * locale strtod() reads "9.81" as 9. */
 int ceduo_decimal_format(char *to, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
 double ceduo_decimal_read(const char *string);
 
 enum ceduo_number_reading { CEDUO_NUMBER_GOOD, CEDUO_NUMBER_NONE, CEDUO_NUMBER_TOO_LARGE };
 
-/* Read a decimal number with a dot: 12, -0.5, .5, 1e-3. Not: 1,5 1_000 0x10 010 inf nan, or text after it. */
+/* Parse a decimal number with a point: 12, -0.5, .5, 1e-3. Not: 1,5 1_000 0x10 010 inf nan, or text after it. */
 enum ceduo_number_reading ceduo_number_read(const char *string, double *value);
 
-/* Read a whole number exactly. CEDUO_NUMBER_TOO_LARGE if it lies outside lo to hi. */
+/* Parse an integer exactly. CEDUO_NUMBER_TOO_LARGE if it is outside lo…hi. */
 enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double hi, uint64_t *value);
 
-/* Append a field of CSV, in quotes if it needs them, after an apostrophe if a spreadsheet would read a formula. */
+/* Append a CSV field, in quotes if necessary, after an apostrophe if a spreadsheet would read a formula. */
 void ceduo_text_csv(struct text *text, const char *value);
 
-/* Return the nearest of n words; NULL: none is near. */
+/* Return the most similar of n words; NULL if none is similar. */
 const char *ceduo_text_nearest(const char *word, const char *const *words, size_t n);
 
-/* Return how well a text matches typed letters, which it must hold in their order, in any case; -1: it does not. Letters that
- * begin words or follow each other count more; a text that begins with all of them counts most. */
+/* Return a score of how well a text matches typed letters; -1 if it does not contain them in their order, in any case. Letters
+ * that begin words or are adjacent score more; a text that begins with all of them scores most. */
 int ceduo_fuzzy_match(const char *typed, const char *text);
 
 #endif

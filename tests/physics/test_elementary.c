@@ -106,9 +106,9 @@ TEST(lanes)
 {
     for (uint64_t n = 0; n < PLACES / REAL_LANES; n++) {
         const uint64_t key = RANDOM_KEY(11, n);
-        ints events = count_from(3 * n, 5), kinds = all_ints(n % 7);
+        ints events = count_from(3 * n, 5), kinds = splat_ints(n % 7);
         RANDOM_BITS(events, kinds, 11, n, key);
-        real u = real_of_small(events >> 12) * 0x1p-52 + 0x1p-53, angle = (u - 0.5) * 3.14159, exponent = (u - 0.5) * 1400.0;
+        real u = to_real_small(events >> 12) * 0x1p-52 + 0x1p-53, angle = (u - 0.5) * 3.14159, exponent = (u - 0.5) * 1400.0;
         real log, sine, cosine, power;
         lanes_log(&u, &log);
         lanes_exp(&exponent, &power);

@@ -61,13 +61,13 @@ void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double 
     }
 }
 
-SELDOM void show_flight(const struct walker *w, struct flight at, double x1, double z1, double vz1, double seconds)
+NOINLINE void show_flight(const struct walker *w, struct flight at, double x1, double z1, double vz1, double seconds)
 {
     const struct ceduo_piece p = {false, at.x, at.z, at.vx, at.vz, x1, z1, at.vx, vz1, w->spin, seconds, w->contacts};
     w->watch->piece(w->watch->context, &p);
 }
 
-HOT void fly(struct walker *w, struct flight *at, const struct landing *l)
+FORCE_INLINE void fly(struct walker *w, struct flight *at, const struct landing *l)
 {
     double vz = at->vz - w->g->gravity * l->t;
     if (w->next_x <= l->x && at->vx > 0) /* untaken: rounding */
@@ -83,7 +83,8 @@ HOT void fly(struct walker *w, struct flight *at, const struct landing *l)
 
 /* ---- stems ---- */
 
-SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double before, double taken)
+NOINLINE void show_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double before,
+                        double taken)
 {
     const struct ceduo_stem_passed p = {
         x, stem->y, stem->dbh, stem->height, stem->shoot, stem->stool, clearance < stem->height, clearance, before, taken};
@@ -191,7 +192,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
 }
 
 /* Whether a stem stands before x, or perhaps does. */
-HOT bool stem_on_way(const struct walker *w, double x)
+FORCE_INLINE bool stem_on_way(const struct walker *w, double x)
 {
     return x >= w->stem_ahead || x <= w->stem_behind;
 }
@@ -199,7 +200,7 @@ HOT bool stem_on_way(const struct walker *w, double x)
 /* ---- contact ---- */
 
 /* The draw of this contact, of two contacts at a time. */
-HOT double contact_draw(const struct walker *w, struct contact_draws *draws, enum random_kind kind)
+FORCE_INLINE double contact_draw(const struct walker *w, struct contact_draws *draws, enum random_kind kind)
 {
     uint64_t n = w->contacts;
     if (draws->of != n >> 1) {
@@ -210,7 +211,7 @@ HOT double contact_draw(const struct walker *w, struct contact_draws *draws, enu
 }
 
 /* The section and how it is turned at this contact: by an angle in [-pi/2, pi/2), as half a turn changes nothing. */
-HOT void turn_section(struct walker *w, struct ground_point *to)
+FORCE_INLINE void turn_section(struct walker *w, struct ground_point *to)
 {
     double angle = (contact_draw(w, &w->turns, RANDOM_TURN) - 0.5) * HALF_TURN;
     elementary_sincos(&angle, &to->sine, &to->cosine);
@@ -220,7 +221,7 @@ HOT void turn_section(struct walker *w, struct ground_point *to)
     to->section.gyration = w->section.gyration;
 }
 
-HOT double largest_facet(const struct walker *w, size_t j)
+FORCE_INLINE double largest_facet(const struct walker *w, size_t j)
 {
     if (!w->g->theta_varies)
         return w->g->segments[j].theta;
@@ -230,7 +231,7 @@ HOT double largest_facet(const struct walker *w, size_t j)
     return roughness_angle((struct ground_roughness){s->roughness_m, s->roughness_rad}, w->rock.radius);
 }
 
-HOT struct ground_point ground_point(const struct walker *w, size_t j)
+FORCE_INLINE struct ground_point ground_point(const struct walker *w, size_t j)
 {
     const struct ground_segment *s = &w->g->segments[j];
     struct ground_point p = {.rn = s->rn,
@@ -248,7 +249,7 @@ HOT struct ground_point ground_point(const struct walker *w, size_t j)
     return p;
 }
 
-HOT struct velocity velocity_at(const struct walker *w, const struct flight *at)
+FORCE_INLINE struct velocity velocity_at(const struct walker *w, const struct flight *at)
 {
     const struct ground_segment *s = &w->g->segments[at->segment];
     return velocity_on(s->c, s->s, at->vx, at->vz);
@@ -261,7 +262,7 @@ struct facet {
 
 /* The facet of the next contact, if that is on segment j. Called before the flight to it as well, for the segment that
  * the flight leaves: mostly that is as rough as the next, and all is ready when the rock comes down. */
-HOT void turn_facet(struct walker *w, size_t j, struct facet *f)
+FORCE_INLINE void turn_facet(struct walker *w, size_t j, struct facet *f)
 {
     double largest = largest_facet(w, j), angle = 0;
     if (largest > 0)
@@ -273,8 +274,8 @@ HOT void turn_facet(struct walker *w, size_t j, struct facet *f)
 }
 
 /* A contact. */
-HOT void strike_ground(struct walker *w, struct flight *at, struct velocity *v, struct facet *facet,
-                       const struct contact_law *law)
+FORCE_INLINE void strike_ground(struct walker *w, struct flight *at, struct velocity *v, struct facet *facet,
+                                const struct contact_law *law)
 {
     const struct ground_segment *s = &w->g->segments[at->segment];
     turn_facet(w, at->segment, facet);

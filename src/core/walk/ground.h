@@ -43,7 +43,7 @@ struct ground_roughness {
 #define ROUGHNESS_MAX 16
 
 /* The largest facet angle under a rock of this radius, m. */
-HOT double roughness_angle(struct ground_roughness r, double radius)
+FORCE_INLINE double roughness_angle(struct ground_roughness r, double radius)
 {
     return isnan(r.height) ? r.angle : ceduo_atan(r.height / radius);
 }
@@ -75,13 +75,13 @@ void ceduo_ground_release(struct ground *ground);
 size_t ceduo_ground_segment(const struct ground *ground, double x);
 
 /* Whether z tells better than x where a point lies. */
-HOT bool ground_is_steep(const struct ground_segment *s)
+FORCE_INLINE bool ground_is_steep(const struct ground_segment *s)
 {
     return s->m > 1 || s->m < -1;
 }
 
 /* Height of the ground at x on segment j. */
-HOT double ground_height(const struct ground *g, size_t j, double x)
+FORCE_INLINE double ground_height(const struct ground *g, size_t j, double x)
 {
     if (x >= g->at[j + 1].x)
         return g->at[j + 1].z;
@@ -89,7 +89,7 @@ HOT double ground_height(const struct ground *g, size_t j, double x)
 }
 
 /* Metres of ground between two points of one segment. */
-HOT double ground_length(const struct ground_segment *s, double x0, double z0, double x1, double z1)
+FORCE_INLINE double ground_length(const struct ground_segment *s, double x0, double z0, double x1, double z1)
 {
     double d = ground_is_steep(s) ? (z1 - z0) / s->s : (x1 - x0) / s->c;
     return d < 0 ? -d : d;

@@ -25,7 +25,7 @@
 
 /* ---- all contacts ---- */
 
-HOT void step_lanes(struct form form, struct lanes *k, bool even)
+FORCE_INLINE void step_lanes(struct form form, struct lanes *k, bool even)
 {
     unsigned pass, leave, alone = form.wood ? pass_stems(form, k) : 0;
     alone |= disturbed(form, k, &pass, &leave);
@@ -102,7 +102,7 @@ static void finish_alone(struct lanes *k)
     }
 }
 
-HOT void walk_lanes(struct form form, struct lanes *k)
+FORCE_INLINE void walk_lanes(struct form form, struct lanes *k)
 {
     for (uint64_t step = 0;; step++) {
         if (k->empty && __builtin_popcount(k->live) <= LANES / 4)

@@ -7,18 +7,18 @@
 
 /* The slope of segment j. On a long profile the segment is seldom at hand, while its vertices just were: the same bits
  * from those. */
-HOT double slope_of(const struct ground *g, size_t j, bool blocks)
+FORCE_INLINE double slope_of(const struct ground *g, size_t j, bool blocks)
 {
     return blocks ? (g->at[j + 1].z - g->at[j].z) / (g->at[j + 1].x - g->at[j].x) : g->segments[j].m;
 }
 
-HOT struct chord chord_at(const struct ground *g, size_t j, double m)
+FORCE_INLINE struct chord chord_at(const struct ground *g, size_t j, double m)
 {
     return (struct chord){.x0 = g->at[j].x, .z0 = g->at[j].z, .x1 = g->at[j + 1].x, .z1 = g->at[j + 1].z, .m = m};
 }
 
 /* The contact with segment j, which the flight meets before time t_max. */
-HOT struct landing land_on(const struct ground *g, const struct flight *f, size_t j, double t_max, bool blocks)
+FORCE_INLINE struct landing land_on(const struct ground *g, const struct flight *f, size_t j, double t_max, bool blocks)
 {
     if (blocks)
         __builtin_prefetch(&g->segments[j]);
@@ -31,7 +31,7 @@ HOT struct landing land_on(const struct ground *g, const struct flight *f, size_
 }
 
 /* A flight without horizontal speed comes down where it went up. */
-HOT struct landing land_straight(const struct ground *g, const struct flight *f)
+FORCE_INLINE struct landing land_straight(const struct ground *g, const struct flight *f)
 {
     double z = ground_height(g, f->segment, f->x);
     double c = f->on_ground ? 0 : f->z - z;
@@ -40,7 +40,7 @@ HOT struct landing land_straight(const struct ground *g, const struct flight *f)
 }
 
 /* Beyond the end of the profile. */
-HOT struct landing land_nowhere(const struct ground *g, const struct flight *f, int dir, double inv)
+FORCE_INLINE struct landing land_nowhere(const struct ground *g, const struct flight *f, int dir, double inv)
 {
     size_t p = dir > 0 ? g->n : 0;
     double t = (g->at[p].x - f->x) * inv;
@@ -51,7 +51,7 @@ HOT struct landing land_nowhere(const struct ground *g, const struct flight *f, 
 /* Follows the flight from vertex p, which it clears, towards dir: the first segment at whose far vertex it would be
  * under the ground. The parabola less a straight line is concave: where it is above both ends of a segment it touches
  * nothing between. NaN is contact. */
-HOT struct landing land_beyond(const struct ground *g, const struct flight *f, size_t p, int dir, double inv)
+FORCE_INLINE struct landing land_beyond(const struct ground *g, const struct flight *f, size_t p, int dir, double inv)
 {
     size_t last = dir > 0 ? g->n : 0;
     while (p != last) {
@@ -66,8 +66,8 @@ HOT struct landing land_beyond(const struct ground *g, const struct flight *f, s
 
 /* The same on a long profile, p being cleared by h. Blocks are passed as wholes where the flight is high enough above
  * their chord: from where it is, be it within the block, to the block's end. */
-SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, const struct flight *f, size_t p, double h,
-                                                       int dir, double inv)
+NOINLINE __attribute__((unused)) struct landing land_far(const struct ground *g, const struct flight *f, size_t p, double h,
+                                                         int dir, double inv)
 {
     size_t last = dir > 0 ? g->n : 0, barrier = SIZE_MAX; /* end of the block that may not be passed as a whole */
     int level = 0, max = g->top;
@@ -112,7 +112,7 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
     return land_nowhere(g, f, dir, inv);
 }
 
-HOT struct landing land_towards(const struct ground *g, const struct flight *f, int dir, bool blocks)
+FORCE_INLINE struct landing land_towards(const struct ground *g, const struct flight *f, int dir, bool blocks)
 {
     double inv = 1 / f->vx;
     size_t j = f->segment, q = dir > 0 ? j + 1 : j;
@@ -129,7 +129,7 @@ HOT struct landing land_towards(const struct ground *g, const struct flight *f, 
 
 /* The next contact of a flight with the ground; `blocks`: whether it has any. The walk says so where it knows it as it
  * is compiled, as a call to what it does not need would cost it registers. */
-HOT struct landing next_landing_over(const struct ground *g, const struct flight *f, bool blocks)
+FORCE_INLINE struct landing next_landing_over(const struct ground *g, const struct flight *f, bool blocks)
 {
     if (f->vx > 0)
         return land_towards(g, f, 1, blocks);
@@ -138,7 +138,7 @@ HOT struct landing next_landing_over(const struct ground *g, const struct flight
     return land_straight(g, f);
 }
 
-HOT struct landing next_landing(const struct ground *g, const struct flight *f)
+FORCE_INLINE struct landing next_landing(const struct ground *g, const struct flight *f)
 {
     return next_landing_over(g, f, g->top > 0);
 }

@@ -8,36 +8,36 @@
 
 /* ---- random numbers ---- */
 
-HOT real unit(ints p)
+FORCE_INLINE real unit(ints p)
 {
-    return real_of(p >> 11) * 0x1p-53;
+    return to_real(p >> 11) * 0x1p-53;
 }
 
 /* Draws two contacts ahead for every lane, in every second step. A lane at an odd contact has its next draw already. */
-HOT void draw_ahead(struct lanes *k, enum random_kind kind, double draws[3][LANES])
+FORCE_INLINE void draw_ahead(struct lanes *k, enum random_kind kind, double draws[3][LANES])
 {
     const uint64_t seed = k->seed;
     EACH_REGISTER(i) {
         ints contacts = load_ints(&k->contacts[i]), rock = load_ints(&k->number[i]);
-        ints event = (contacts + 1) >> 1, y = all_ints(kind);
+        ints event = (contacts + 1) >> 1, y = splat_ints(kind);
         const ints key = RANDOM_KEY(seed, rock);
         RANDOM_BITS(event, y, seed, rock, key);
         real first = load(&draws[0][i]), u0 = unit(event), u1 = unit(y);
-        mask even = same(contacts & 1, all_ints(0));
-        store(&draws[0][i], pick(even, u0, first));
-        store(&draws[1][i], pick(even, u1, u0));
+        mask even = equal_ints(contacts & 1, splat_ints(0));
+        store(&draws[0][i], blend(even, u0, first));
+        store(&draws[1][i], blend(even, u1, u0));
         store(&draws[2][i], u1);
     }
 }
 
 /* The next draw of each lane; those in the air keep theirs. */
-HOT real next_draw(struct form form, const struct lanes *k, double draws[3][LANES], size_t i)
+FORCE_INLINE real next_draw(struct form form, const struct lanes *k, double draws[3][LANES], size_t i)
 {
     real u = load(&draws[0][i]), v = load(&draws[1][i]), w = load(&draws[2][i]);
     if (in_the_air(form, k)) {
-        mask air = mask_of(in_the_air(form, k) >> i);
-        w = pick(air, v, w);
-        v = pick(air, u, v);
+        mask air = lane_mask(in_the_air(form, k) >> i);
+        w = blend(air, v, w);
+        v = blend(air, u, v);
     }
     store(&draws[0][i], v);
     store(&draws[1][i], w);
@@ -47,14 +47,14 @@ HOT real next_draw(struct form form, const struct lanes *k, double draws[3][LANE
 /* ---- one contact in every lane ---- */
 
 /* Those that the scalar walk brings to the next contact. Of the others: which pass a mark, which leave the slope. */
-HOT unsigned disturbed(struct form form, const struct lanes *k, unsigned *pass, unsigned *leave)
+FORCE_INLINE unsigned disturbed(struct form form, const struct lanes *k, unsigned *pass, unsigned *leave)
 {
     unsigned mark = 0, stem = 0, many = 0;
     EACH_REGISTER(i) {
         real x = load(&k->to_x[i]);
-        mark |= lanes_of(at_least(x, load(&k->next_x[i])) & less(all(0), load(&k->vx[i]))) << i;
-        stem |= lanes_of(at_least(x, load(&k->stem_ahead[i])) | at_least(load(&k->stem_behind[i]), x)) << i;
-        many |= (REGISTER & ~lanes_of(more(load_ints(&k->pause[i]), load_ints(&k->contacts[i])))) << i;
+        mark |= lane_bits(at_least(x, load(&k->next_x[i])) & less(splat(0), load(&k->vx[i]))) << i;
+        stem |= lane_bits(at_least(x, load(&k->stem_ahead[i])) | at_least(load(&k->stem_behind[i]), x)) << i;
+        many |= (REGISTER & ~lane_bits(greater_ints(load_ints(&k->pause[i]), load_ints(&k->contacts[i])))) << i;
     }
     unsigned lands = k->live & ~in_the_air(form, k), flies = lands & ~k->there;
     unsigned alone = (stem & flies) | (many & lands);
@@ -64,7 +64,7 @@ HOT unsigned disturbed(struct form form, const struct lanes *k, unsigned *pass, 
 }
 
 /* The ground that each rock strikes, where that varies from rock to rock. */
-SELDOM void ground_alone(struct form form, struct lanes *k)
+NOINLINE void ground_alone(struct form form, struct lanes *k)
 {
     for (size_t i = 0; i < LANES; i++)
         if ((k->live & ~in_the_air(form, k)) >> i & 1)
@@ -72,7 +72,7 @@ SELDOM void ground_alone(struct form form, struct lanes *k)
 }
 
 /* The largest facet angle where only that varies, with the rock's radius. */
-HOT void theta_alone(struct lanes *k)
+FORCE_INLINE void theta_alone(struct lanes *k)
 {
     const unsigned char *rough = k->g->rough;
     for (size_t i = 0; i < LANES; i++)
@@ -81,11 +81,11 @@ HOT void theta_alone(struct lanes *k)
 }
 
 /* How the facets and sections of the lanes from i on are turned. */
-HOT void turn_lanes(struct form form, struct lanes *k, size_t i)
+FORCE_INLINE void turn_lanes(struct form form, struct lanes *k, size_t i)
 {
     real sine, cosine, largest = load(&k->theta[i]);
     real angle = facet_angle(k->against, largest, next_draw(form, k, k->draw, i));
-    angle = pick(less(all(0), largest), angle, all(0));
+    angle = blend(less(splat(0), largest), angle, splat(0));
     lanes_sincos(&angle, &sine, &cosine);
     store(&k->facet.sine[i], sine);
     store(&k->facet.cosine[i], cosine);
@@ -98,7 +98,7 @@ HOT void turn_lanes(struct form form, struct lanes *k, size_t i)
 }
 
 /* What a law needs to know of the lanes from i on. */
-HOT struct ground_point ground_points(struct form form, struct lanes *k, size_t i, ints segment)
+FORCE_INLINE struct ground_point ground_points(struct form form, struct lanes *k, size_t i, ints segment)
 {
     struct ground_point at = {.radius = load(&k->radius[i]), .k = load(&k->k[i]), .scale_rn = k->scale_rn};
     at.bound = k->friction_bound;
@@ -122,16 +122,16 @@ HOT struct ground_point ground_points(struct form form, struct lanes *k, size_t 
 }
 
 /* The lanes from i on come down and are struck, but for those in the air. */
-HOT void strike_lanes(struct form form, struct lanes *k, size_t i)
+FORCE_INLINE void strike_lanes(struct form form, struct lanes *k, size_t i)
 {
     real c, s, sine, cosine, vx = load(&k->vx[i]), vz = load(&k->vz[i]) - k->g->gravity * load(&k->t[i]);
     ints segment = load_ints(&k->to[i]);
     look_up(&k->ground->tilt, segment, form.small, &c, &s);
     struct velocity v = velocity_on(c, s, vx, vz);
     if (k->rolls) {
-        mask rolls = mask_of(k->rolls >> i);
-        v.along = pick(rolls, load(&k->along[i]), v.along);
-        v.off = pick(rolls, all(0), v.off);
+        mask rolls = lane_mask(k->rolls >> i);
+        v.along = blend(rolls, load(&k->along[i]), v.along);
+        v.off = blend(rolls, splat(0), v.off);
     }
     sine = load(&k->facet.sine[i]);
     cosine = load(&k->facet.cosine[i]);
@@ -145,14 +145,14 @@ HOT void strike_lanes(struct form form, struct lanes *k, size_t i)
     vz = v.along * s + v.off * c;
     ints contacts = load_ints(&k->contacts[i]);
     if (in_the_air(form, k)) {
-        mask air = mask_of(in_the_air(form, k) >> i), waits = mask_of(k->waits >> i);
-        vx = pick(air, load(&k->vx[i]), vx);
-        vz = pick(air, load(&k->vz[i]), vz);
-        spin = pick(air, load(&k->spin[i]), spin);
-        x = pick(waits, load(&k->x[i]), x);
-        z = pick(waits, load(&k->z[i]), z);
-        segment = pick_ints(waits, load_ints(&k->segment[i]), segment);
-        contacts = pick_ints(air, contacts, contacts + 1);
+        mask air = lane_mask(in_the_air(form, k) >> i), waits = lane_mask(k->waits >> i);
+        vx = blend(air, load(&k->vx[i]), vx);
+        vz = blend(air, load(&k->vz[i]), vz);
+        spin = blend(air, load(&k->spin[i]), spin);
+        x = blend(waits, load(&k->x[i]), x);
+        z = blend(waits, load(&k->z[i]), z);
+        segment = blend_ints(waits, load_ints(&k->segment[i]), segment);
+        contacts = blend_ints(air, contacts, contacts + 1);
     } else {
         contacts += 1;
     }

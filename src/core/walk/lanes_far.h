@@ -17,14 +17,14 @@ struct far_search {
 };
 
 /* How high it is above points. */
-HOT real above_all(const struct lanes *k, const struct far_search *f, real x, real z)
+FORCE_INLINE real above_all(const struct lanes *k, const struct far_search *f, real x, real z)
 {
     real t = (x - f->x) * f->inv;
-    return height_after(all(f->z), all(f->vz), k->g->half_g, t) - z;
+    return height_after(splat(f->z), splat(f->vz), k->g->half_g, t) - z;
 }
 
 /* Which blocks from `b` on the flight may touch. */
-HOT unsigned blocks_under(const struct lanes *k, const struct far_search *f, const struct ground_block *b)
+FORCE_INLINE unsigned blocks_under(const struct lanes *k, const struct far_search *f, const struct ground_block *b)
 {
     unsigned under = 0;
     for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES, b += REAL_LANES) {
@@ -32,21 +32,21 @@ HOT unsigned blocks_under(const struct lanes *k, const struct far_search *f, con
         load_fours((const double(*)[2]) & b->x, &x, &z, &m, &rise);
         real here = above_all(k, f, x, z);
         double t = (b[REAL_LANES].x - f->x) * f->inv;
-        real next = shifted(here, (f->z + (f->vz - k->g->half_g * t) * t) - b[REAL_LANES].z);
-        under |= (REGISTER & ~lanes_of(at_least(here, rise) & at_least(next, rise))) << at;
+        real next = shift_in(here, (f->z + (f->vz - k->g->half_g * t) * t) - b[REAL_LANES].z);
+        under |= (REGISTER & ~lane_bits(at_least(here, rise) & at_least(next, rise))) << at;
     }
     return under;
 }
 
 /* Looks at the vertices up to the end of their block; whether the flight lands before one. */
-HOT bool search_vertices(const struct lanes *k, struct far_search *f)
+FORCE_INLINE bool search_vertices(const struct lanes *k, struct far_search *f)
 {
     const double(*to)[2] = k->ground->place.pairs + f->vertex + 2;
     unsigned count = (GROUP_LAST + 1) - (f->vertex & GROUP_LAST), under = 0; /* bit 0 is the vertex at `to` */
     for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES) {
         real x, z;
         load_pairs(to + at, &x, &z);
-        under |= (REGISTER & ~lanes_of(at_least(above_all(k, f, x, z), all(0)))) << at;
+        under |= (REGISTER & ~lane_bits(at_least(above_all(k, f, x, z), splat(0)))) << at;
     }
     under &= (1u << count) - 1;
     f->vertex += under ? (unsigned)__builtin_ctz(under) : count;
@@ -54,7 +54,7 @@ HOT bool search_vertices(const struct lanes *k, struct far_search *f)
 }
 
 /* Looks at the blocks up to the end of the larger one which they are part of; the level to go on at. */
-HOT int search_blocks(const struct lanes *k, struct far_search *f, int level)
+FORCE_INLINE int search_blocks(const struct lanes *k, struct far_search *f, int level)
 {
     int shift = GROUND_BITS * level;
     uint64_t i = f->vertex >> shift, there = (k->g->n >> shift) - i, count = (GROUP_LAST + 1) - (i & GROUP_LAST);
@@ -68,7 +68,7 @@ HOT int search_blocks(const struct lanes *k, struct far_search *f, int level)
 }
 
 /* What the flight looks at when it is its turn again, and a little more of vertices. */
-HOT void fetch_for(const struct lanes *k, const struct far_search *f, int level)
+FORCE_INLINE void fetch_for(const struct lanes *k, const struct far_search *f, int level)
 {
     const char *from = level == 0 ? (const char *)(k->ground->place.pairs + f->vertex + 2)
                                   : (const char *)(k->g->levels[level] + (f->vertex >> GROUND_BITS * level));
@@ -77,7 +77,7 @@ HOT void fetch_for(const struct lanes *k, const struct far_search *f, int level)
 }
 
 /* One look of each flight that is at a level; at[l]: those of level l. Returns those that have come to where they land. */
-HOT unsigned look_at_level(const struct lanes *k, struct far_search *searches, int level, unsigned at[GROUND_LEVELS])
+FORCE_INLINE unsigned look_at_level(const struct lanes *k, struct far_search *searches, int level, unsigned at[GROUND_LEVELS])
 {
     unsigned left = at[level], landed = 0;
     at[level] = 0;
@@ -98,7 +98,7 @@ HOT unsigned look_at_level(const struct lanes *k, struct far_search *searches, i
 
 /* Follows those of `lanes`, each from its vertex, which it clears, to the last that it clears: up to larger blocks and down
  * again, all flights of a level at a time. */
-SELDOM void search_far(struct lanes *k, unsigned lanes)
+NOINLINE void search_far(struct lanes *k, unsigned lanes)
 {
     struct far_search searches[LANES];
     unsigned at[GROUND_LEVELS] = {lanes};

@@ -21,7 +21,7 @@
 #endif
 
 /* The two numbers at i of a table for each lane; `small`: it has no more than 16. */
-HOT void look_up(const struct lanes_table *table, ints i, bool small, real *first, real *second)
+FORCE_INLINE void look_up(const struct lanes_table *table, ints i, bool small, real *first, real *second)
 {
 #ifdef LOOK_UP_16
     /* untaken 2: machine */
@@ -34,7 +34,7 @@ HOT void look_up(const struct lanes_table *table, ints i, bool small, real *firs
     (void)small;
     uint64_t at[REAL_LANES];
     store_ints(at, i << table->shift);
-    load_pairs_at(table->pairs, at, first, second);
+    gather_pairs(table->pairs, at, first, second);
 }
 
 /* A chord in each lane. */
@@ -42,12 +42,12 @@ struct chords {
     double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES];
 };
 
-HOT struct chord load_chord(const struct chords *from, size_t i)
+FORCE_INLINE struct chord load_chord(const struct chords *from, size_t i)
 {
     return (struct chord){load(&from->x0[i]), load(&from->z0[i]), load(&from->x1[i]), load(&from->z1[i]), load(&from->m[i])};
 }
 
-HOT void store_chord(struct chords *to, size_t i, struct chord on)
+FORCE_INLINE void store_chord(struct chords *to, size_t i, struct chord on)
 {
     store(&to->x0[i], on.x0);
     store(&to->z0[i], on.z0);
@@ -56,10 +56,10 @@ HOT void store_chord(struct chords *to, size_t i, struct chord on)
     store(&to->m[i], on.m);
 }
 
-HOT struct chord pick_chord(mask m, struct chord p, struct chord q)
+FORCE_INLINE struct chord pick_chord(mask m, struct chord p, struct chord q)
 {
-    return (struct chord){pick(m, p.x0, q.x0), pick(m, p.z0, q.z0), pick(m, p.x1, q.x1), pick(m, p.z1, q.z1),
-                          pick(m, p.m, q.m)};
+    return (struct chord){blend(m, p.x0, q.x0), blend(m, p.z0, q.z0), blend(m, p.x1, q.x1), blend(m, p.z1, q.z1),
+                          blend(m, p.m, q.m)};
 }
 
 /* What is known before the first step, so that the steps are compiled for it. */
@@ -139,7 +139,7 @@ struct lanes {
 _Static_assert(offsetof(struct lanes, contacts) % 64 == 0, "what is for lanes is loaded from whole lines of the cache");
 
 /* Segments, and their largest facet angles. */
-HOT struct chord look_up_chord(struct form form, const struct lanes *k, ints segment, real *theta)
+FORCE_INLINE struct chord look_up_chord(struct form form, const struct lanes *k, ints segment, real *theta)
 {
     struct chord on;
     look_up(&k->ground->place, segment, form.small, &on.x0, &on.z0);
@@ -149,7 +149,7 @@ HOT struct chord look_up_chord(struct form form, const struct lanes *k, ints seg
 }
 
 /* Lanes that come to no contact in this step. */
-HOT unsigned in_the_air(struct form form, const struct lanes *k)
+FORCE_INLINE unsigned in_the_air(struct form form, const struct lanes *k)
 {
     return form.wood ? k->aloft | k->waits : 0;
 }
@@ -324,7 +324,7 @@ static void finish(struct lanes *k, size_t i, enum ceduo_end end)
 /* ---- what happens seldom ---- */
 
 /* A flight that comes to stems which are left to the scalar walk, or a rock of many contacts. */
-SELDOM void come_down_alone(struct lanes *k, size_t i)
+NOINLINE void come_down_alone(struct lanes *k, size_t i)
 {
     struct course c = course_of(k, i);
     unsigned bit = 1u << i;
@@ -341,7 +341,7 @@ SELDOM void come_down_alone(struct lanes *k, size_t i)
 }
 
 /* A flight that ends at (x, z). */
-SELDOM void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_end end)
+NOINLINE void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_end end)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
@@ -352,7 +352,7 @@ SELDOM void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_
 }
 
 /* A flight passes marks up to x, which it reaches after t. */
-HOT void pass_marks(struct lanes *k, size_t i, const struct flight *at, double x, double t, double spin)
+FORCE_INLINE void pass_marks(struct lanes *k, size_t i, const struct flight *at, double x, double t, double spin)
 {
     struct walker *w = &k->job->walkers[i];
     w->spin = spin;
@@ -363,14 +363,14 @@ HOT void pass_marks(struct lanes *k, size_t i, const struct flight *at, double x
 }
 
 /* A flight that passes marks and goes on in its lane. */
-SELDOM void pass_marks_alone(struct lanes *k, size_t i)
+NOINLINE void pass_marks_alone(struct lanes *k, size_t i)
 {
     struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
     pass_marks(k, i, &at, k->to_x[i], k->t[i], k->spin[i]);
 }
 
 /* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */
-SELDOM void go_off_alone(struct lanes *k, size_t i, bool knows_landing)
+NOINLINE void go_off_alone(struct lanes *k, size_t i, bool knows_landing)
 {
     struct walker *w = &k->job->walkers[i];
     struct course c = course_of(k, i);

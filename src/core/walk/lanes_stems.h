@@ -31,38 +31,38 @@ struct passing {
 
 /* Go on, in the lanes `further` from i on, to the segment under their next stem by bisection: of a long profile it may be hundreds
  * of segments away. */
-SELDOM void search_segments(const struct lanes *k, struct passing *p, size_t i, mask further)
+NOINLINE void search_segments(const struct lanes *k, struct passing *p, size_t i, mask further)
 {
-    for (unsigned left = lanes_of(further) << i; left; left &= left - 1) {
+    for (unsigned left = lane_bits(further) << i; left; left &= left - 1) {
         size_t lane = (size_t)__builtin_ctz(left);
         p->here[lane] = gsl_interp_bsearch(k->g->x, k->stem_ahead[lane], p->here[lane] - 1, p->last[lane]) + 1;
     }
 }
 
 /* The segment under each stem at `to`, for flights that know where they land; as fly_past_stems(). */
-HOT void go_to_segment(struct form form, const struct lanes *k, struct passing *p, size_t i, real to, struct chord *on)
+FORCE_INLINE void go_to_segment(struct form form, const struct lanes *k, struct passing *p, size_t i, real to, struct chord *on)
 {
-    unsigned far = (p->under_way & p->knows) >> i & REGISTER & ~lanes_of(at_least(load(&p->end[i]), to));
+    unsigned far = (p->under_way & p->knows) >> i & REGISTER & ~lane_bits(at_least(load(&p->end[i]), to));
     ints here = load_ints(&p->here[i]), last = load_ints(&p->last[i]);
     real theta;
-    mask further = mask_of(far) & at_least(to, on->x1) & more(last, here);
+    mask further = lane_mask(far) & at_least(to, on->x1) & greater_ints(last, here);
     while (any(further)) {
         if (k->far) {
             search_segments(k, p, i, further);
             here = load_ints(&p->here[i]);
         } else {
-            here = pick_ints(further, here + 1, here);
+            here = blend_ints(further, here + 1, here);
             store_ints(&p->here[i], here);
         }
         *on = look_up_chord(form, k, here, &theta);
         store_chord(&p->on, i, *on);
-        further &= at_least(to, on->x1) & more(last, here);
+        further &= at_least(to, on->x1) & greater_ints(last, here);
     }
 }
 
 /* The scalar walk takes the stem that is before each of `lanes`, past the marks up to it where it is hit or the rock
  * is given up. */
-SELDOM void take_stems_alone(struct lanes *k, struct passing *p, unsigned lanes, unsigned hit)
+NOINLINE void take_stems_alone(struct lanes *k, struct passing *p, unsigned lanes, unsigned hit)
 {
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
@@ -80,22 +80,23 @@ SELDOM void take_stems_alone(struct lanes *k, struct passing *p, unsigned lanes,
 
 /* Which flights are above all that may wait when they pass `to` after t, and go on so over some of them: up to the end
  * of the segment, or to where the parabola comes down so far. */
-HOT unsigned fly_over(struct lanes *k, size_t i, unsigned under_way, real to, real t, real clearance, const struct chord *on)
+FORCE_INLINE unsigned fly_over(struct lanes *k, size_t i, unsigned under_way, real to, real t, real clearance,
+                               const struct chord *on)
 {
-    real zero = all(0), over_all = clearance - k->tallest;
-    mask high = less(zero, over_all) & less(zero, t) & less(load(&k->stem.after[i]), on->x1) & mask_of(under_way >> i);
+    real zero = splat(0), over_all = clearance - k->tallest;
+    mask high = less(zero, over_all) & less(zero, t) & less(load(&k->stem.after[i]), on->x1) & lane_mask(under_way >> i);
     if (!any(high))
         return 0;
     double g = k->g->gravity;
     real vx = load(&k->vx[i]), up = load(&k->vz[i]) - g * t - on->m * vx;
-    real seconds = (up + root_of(up * up + 2 * g * over_all)) / g;
+    real seconds = (up + vsqrt(up * up + 2 * g * over_all)) / g;
     store(&k->stem.free_to[i], min(on->x1, to + vx * seconds));
-    return lanes_of(high) << i;
+    return lane_bits(high) << i;
 }
 
 /* Takes the stem that is before each of `lanes`, where the one behind it waits and is next; of those that are `above`
  * all, more of them. No branch depends on what is hit. */
-HOT void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned above)
+FORCE_INLINE void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned above)
 {
     uint64_t places = k->job->walkers[0].stems->wood->places;
     for (above &= lanes; above; above &= above - 1) {
@@ -123,14 +124,15 @@ HOT void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned ab
 
 /* Each flight under way takes the stem that is before it: as ceduo_walk_take_stem(), at once where the one after it
  * waits already, no mark is passed and no stool stands around the release. */
-HOT void take_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned above)
+FORCE_INLINE void take_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned above)
 {
     unsigned marks = 0, waits = 0;
     EACH_REGISTER(i) {
         real to = load(&p->to[i]);
-        marks |= lanes_of(at_least(to, load(&k->next_x[i]))) << i;
-        waits |= lanes_of(but(less(load(&k->stem.after[i]), load(&k->stem.sure[i])), at_least(load(&k->stem.around[i]), to)))
-                 << i;
+        marks |= lane_bits(at_least(to, load(&k->next_x[i]))) << i;
+        waits |=
+            lane_bits(and_not(less(load(&k->stem.after[i]), load(&k->stem.sure[i])), at_least(load(&k->stem.around[i]), to)))
+            << i;
     }
     waits &= ~(marks & hit);
     take_waiting(k, p->under_way & waits, hit, above);
@@ -140,18 +142,18 @@ HOT void take_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned a
 
 /* How the flights from lane i on pass their next stem. Returns which hit it; those that are in the ground before have no way
  * on; *above: see fly_over(). */
-HOT unsigned come_to_stem(struct form form, struct lanes *k, struct passing *p, size_t i, unsigned *above)
+FORCE_INLINE unsigned come_to_stem(struct form form, struct lanes *k, struct passing *p, size_t i, unsigned *above)
 {
-    real zero = all(0), to = load(&k->stem_ahead[i]), vz = load(&k->vz[i]), latest = load(&k->t[i]);
+    real zero = splat(0), to = load(&k->stem_ahead[i]), vz = load(&k->vz[i]), latest = load(&k->t[i]);
     struct chord on = load_chord(&p->on, i);
     go_to_segment(form, k, p, i, to, &on);
     real t = (to - load(&k->x[i])) / load(&k->vx[i]);
-    mask knows = mask_of(p->knows >> i);
-    t = pick(less(t, zero), zero, pick(knows & less(latest, t), latest, t));
+    mask knows = lane_mask(p->knows >> i);
+    t = blend(less(t, zero), zero, blend(knows & less(latest, t), latest, t));
     real z = height_after(load(&k->z[i]), vz, k->g->half_g, t), clearance = z - chord_height(&on, to);
     unsigned others = ~(REGISTER << i);
-    p->under_way &= others | p->knows | lanes_of(at_least(clearance, zero)) << i;
-    unsigned hit = p->under_way & lanes_of(less(max(clearance, zero), load(&k->stem.height[i]))) << i;
+    p->under_way &= others | p->knows | lane_bits(at_least(clearance, zero)) << i;
+    unsigned hit = p->under_way & lane_bits(less(max(clearance, zero), load(&k->stem.height[i]))) << i;
     store(&p->to[i], to);
     store(&p->t[i], t);
     store(&p->z[i], z);
@@ -161,25 +163,25 @@ HOT unsigned come_to_stem(struct form form, struct lanes *k, struct passing *p, 
 }
 
 /* What a hit does to those of the lanes from i on that are `hit`. */
-HOT void hit_stem_lanes(struct lanes *k, struct passing *p, size_t i, unsigned hit)
+FORCE_INLINE void hit_stem_lanes(struct lanes *k, struct passing *p, size_t i, unsigned hit)
 {
-    mask h = mask_of(hit >> i);
+    mask h = lane_mask(hit >> i);
     real vx = load(&k->vx[i]), vz = load(&k->vz[i]) - k->g->gravity * load(&p->t[i]), spin = load(&k->spin[i]);
     struct hit blow = {.energy = flying_energy(load(&k->mass[i]), load(&k->moment[i]), vx, vz, spin),
                        .cost = load(&p->cost[i])};
     real share = speed_kept(blow);
-    store_ints(&k->segment[i], pick_ints(h, load_ints(&p->here[i]), load_ints(&k->segment[i])));
-    store(&p->end[i], pick(h, load(&p->on.x1[i]), load(&p->end[i])));
-    store(&k->x[i], pick(h, load(&p->to[i]), load(&k->x[i])));
-    store(&k->z[i], pick(h, load(&p->z[i]), load(&k->z[i])));
-    store(&k->vx[i], pick(h, vx * share, vx));
-    store(&k->vz[i], pick(h, vz * share, load(&k->vz[i])));
-    store(&k->spin[i], pick(h, spin * share, spin));
-    p->stopped |= lanes_of(but(h, less(all(0), share))) << i;
+    store_ints(&k->segment[i], blend_ints(h, load_ints(&p->here[i]), load_ints(&k->segment[i])));
+    store(&p->end[i], blend(h, load(&p->on.x1[i]), load(&p->end[i])));
+    store(&k->x[i], blend(h, load(&p->to[i]), load(&k->x[i])));
+    store(&k->z[i], blend(h, load(&p->z[i]), load(&k->z[i])));
+    store(&k->vx[i], blend(h, vx * share, vx));
+    store(&k->vz[i], blend(h, vz * share, load(&k->vz[i])));
+    store(&k->spin[i], blend(h, spin * share, spin));
+    p->stopped |= lane_bits(and_not(h, less(splat(0), share))) << i;
 }
 
 /* The next stem of each flight under way, whose landing comes behind it or is not known. */
-HOT void pass_stem(struct form form, struct lanes *k, struct passing *p)
+FORCE_INLINE void pass_stem(struct form form, struct lanes *k, struct passing *p)
 {
     unsigned hit = 0, above = 0, forth = 0, before = 0;
     EACH_REGISTER(i)
@@ -195,24 +197,24 @@ HOT void pass_stem(struct form form, struct lanes *k, struct passing *p)
     p->moved |= hit;
     p->knows &= ~hit;
     EACH_REGISTER(i) {
-        forth |= lanes_of(less(all(0), load(&k->vx[i]))) << i;
-        before |= lanes_of(at_least(load(&k->to_x[i]), load(&k->stem_ahead[i]))) << i;
+        forth |= lane_bits(less(splat(0), load(&k->vx[i]))) << i;
+        before |= lane_bits(at_least(load(&k->to_x[i]), load(&k->stem_ahead[i]))) << i;
     }
     p->under_way &= ~p->stopped & forth & (~p->knows | before);
 }
 
 /* Behind a hit a lane stands where it was hit, as if it had landed there. */
-HOT void land_at_stems(struct form form, struct lanes *k, unsigned moved)
+FORCE_INLINE void land_at_stems(struct form form, struct lanes *k, unsigned moved)
 {
     EACH_REGISTER(i) {
-        mask m = mask_of(moved >> i);
+        mask m = lane_mask(moved >> i);
         ints segment = load_ints(&k->segment[i]);
         real theta;
         const struct chord on = look_up_chord(form, k, segment, &theta);
-        store(&k->t[i], pick(m, all(0), load(&k->t[i])));
-        store(&k->to_x[i], pick(m, load(&k->x[i]), load(&k->to_x[i])));
-        store(&k->to_z[i], pick(m, load(&k->z[i]), load(&k->to_z[i])));
-        store_ints(&k->to[i], pick_ints(m, segment, load_ints(&k->to[i])));
+        store(&k->t[i], blend(m, splat(0), load(&k->t[i])));
+        store(&k->to_x[i], blend(m, load(&k->x[i]), load(&k->to_x[i])));
+        store(&k->to_z[i], blend(m, load(&k->z[i]), load(&k->to_z[i])));
+        store_ints(&k->to[i], blend_ints(m, segment, load_ints(&k->to[i])));
         store_chord(&k->on, i, pick_chord(m, on, load_chord(&k->on, i)));
     }
     k->left &= ~moved;
@@ -220,13 +222,13 @@ HOT void land_at_stems(struct form form, struct lanes *k, unsigned moved)
 
 /* All flights along +x that come to a stem before they land, up to their landing, or to where it must be known.
  * Returns those of which the scalar walk does the rest. */
-HOT unsigned pass_stems(struct form form, struct lanes *k)
+FORCE_INLINE unsigned pass_stems(struct form form, struct lanes *k)
 {
     struct passing p;
-    const ints n = all_ints(k->g->n);
+    const ints n = splat_ints(k->g->n);
     unsigned begin = 0, alone = 0;
     EACH_REGISTER(i)
-        begin |= lanes_of(at_least(load(&k->to_x[i]), load(&k->stem_ahead[i])) & less(all(0), load(&k->vx[i]))) << i;
+        begin |= lane_bits(at_least(load(&k->to_x[i]), load(&k->stem_ahead[i])) & less(splat(0), load(&k->vx[i]))) << i;
     begin &= k->live & ~k->there; /* they come to a stem before they land */
     p.knows = begin & ~k->lost;
     p.under_way = begin | k->lost;
@@ -241,14 +243,14 @@ HOT unsigned pass_stems(struct form form, struct lanes *k)
         store_ints(&p.here[i], here);
         store_chord(&p.on, i, on);
         store(&p.end[i], on.x1);
-        store_ints(&p.last[i], pick_ints(more(to, n), n, to));
+        store_ints(&p.last[i], blend_ints(greater_ints(to, n), n, to));
     }
     unsigned lost = p.under_way & ~p.knows;
     do {
         /* whose landing is not known goes on while the stem stands over the same segment */
         unsigned over = 0;
         EACH_REGISTER(i)
-            over |= lanes_of(at_least(load(&p.end[i]), load(&k->stem_ahead[i]))) << i;
+            over |= lane_bits(at_least(load(&p.end[i]), load(&k->stem_ahead[i]))) << i;
         p.under_way &= p.knows | over;
         alone |= p.under_way & k->paused;
         p.under_way &= ~k->paused;

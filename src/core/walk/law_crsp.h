@@ -9,25 +9,25 @@
 #define CRSP_K 9.144
 #define CRSP_C 76.2
 
-HOT real crsp_friction(real rt, real slip)
+FORCE_INLINE real crsp_friction(real rt, real slip)
 {
     real s = slip / CRSP_A;
     return rt + (1 - rt) / (s * s + 1.2);
 }
 
-HOT real crsp_scaling(real rn, real rt, real vn)
+FORCE_INLINE real crsp_scaling(real rn, real rt, real vn)
 {
-    real s = vn / (CRSP_C * rn), zero = all(0);
-    return pick(equal(rn, zero), pick(equal(vn, zero), rt, zero), rt / (s * s + 1)); /* where Rn is 0, its limit */
+    real s = vn / (CRSP_C * rn), zero = splat(0);
+    return blend(equal(rn, zero), blend(equal(vn, zero), rt, zero), rt / (s * s + 1)); /* where Rn is 0, its limit */
 }
 
 /* Pfeiffer & Higgins 1990; CRSP 3.0 (Pfeiffer et al. 1993). */
-HOT struct impact crsp_struck(struct impact in, const struct ground_point *at)
+FORCE_INLINE struct impact crsp_struck(struct impact in, const struct ground_point *at)
 {
     real roll = in.spin * at->radius; /* speed of the rock's rim */
     real f = crsp_friction(at->rt, in.vt - roll), sf = crsp_scaling(at->rn, at->rt, in.vn), s = in.vn / CRSP_K;
-    real vt = root_of((at->k * (roll * roll) + in.vt * in.vt) * (f * sf) / (1 + at->k));
-    vt = with_sign(vt, pick(equal(in.vt, all(0)), in.spin, in.vt));
+    real vt = vsqrt((at->k * (roll * roll) + in.vt * in.vt) * (f * sf) / (1 + at->k));
+    vt = vcopysign(vt, blend(equal(in.vt, splat(0)), in.spin, in.vt));
     return (struct impact){.vn = at->rn * in.vn / (1 + s * s), .vt = vt, .spin = vt / at->radius};
 }
 

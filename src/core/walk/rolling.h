@@ -18,7 +18,7 @@ enum after_roll { ROLLED, TOOK_OFF, STANDS, ROLLED_OUT, STOPPED };
 
 /* Whether a free flight that ends at `l` is so short and flat that the rock rolls: less than R along the ground, and
  * less than R above the segment it starts from, which it leaves with speed `off`. */
-HOT bool is_roll(const struct walker *w, const struct flight *f, double off, const struct landing *l)
+FORCE_INLINE bool is_roll(const struct walker *w, const struct flight *f, double off, const struct landing *l)
 {
     double r = w->rock.radius;
     if (l->left || fabs(l->x - f->x) >= r)
@@ -69,7 +69,7 @@ static inline double speed_at(const struct walker *w, const struct roll *r, doub
 }
 
 /* The marks that a roll of ds metres to x passes. */
-SELDOM void pass_in_roll(struct walker *w, const struct roll *r, double ds, double u2_end, double x)
+NOINLINE void pass_in_roll(struct walker *w, const struct roll *r, double ds, double u2_end, double x)
 {
     const struct ground_segment *s = &w->g->segments[w->at.segment];
     double rate = ds > 0 ? (u2_end - r->u2) / ds : 0; /* untaken: rounding */
@@ -79,7 +79,7 @@ SELDOM void pass_in_roll(struct walker *w, const struct roll *r, double ds, doub
     }
 }
 
-SELDOM void show_roll(struct walker *w, const struct roll *r, double u2_end, double x1, double z1)
+NOINLINE void show_roll(struct walker *w, const struct roll *r, double u2_end, double x1, double z1)
 {
     const struct ground_segment *s = &w->g->segments[w->at.segment];
     double u = r->dir * sqrt(r->u2), u1 = r->dir * sqrt(u2_end);
@@ -169,7 +169,7 @@ static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct
 }
 
 /* Rolls for a length R along the ground from speed u; 0: downhill. */
-SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
+NOINLINE enum after_roll roll_on(struct walker *w, double u, struct landing *l)
 {
     const struct ground *g = w->g;
     int downhill = g->segments[w->at.segment].m > 0 ? -1 : 1;

@@ -19,58 +19,58 @@ struct velocity {
     real along, off;
 };
 
-HOT struct velocity velocity_on(real c, real s, real vx, real vz)
+FORCE_INLINE struct velocity velocity_on(real c, real s, real vx, real vz)
 {
     return (struct velocity){.along = vx * c + vz * s, .off = vz * c - vx * s};
 }
 
 /* The turn of a facet by its draw u; facets `against` the rock lie on one side only. */
-HOT real facet_angle(bool against, real largest, real u)
+FORCE_INLINE real facet_angle(bool against, real largest, real u)
 {
     return largest * (against ? u : 2 * u - 1);
 }
 
 /* The facet that a rock strikes, as sine and cosine of its turn from the segment: against a rock that goes along +x, or
  * upwards with facets to both sides; the segment itself where the rock is leaving the facet. */
-HOT void facet_struck(bool against, struct velocity v, real *sine, real *cosine)
+FORCE_INLINE void facet_struck(bool against, struct velocity v, real *sine, real *cosine)
 {
-    real zero = all(0);
+    real zero = splat(0);
     if (against)
-        *sine = pick(at_least(v.along, zero), *sine, -*sine);
+        *sine = blend(at_least(v.along, zero), *sine, -*sine);
     mask leaves = less(zero, v.off * *cosine - v.along * *sine);
-    *sine = pick(leaves, zero, *sine);
-    *cosine = pick(leaves, all(1), *cosine);
+    *sine = blend(leaves, zero, *sine);
+    *cosine = blend(leaves, splat(1), *cosine);
 }
 
 /* Bound the loss of speed along the facet by friction times the normal impulse. Laws that scale Vt take a share of it however
  * small the normal impulse is. Spin follows the impulse of friction towards rolling, never past it. */
-HOT struct impact bound_by_friction(struct impact in, struct impact out, const struct ground_point *at, bool spins)
+FORCE_INLINE struct impact bound_by_friction(struct impact in, struct impact out, const struct ground_point *at, bool spins)
 {
-    real limit = at->friction * (in.vn + out.vn), before = absolute(in.vt), after = absolute(out.vt);
+    real limit = at->friction * (in.vn + out.vn), before = vabs(in.vt), after = vabs(out.vt);
     mask binds = less(limit, before - after);
     after = before - limit;
     if (spins) {
-        real one = with_sign(all(1), in.vt), rim = one * (in.spin * at->radius), impulse = limit / at->k;
-        rim = pick(less(rim, after), min(rim + impulse, after), max(rim - impulse, after));
-        out.spin = pick(binds, one * rim / at->radius, out.spin);
+        real one = vcopysign(splat(1), in.vt), rim = one * (in.spin * at->radius), impulse = limit / at->k;
+        rim = blend(less(rim, after), min(rim + impulse, after), max(rim - impulse, after));
+        out.spin = blend(binds, one * rim / at->radius, out.spin);
     }
-    out.vt = pick(binds, with_sign(after, in.vt), out.vt);
+    out.vt = blend(binds, vcopysign(after, in.vt), out.vt);
     return out;
 }
 
 /* The contact, in the segment's axes: what a rock that rolls brings has no part off the ground, exactly, and what goes into
  * the segment is lost. */
-HOT struct velocity strike(const struct contact_law *law, const struct ground_point *at, real sine, real cosine,
-                           struct velocity v, real *spin)
+FORCE_INLINE struct velocity strike(const struct contact_law *law, const struct ground_point *at, real sine, real cosine,
+                                    struct velocity v, real *spin)
 {
-    real zero = all(0), inward = v.along * sine - v.off * cosine;
-    struct impact in = {.vn = pick(less(zero, inward), inward, zero), .vt = v.along * cosine + v.off * sine, .spin = *spin};
+    real zero = splat(0), inward = v.along * sine - v.off * cosine;
+    struct impact in = {.vn = blend(less(zero, inward), inward, zero), .vt = v.along * cosine + v.off * sine, .spin = *spin};
     struct impact out = law->struck(in, at);
     if (at->bound && !law->sections) /* a law of sections has friction of its own */
         out = bound_by_friction(in, out, at, law->spins);
     real off = out.vt * sine + out.vn * cosine;
     *spin = out.spin;
-    return (struct velocity){.along = out.vt * cosine - out.vn * sine, .off = pick(less(zero, off), off, zero)};
+    return (struct velocity){.along = out.vt * cosine - out.vn * sine, .off = blend(less(zero, off), off, zero)};
 }
 
 /* ---- stems ---- */
@@ -81,22 +81,22 @@ struct hit {
 };
 
 /* J that the stem takes. */
-HOT real energy_taken(struct hit h)
+FORCE_INLINE real energy_taken(struct hit h)
 {
     return min(h.cost, h.energy);
 }
 
 /* Kinetic energy (J) of a rock in flight. */
-HOT real flying_energy(real mass, real moment, real vx, real vz, real spin)
+FORCE_INLINE real flying_energy(real mass, real moment, real vx, real vz, real spin)
 {
     return 0.5 * mass * (vx * vx + vz * vz) + 0.5 * moment * (spin * spin);
 }
 
 /* The share of its speed that the rock keeps, 0 where the stem stops it. */
-HOT real speed_kept(struct hit h)
+FORCE_INLINE real speed_kept(struct hit h)
 {
     real taken = energy_taken(h);
-    return pick(less(taken, h.energy), root_of(1 - taken / h.energy), all(0));
+    return blend(less(taken, h.energy), vsqrt(1 - taken / h.energy), splat(0));
 }
 
 #endif

@@ -98,7 +98,7 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
 /* ---- the whole trajectory ---- */
 
 /* Whether a long trajectory is to end here: too many contacts, or nobody waits for it any more. */
-SELDOM bool has_enough(struct walker *w)
+NOINLINE bool has_enough(struct walker *w)
 {
     if (w->arrivals_only && is_behind_marks(w))
         return true;
@@ -108,7 +108,7 @@ SELDOM bool has_enough(struct walker *w)
 }
 
 /* Lands at `l`, which may not be known yet, past the stems before it; false where that ends it. */
-HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, bool knows_landing, enum ceduo_end *end)
+FORCE_INLINE bool come_down(struct walker *w, struct flight *at, struct landing *l, bool knows_landing, enum ceduo_end *end)
 {
     if ((!knows_landing || stem_on_way(w, l->x)) && fly_past_stems(w, at, l, knows_landing)) {
         w->at = *at;
@@ -151,14 +151,14 @@ bool ceduo_walk_roll(struct walker *w, struct course *c, const struct rolling *b
     return then == TOOK_OFF || then == ROLLED;
 }
 
-HOT void set_velocity(const struct walker *w, struct course *c)
+FORCE_INLINE void set_velocity(const struct walker *w, struct course *c)
 {
     struct velocity v = velocity_at(w, &c->at);
     c->along = v.along;
     c->off = v.off;
 }
 
-HOT void start(const struct walker *w, struct course *c)
+FORCE_INLINE void start(const struct walker *w, struct course *c)
 {
     c->at = w->at;
     set_velocity(w, c);
@@ -167,7 +167,7 @@ HOT void start(const struct walker *w, struct course *c)
         c->l = next_landing(w->g, &c->at);
 }
 
-HOT enum ceduo_end walk_over(struct walker *w, struct course c, const struct contact_law *law, bool blocks)
+FORCE_INLINE enum ceduo_end walk_over(struct walker *w, struct course c, const struct contact_law *law, bool blocks)
 {
     struct flight at = c.at; /* w->at is brought up to date for those who are called */
     struct velocity v = {c.along, c.off};

@@ -55,7 +55,7 @@ static void set_hit(const struct stems *s, struct stem *stem)
 
 /* ---- stools ---- */
 
-/* Room for `more` stems behind those that wait. */
+/* Room for `greater_ints` stems behind those that wait. */
 static bool make_room(struct stems *s, struct stems_side *side, size_t more)
 {
     if (side->first == side->end)

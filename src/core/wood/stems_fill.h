@@ -40,19 +40,19 @@ static inline void draw_points(const struct stems *s, uint64_t event, struct poi
     const uint64_t key = RANDOM_KEY(s->seed, s->number);
     ints first[POINTS / REAL_LANES], second[POINTS / REAL_LANES];
     for (unsigned i = 0; i < to->size / REAL_LANES; i++) { /* by itself: the processor has more of them under way at once */
-        ints x = count_from(event + 2 * i * REAL_LANES, 2), y = all_ints(RANDOM_STEM);
+        ints x = count_from(event + 2 * i * REAL_LANES, 2), y = splat_ints(RANDOM_STEM);
         RANDOM_BITS(x, y, s->seed, s->number, key);
         first[i] = x;
         second[i] = y;
     }
     for (unsigned i = 0; i < to->size; i += REAL_LANES) {
         ints p = first[i / REAL_LANES], q = second[i / REAL_LANES];
-        real u = real_of_small(p >> 24) * 0x1p-40 + 0x1p-41, log;
+        real u = to_real_small(p >> 24) * 0x1p-40 + 0x1p-41, log;
         lanes_log(&u, &log);
         store(&gaps[i], -log);
-        store(&to->mark[i], real_of_small((p & 0xffffff) << 14 | q >> 50) * 0x1p-38 + 0x1p-39);
-        store(&to->offset[i], real_of_small(q & 0x1ffffff) * 0x1p-25 + (0x1p-26 - 0.5));
-        store(&to->turn[i], real_of_small(q >> 25 & 0x1ffffff) * 0x1p-25 + (0x1p-26 - 0.5));
+        store(&to->mark[i], to_real_small((p & 0xffffff) << 14 | q >> 50) * 0x1p-38 + 0x1p-39);
+        store(&to->offset[i], to_real_small(q & 0x1ffffff) * 0x1p-25 + (0x1p-26 - 0.5));
+        store(&to->turn[i], to_real_small(q >> 25 & 0x1ffffff) * 0x1p-25 + (0x1p-26 - 0.5));
     }
 }
 
@@ -112,14 +112,14 @@ static inline void place_stools(const struct stems *s, const struct wood_stools 
     double width = 2 * t->reach + t->most + s->b;
     for (unsigned i = first; i < end; i += REAL_LANES) {
         real sine, cosine;
-        mask more = less(load(&p->mark[i]), all(t->more));
-        real radius = pick(more, all(t->radius[1]), all(t->radius[0]));
-        real angle = load(&p->turn[i]) * pick(more, all(t->turn[1]), all(t->turn[0]));
+        mask more = less(load(&p->mark[i]), splat(t->more));
+        real radius = blend(more, splat(t->radius[1]), splat(t->radius[0]));
+        real angle = load(&p->turn[i]) * blend(more, splat(t->turn[1]), splat(t->turn[0]));
         lanes_sincos(&angle, &sine, &cosine);
         store(&p->centre[i], load(&p->offset[i]) * width);
         store(&p->sine[i], sine * radius);
         store(&p->cosine[i], cosine * radius);
-        store_ints(&p->more[i], pick_ints(more, all_ints(1), all_ints(0)));
+        store_ints(&p->more[i], blend_ints(more, splat_ints(1), splat_ints(0)));
     }
 }
 
@@ -145,7 +145,7 @@ static inline void draw_cohorts(const struct stems *s, int side, struct points *
     }
     for (unsigned group = 0; group < COHORT_GROUPS && 4 * group < most; group++)
         for (unsigned i = 0; i < p->size; i += REAL_LANES) {
-            ints x = count_from(event + 2 * i, 2), y = all_ints(shoot_draw(RANDOM_SHOOT, group));
+            ints x = count_from(event + 2 * i, 2), y = splat_ints(shoot_draw(RANDOM_SHOOT, group));
             RANDOM_BITS(x, y, s->seed, s->number, key);
             store_ints(&p->cohorts[group][0][i], x);
             store_ints(&p->cohorts[group][1][i], y);
@@ -224,11 +224,11 @@ struct shoots {
 /* Adds those shoots that `can` be hit, of one kind and stool in each lane; there is room for a register. */
 static inline void add_shoots(struct shoots *to, mask can, real along, real y, ints kind, ints stool)
 {
-    keep(can, as_ints(along), &to->along[to->n]);
-    keep(can, as_ints(y), &to->y[to->n]);
-    keep(can, kind, &to->kind[to->n]);
-    keep(can, stool, &to->stool[to->n]);
-    to->n += (unsigned)__builtin_popcount(lanes_of(can));
+    compress(can, as_ints(along), &to->along[to->n]);
+    compress(can, as_ints(y), &to->y[to->n]);
+    compress(can, kind, &to->kind[to->n]);
+    compress(can, stool, &to->stool[to->n]);
+    to->n += (unsigned)__builtin_popcount(lane_bits(can));
 }
 
 static inline uint64_t kind_number(const struct stems *s, const struct wood_kind *kind)
@@ -244,8 +244,8 @@ static inline void add_row(const struct stems *s, const struct stool *t, struct 
     for (unsigned i = 0; i < t->n; i += REAL_LANES) {
         real c = load(&t->ring[i]), q = load(&t->sines[i]);
         real along = t->at + (c * t->cosine - q * t->sine), y = t->centre + (c * t->sine + q * t->cosine);
-        mask can = at_least(all(most), absolute(y)) & more(all_ints(t->n), count_from(i, 1));
-        add_shoots(to, can, along, y, all_ints(kind_number(s, kind)), all_ints(t->event));
+        mask can = at_least(splat(most), vabs(y)) & greater_ints(splat_ints(t->n), count_from(i, 1));
+        add_shoots(to, can, along, y, splat_ints(kind_number(s, kind)), splat_ints(t->event));
     }
 }
 
@@ -254,11 +254,11 @@ static inline void choose_kinds(const struct points *p, const struct wood_stools
                                 real *dbh)
 {
     ints bits = load_ints(&p->cohorts[i / 4][i / 2 % 2][k]);
-    real u = (real_of_small(bits >> i % 2 * 32 & UINT32_MAX) + 0.5) * 0x1p-32;
+    real u = (to_real_small(bits >> i % 2 * 32 & UINT32_MAX) + 0.5) * 0x1p-32;
     for (size_t j = 0; j + 1 < t->cohorts; j++) {
-        mask beyond = at_least(u, all(t->kinds[j].share_to));
-        *kind = pick_ints(beyond, *kind + 1, *kind);
-        *dbh = pick(beyond, all(t->kinds[j + 1].dbh), *dbh);
+        mask beyond = at_least(u, splat(t->kinds[j].share_to));
+        *kind = blend_ints(beyond, *kind + 1, *kind);
+        *dbh = blend(beyond, splat(t->kinds[j + 1].dbh), *dbh);
     }
 }
 
@@ -270,16 +270,16 @@ static inline void add_columns(const struct stems *s, const struct points *p, un
     const double *ring = t->ring[0], *other = t->ring[t->more > 0];
     real at = load(&p->at[k]), centre = load(&p->centre[k]), sine = load(&p->sine[k]), cosine = load(&p->cosine[k]);
     ints is_more = load_ints(&p->more[k]), events = count_from(event, 2);
-    mask longer = more(is_more, all_ints(0)), there = more(all_ints(p->next), count_from(k, 1));
-    ints n = pick_ints(there, is_more + t->n, all_ints(0));
+    mask longer = greater_ints(is_more, splat_ints(0)), there = greater_ints(splat_ints(p->next), count_from(k, 1));
+    ints n = blend_ints(there, is_more + t->n, splat_ints(0));
     for (unsigned i = 0; i < t->n + (t->more > 0); i++) {
-        real c = pick(longer, all(other[i]), all(ring[i]));
-        real q = pick(longer, all(other[t->ring_room + i]), all(ring[t->ring_room + i]));
-        real along = at + (c * cosine - q * sine), y = centre + (c * sine + q * cosine), dbh = all(t->kinds->dbh);
-        ints kind = all_ints(kind_number(s, t->kinds));
+        real c = blend(longer, splat(other[i]), splat(ring[i]));
+        real q = blend(longer, splat(other[t->ring_room + i]), splat(ring[t->ring_room + i]));
+        real along = at + (c * cosine - q * sine), y = centre + (c * sine + q * cosine), dbh = splat(t->kinds->dbh);
+        ints kind = splat_ints(kind_number(s, t->kinds));
         if (t->cohorts > 1)
             choose_kinds(p, t, i, k, &kind, &dbh);
-        mask can = at_least((s->b + dbh) / 2, absolute(y)) & more(n, all_ints(i));
+        mask can = at_least((s->b + dbh) / 2, vabs(y)) & greater_ints(n, splat_ints(i));
         add_shoots(to, can, along, y, kind, events);
     }
 }
@@ -309,10 +309,10 @@ static inline void make_columns(struct stems *s, int side, const struct wood_sto
  * and its first shoot. Returns the sum of the places. */
 static inline uint64_t rank_among(const struct shoots *t, bool equal, uint64_t rank[SHOOTS_AT_ONCE])
 {
-    ints sums = all_ints(0);
+    ints sums = splat_ints(0);
     for (unsigned i = 0; i < t->n; i += REAL_LANES) {
         real along = load(&t->along[i]);
-        ints before = all_ints(0), stool = load_ints(&t->stool[i]), own = count_from(i, 1); /* true is -1 */
+        ints before = splat_ints(0), stool = load_ints(&t->stool[i]), own = count_from(i, 1); /* true is -1 */
         for (unsigned j = 0; j < t->n; j++) {
             before -= (ints)(along > t->along[j]);
             if (equal)
@@ -329,17 +329,17 @@ static inline uint64_t rank_among(const struct shoots *t, bool equal, uint64_t r
 }
 
 /* What those shoots take of which it depends on the eccentricity, with ceduo_dorren_share() of many at once. */
-SELDOM void set_energies(const struct stems *s, struct shoots *t, const uint64_t *rank, struct stem *waiting)
+NOINLINE void set_energies(const struct stems *s, struct shoots *t, const uint64_t *rank, struct stem *waiting)
 {
     double dbh[SHOOTS_AT_ONCE + REAL_LANES], share[SHOOTS_AT_ONCE + REAL_LANES];
-    store(&t->y[t->n], all(0)); /* those behind the last are of no stem */
+    store(&t->y[t->n], splat(0)); /* those behind the last are of no stem */
     for (unsigned i = 0; i < t->n + REAL_LANES; i++)
         dbh[i] = s->wood->kinds[i < t->n ? t->kind[i] : t->kind[0]].dbh;
     for (unsigned i = 0; i < t->n; i += REAL_LANES) {
-        real power, exponent = DORREN_EXPONENT(2 * absolute(load(&t->y[i])) / (s->b + load(&dbh[i])));
+        real power, exponent = DORREN_EXPONENT(2 * vabs(load(&t->y[i])) / (s->b + load(&dbh[i])));
         lanes_exp(&exponent, &power);
         real of = DORREN_SHARE_OF(power);
-        store(&share[i], 0.5 * (of + absolute(of)));
+        store(&share[i], 0.5 * (of + vabs(of)));
     }
     for (unsigned i = 0; i < t->n; i++) {
         const struct wood_kind *kind = &s->wood->kinds[t->kind[i]];
@@ -372,7 +372,7 @@ static void make_stools(struct stems *s, int i_side)
             add_row(s, &stool, &t);
         }
     } while (t.n < STOP_SHOOTS && p->next < p->count && is_plain_stool(s, i_side));
-    store(&t.along[t.n], all(-INFINITY)); /* of place 0 */
+    store(&t.along[t.n], splat(-INFINITY)); /* of place 0 */
     if (rank_among(&t, false, rank) != (uint64_t)t.n * (t.n - 1) / 2)
         rank_among(&t, true, rank);
     for (unsigned i = 0; i < t.n; i++) {

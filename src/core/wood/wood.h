@@ -34,7 +34,7 @@ struct wood_stratum {
 
 #define WOOD_RING_STEP 8 /* shoots of a ring may be read so many at a time */
 
-/* The stools of a belt: a ring of n shoots, or with chance `more` of one shoot more. */
+/* The stools of a belt: a ring of n shoots, or with chance `greater_ints` of one shoot more. */
 struct wood_stools {
     unsigned n;
     double more;
