@@ -274,7 +274,7 @@ static void bind_map(struct binder *b, const struct object *object, const struct
 /* A number, or {mean: …, spread: …, kind: …}: rows made of that of the number. */
 static void bind_spread(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
 {
-    struct field rows[] = {*f, *f, WORD("kind", NAMED(NULL), AT(ceduo_number, kind), 0, NULL, "", &ceduo_spread_words)};
+    struct field rows[] = {*f, *f, WORD("kind", NAMED(NULL), MEMBER(ceduo_number, kind), 0, NULL, "", &ceduo_spread_words)};
     const struct object parts = {rows, sizeof rows / sizeof rows[0], sizeof *to, NULL};
     *to = ceduo_number(to->mean);
     if (node->kind != NODE_MAP) {
@@ -426,11 +426,11 @@ struct source_said {
 static const char *const source_kinds[] = {N_("measured"), N_("literature"), N_("assumed"), N_("calibrated")};
 static const struct choices source_words = {.names = source_kinds, .n = 4};
 static const struct field source_fields[] = {
-    WORD("kind", UNSAID, AT(source_said, kind), REQUIRED, NULL, N_("measured, literature, assumed or calibrated"),
+    WORD("kind", UNSAID, MEMBER(source_said, kind), REQUIRED, NULL, N_("measured, literature, assumed or calibrated"),
          &source_words),
-    TEXT("text", UNSAID, AT(source_said, text), NO_RUN, ""),
-    TEXT("text_it", UNSAID, AT(source_said, text_it), NO_RUN, ""),
-    OTHER(FIELD_WORDS, "except", UNSAID, LIST(source_said, except, except_count), NO_RUN, NULL, "", NULL, NULL),
+    TEXT("text", UNSAID, MEMBER(source_said, text), NO_RUN, ""),
+    TEXT("text_it", UNSAID, MEMBER(source_said, text_it), NO_RUN, ""),
+    KIND_ROW(FIELD_WORDS, "except", UNSAID, LIST(source_said, except, except_count), NO_RUN, NULL, "", NULL, NULL),
 };
 static const struct object source_object = OBJECT(source_said, source_fields, NULL);
 

@@ -7,24 +7,24 @@
 #include "base/utf8.h"
 #include "ceduo/scene.h"
 
-#define FOLDED_MOST 64 /* bytes of a word that are compared */
+#define FOLDED_MAX 64 /* maximum compared bytes of a word */
 
-/* One list of words for each X-macro; those of species and materials stand beside their rows. */
-#define WORDS(name, LIST, also)                                                                                                \
+/* One list of words for each X-macro. Species and materials have theirs in species.c and material.c. */
+#define WORDS(name, LIST, synonyms)                                                                                            \
     static const char *const name##_names[] = {LIST(X_WORD)};                                                                  \
-    const struct choices ceduo_##name##_words = {name##_names, sizeof name##_names / sizeof name##_names[0], also}
+    const struct choices ceduo_##name##_words = {name##_names, sizeof name##_names / sizeof name##_names[0], synonyms}
 #define X_WORD(NAME, word) word,
 
-static const char *const systems_also[] = {"simple-coppice|ceduo semplice",
-                                           "coppice-with-standards|ceduo matricinato|ceduo con matricine",
-                                           "selection-coppice|ceduo a sterzo|ceduo disetaneo",
-                                           "large-reserves|grandi riserve|ceduo con grandi riserve",
-                                           "high-forest|fustaia|alto fusto",
-                                           "bare|senza|senza bosco"};
+static const char *const system_synonyms[] = {"simple-coppice|ceduo semplice",
+                                              "coppice-with-standards|ceduo matricinato|ceduo con matricine",
+                                              "selection-coppice|ceduo a sterzo|ceduo disetaneo",
+                                              "large-reserves|grandi riserve|ceduo con grandi riserve",
+                                              "high-forest|fustaia|alto fusto",
+                                              "bare|senza|senza bosco"};
 
 WORDS(shape, CEDUO_SHAPES, NULL);
 WORDS(facets, CEDUO_FACETS, NULL);
-WORDS(system, CEDUO_SYSTEMS, systems_also);
+WORDS(system, CEDUO_SYSTEMS, system_synonyms);
 WORDS(rule, CEDUO_RULES, NULL);
 WORDS(contact_model, CEDUO_CONTACT_MODELS, NULL);
 WORDS(spread, CEDUO_SPREAD_KINDS, NULL);
@@ -32,11 +32,10 @@ WORDS(quality, CEDUO_QUALITIES, NULL);
 WORDS(use, CEDUO_OBSERVED_USES, NULL);
 WORDS(offset, CEDUO_ENERGY_OFFSETS, NULL);
 
-/* A flag that need not be said. */
 #define FLAGS(X) X(FALSE, "false") X(TRUE, "true")
 WORDS(flag, FLAGS, NULL);
 
-/* Laws are also parts of the names of functions. */
+/* Names of laws are identifiers, because they are parts of function names. */
 #undef X_WORD
 #define X_WORD(NAME, name) #name,
 WORDS(energy, CEDUO_ENERGY_MODELS, NULL);
@@ -47,12 +46,12 @@ int ceduo_choice_find(const struct choices *choices, const char *word)
     for (size_t i = 0; i < choices->n; i++)
         if (strcmp(choices->names[i], word) == 0)
             return (int)i;
-    char wanted[FOLDED_MOST], other[FOLDED_MOST];
+    char wanted[FOLDED_MAX], folded[FOLDED_MAX];
     ceduo_utf8_fold(word, strlen(word), wanted, sizeof wanted);
-    for (size_t i = 0; choices->also && i < choices->n; i++)
-        for (const char *one = choices->also[i]; *one; one += *one == '|') {
+    for (size_t i = 0; choices->synonyms && i < choices->n; i++)
+        for (const char *one = choices->synonyms[i]; *one; one += *one == '|') {
             size_t n = strcspn(one, "|");
-            if (strcmp(ceduo_utf8_fold(one, n, other, sizeof other), wanted) == 0)
+            if (strcmp(ceduo_utf8_fold(one, n, folded, sizeof folded), wanted) == 0)
                 return (int)i;
             one += n;
         }
@@ -63,7 +62,7 @@ const char *ceduo_gone(const char *name)
 {
     static const struct {
         const char *old, *remedy;
-    } gone[] = {
+    } removed[] = {
         {"--plain", N_("shares and means are always as counted; leave it out")},
         {"--shard", N_("a scene is computed at once; give each machine scenes of its own, see man ceduo-workflows")},
         {"--merge", N_("results of several scenes are printed together; see man ceduo-workflows")},
@@ -75,8 +74,8 @@ const char *ceduo_gone(const char *name)
     };
     const char *dot = strrchr(name, '.'), *last = dot ? dot + 1 : name;
     size_t n = strcspn(last, "=");
-    for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
-        if (strlen(gone[i].old) == n && strncmp(gone[i].old, last, n) == 0)
-            return gone[i].remedy;
+    for (size_t i = 0; i < sizeof removed / sizeof removed[0]; i++)
+        if (strlen(removed[i].old) == n && strncmp(removed[i].old, last, n) == 0)
+            return removed[i].remedy;
     return NULL;
 }

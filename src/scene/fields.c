@@ -1,29 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one table of keys: what the files say, and the members of the scene that hold it. A new key is a member with its
- * comment in a public header and one row here. */
+/* The table of keys of files, with the members of the scene that hold their values. To add a key, add a member with a comment
+ * to a public header, and a row here. */
 #include "fields.h"
 
 #include <string.h>
 
-#define NAME_IT(at, more)                                                                                                      \
-    ROW("name_it", FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(FIELD_TEXT, NO_RUN | (more)), NULL,                  \
+#define NAME_IT(member, more)                                                                                                  \
+    ROW("name_it", FIELD_TEXT, member, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(FIELD_TEXT, NO_RUN | (more)), NULL,              \
         N_("the same in Italian pages, screens and lists; without it in English"), NULL, NULL, NAMED(N_("in Italian")))
 
 /* ---- rock ---- */
 
 static const struct field rock_fields[] = {
-    WORD("shape", NAMED(N_("shape")), AT(ceduo_rock_def, shape), 0, "sphere", N_("shape of the rock"), &ceduo_shape_words),
-    SPREAD("diameter_m", USUAL(N_("diameter, m"), 0.05, 15), AT(ceduo_rock_def, diameter), "m", 0, 1000, ABOVE, NULL,
+    WORD("shape", NAMED(N_("shape")), MEMBER(ceduo_rock_def, shape), 0, "sphere", N_("shape of the rock"), &ceduo_shape_words),
+    SPREAD("diameter_m", USUAL(N_("diameter, m"), 0.05, 15), MEMBER(ceduo_rock_def, diameter), "m", 0, 1000, ABOVE, NULL,
            N_("diameter of a sphere or cylinder")),
-    SPREAD("height_m", USUAL(N_("height, m"), 0.05, 15), AT(ceduo_rock_def, height), "m", 0, 1000, ABOVE, NULL,
+    SPREAD("height_m", USUAL(N_("height, m"), 0.05, 15), MEMBER(ceduo_rock_def, height), "m", 0, 1000, ABOVE, NULL,
            N_("height of a cylinder")),
-    NUM(FIELD_SPREADS, "axes_m", USUAL(N_("axes, m"), 0.05, 15), AT(ceduo_rock_def, axes), "m", 1, 0, 1000, ABOVE, NULL,
+    NUM(FIELD_SPREADS, "axes_m", USUAL(N_("axes, m"), 0.05, 15), MEMBER(ceduo_rock_def, axes), "m", 1, 0, 1000, ABOVE, NULL,
         N_("the three axes of an ellipsoid or block")),
-    SPREAD("volume_m3", USUAL(N_("volume, m3"), 0.0001, 2000), AT(ceduo_rock_def, volume), "m3", 0, 1e6, ABOVE, NULL,
+    SPREAD("volume_m3", USUAL(N_("volume, m3"), 0.0001, 2000), MEMBER(ceduo_rock_def, volume), "m3", 0, 1e6, ABOVE, NULL,
            N_("volume of a sphere, instead of its diameter")),
-    SPREAD("mass_kg", USUAL(N_("mass, kg"), 0.1, 5e6), AT(ceduo_rock_def, mass), "kg", 0, 1e10, ABOVE, NULL,
+    SPREAD("mass_kg", USUAL(N_("mass, kg"), 0.1, 5e6), MEMBER(ceduo_rock_def, mass), "kg", 0, 1e10, ABOVE, NULL,
            N_("mass: of a sphere instead of its diameter, of other shapes instead of the density")),
-    SPREAD("density_kg_m3", USUAL(N_("density, kg/m3"), 1000, 5000), AT(ceduo_rock_def, density), "kg/m3", 0, 30000, ABOVE,
+    SPREAD("density_kg_m3", USUAL(N_("density, kg/m3"), 1000, 5000), MEMBER(ceduo_rock_def, density), "kg/m3", 0, 30000, ABOVE,
            "2600", N_("density of the rock; the default is limestone's, an assumption")),
 };
 const struct object ceduo_rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL);
@@ -31,12 +31,12 @@ const struct object ceduo_rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL
 /* ---- blocks ---- */
 
 static const struct field block_fields[] = {
-    NUMBER("per_year", SHOWN(N_("blocks per year"), N_("per year"), 0.0001, 1000), AT(ceduo_block_class, per_year), "1/y", 0,
-           1e6, REQUIRED | ABOVE, NULL, N_("blocks of these sizes that come down in a year")),
+    NUMBER("per_year", SHOWN(N_("blocks per year"), N_("per year"), 0.0001, 1000), MEMBER(ceduo_block_class, per_year), "1/y",
+           0, 1e6, REQUIRED | ABOVE, NULL, N_("blocks of these sizes that come down in a year")),
     NUM(FIELD_NUMBERS, "volume_m3", SHOWN(N_("volumes, m3"), N_("m3"), 0.0001, 2000),
         LIST(ceduo_block_class, volumes, volumes_count), "m3", 1, 0, 1e6, REQUIRED | ABOVE, NULL,
         N_("the smallest and the largest: [lo, hi]")),
-    NUMBER("exponent", USUAL(N_("exponent"), 0.2, 2), AT(ceduo_block_class, exponent), "", 0, 10, FIELD_ZERO, NULL,
+    NUMBER("exponent", USUAL(N_("exponent"), 0.2, 2), MEMBER(ceduo_block_class, exponent), "", 0, 10, FIELD_ZERO, NULL,
            N_("the number of blocks above a volume v goes with v^-exponent; 0, in a list of classes also the default: as "
               "many in every range of equal ratio")),
 };
@@ -46,15 +46,16 @@ ASKED_AT_ONCE(block_fields);
 /* ---- release ---- */
 
 static const struct field release_fields[] = {
-    SPREAD("x_m", NAMED(N_("x, m")), AT(ceduo_release, x), "m", -FAR, FAR, FIELD_MEANLESS | FIELD_PLACE, NULL,
+    SPREAD("x_m", NAMED(N_("x, m")), MEMBER(ceduo_release, x), "m", -COORDINATE_MAX, COORDINATE_MAX,
+           FIELD_MEANLESS | FIELD_PLACE, NULL,
            N_("where the rock starts; in the slope's coordinates; without it at the first vertex")),
-    SPREAD("height_m", USUAL(N_("height, m"), 0, 500), AT(ceduo_release, height), "m", 0, 10000, 0, "0",
+    SPREAD("height_m", USUAL(N_("height, m"), 0, 500), MEMBER(ceduo_release, height), "m", 0, 10000, 0, "0",
            N_("height of its underside above the ground")),
-    SPREAD("vx_m_s", USUAL(N_("speed along, m/s"), -60, 60), AT(ceduo_release, vx), "m/s", -1000, 1000, 0, "0",
+    SPREAD("vx_m_s", USUAL(N_("speed along, m/s"), -60, 60), MEMBER(ceduo_release, vx), "m/s", -1000, 1000, 0, "0",
            N_("horizontal speed, positive downslope along x")),
-    SPREAD("vz_m_s", USUAL(N_("speed upward, m/s"), -60, 60), AT(ceduo_release, vz), "m/s", -1000, 1000, 0, "0",
+    SPREAD("vz_m_s", USUAL(N_("speed upward, m/s"), -60, 60), MEMBER(ceduo_release, vz), "m/s", -1000, 1000, 0, "0",
            N_("vertical speed, positive upward")),
-    SPREAD("spin_rad_s", USUAL(N_("spin, rad/s"), -200, 200), AT(ceduo_release, spin), "rad/s", -10000, 10000, 0, "0",
+    SPREAD("spin_rad_s", USUAL(N_("spin, rad/s"), -200, 200), MEMBER(ceduo_release, spin), "rad/s", -10000, 10000, 0, "0",
            N_("spin, positive rolling forward; not used by the law lumped")),
 };
 const struct object ceduo_release_object = OBJECT(ceduo_release, release_fields, NULL);
@@ -62,97 +63,100 @@ const struct object ceduo_release_object = OBJECT(ceduo_release, release_fields,
 /* ---- slope ---- */
 
 static const struct field segment_fields[] = {
-    SPREAD("rn", BRIEF(N_("bounce Rn"), N_("Rn")), AT(ceduo_segment, rn), "", 0, 1, REQUIRED, NULL,
+    SPREAD("rn", BRIEF(N_("bounce Rn"), N_("Rn")), MEMBER(ceduo_segment, rn), "", 0, 1, REQUIRED, NULL,
            N_("normal restitution Rn")),
-    SPREAD("rt", BRIEF(N_("slide Rt"), N_("Rt")), AT(ceduo_segment, rt), "", 0, 1, REQUIRED, NULL,
+    SPREAD("rt", BRIEF(N_("slide Rt"), N_("Rt")), MEMBER(ceduo_segment, rt), "", 0, 1, REQUIRED, NULL,
            N_("tangential restitution Rt")),
-    NUMBER("roughness_rad", BRIEF(N_("roughness, rad"), N_("rough. rad")), AT(ceduo_segment, roughness_rad), "rad", 0, M_PI_2,
-           FIELD_UNDER | FIELD_ONE_OF, "0", N_("largest angle by which the ground's small facets are turned")),
-    NUMBER("roughness_m", BRIEF(N_("roughness, m"), N_("rough. m")), AT(ceduo_segment, roughness_m), "m", 0, 1000, 0, NULL,
+    NUMBER("roughness_rad", BRIEF(N_("roughness, rad"), N_("rough. rad")), MEMBER(ceduo_segment, roughness_rad), "rad", 0,
+           M_PI_2, FIELD_UNDER | FIELD_ONE_OF, "0", N_("largest angle by which the ground's small facets are turned")),
+    NUMBER("roughness_m", BRIEF(N_("roughness, m"), N_("rough. m")), MEMBER(ceduo_segment, roughness_m), "m", 0, 1000, 0, NULL,
            N_("the same as a height S over the rock's radius, atan(S/R), as in CRSP")),
-    NUMBER("friction", NAMED(N_("friction")), AT(ceduo_segment, friction), "", 0, 100, 0, "0.5",
+    NUMBER("friction", NAMED(N_("friction")), MEMBER(ceduo_segment, friction), "", 0, 100, 0, "0.5",
            N_("tangent of the angle of rolling friction; the default is an assumption")),
-    NUMBER("mu", BRIEF(N_("grip mu"), N_("mu")), AT(ceduo_segment, mu), "", 0, 3, 0, "0.6",
+    NUMBER("mu", BRIEF(N_("grip mu"), N_("mu")), MEMBER(ceduo_segment, mu), "", 0, 3, 0, "0.6",
            N_("arm: Coulomb's friction where the rock strikes; the default is an assumption")),
 };
 static const struct object segment_object = OBJECT(ceduo_segment, segment_fields, NULL);
 
 static const struct field material_fields[] = {
-    NUMBER("from_m", BRIEF(N_("from, m"), N_("from m")), AT(material_belt, from), "m", -FAR, FAR, REQUIRED, NULL,
-           N_("where it begins")),
-    NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), AT(material_belt, to), "m", -FAR, FAR, REQUIRED, NULL, N_("where it ends")),
-    WORD("material", NAMED(N_("ground")), AT(material_belt, material), REQUIRED, NULL, N_("a ground of the library"),
+    NUMBER("from_m", BRIEF(N_("from, m"), N_("from m")), MEMBER(material_belt, from), "m", -COORDINATE_MAX, COORDINATE_MAX,
+           REQUIRED, NULL, N_("where it begins")),
+    NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), MEMBER(material_belt, to), "m", -COORDINATE_MAX, COORDINATE_MAX, REQUIRED,
+           NULL, N_("where it ends")),
+    WORD("material", NAMED(N_("ground")), MEMBER(material_belt, material), REQUIRED, NULL, N_("a ground of the library"),
          &ceduo_material_words),
-    NUMBER("rn", BRIEF(N_("bounce Rn"), N_("Rn")), AT(material_belt, rn), "", 0, 1, 0, NULL, N_("normal restitution Rn")),
-    NUMBER("rt", BRIEF(N_("slide Rt"), N_("Rt")), AT(material_belt, rt), "", 0, 1, 0, NULL, N_("tangential restitution Rt")),
-    NUMBER("roughness_m", BRIEF(N_("roughness, m"), N_("rough. m")), AT(material_belt, roughness), "m", 0, 1000, 0, NULL,
+    NUMBER("rn", BRIEF(N_("bounce Rn"), N_("Rn")), MEMBER(material_belt, rn), "", 0, 1, 0, NULL, N_("normal restitution Rn")),
+    NUMBER("rt", BRIEF(N_("slide Rt"), N_("Rt")), MEMBER(material_belt, rt), "", 0, 1, 0, NULL,
+           N_("tangential restitution Rt")),
+    NUMBER("roughness_m", BRIEF(N_("roughness, m"), N_("rough. m")), MEMBER(material_belt, roughness), "m", 0, 1000, 0, NULL,
            N_("the same as a height S over the rock's radius, atan(S/R), as in CRSP")),
-    NUMBER("friction", NAMED(N_("friction")), AT(material_belt, friction), "", 0, 100, 0, NULL,
+    NUMBER("friction", NAMED(N_("friction")), MEMBER(material_belt, friction), "", 0, 100, 0, NULL,
            N_("tangent of the angle of rolling friction; the default is an assumption")),
-    NUMBER("mu", BRIEF(N_("grip mu"), N_("mu")), AT(material_belt, mu), "", 0, 3, 0, NULL,
+    NUMBER("mu", BRIEF(N_("grip mu"), N_("mu")), MEMBER(material_belt, mu), "", 0, 3, 0, NULL,
            N_("arm: Coulomb's friction where the rock strikes; the default is an assumption")),
 };
 static const struct object material_object = OBJECT(material_belt, material_fields, NULL);
 
 static const struct field slope_fields[] = {
     TAG("slope/1"),
-    TEXT("name", NAMED(N_("name")), NOWHERE, FIELD_NOWHERE | NO_RUN, N_("name of the slope")),
-    NAME_IT(NOWHERE, FIELD_NOWHERE),
-    WORD("facets", NAMED(N_("facets")), AT(ceduo_slope, facets), 0, "against",
+    TEXT("name", NAMED(N_("name")), NO_MEMBER, FIELD_NOWHERE | NO_RUN, N_("name of the slope")),
+    NAME_IT(NO_MEMBER, FIELD_NOWHERE),
+    WORD("facets", NAMED(N_("facets")), MEMBER(ceduo_slope, facets), 0, "against",
          N_("which way the ground's small facets are turned"), &ceduo_facets_words),
-    NUM(FIELD_POINTS, "vertices_m", NAMED(N_("point of the profile")), POINTS(ceduo_slope, x, vertices), "m", 1, -FAR, FAR, 0,
-        NULL, N_("the profile: pairs [x, z], x rising")),
+    NUM(FIELD_POINTS, "vertices_m", NAMED(N_("point of the profile")), POINTS(ceduo_slope, x, vertices), "m", 1,
+        -COORDINATE_MAX, COORDINATE_MAX, 0, NULL, N_("the profile: pairs [x, z], x rising")),
     ITEMS("segments", N_("ground"), LIST(ceduo_slope, segments, segments_given), FIELD_DRAFT, &segment_object),
-    ITEMS("materials", N_("ground"), OF_SLOPE(materials, materials_count), FIELD_DRAFT, &material_object),
-    OTHER(FIELD_FILE, "csv", NAMED(N_("file")), NOWHERE, FIELD_NOWHERE, NULL,
-          N_("the profile from a CSV file with distance and elevation, instead of vertices_m"), NULL, NULL),
-    TEXT("layer", NAMED(N_("line")), NOWHERE, FIELD_NOWHERE, N_("line of the CSV file, if the file holds several")),
+    ITEMS("materials", N_("ground"), SLOPE_LIST(materials, materials_count), FIELD_DRAFT, &material_object),
+    KIND_ROW(FIELD_FILE, "csv", NAMED(N_("file")), NO_MEMBER, FIELD_NOWHERE, NULL,
+             N_("the profile from a CSV file with distance and elevation, instead of vertices_m"), NULL, NULL),
+    TEXT("layer", NAMED(N_("line")), NO_MEMBER, FIELD_NOWHERE, N_("line of the CSV file, if the file holds several")),
     NUMBER(
-        "tolerance_m", USUAL(N_("simplify to, m"), 0, 2), AT(ceduo_slope, tolerance), "m", 0, 100, 0, "0.5",
+        "tolerance_m", USUAL(N_("simplify to, m"), 0, 2), MEMBER(ceduo_slope, tolerance), "m", 0, 100, 0, "0.5",
         N_("distance within which points of the profile are left out: the roughness of the ground stands for smaller relief; "
            "the default is for ground from the library, an assumption; for segments it is 0: all points")),
-    OTHER(FIELD_FLAG, "reversed", NAMED(N_("drawn upward")), AT(ceduo_slope, reversed), 0, "false",
-          N_("whether the profile is drawn upward: it is mirrored with its segments or materials, so that x begins at its top; "
-             "places in the scene are of the mirrored profile"),
-          NULL, NULL),
+    KIND_ROW(
+        FIELD_FLAG, "reversed", NAMED(N_("drawn upward")), MEMBER(ceduo_slope, reversed), 0, "false",
+        N_("whether the profile is drawn upward: it is mirrored with its segments or materials, so that x begins at its top; "
+           "places in the scene are of the mirrored profile"),
+        NULL, NULL),
 };
 static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slopes");
 
 /* ---- rules ---- */
 
-#define ITEM_FIELDS(least_row, most_row)                                                                                       \
-    OTHER(FIELD_WORDS, "species", NAMED(N_("species")), LIST(ceduo_regulation_item, species, species_count), NO_RUN, NULL,     \
-          N_("species that it is about; without it all that no row before names"), NULL, NULL),                                \
-        WORD("system", NAMED(N_("system")), AT(ceduo_regulation_item, system), NO_RUN, NULL,                                   \
+#define ITEM_FIELDS(min_row, max_row)                                                                                          \
+    KIND_ROW(FIELD_WORDS, "species", NAMED(N_("species")), LIST(ceduo_regulation_item, species, species_count), NO_RUN, NULL,  \
+             N_("species that it is about; without it all that no row before names"), NULL, NULL),                             \
+        WORD("system", NAMED(N_("system")), MEMBER(ceduo_regulation_item, system), NO_RUN, NULL,                               \
              N_("silvicultural system that it is about; without it every one"), &ceduo_system_words),                          \
-        least_row, most_row,                                                                                                   \
-        TEXT("article", NAMED(N_("article and act that say so")), AT(ceduo_regulation_item, article), REQUIRED | NO_RUN,       \
+        min_row, max_row,                                                                                                      \
+        TEXT("article", NAMED(N_("article and act that say so")), MEMBER(ceduo_regulation_item, article), REQUIRED | NO_RUN,   \
              N_("article")),                                                                                                   \
-        NUM(FIELD_COUNT, "year", NAMED(N_("year")), AT(ceduo_regulation_item, year), "", 1, 1800, 2200, REQUIRED | NO_RUN,     \
+        NUM(FIELD_COUNT, "year", NAMED(N_("year")), MEMBER(ceduo_regulation_item, year), "", 1, 1800, 2200, REQUIRED | NO_RUN, \
             NULL, N_("year of that act"))
 
 static const struct field standards_fields[] = {
-    ITEM_FIELDS(NUMBER("per_ha", NAMED(N_("standards per ha")), AT(ceduo_regulation_item, least), "1/ha", 0, 1e5,
+    ITEM_FIELDS(NUMBER("per_ha", NAMED(N_("standards per ha")), MEMBER(ceduo_regulation_item, least), "1/ha", 0, 1e5,
                        REQUIRED | NO_RUN, NULL, N_("standards that a cut must leave at least")),
-                NUMBER("most_per_ha", NAMED(N_("at most")), AT(ceduo_regulation_item, most), "1/ha", 0, 1e5, NO_RUN, NULL,
+                NUMBER("most_per_ha", NAMED(N_("at most")), MEMBER(ceduo_regulation_item, most), "1/ha", 0, 1e5, NO_RUN, NULL,
                        N_("standards that it may leave at most"))),
 };
 static const struct object standards_object = OBJECT(ceduo_regulation_item, standards_fields, NULL);
 
 static const struct field turns_fields[] = {
-    ITEM_FIELDS(NUMBER("least_y", NAMED(N_("years at least")), AT(ceduo_regulation_item, least), "y", 0, 1000,
+    ITEM_FIELDS(NUMBER("least_y", NAMED(N_("years at least")), MEMBER(ceduo_regulation_item, least), "y", 0, 1000,
                        REQUIRED | NO_RUN, NULL, N_("age at which shoots may be cut at the earliest")),
-                NUMBER("most_y", NAMED(N_("at most")), AT(ceduo_regulation_item, most), "y", 0, 1000, NO_RUN, NULL,
+                NUMBER("most_y", NAMED(N_("at most")), MEMBER(ceduo_regulation_item, most), "y", 0, 1000, NO_RUN, NULL,
                        N_("age at which they may be cut at the latest"))),
 };
 static const struct object turns_object = OBJECT(ceduo_regulation_item, turns_fields, NULL);
 
 static const struct field rules_fields[] = {
     TAG("rules/1"),
-    TEXT("name", NAMED(N_("region")), AT(ceduo_regulation, name), REQUIRED | NO_RUN, N_("name of the region")),
-    TEXT("note", NAMED(N_("note")), AT(ceduo_regulation, note), NO_RUN,
+    TEXT("name", NAMED(N_("region")), MEMBER(ceduo_regulation, name), REQUIRED | NO_RUN, N_("name of the region")),
+    TEXT("note", NAMED(N_("note")), MEMBER(ceduo_regulation, note), NO_RUN,
          N_("what must be known beside; it is printed with the rules")),
-    TEXT("note_it", NAMED(N_("in Italian")), AT(ceduo_regulation, note_it), NO_RUN,
+    TEXT("note_it", NAMED(N_("in Italian")), MEMBER(ceduo_regulation, note_it), NO_RUN,
          N_("the same in Italian pages, screens and lists; without it in English")),
     ITEMS("standards", N_("standards"), LIST(ceduo_regulation, standards, standards_count), NO_RUN, &standards_object),
     ITEMS("turns", N_("rotations"), LIST(ceduo_regulation, turns, turns_count), NO_RUN, &turns_object),
@@ -161,105 +165,106 @@ static const struct object rules_object = OBJECT(ceduo_regulation, rules_fields,
 
 /* ---- doubt ---- */
 
-#define ANY(key, name, member, meaning) NUMBER(key, NAMED(name), AT(doubt, member), "", -1e12, 1e12, NO_RUN, NULL, meaning)
+#define DOUBT_NUMBER(key, name, member, meaning)                                                                               \
+    NUMBER(key, NAMED(name), MEMBER(doubt, member), "", -1e12, 1e12, NO_RUN, NULL, meaning)
 
 static const struct field doubt_fields[] = {
-    TEXT("path", NAMED(N_("value")), AT(doubt, path), REQUIRED | NO_RUN,
+    TEXT("path", NAMED(N_("value")), MEMBER(doubt, path), REQUIRED | NO_RUN,
          N_("the value that is not known, as for --set; [*] stands for all items; slope.materials[NAME].KEY for a ground")),
-    ANY("lo", N_("lower end"), lo, N_("the least that it may be, in its unit; with hi")),
-    ANY("hi", N_("upper end"), hi, N_("the most that it may be; every value between is as likely")),
-    ANY("mean", N_("mean"), mean, N_("instead: the mean of a normal distribution; with sd")),
-    ANY("sd", N_("standard deviation"), sd, N_("its standard deviation; it is cut at three of them")),
-    OTHER(FIELD_WORDS, "one_of", NAMED(N_("one of")), LIST(doubt, one_of, one_of_count), NO_RUN, NULL,
-          N_("instead, for a word: those that it may be, each as likely"), NULL, NULL),
+    DOUBT_NUMBER("lo", N_("lower end"), lo, N_("the least that it may be, in its unit; with hi")),
+    DOUBT_NUMBER("hi", N_("upper end"), hi, N_("the most that it may be; every value between is as likely")),
+    DOUBT_NUMBER("mean", N_("mean"), mean, N_("instead: the mean of a normal distribution; with sd")),
+    DOUBT_NUMBER("sd", N_("standard deviation"), sd, N_("its standard deviation; it is cut at three of them")),
+    KIND_ROW(FIELD_WORDS, "one_of", NAMED(N_("one of")), LIST(doubt, one_of, one_of_count), NO_RUN, NULL,
+             N_("instead, for a word: those that it may be, each as likely"), NULL, NULL),
 };
 static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
 
 /* ---- stand ---- */
 
-/* Of shoots as of trees. */
+/* Rows for shoots and for trees. */
 #define STEM_ROWS(given)                                                                                                       \
-    NUMBER("per_ha", SHOWN(N_("per hectare"), N_("per ha"), 0, 50000), AT(ceduo_stems, per_ha), "1/ha", 0, 1e6, given, NULL,   \
-           N_("stems per horizontal hectare")),                                                                                \
-        NUMBER("dbh_m", CENTIMETRES(N_("diameter, cm"), N_("diam. cm"), 0.01, 2), AT(ceduo_stems, dbh), "m", 0, 10,            \
+    NUMBER("per_ha", SHOWN(N_("per hectare"), N_("per ha"), 0, 50000), MEMBER(ceduo_stems, per_ha), "1/ha", 0, 1e6, given,     \
+           NULL, N_("stems per horizontal hectare")),                                                                          \
+        NUMBER("dbh_m", CENTIMETRES(N_("diameter, cm"), N_("diam. cm"), 0.01, 2), MEMBER(ceduo_stems, dbh), "m", 0, 10,        \
                REQUIRED | ABOVE, NULL, N_("diameter at breast height")),                                                       \
-        NUM(FIELD_NUMBER, "dbh_cm", SHOWN(N_("diameter, cm"), N_("diam. cm"), 1, 200), AT(ceduo_stems, dbh), "cm", 0.01, 0,    \
-            1000, ABOVE, NULL, N_("the same in centimetres, instead of dbh_m")),                                               \
-        NUMBER("height_m", SHOWN(N_("height, m"), N_("height m"), 0.5, 50), AT(ceduo_stems, height), "m", 0, 150,              \
+        NUM(FIELD_NUMBER, "dbh_cm", SHOWN(N_("diameter, cm"), N_("diam. cm"), 1, 200), MEMBER(ceduo_stems, dbh), "cm", 0.01,   \
+            0, 1000, ABOVE, NULL, N_("the same in centimetres, instead of dbh_m")),                                            \
+        NUMBER("height_m", SHOWN(N_("height, m"), N_("height m"), 0.5, 50), MEMBER(ceduo_stems, height), "m", 0, 150,          \
                REQUIRED | ABOVE, NULL, N_("height")),                                                                          \
-        NUMBER("volume_m3", SHOWN(N_("volume, m3"), N_("vol. m3"), 0, 30), AT(ceduo_stems, volume), "m3", 0, 1000, ABOVE,      \
+        NUMBER("volume_m3", SHOWN(N_("volume, m3"), N_("vol. m3"), 0, 30), MEMBER(ceduo_stems, volume), "m3", 0, 1000, ABOVE,  \
                NULL, N_("volume of a stem; without it from species, dbh and height")),                                         \
-        NUMBER("dbh_sd_m", CENTIMETRES(N_("spread of the diameters, cm"), N_("sd cm"), 0, 0.5), AT(ceduo_stems, dbh_sd), "m",  \
-               0, 10, 0, "0", N_("standard deviation of the diameters")),                                                      \
-        NUM(FIELD_NUMBER, "dbh_sd_cm", SHOWN(N_("spread of the diameters, cm"), N_("sd cm"), 0, 50), AT(ceduo_stems, dbh_sd),  \
-            "cm", 0.01, 0, 1000, 0, "0", N_("the same in centimetres, instead of dbh_sd_m")),                                  \
-        NUMBER("age_y", SHOWN(N_("age, years"), N_("age y"), 0, 500), AT(ceduo_stems, age), "y", 0, 2000, YEARS, NULL,         \
+        NUMBER("dbh_sd_m", CENTIMETRES(N_("spread of the diameters, cm"), N_("sd cm"), 0, 0.5), MEMBER(ceduo_stems, dbh_sd),   \
+               "m", 0, 10, 0, "0", N_("standard deviation of the diameters")),                                                 \
+        NUM(FIELD_NUMBER, "dbh_sd_cm", SHOWN(N_("spread of the diameters, cm"), N_("sd cm"), 0, 50),                           \
+            MEMBER(ceduo_stems, dbh_sd), "cm", 0.01, 0, 1000, 0, "0", N_("the same in centimetres, instead of dbh_sd_m")),     \
+        NUMBER("age_y", SHOWN(N_("age, years"), N_("age y"), 0, 500), MEMBER(ceduo_stems, age), "y", 0, 2000, YEARS, NULL,     \
                N_("age"))
 
 static const struct field stems_fields[] = {
-    NUMBER("per_stool", SHOWN(N_("shoots per stool"), N_("a stool"), 0.1, 15), AT(ceduo_stems, per_stool), "", 0, 10000,
+    NUMBER("per_stool", SHOWN(N_("shoots per stool"), N_("a stool"), 0.1, 15), MEMBER(ceduo_stems, per_stool), "", 0, 10000,
            ABOVE | FIELD_ONE_OF, NULL, N_("shoots on each stool, instead of per_ha: with more stools there are more shoots")),
     STEM_ROWS(FIELD_ONE_OF),
 };
 static const struct object stems_object = OBJECT(ceduo_stems, stems_fields, NULL);
 
 static const struct field groups_fields[] = {
-    NUM(FIELD_COUNT, "stems", SHOWN(N_("trees in a group"), N_("in group"), 1, 30), AT(ceduo_stems, group), "", 1, 1, 200, 0,
-        "1", N_("trees that stand together in a group; 1: each by itself")),
-    NUMBER("radius_m", SHOWN(N_("radius of a group, m"), N_("radius m"), 0.5, 30), AT(ceduo_stems, group_radius), "m", 0, 100,
-           0, NULL, N_("radius of the disc in which the trees of a group stand at random")),
+    NUM(FIELD_COUNT, "stems", SHOWN(N_("trees in a group"), N_("in group"), 1, 30), MEMBER(ceduo_stems, group), "", 1, 1, 200,
+        0, "1", N_("trees that stand together in a group; 1: each by itself")),
+    NUMBER("radius_m", SHOWN(N_("radius of a group, m"), N_("radius m"), 0.5, 30), MEMBER(ceduo_stems, group_radius), "m", 0,
+           100, 0, NULL, N_("radius of the disc in which the trees of a group stand at random")),
 };
 static const struct object groups_object = OBJECT(ceduo_stems, groups_fields, NULL);
 
 static const struct field trees_fields[] = {
     STEM_ROWS(REQUIRED),
-    GROUP("groups", N_("groups"), SAME, 0, &groups_object),
+    GROUP("groups", N_("groups"), EMBEDDED, 0, &groups_object),
 };
 static const struct object trees_object = OBJECT(ceduo_stems, trees_fields, NULL);
 
 static const struct field stumps_fields[] = {
-    NUMBER("per_ha", USUAL(N_("stumps per ha"), 0, 10000), AT(ceduo_stumps, per_ha), "1/ha", 0, 1e6, ZERO, NULL,
+    NUMBER("per_ha", USUAL(N_("stumps per ha"), 0, 10000), MEMBER(ceduo_stumps, per_ha), "1/ha", 0, 1e6, ZERO, NULL,
            N_("stumps per horizontal hectare")),
-    NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2), AT(ceduo_stumps, diameter), "m", 0, 10, ABOVE, NULL,
-           N_("diameter of a stump")),
-    NUMBER("height_m", USUAL(N_("height, m"), 0.02, 2), AT(ceduo_stumps, height), "m", 0, 20, ABOVE, NULL,
+    NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2), MEMBER(ceduo_stumps, diameter), "m", 0, 10, ABOVE,
+           NULL, N_("diameter of a stump")),
+    NUMBER("height_m", USUAL(N_("height, m"), 0.02, 2), MEMBER(ceduo_stumps, height), "m", 0, 20, ABOVE, NULL,
            N_("height of a stump: a rock higher above the ground flies over")),
-    NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), 0, 500), AT(ceduo_stumps, energy), "kJ", 1000, 0, 1e6, 0, NULL,
+    NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), 0, 500), MEMBER(ceduo_stumps, energy), "kJ", 1000, 0, 1e6, 0, NULL,
         N_("energy that a hit takes from the rock")),
 };
 static const struct object stumps_object = OBJECT(ceduo_stumps, stumps_fields, NULL);
 
 static const struct field logs_fields[] = {
-    NUMBER("per_ha", USUAL(N_("logs per ha"), 0, 2000), AT(ceduo_logs, per_ha), "1/ha", 0, 1e6, ZERO, NULL,
+    NUMBER("per_ha", USUAL(N_("logs per ha"), 0, 2000), MEMBER(ceduo_logs, per_ha), "1/ha", 0, 1e6, ZERO, NULL,
            N_("lying logs per horizontal hectare")),
-    NUMBER("length_m", USUAL(N_("length, m"), 0.5, 40), AT(ceduo_logs, length), "m", 0, 150, ABOVE, NULL,
+    NUMBER("length_m", USUAL(N_("length, m"), 0.5, 40), MEMBER(ceduo_logs, length), "m", 0, 150, ABOVE, NULL,
            N_("length of a log, which lies at a random angle")),
-    NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2), AT(ceduo_logs, diameter), "m", 0, 10, ABOVE, NULL,
+    NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2), MEMBER(ceduo_logs, diameter), "m", 0, 10, ABOVE, NULL,
            N_("diameter of a log: a rock higher above the ground flies over")),
-    NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), 0, 500), AT(ceduo_logs, energy), "kJ", 1000, 0, 1e6, 0, NULL,
+    NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), 0, 500), MEMBER(ceduo_logs, energy), "kJ", 1000, 0, 1e6, 0, NULL,
         N_("energy that a hit takes from the rock")),
 };
 static const struct object logs_object = OBJECT(ceduo_logs, logs_fields, NULL);
 
 static const struct field stools_fields[] = {
-    NUMBER("per_ha", USUAL(N_("stools per ha"), 0, 10000), AT(ceduo_stand, stools_per_ha), "1/ha", 0, 1e6, REQUIRED | ZERO,
+    NUMBER("per_ha", USUAL(N_("stools per ha"), 0, 10000), MEMBER(ceduo_stand, stools_per_ha), "1/ha", 0, 1e6, REQUIRED | ZERO,
            NULL, N_("stools per horizontal hectare")),
-    NUMBER("spacing_m", USUAL(N_("spacing, m"), 0.02, 3), AT(ceduo_stand, spacing), "m", 0, 20, REQUIRED | ZERO, NULL,
+    NUMBER("spacing_m", USUAL(N_("spacing, m"), 0.02, 3), MEMBER(ceduo_stand, spacing), "m", 0, 20, REQUIRED | ZERO, NULL,
            N_("distance between neighbouring shoots of a stool (dbh_int of the paper)")),
 };
 static const struct object stools_object = OBJECT(ceduo_stand, stools_fields, NULL);
 
 static const struct field energy_fields[] = {
-    WORD("model", NAMED(N_("energy law")), AT(ceduo_stand, energy), 0, "brauner",
+    WORD("model", NAMED(N_("energy law")), MEMBER(ceduo_stand, energy), 0, "brauner",
          N_("energy law: what a contact with a stem takes from the rock"), &ceduo_energy_words),
-    NUMBER("u_J_m3", SHOWN(N_("stem strength U, J/m3"), N_("U, J/m3"), 20000, 500000), AT(ceduo_stand, u), "J/m3", 0, 1e7,
+    NUMBER("u_J_m3", SHOWN(N_("stem strength U, J/m3"), N_("U, J/m3"), 20000, 500000), MEMBER(ceduo_stand, u), "J/m3", 0, 1e7,
            ABOVE, NULL, N_("brauner: work of breaking; without it that of the species, or of beech if unknown")),
-    NUMBER("fracture_ratio", NAMED(N_("fracture ratio")), AT(ceduo_stand, fracture_ratio), "", 0, 10, ABOVE, NULL,
+    NUMBER("fracture_ratio", NAMED(N_("fracture ratio")), MEMBER(ceduo_stand, fracture_ratio), "", 0, 10, ABOVE, NULL,
            N_("dorren: energy of this species over that of silver fir; without it that of the species, or 1 if unknown")),
-    WORD("offset", NAMED(N_("hit off centre")), AT(ceduo_stand, offset), 0, "dorren",
+    WORD("offset", NAMED(N_("hit off centre")), MEMBER(ceduo_stand, offset), 0, "dorren",
          N_("brauner, a stem hit beside its middle: the whole energy, or the share of Dorren et al. 2006"),
          &ceduo_offset_words),
-    NUMBER("hit_below_m", USUAL(N_("hits below, m"), 0.5, 10), AT(ceduo_stand, hit_below), "m", 0, 150, ABOVE | ZERO, NULL,
+    NUMBER("hit_below_m", USUAL(N_("hits below, m"), 0.5, 10), MEMBER(ceduo_stand, hit_below), "m", 0, 150, ABOVE | ZERO, NULL,
            N_("a hit takes nothing where the centre of the rock is higher, as a thin stem bends away; without it every hit "
               "takes")),
 };
@@ -285,39 +290,39 @@ bool ceduo_schema_same(const char *a, const char *b)
 }
 
 static const struct field curve_fields[] = {
-    NUMBER("dbh_most_m", CENTIMETRES(N_("largest diam., cm"), NULL, 0.02, 3), AT(ceduo_curve, dbh_most), "m", 0, 10,
+    NUMBER("dbh_most_m", CENTIMETRES(N_("largest diam., cm"), NULL, 0.02, 3), MEMBER(ceduo_curve, dbh_most), "m", 0, 10,
            REQUIRED | ABOVE | ZERO | YEARS, NULL, N_("diameter that old stems approach: d(t) = D(1 - exp(-kt))")),
-    NUMBER("dbh_rate_1_y", NAMED(N_("its rate, 1/year")), AT(ceduo_curve, dbh_rate), "1/y", 0, 10,
+    NUMBER("dbh_rate_1_y", NAMED(N_("its rate, 1/year")), MEMBER(ceduo_curve, dbh_rate), "1/y", 0, 10,
            REQUIRED | ABOVE | ZERO | YEARS, NULL, N_("k of the diameter")),
-    NUMBER("height_most_m", USUAL(N_("largest height, m"), 1, 60), AT(ceduo_curve, height_most), "m", 0, 150,
+    NUMBER("height_most_m", USUAL(N_("largest height, m"), 1, 60), MEMBER(ceduo_curve, height_most), "m", 0, 150,
            REQUIRED | ABOVE | ZERO | YEARS, NULL, N_("height that old stems approach: h(t) = H(1 - exp(-mt))")),
-    NUMBER("height_rate_1_y", NAMED(N_("its rate, 1/year")), AT(ceduo_curve, height_rate), "1/y", 0, 10,
+    NUMBER("height_rate_1_y", NAMED(N_("its rate, 1/year")), MEMBER(ceduo_curve, height_rate), "1/y", 0, 10,
            REQUIRED | ABOVE | ZERO | YEARS, NULL, N_("m of the height")),
 };
 static const struct object curve_object = OBJECT(ceduo_curve, curve_fields, NULL);
 
 static const struct field growth_fields[] = {
-    GROUP("shoots", N_("shoots"), AT(ceduo_growth, shoots), 0, &curve_object),
-    GROUP("trees", N_("trees"), AT(ceduo_growth, trees), 0, &curve_object),
-    NUMBER("shoots_young", NAMED(N_("shoots when young")), AT(ceduo_growth, shoots_young), "", 1, 1000, ZERO | YEARS, NULL,
+    GROUP("shoots", N_("shoots"), MEMBER(ceduo_growth, shoots), 0, &curve_object),
+    GROUP("trees", N_("trees"), MEMBER(ceduo_growth, trees), 0, &curve_object),
+    NUMBER("shoots_young", NAMED(N_("shoots when young")), MEMBER(ceduo_growth, shoots_young), "", 1, 1000, ZERO | YEARS, NULL,
            N_("shoots that come up on a stool after a cut")),
-    NUMBER("shoots_old", NAMED(N_("shoots when old")), AT(ceduo_growth, shoots_old), "", 1, 1000, ZERO | YEARS, NULL,
+    NUMBER("shoots_old", NAMED(N_("shoots when old")), MEMBER(ceduo_growth, shoots_old), "", 1, 1000, ZERO | YEARS, NULL,
            N_("shoots of an old stool: n(t) = old + (young - old)exp(-t/5)")),
-    NUMBER("trees_sdi_most", NAMED(N_("density of trees alone")), AT(ceduo_growth, trees_sdi_most), "", 0, 1e5, ZERO | YEARS,
-           NULL,
+    NUMBER("trees_sdi_most", NAMED(N_("density of trees alone")), MEMBER(ceduo_growth, trees_sdi_most), "", 0, 1e5,
+           ZERO | YEARS, NULL,
            N_("density index of the trees at which they take all growing space; without it 35 % of sdi_most, an "
               "assumption")),
-    NUMBER("sdi_most", NAMED(N_("greatest density")), AT(ceduo_growth, sdi_most), "", 0, 1e5, ZERO | YEARS, NULL,
+    NUMBER("sdi_most", NAMED(N_("greatest density")), MEMBER(ceduo_growth, sdi_most), "", 0, 1e5, ZERO | YEARS, NULL,
            N_("stand density index to which shoots thin themselves; 0 or absent: they do not")),
-    NUM(FIELD_COUNT, "stump_years", USUAL(N_("stumps stay, years"), 0, 100), AT(ceduo_growth, stump_years), "y", 1, 0, 500,
+    NUM(FIELD_COUNT, "stump_years", USUAL(N_("stumps stay, years"), 0, 100), MEMBER(ceduo_growth, stump_years), "y", 1, 0, 500,
         YEARS, "0", N_("years for which the stumps of a cut stay")),
 };
 static const struct object growth_object = OBJECT(ceduo_growth, growth_fields, NULL);
 
 static const struct field cutting_fields[] = {
-    NUM(FIELD_COUNT, "rotation_years", USUAL(N_("rotation, years"), 2, 300), AT(ceduo_stand, cutting.rotation), "y", 1, 1, 500,
-        REQUIRED | YEARS, NULL, N_("years between two cuts")),
-    NUM(FIELD_COUNT, "cohorts", NAMED(N_("ages on a stool")), AT(ceduo_stand, cutting.cohorts), "", 1, 1, 20, YEARS, "1",
+    NUM(FIELD_COUNT, "rotation_years", USUAL(N_("rotation, years"), 2, 300), MEMBER(ceduo_stand, cutting.rotation), "y", 1, 1,
+        500, REQUIRED | YEARS, NULL, N_("years between two cuts")),
+    NUM(FIELD_COUNT, "cohorts", NAMED(N_("ages on a stool")), MEMBER(ceduo_stand, cutting.cohorts), "", 1, 1, 20, YEARS, "1",
         N_("cohorts of shoots on a stool; each cut takes the oldest; 1: all shoots are cut")),
     NUM(FIELD_NUMBERS, "stay_per_ha", NAMED(N_("trees kept per ha")),
         LIST(ceduo_stand, cutting.stay_per_ha, cutting.stay_count), "1/ha", 1, 0, 1e5, YEARS, NULL,
@@ -327,102 +332,102 @@ static const struct object cutting_object = OBJECT(ceduo_stand, cutting_fields, 
 
 static const struct field stand_fields[] = {
     TAG("stand/1"),
-    TEXT("name", NAMED(N_("name")), NOWHERE, FIELD_NOWHERE | NO_RUN, N_("name of the stand")),
-    NAME_IT(NOWHERE, FIELD_NOWHERE),
-    OTHER(FIELD_FILE, "base", NAMED(N_("made from")), NOWHERE, FIELD_NOWHERE, NULL,
-          N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL, NULL),
-    WORD("system", NAMED(N_("system")), AT(ceduo_stand, system), NO_RUN, NULL,
+    TEXT("name", NAMED(N_("name")), NO_MEMBER, FIELD_NOWHERE | NO_RUN, N_("name of the stand")),
+    NAME_IT(NO_MEMBER, FIELD_NOWHERE),
+    KIND_ROW(FIELD_FILE, "base", NAMED(N_("made from")), NO_MEMBER, FIELD_NOWHERE, NULL,
+             N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL, NULL),
+    WORD("system", NAMED(N_("system")), MEMBER(ceduo_stand, system), NO_RUN, NULL,
          N_("silvicultural system; without it derived from the stems"), &ceduo_system_words),
-    WORD("species", NAMED(N_("species")), AT(ceduo_stand, species), YEARS, NULL,
+    WORD("species", NAMED(N_("species")), MEMBER(ceduo_stand, species), YEARS, NULL,
          N_("main species: volume of its stems and work of breaking"), &ceduo_species_words),
-    GROUP("stools", N_("stools"), SAME, 0, &stools_object),
+    GROUP("stools", N_("stools"), EMBEDDED, 0, &stools_object),
     ITEMS("shoots", N_("shoots"), LIST(ceduo_stand, shoots, shoots_count), 0, &stems_object),
     ITEMS("trees", N_("trees"), LIST(ceduo_stand, trees, trees_count), 0, &trees_object),
-    GROUP("stumps", N_("stumps"), AT(ceduo_stand, stumps), 0, &stumps_object),
-    GROUP("logs", N_("logs"), AT(ceduo_stand, logs), 0, &logs_object),
-    GROUP("energy", N_("energy"), SAME, 0, &energy_object),
-    GROUP("growth", N_("growth"), AT(ceduo_stand, growth), 0, &growth_object),
-    GROUP("cutting", N_("cutting"), SAME, 0, &cutting_object),
-    ITEMS("doubt", N_("doubt"), NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED, &doubt_object),
+    GROUP("stumps", N_("stumps"), MEMBER(ceduo_stand, stumps), 0, &stumps_object),
+    GROUP("logs", N_("logs"), MEMBER(ceduo_stand, logs), 0, &logs_object),
+    GROUP("energy", N_("energy"), EMBEDDED, 0, &energy_object),
+    GROUP("growth", N_("growth"), MEMBER(ceduo_stand, growth), 0, &growth_object),
+    GROUP("cutting", N_("cutting"), EMBEDDED, 0, &cutting_object),
+    ITEMS("doubt", N_("doubt"), NO_MEMBER, FIELD_NOWHERE | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED, &doubt_object),
 };
 static const struct object stand_object = OBJECT(ceduo_stand, stand_fields, "stands");
 
 /* ---- scene ---- */
 
 static const struct field belt_fields[] = {
-    NUMBER("from_m", BRIEF(N_("from, m"), N_("from m")), PLACE(ceduo_belt, from_given, from), "m", -FAR, FAR,
-           REQUIRED | FIELD_PLACE, NULL, N_("where the belt begins; in the slope's coordinates")),
-    NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), PLACE(ceduo_belt, to_given, to), "m", -FAR, FAR, REQUIRED | FIELD_PLACE,
-           NULL, N_("where the belt ends")),
-    NUMBER("cut_year", BRIEF(N_("cut in year"), N_("cut year")), AT(ceduo_belt, cut_year), "y", -1000, 1000, YEARS, NULL,
+    NUMBER("from_m", BRIEF(N_("from, m"), N_("from m")), PLACE(ceduo_belt, from_given, from), "m", -COORDINATE_MAX,
+           COORDINATE_MAX, REQUIRED | FIELD_PLACE, NULL, N_("where the belt begins; in the slope's coordinates")),
+    NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), PLACE(ceduo_belt, to_given, to), "m", -COORDINATE_MAX, COORDINATE_MAX,
+           REQUIRED | FIELD_PLACE, NULL, N_("where the belt ends")),
+    NUMBER("cut_year", BRIEF(N_("cut in year"), N_("cut year")), MEMBER(ceduo_belt, cut_year), "y", -1000, 1000, YEARS, NULL,
            N_("a year in which it is cut, counted from the stand as filed; without it as soon as it is old enough")),
-    GROUP_SAID("stand", BRIEF(N_("stand"), NP_("head", "stand")), AT(ceduo_belt, stand), REQUIRED | FIELD_FOLLOWS,
-               N_("a file, or what such a file holds"), &stand_object),
+    GROUP_LABELLED("stand", BRIEF(N_("stand"), NP_("head", "stand")), MEMBER(ceduo_belt, stand), REQUIRED | FIELD_FOLLOWS,
+                   N_("a file, or what such a file holds"), &stand_object),
 };
 static const struct object belt_object = OBJECT(ceduo_belt, belt_fields, NULL);
 
 static const struct field option_fields[] = {
-    TEXT("name", NAMED(N_("name")), AT(ceduo_option, name_given), REQUIRED | NO_RUN, N_("name of the option")),
-    NAME_IT(AT(ceduo_option, name), 0),
+    TEXT("name", NAMED(N_("name")), MEMBER(ceduo_option, name_given), REQUIRED | NO_RUN, N_("name of the option")),
+    NAME_IT(MEMBER(ceduo_option, name), 0),
     ITEMS("forest", N_("belt"), LIST(ceduo_option, belts, belts_count), 0, &belt_object),
 };
 static const struct object option_object = OBJECT(ceduo_option, option_fields, NULL);
 
 static const struct field control_fields[] = {
-    NUMBER("x_m", BRIEF(N_("counted at, m"), N_("at m")), PLACE(ceduo_control, x_given, x), "m", -FAR, FAR,
-           REQUIRED | FIELD_PLACE, NULL, N_("where passing rocks are counted")),
-    TEXT("name", NAMED(N_("name")), AT(ceduo_control, name_given), NO_RUN, N_("what stands there")),
-    NAME_IT(AT(ceduo_control, name), 0),
-    NUM(FIELD_NUMBER, "accepted_kJ", SHOWN(N_("withstands, kJ"), N_("withst. kJ"), 0, 20000), AT(ceduo_control, accepted), "kJ",
-        1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
+    NUMBER("x_m", BRIEF(N_("counted at, m"), N_("at m")), PLACE(ceduo_control, x_given, x), "m", -COORDINATE_MAX,
+           COORDINATE_MAX, REQUIRED | FIELD_PLACE, NULL, N_("where passing rocks are counted")),
+    TEXT("name", NAMED(N_("name")), MEMBER(ceduo_control, name_given), NO_RUN, N_("what stands there")),
+    NAME_IT(MEMBER(ceduo_control, name), 0),
+    NUM(FIELD_NUMBER, "accepted_kJ", SHOWN(N_("withstands, kJ"), N_("withst. kJ"), 0, 20000), MEMBER(ceduo_control, accepted),
+        "kJ", 1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
     NUMBER(
-        "accepted_return_y", SHOWN(N_("accepted return, years"), N_("return y"), 1, 10000), AT(ceduo_control, accepted_return),
-        "y", 0, 1e6, ABOVE | NO_RUN | FIELD_SETTLED, NULL,
+        "accepted_return_y", SHOWN(N_("accepted return, years"), N_("return y"), 1, 10000),
+        MEMBER(ceduo_control, accepted_return), "y", 0, 1e6, ABOVE | NO_RUN | FIELD_SETTLED, NULL,
         N_("with blocks: years from one rock with more than accepted_kJ to the next that are accepted there; without it 100, "
            "an assumption")),
-    NUMBER("measured_speed_m_s", SHOWN(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80), AT(ceduo_control, measured_speed),
+    NUMBER("measured_speed_m_s", SHOWN(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80), MEMBER(ceduo_control, measured_speed),
            "m/s", 0, 1000, NO_RUN, NULL, N_("speed of a real rock seen there, for comparison")),
 };
 static const struct object control_object = OBJECT(ceduo_control, control_fields, NULL);
 
 static const struct field simulation_fields[] = {
-    WORD("law", NAMED(N_("law of impact")), AT(ceduo_simulation, law), 0, "crsp", N_("law of impact"), &ceduo_law_words),
-    NUM(FIELD_COUNT, "rocks", NAMED(N_("rocks (batch)")), AT(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MOST,
+    WORD("law", NAMED(N_("law of impact")), MEMBER(ceduo_simulation, law), 0, "crsp", N_("law of impact"), &ceduo_law_words),
+    NUM(FIELD_COUNT, "rocks", NAMED(N_("rocks (batch)")), MEMBER(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MOST,
         NO_RUN | FIELD_SETTLED, "1000", N_("rocks simulated")),
-    NUM(FIELD_COUNT, "seed", NAMED(N_("seed")), AT(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, FIELD_SETTLED, "1",
-        N_("seed of the random numbers, 0 to 2^53")),
-    WORD("contact_model", NAMED(N_("rocks among stems")), AT(ceduo_simulation, contact_model), FIELD_WOOD, "stems",
+    NUM(FIELD_COUNT, "seed", NAMED(N_("seed")), MEMBER(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, FIELD_SETTLED,
+        "1", N_("seed of the random numbers, 0 to 2^53")),
+    WORD("contact_model", NAMED(N_("rocks among stems")), MEMBER(ceduo_simulation, contact_model), FIELD_WOOD, "stems",
          N_("how rocks meet stems: stem by stem, or not at all (index)"), &ceduo_contact_model_words),
-    WORD("rule", NAMED(N_("form of the ADC")), AT(ceduo_simulation, rule), NO_RUN, "auto",
+    WORD("rule", NAMED(N_("form of the ADC")), MEMBER(ceduo_simulation, rule), NO_RUN, "auto",
          N_("form of the ADC; auto is the paper's rule"), &ceduo_rule_words),
-    NUMBER("threshold_m", NAMED(N_("threshold, m")), AT(ceduo_simulation, threshold), "m", 0, 1e6, ABOVE | NO_RUN,
+    NUMBER("threshold_m", NAMED(N_("threshold, m")), MEMBER(ceduo_simulation, threshold), "m", 0, 1e6, ABOVE | NO_RUN,
            STRING(CEDUO_THRESHOLD_M), N_("ADC below which a stand protects: distance to full speed (Bozzolo 1987)")),
     NUMBER(
-        "contact_dbh_m", CENTIMETRES(N_("stems count from, cm"), NULL, 0, 0.5), AT(ceduo_simulation, contact_dbh), "m", 0, 10,
-        NO_RUN, "0.03",
+        "contact_dbh_m", CENTIMETRES(N_("stems count from, cm"), NULL, 0, 0.5), MEMBER(ceduo_simulation, contact_dbh), "m", 0,
+        10, NO_RUN, "0.03",
         N_("diameter from which on stems count for ADC, free run and index; the default, at which coppice is callipered, is an "
            "assumption; 0: every stem")),
-    NUMBER("gravity_m_s2", USUAL(N_("gravity, m/s2"), 9.7, 9.9), AT(ceduo_simulation, gravity), "m/s2", 0, 1000, ABOVE,
+    NUMBER("gravity_m_s2", USUAL(N_("gravity, m/s2"), 9.7, 9.9), MEMBER(ceduo_simulation, gravity), "m/s2", 0, 1000, ABOVE,
            STRING(CEDUO_GRAVITY), N_("acceleration of gravity")),
-    OTHER(FIELD_FLAG, "scale_rn", NAMED(N_("Rn by speed")), AT(ceduo_simulation, scale_rn), 0, "false",
-          N_("lumped: Rn falls with the speed of the impact, as in CRSP"), NULL, NULL),
-    OTHER(FIELD_FLAG, "friction_bound", NAMED(N_("friction bound")), AT(ceduo_simulation, friction_bound), 0, "true",
-          N_("limit the tangential loss of an impact to friction times its normal impulse, and let rolling rocks "
-             "lose to friction alone; false: the published laws"),
-          NULL, NULL),
+    KIND_ROW(FIELD_FLAG, "scale_rn", NAMED(N_("Rn by speed")), MEMBER(ceduo_simulation, scale_rn), 0, "false",
+             N_("lumped: Rn falls with the speed of the impact, as in CRSP"), NULL, NULL),
+    KIND_ROW(FIELD_FLAG, "friction_bound", NAMED(N_("friction bound")), MEMBER(ceduo_simulation, friction_bound), 0, "true",
+             N_("limit the tangential loss of an impact to friction times its normal impulse, and let rolling rocks "
+                "lose to friction alone; false: the published laws"),
+             NULL, NULL),
 };
 static const struct object simulation_object = OBJECT(ceduo_simulation, simulation_fields, NULL);
 
 static const struct field design_fields[] = {
-    WORD("survey", NAMED(N_("survey of the ground")), AT(ceduo_design_values, survey), REQUIRED | NO_RUN, NULL,
+    WORD("survey", NAMED(N_("survey of the ground")), MEMBER(ceduo_design_values, survey), REQUIRED | NO_RUN, NULL,
          N_("how good this survey is"), &ceduo_quality_words),
-    WORD("blocks", NAMED(N_("survey of the blocks")), AT(ceduo_design_values, blocks), REQUIRED | NO_RUN, NULL,
+    WORD("blocks", NAMED(N_("survey of the blocks")), MEMBER(ceduo_design_values, blocks), REQUIRED | NO_RUN, NULL,
          N_("how good this survey is"), &ceduo_quality_words),
 };
 static const struct object design_object = OBJECT(ceduo_design_values, design_fields, NULL);
 
 static const struct field minimum_fields[] = {
-    NUMBER("reserves_per_ha", NAMED(N_("reserves per ha")), AT(scene_draft, scene.reserves_minimum), "1/ha", 0, 1e5,
+    NUMBER("reserves_per_ha", NAMED(N_("reserves per ha")), MEMBER(scene_draft, scene.reserves_minimum), "1/ha", 0, 1e5,
            REQUIRED | NO_RUN, NULL,
            N_("single trees that must be kept by law or by wish of the owner; a forest with fewer is reported")),
 };
@@ -430,7 +435,7 @@ static const struct object minimum_object = OBJECT(scene_draft, minimum_fields, 
 
 /* ---- the head of a report ---- */
 
-#define HEAD(key, label, meaning) TEXT(#key, NAMED(label), AT(ceduo_report_head, key), NO_RUN, meaning)
+#define HEAD(key, label, meaning) TEXT(#key, NAMED(label), MEMBER(ceduo_report_head, key), NO_RUN, meaning)
 
 static const struct field page_fields[] = {
     HEAD(place, N_("place"), N_("where the slope is, such as the municipality")),
@@ -446,42 +451,43 @@ ASKED_AT_ONCE(page_fields);
 /* ---- years ---- */
 
 static const struct field window_fields[] = {
-    NUMBER("first", NAMED(N_("first year shown")), AT(scene_draft, scene.year_first), "y", 0, 100000, NO_RUN, NULL,
+    NUMBER("first", NAMED(N_("first year shown")), MEMBER(scene_draft, scene.year_first), "y", 0, 100000, NO_RUN, NULL,
            N_("first year to look at; 0 is the stand as filed")),
-    NUMBER("last", NAMED(N_("last year shown")), AT(scene_draft, scene.year_last), "y", 0, 100000, NO_RUN, NULL,
+    NUMBER("last", NAMED(N_("last year shown")), MEMBER(scene_draft, scene.year_last), "y", 0, 100000, NO_RUN, NULL,
            N_("last year to look at")),
 };
 static const struct object window_object = OBJECT(scene_draft, window_fields, NULL);
 
 static const struct field scene_fields[] = {
     TAG("scene/1"),
-    TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), NO_RUN, N_("title of the scene")),
-    TEXT("title_it", NAMED(N_("in Italian")), AT(scene_draft, scene.title_it), NO_RUN,
+    TEXT("title", NAMED(N_("title")), MEMBER(scene_draft, scene.title), NO_RUN, N_("title of the scene")),
+    TEXT("title_it", NAMED(N_("in Italian")), MEMBER(scene_draft, scene.title_it), NO_RUN,
          N_("the same in Italian pages, screens and lists; without it in English")),
-    GROUP("page", N_("head of the report"), AT(scene_draft, scene.page), NO_RUN, &page_object),
-    GROUP_SAID("rock", NAMED(N_("rock")), AT(scene_draft, scene.rock), REQUIRED, N_("rock"), &ceduo_rock_object),
-    ITEMS_SAID("blocks", NAMED(N_("blocks that come down")), LIST(scene_draft, scene.blocks, scene.blocks_count), FIELD_OR_ONE,
-               N_("sizes of the blocks that come down and how many a year; of one class, a mapping instead of the list"),
-               &block_object),
-    GROUP("release", N_("release"), AT(scene_draft, scene.release), 0, &ceduo_release_object),
-    GROUP_SAID("slope", NAMED(N_("slope")), AT(scene_draft, scene.slope), REQUIRED | FIELD_FOLLOWS,
-               N_("a file, or what such a file holds"), &slope_object),
+    GROUP("page", N_("head of the report"), MEMBER(scene_draft, scene.page), NO_RUN, &page_object),
+    GROUP_LABELLED("rock", NAMED(N_("rock")), MEMBER(scene_draft, scene.rock), REQUIRED, N_("rock"), &ceduo_rock_object),
+    ITEMS_LABELLED("blocks", NAMED(N_("blocks that come down")), LIST(scene_draft, scene.blocks, scene.blocks_count),
+                   FIELD_OR_ONE,
+                   N_("sizes of the blocks that come down and how many a year; of one class, a mapping instead of the list"),
+                   &block_object),
+    GROUP("release", N_("release"), MEMBER(scene_draft, scene.release), 0, &ceduo_release_object),
+    GROUP_LABELLED("slope", NAMED(N_("slope")), MEMBER(scene_draft, scene.slope), REQUIRED | FIELD_FOLLOWS,
+                   N_("a file, or what such a file holds"), &slope_object),
     ITEMS("controls", N_("control"), LIST(scene_draft, scene.controls, scene.controls_count), 0, &control_object),
-    NUM(FIELD_NUMBERS, "controls_m", NAMED(N_("counted at, m")), LIST(scene_draft, controls_m, controls_m_count), "m", 1, -FAR,
-        FAR, FIELD_DRAFT, NULL, N_("the same by their x alone")),
+    NUM(FIELD_NUMBERS, "controls_m", NAMED(N_("counted at, m")), LIST(scene_draft, controls_m, controls_m_count), "m", 1,
+        -COORDINATE_MAX, COORDINATE_MAX, FIELD_DRAFT, NULL, N_("the same by their x alone")),
     ITEMS("forest", N_("belt"), LIST(scene_draft, belts, belts_count), FIELD_DRAFT | FIELD_WOOD, &belt_object),
     ITEMS("options", N_("option"), LIST(scene_draft, scene.options, scene.options_count), FIELD_WOOD, &option_object),
-    GROUP("simulation", N_("simulation"), AT(scene_draft, scene.simulation), 0, &simulation_object),
-    NUMBER("rocks_per_year", NAMED(N_("rocks per year")), AT(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, NO_RUN, NULL,
-           N_("rocks that come down in a year, to print how many to expect")),
+    GROUP("simulation", N_("simulation"), MEMBER(scene_draft, scene.simulation), 0, &simulation_object),
+    NUMBER("rocks_per_year", NAMED(N_("rocks per year")), MEMBER(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, NO_RUN,
+           NULL, N_("rocks that come down in a year, to print how many to expect")),
     ITEMS("doubt", N_("doubt"), LIST(scene_draft, doubts, doubts_count), FIELD_DRAFT | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED,
           &doubt_object),
     ITEMS("observed", N_("seen"), LIST(scene_draft, observed, observed_count), FIELD_DRAFT | NO_RUN | FIELD_SETTLED,
           &ceduo_observed_object),
-    GROUP("design", N_("design values"), AT(scene_draft, scene.design), 0, &design_object),
-    GROUP("minimum", N_("minimum"), SAME, 0, &minimum_object),
-    GROUP("rules", N_("rules"), AT(scene_draft, scene.rules), FIELD_FOLLOWS | NO_RUN, &rules_object),
-    GROUP("years", N_("years"), SAME, FIELD_SETTLED, &window_object),
+    GROUP("design", N_("design values"), MEMBER(scene_draft, scene.design), 0, &design_object),
+    GROUP("minimum", N_("minimum"), EMBEDDED, 0, &minimum_object),
+    GROUP("rules", N_("rules"), MEMBER(scene_draft, scene.rules), FIELD_FOLLOWS | NO_RUN, &rules_object),
+    GROUP("years", N_("years"), EMBEDDED, FIELD_SETTLED, &window_object),
 };
 static const struct object scene_object = OBJECT(scene_draft, scene_fields, "scenes");
 

@@ -2,29 +2,29 @@
 #ifndef CEDUO_FIELDS_H
 #define CEDUO_FIELDS_H
 
-/* How rows of the table of keys are written. */
+/* Macros for rows of the table of keys. */
 #include <math.h>
 
 #include "base/language.h"
 #include "schema.h"
 
-#define FAR 1e9 /* m: survey coordinates and more */
+#define COORDINATE_MAX 1e9 /* m: beyond any survey coordinate */
 
-/* The member of a value, alone or with the member that belongs to it. */
-#define AT(type, member)             offsetof(struct type, member), sizeof((struct type *)0)->member, 0
-#define PAIR(type, member, other)    offsetof(struct type, member), sizeof((struct type *)0)->member, offsetof(struct type, other)
+/* The member that holds a value, alone or with its associated member. */
+#define MEMBER(type, member)         offsetof(struct type, member), sizeof((struct type *)0)->member, 0
+#define PAIR(type, a, b)             offsetof(struct type, a), sizeof((struct type *)0)->a, offsetof(struct type, b)
 #define LIST(type, items, count)     PAIR(type, items, count)
 #define PLACE(type, given, relative) PAIR(type, given, relative)
 #define POINTS(type, x, count)       offsetof(struct type, x), 2 * sizeof((struct type *)0)->x, offsetof(struct type, count)
-#define SAME                         0, 0, 0 /* a group whose members are of the structure around it */
-#define NOWHERE                      0, 0, 0
-/* Members of the draft for keys of the slope. */
-#define IN_SLOPE(member)       (offsetof(struct scene_draft, member) - offsetof(struct scene_draft, scene.slope))
-#define OF_SLOPE(items, count) IN_SLOPE(items), sizeof((struct scene_draft *)0)->items, IN_SLOPE(count)
+#define EMBEDDED                     0, 0, 0 /* a group whose members belong to the enclosing structure */
+#define NO_MEMBER                    0, 0, 0
+/* Members of the draft, as offsets from the slope. */
+#define SLOPE_OFFSET(member)     (offsetof(struct scene_draft, member) - offsetof(struct scene_draft, scene.slope))
+#define SLOPE_LIST(items, count) SLOPE_OFFSET(items), sizeof((struct scene_draft *)0)->items, SLOPE_OFFSET(count)
 _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x) + sizeof(double *), "points are x, z");
 
-/* Flags of a row whose member is a pointer to text. It compiles only with a flag that keeps it out of the key of a run, which must not
- * hold an address. */
+/* Flags of a row whose member is a pointer to text. Compiles only with a flag that excludes the row from the key of a run,
+ * which must not contain an address. */
 #define KEYLESS (FIELD_NOWHERE | FIELD_DRAFT | FIELD_NO_RUN)
 #define TEXT_FLAGS(kind, flags)                                                                                                \
     ((flags) + 0 * sizeof(struct {                                                                                             \
@@ -34,44 +34,44 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
                    int unused;                                                                                                 \
                }))
 
-/* Rows by their kind; `at` is three members. */
+/* Rows by their kind; `member` expands to three initialisers. */
 #define ROW(...)                                                                                                               \
     {                                                                                                                          \
         __VA_ARGS__                                                                                                            \
     }
-#define NUM(kind, key, says, at, unit, scale, lo, hi, flags, value, meaning)                                                   \
-    ROW(key, kind, at, unit, scale, lo, hi, flags, value, meaning, NULL, NULL, says)
-#define NUMBER(key, says, at, unit, lo, hi, flags, value, meaning)                                                             \
-    ROW(key, FIELD_NUMBER, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says)
-#define SPREAD(key, says, at, unit, lo, hi, flags, value, meaning)                                                             \
-    ROW(key, FIELD_SPREAD, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says)
-#define OTHER(kind, key, says, at, flags, value, meaning, choices, object)                                                     \
-    ROW(key, kind, at, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(kind, flags), value, meaning, choices, object, says)
-#define WORD(key, says, at, flags, value, meaning, choices)                                                                    \
-    ROW(key, FIELD_CHOICE, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, NULL, says)
-/* A mapping, a list of mappings: the label is its meaning, unless a message or popup says more of it. */
-#define GROUP_SAID(key, says, at, flags, meaning, object)                                                                      \
-    ROW(key, FIELD_GROUP, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says)
-#define ITEMS_SAID(key, says, at, flags, meaning, object)                                                                      \
-    ROW(key, FIELD_LIST, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says)
-#define GROUP(key, label, at, flags, object)                                                                                   \
-    ROW(key, FIELD_GROUP, at, "", 1, -INFINITY, INFINITY, flags, NULL, label, NULL, object, NAMED(label))
-#define ITEMS(key, label, at, flags, object)                                                                                   \
-    ROW(key, FIELD_LIST, at, "", 1, -INFINITY, INFINITY, flags, NULL, label, NULL, object, NAMED(label))
-#define TEXT(key, says, at, flags, meaning)                                                                                    \
-    ROW(key, FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(FIELD_TEXT, flags), NULL, meaning, NULL, NULL, says)
+#define NUM(kind, key, display, member, unit, scale, lo, hi, flags, value, meaning)                                            \
+    ROW(key, kind, member, unit, scale, lo, hi, flags, value, meaning, NULL, NULL, display)
+#define NUMBER(key, display, member, unit, lo, hi, flags, value, meaning)                                                      \
+    ROW(key, FIELD_NUMBER, member, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, display)
+#define SPREAD(key, display, member, unit, lo, hi, flags, value, meaning)                                                      \
+    ROW(key, FIELD_SPREAD, member, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, display)
+#define KIND_ROW(kind, key, display, member, flags, value, meaning, choices, object)                                           \
+    ROW(key, kind, member, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(kind, flags), value, meaning, choices, object, display)
+#define WORD(key, display, member, flags, value, meaning, choices)                                                             \
+    ROW(key, FIELD_CHOICE, member, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, NULL, display)
+/* A mapping, or a list of mappings. Its label serves as meaning, unless _LABELLED gives both. */
+#define GROUP_LABELLED(key, display, member, flags, meaning, object)                                                           \
+    ROW(key, FIELD_GROUP, member, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, display)
+#define ITEMS_LABELLED(key, display, member, flags, meaning, object)                                                           \
+    ROW(key, FIELD_LIST, member, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, display)
+#define GROUP(key, label, member, flags, object)                                                                               \
+    ROW(key, FIELD_GROUP, member, "", 1, -INFINITY, INFINITY, flags, NULL, label, NULL, object, NAMED(label))
+#define ITEMS(key, label, member, flags, object)                                                                               \
+    ROW(key, FIELD_LIST, member, "", 1, -INFINITY, INFINITY, flags, NULL, label, NULL, object, NAMED(label))
+#define TEXT(key, display, member, flags, meaning)                                                                             \
+    ROW(key, FIELD_TEXT, member, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(FIELD_TEXT, flags), NULL, meaning, NULL, NULL, display)
 #define TAG(value)                                                                                                             \
-    ROW("ceduo", FIELD_TAG, NOWHERE, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value, N_("what kind of file this is"), NULL,      \
+    ROW("ceduo", FIELD_TAG, NO_MEMBER, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value, N_("what kind of file this is"), NULL,    \
         NULL, NAMED(N_("kind of file")))
 
-/* How people see it: a label, a short one for the head of a column, the usual range in the file's unit, another unit. */
-#define SHOWN(label, brief, least, most)       ROW(label, brief, NULL, 1, least, most)
-#define NAMED(label)                           SHOWN(label, NULL, -INFINITY, INFINITY)
-#define BRIEF(label, brief)                    SHOWN(label, brief, -INFINITY, INFINITY)
-#define USUAL(label, least, most)              SHOWN(label, NULL, least, most)
-#define CENTIMETRES(label, brief, least, most) ROW(label, brief, N_("cm"), 100, least, most)
-#define OBJECT(type, fields, folder)           ROW(fields, sizeof fields / sizeof fields[0], sizeof(struct type), folder)
-/* Fails at build if a popup cannot hold the fields of a mapping that it asks for. */
+/* Display of a value: label, brief label for the head of a column, usual range in the file's unit, other unit. */
+#define SHOWN(label, brief, usual_lo, usual_hi)       ROW(label, brief, NULL, 1, usual_lo, usual_hi)
+#define NAMED(label)                                  SHOWN(label, NULL, -INFINITY, INFINITY)
+#define BRIEF(label, brief)                           SHOWN(label, brief, -INFINITY, INFINITY)
+#define USUAL(label, usual_lo, usual_hi)              SHOWN(label, NULL, usual_lo, usual_hi)
+#define CENTIMETRES(label, brief, usual_lo, usual_hi) ROW(label, brief, N_("cm"), 100, usual_lo, usual_hi)
+#define OBJECT(type, fields, folder)                  ROW(fields, sizeof fields / sizeof fields[0], sizeof(struct type), folder)
+/* Require at build that a popup can hold all fields of a mapping. */
 #define ASKED_AT_ONCE(fields)                                                                                                  \
     _Static_assert(sizeof fields / sizeof fields[0] <= CEDUO_ASKED_FIELDS_MAX, #fields ": more than a popup can ask for")
 #define STRING(macro) TEXT_OF(macro)
@@ -79,7 +79,7 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
 
 enum { REQUIRED = FIELD_REQUIRED, ABOVE = FIELD_ABOVE, ZERO = FIELD_ZERO, YEARS = FIELD_YEARS, NO_RUN = FIELD_NO_RUN };
 
-/* The rock, its release, and what was observed of real rocks. */
+/* Keys of the rock, its release, and observations of real rocks. */
 extern const struct object ceduo_rock_object, ceduo_release_object, ceduo_observed_object;
 
 #endif

@@ -1,27 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The keys of what was observed of real rocks: see the kinds in ceduo/observe.h. */
+/* Keys of observations of real rocks. Their kinds are in ceduo/scene.h. */
 #include "ceduo/scene.h"
 #include "fields.h"
 
-#define OF_KIND(KIND) AT(observed, values[CEDUO_OBSERVED_##KIND])
+#define KIND_VALUES(KIND) MEMBER(observed, values[CEDUO_OBSERVED_##KIND])
 #define POSITION(key, name, member, flags, meaning)                                                                            \
-    NUMBER(key, NAMED(name), AT(observed_values, member), "m", -FAR, FAR, (flags) | NO_RUN, NULL, meaning)
+    NUMBER(key, NAMED(name), MEMBER(observed_values, member), "m", -COORDINATE_MAX, COORDINATE_MAX, (flags) | NO_RUN, NULL,    \
+           meaning)
 #define VALUES(key, name, meaning)                                                                                             \
-    NUM(FIELD_NUMBERS, key, NAMED(name), LIST(observed_values, values, values_count), "", 1, -FAR, FAR, NO_RUN, NULL, meaning)
+    NUM(FIELD_NUMBERS, key, NAMED(name), LIST(observed_values, values, values_count), "", 1, -COORDINATE_MAX, COORDINATE_MAX,  \
+        NO_RUN, NULL, meaning)
 #define COUNT(key, name, member, lo, flags, meaning)                                                                           \
-    NUM(FIELD_COUNT, key, NAMED(name), AT(observed_values, member), "", 1, lo, 1e9, (flags) | NO_RUN, NULL, meaning)
+    NUM(FIELD_COUNT, key, NAMED(name), MEMBER(observed_values, member), "", 1, lo, 1e9, (flags) | NO_RUN, NULL, meaning)
 #define RELEASED COUNT("of", N_("rocks released"), of, 1, 0, N_("rocks released; without it only those seen are compared"))
 #define TABLE                                                                                                                  \
-    OTHER(FIELD_FILE, "csv", NAMED(N_("table")), AT(observed_values, csv), NO_RUN, NULL,                                       \
-          N_("a table that holds the values, instead of a list"), NULL, NULL),                                                 \
-        TEXT("column", NAMED(N_("column")), AT(observed_values, column), NO_RUN,                                               \
+    KIND_ROW(FIELD_FILE, "csv", NAMED(N_("table")), MEMBER(observed_values, csv), NO_RUN, NULL,                                \
+             N_("a table that holds the values, instead of a list"), NULL, NULL),                                              \
+        TEXT("column", NAMED(N_("column")), MEMBER(observed_values, column), NO_RUN,                                           \
              N_("its column; without it the one that is named as usual, or the only one")),                                    \
-        TEXT("only", NAMED(N_("only")), AT(observed_values, only), NO_RUN,                                                     \
+        TEXT("only", NAMED(N_("only")), MEMBER(observed_values, only), NO_RUN,                                                 \
              N_("only those of its rows that have this in another column, such as block=1"))
 #define MEAN                                                                                                                   \
-    NUMBER("mean", NAMED(N_("mean")), AT(observed_values, mean), "", 0, 1e9, NO_RUN, NULL,                                     \
+    NUMBER("mean", NAMED(N_("mean")), MEMBER(observed_values, mean), "", 0, 1e9, NO_RUN, NULL,                                 \
            N_("instead of values: their mean")),                                                                               \
-        NUMBER("sd", NAMED(N_("standard deviation")), AT(observed_values, sd), "", 0, 1e9, NO_RUN, NULL,                       \
+        NUMBER("sd", NAMED(N_("standard deviation")), MEMBER(observed_values, sd), "", 0, 1e9, NO_RUN, NULL,                   \
                N_("their standard deviation")),                                                                                \
         COUNT("n", N_("number"), n, 1, 0, N_("how many rocks they are of"))
 
@@ -60,19 +62,19 @@ static const struct field sample_fields[] = {
 static const struct object sample_object = OBJECT(observed_values, sample_fields, NULL);
 
 static const struct field largest_fields[] = {
-    GROUP("speed_m_s", N_("largest speed"), OF_KIND(LARGEST_SPEED), 0, &sample_object),
-    GROUP("height_m", N_("largest height"), OF_KIND(LARGEST_HEIGHT), 0, &sample_object),
+    GROUP("speed_m_s", N_("largest speed"), KIND_VALUES(LARGEST_SPEED), 0, &sample_object),
+    GROUP("height_m", N_("largest height"), KIND_VALUES(LARGEST_HEIGHT), 0, &sample_object),
 };
 static const struct object largest_object = OBJECT(observed, largest_fields, NULL);
 
 static const struct field way_fields[] = {
-    NUMBER("from_m", BRIEF(N_("from, m"), N_("from m")), AT(observed, way_from), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
-           N_("where it begins")),
-    NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), AT(observed, way_to), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
-           N_("where it ends")),
-    GROUP("speed_m_s", N_("mean speed"), OF_KIND(WAY_SPEED), 0, &sample_object),
-    GROUP("height_m", N_("mean height"), OF_KIND(WAY_HEIGHT), 0, &sample_object),
-    GROUP("energy_kJ", N_("mean energy"), OF_KIND(WAY_ENERGY), 0, &sample_object),
+    NUMBER("from_m", BRIEF(N_("from, m"), N_("from m")), MEMBER(observed, way_from), "m", -COORDINATE_MAX, COORDINATE_MAX,
+           REQUIRED | NO_RUN, NULL, N_("where it begins")),
+    NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), MEMBER(observed, way_to), "m", -COORDINATE_MAX, COORDINATE_MAX,
+           REQUIRED | NO_RUN, NULL, N_("where it ends")),
+    GROUP("speed_m_s", N_("mean speed"), KIND_VALUES(WAY_SPEED), 0, &sample_object),
+    GROUP("height_m", N_("mean height"), KIND_VALUES(WAY_HEIGHT), 0, &sample_object),
+    GROUP("energy_kJ", N_("mean energy"), KIND_VALUES(WAY_ENERGY), 0, &sample_object),
 };
 static const struct object way_object = OBJECT(observed, way_fields, NULL);
 
@@ -82,33 +84,35 @@ static const struct field scars_fields[] = {
     VALUES("height_m", N_("height"), N_("heights of the middles of scars above the ground")),
     TABLE,
     RELEASED,
-    NUMBER("share_seen", NAMED(N_("share seen")), AT(observed_values, share_seen), "", 0, 1, ABOVE | NO_RUN, NULL,
+    NUMBER("share_seen", NAMED(N_("share seen")), MEMBER(observed_values, share_seen), "", 0, 1, ABOVE | NO_RUN, NULL,
            N_("share of the scars that a survey finds; bark hides 16 to 49 % of them (Stoffel 2005)")),
 };
 static const struct object scars_object = OBJECT(observed_values, scars_fields, NULL);
 ASKED_AT_ONCE(scars_fields);
 
 static const struct field observed_fields[] = {
-    TEXT("name", NAMED(N_("name")), AT(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
-    TEXT("name_it", NAMED(N_("in Italian")), AT(observed, name_it), NO_RUN,
+    TEXT("name", NAMED(N_("name")), MEMBER(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
+    TEXT("name_it", NAMED(N_("in Italian")), MEMBER(observed, name_it), NO_RUN,
          N_("the same in Italian pages, screens and lists; without it in English")),
-    WORD("use", NAMED(N_("use")), AT(observed, use), NO_RUN, "fit",
+    WORD("use", NAMED(N_("use")), MEMBER(observed, use), NO_RUN, "fit",
          N_("whether the ground is fitted to it, or it only checks the fit"), &ceduo_use_words),
-    TEXT("option", NAMED(N_("option")), AT(observed, option), NO_RUN, N_("the option that stood there; without it the first")),
-    GROUP("rock", N_("rock"), AT(observed, rock), 0, &ceduo_rock_object),
-    GROUP("release", N_("release"), AT(observed, release), 0, &ceduo_release_object),
-    GROUP_SAID("stops", NAMED(N_("stops")), OF_KIND(STOPS), 0, N_("where rocks stopped"), &stops_object),
-    GROUP_SAID("passed", NAMED(N_("passed")), OF_KIND(PASSED), 0, N_("how many passed a place"), &passed_object),
-    GROUP_SAID("speed", NAMED(N_("speed")), OF_KIND(SPEED), 0, N_("speed of those that passed a place, m/s"), &crossing_object),
-    GROUP_SAID("height", NAMED(N_("height")), OF_KIND(HEIGHT), 0, N_("height of their underside above the ground there, m"),
-               &crossing_object),
-    GROUP_SAID("energy", NAMED(N_("energy")), OF_KIND(ENERGY), 0, N_("their energy there, kJ"), &crossing_object),
-    GROUP("largest", N_("largest"), SAME, 0, &largest_object),
-    GROUP("on_the_way", N_("on the way"), SAME, 0, &way_object),
-    GROUP_SAID("scars", NAMED(N_("scars")), OF_KIND(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
+    TEXT("option", NAMED(N_("option")), MEMBER(observed, option), NO_RUN,
+         N_("the option that stood there; without it the first")),
+    GROUP("rock", N_("rock"), MEMBER(observed, rock), 0, &ceduo_rock_object),
+    GROUP("release", N_("release"), MEMBER(observed, release), 0, &ceduo_release_object),
+    GROUP_LABELLED("stops", NAMED(N_("stops")), KIND_VALUES(STOPS), 0, N_("where rocks stopped"), &stops_object),
+    GROUP_LABELLED("passed", NAMED(N_("passed")), KIND_VALUES(PASSED), 0, N_("how many passed a place"), &passed_object),
+    GROUP_LABELLED("speed", NAMED(N_("speed")), KIND_VALUES(SPEED), 0, N_("speed of those that passed a place, m/s"),
+                   &crossing_object),
+    GROUP_LABELLED("height", NAMED(N_("height")), KIND_VALUES(HEIGHT), 0,
+                   N_("height of their underside above the ground there, m"), &crossing_object),
+    GROUP_LABELLED("energy", NAMED(N_("energy")), KIND_VALUES(ENERGY), 0, N_("their energy there, kJ"), &crossing_object),
+    GROUP("largest", N_("largest"), EMBEDDED, 0, &largest_object),
+    GROUP("on_the_way", N_("on the way"), EMBEDDED, 0, &way_object),
+    GROUP_LABELLED("scars", NAMED(N_("scars")), KIND_VALUES(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
 };
 const struct object ceduo_observed_object = OBJECT(observed, observed_fields, NULL);
 
-#define OTHER_FIELDS 8 /* are no kind that is asked for: name, name_it, use, option, rock, release, largest, on_the_way */
-_Static_assert(sizeof observed_fields / sizeof observed_fields[0] - OTHER_FIELDS <= CEDUO_ASKED_KINDS_MAX,
+#define OTHER_KEYS 8 /* keys that are not chosen as a kind: name, name_it, use, option, rock, release, largest, on_the_way */
+_Static_assert(sizeof observed_fields / sizeof observed_fields[0] - OTHER_KEYS <= CEDUO_ASKED_KINDS_MAX,
                "observed: more kinds than there are digits");

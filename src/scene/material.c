@@ -9,15 +9,15 @@
 
 #define MU 0.6
 
-/* Roughness and friction of each kind of ground: best value and range. Assumed. */
+/* Roughness and friction per kind of ground: best value and range. Assumed. */
 #define ROCK  0.10, 0.03, 0.20, 0.45, 0.30, 0.65, MU
 #define TALUS 0.20, 0.10, 0.40, 0.45, 0.25, 0.65, MU
 #define THIN  0.10, 0.04, 0.25, 0.35, 0.20, 0.55, MU
 #define SOIL  0.05, 0.02, 0.15, 0.30, 0.15, 0.50, MU
 #define PAVED 0.01, 0.00, 0.03, 0.30, 0.20, 0.50, MU
 
-/* Sources give ranges of Rn and Rt; the middle is taken. The descriptions are ours; those of v4 follow the kinds of slope that
- * CRSP tells apart. After the name: Italian words that files may have for it. */
+/* Sources give ranges of Rn and Rt; the value is the middle. The descriptions are not from the sources; those after CRSP 4.0
+ * follow its kinds of slope. After the name: accepted Italian words. */
 #define MATERIALS(X)                                                                                                           \
     X(N_("cliff"), "parete|parete rocciosa|roccia", N_("a face of bare rock"), 0.35, 0.33, 0.37, 0.85, 0.83, 0.87, ROCK, true, \
       CRSP3)                                                                                                                   \
@@ -36,8 +36,8 @@
     X(N_("pavement-v4"), "asfalto-v4", N_("smooth hard surfaces and paving"), 0.80, 0.60, 1.00, 0.95, 0.90, 1.00, PAVED,       \
       false, CRSP4)
 
-#define ALSO(name, also, ...) name "|" also,
-LIBRARY(material, MATERIALS, ALSO);
+#define ALL_WORDS(name, synonyms, ...) name "|" synonyms,
+LIBRARY(material, MATERIALS, ALL_WORDS);
 
 const struct ceduo_material *ceduo_materials(size_t *count)
 {

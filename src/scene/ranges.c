@@ -18,17 +18,17 @@
 #define STAND   "forest[0].stand."
 #define STEMS   "forest[0].stand.trees[0]."
 #define GROWTH  STAND "growth."
-#define CURVE   GROWTH "shoots." /* the rows of trees have the same keys */
+#define CURVE   GROWTH "shoots." /* trees have the same keys */
 
-#define ROW(of_kind, of_path, from, to, from_source, by)                                                                       \
+#define ROW(row_kind, row_path, row_lo, row_hi, row_source, how)                                                               \
     {                                                                                                                          \
-        .path = of_path, .kind = CEDUO_INPUT_##of_kind, .lo = from, .hi = to, .source = from_source, .measured = by            \
+        .path = row_path, .kind = CEDUO_INPUT_##row_kind, .lo = row_lo, .hi = row_hi, .source = row_source, .measured = how    \
     }
 
-/* A word that only research decides, or dorren. */
-#define ROW_WORDS(of_path, word, from_source)                                                                                  \
+/* `word` or dorren; only research can decide. */
+#define ROW_WORDS(row_path, word, row_source)                                                                                  \
     {                                                                                                                          \
-        .path = of_path, .kind = CEDUO_INPUT_WORDS, .lo = NAN, .hi = NAN, .words = {word, "dorren"}, .source = from_source,    \
+        .path = row_path, .kind = CEDUO_INPUT_WORDS, .lo = NAN, .hi = NAN, .words = {word, "dorren"}, .source = row_source,    \
         .measured = N_("full-scale tests on such stems"), .research = true                                                     \
     }
 
@@ -72,7 +72,7 @@ const struct range *ceduo_ranges(size_t *n)
 const struct range *ceduo_range_of(const struct field *field)
 {
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
-        const struct field *row = ceduo_schema_at(ranges[i].path); /* rows of shoots and trees are the same twice */
+        const struct field *row = ceduo_schema_at(ranges[i].path); /* shoots and trees have equal rows */
         if (row == field || (strcmp(row->key, field->key) == 0 && strcmp(row->meaning, field->meaning) == 0))
             return &ranges[i];
     }
@@ -84,17 +84,17 @@ struct range ceduo_range_of_material(const struct ceduo_material *m, const char 
     const struct {
         const char *key, *source;
         double lo, hi;
-    } of_ground[] = {{"rn", m->source, m->rn_lo, m->rn_hi},
-                     {"rt", m->source, m->rt_lo, m->rt_hi},
-                     {"roughness_m", ASSUMED, m->roughness_lo, m->roughness_hi},
-                     {"friction", ASSUMED, m->friction_lo, m->friction_hi}};
+    } material_ranges[] = {{"rn", m->source, m->rn_lo, m->rn_hi},
+                           {"rt", m->source, m->rt_lo, m->rt_hi},
+                           {"roughness_m", ASSUMED, m->roughness_lo, m->roughness_hi},
+                           {"friction", ASSUMED, m->friction_lo, m->friction_hi}};
     const struct range *r = ceduo_range_of(ceduo_schema_field(ceduo_schema_segment(), key));
-    for (size_t i = 0; i < sizeof of_ground / sizeof of_ground[0]; i++)
-        if (strcmp(key, of_ground[i].key) == 0)
+    for (size_t i = 0; i < sizeof material_ranges / sizeof material_ranges[0]; i++)
+        if (strcmp(key, material_ranges[i].key) == 0)
             return (struct range){.kind = CEDUO_INPUT_RANGE,
-                                  .lo = of_ground[i].lo,
-                                  .hi = of_ground[i].hi,
-                                  .source = of_ground[i].source,
+                                  .lo = material_ranges[i].lo,
+                                  .hi = material_ranges[i].hi,
+                                  .source = material_ranges[i].source,
                                   .measured = r->measured};
     return *r;
 }

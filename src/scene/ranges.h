@@ -5,9 +5,9 @@
 #include "ceduo/slope.h"
 #include "schema.h"
 
-/* Range of an assumed value, if the scene does not give one. */
+/* Default uncertainty range of an assumed value. */
 struct range {
-    const char *path; /* of such a value */
+    const char *path; /* example path of the value */
     enum ceduo_input_kind kind;
     double lo, hi;        /* as in struct ceduo_input; unused for words */
     const char *words[3]; /* CEDUO_INPUT_WORDS; NULL after the last */
@@ -16,13 +16,13 @@ struct range {
     bool research;        /* true: only research measures it, so that no page advises it */
 };
 
-/* All rows, for the manual. */
+/* Return all rows, for the manual. */
 const struct range *ceduo_ranges(size_t *n);
 
-/* The range of a row of the table of keys; NULL: none, the value is not varied. */
+/* Return the range of a row of the table of keys; NULL if the value is not varied. */
 const struct range *ceduo_range_of(const struct field *field);
 
-/* The range of rn, rt, roughness_m, friction or mu of a ground of the library. */
+/* Return the range of rn, rt, roughness_m, friction or mu of a ground of the library. */
 struct range ceduo_range_of_material(const struct ceduo_material *material, const char *key);
 
 #endif

@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-/* The first that is about a stand. */
-static const struct ceduo_regulation_item *item_about(const struct ceduo_regulation_item *items, size_t n,
-                                                      const struct ceduo_stand *stand)
+/* Return the first rule that applies to the stand. */
+static const struct ceduo_regulation_item *find_item(const struct ceduo_regulation_item *items, size_t n,
+                                                     const struct ceduo_stand *stand)
 {
     for (size_t i = 0; stand->species >= 0 && i < n; i++) {
         bool species = items[i].species_count == 0;
@@ -31,8 +31,8 @@ struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *r,
     if (stand->cutting.rotation > 0)
         c.turn = (double)stand->cutting.rotation * (stand->cutting.cohorts > 1 ? stand->cutting.cohorts : 1);
     c.of = r;
-    c.standards_item = item_about(r->standards, r->standards_count, stand);
-    c.turn_item = item_about(r->turns, r->turns_count, stand);
+    c.standards_item = find_item(r->standards, r->standards_count, stand);
+    c.turn_item = find_item(r->turns, r->turns_count, stand);
     c.standards_met = meets(c.standards_item, c.standards);
     c.turn_met = meets(c.turn_item, c.turn);
     return c;

@@ -6,27 +6,27 @@
 
 #include "base/elementary.h"
 
-#define CUT_SD    3.0                   /* a normal law is cut here */
-#define BELOW_CUT 0.0013498980316300946 /* chance of less than -CUT_SD */
+#define TRUNCATION_SD   3.0                   /* standard deviations at which a normal distribution is truncated */
+#define TRUNCATED_SHARE 0.0013498980316300946 /* probability below -TRUNCATION_SD */
 
 struct ceduo_number ceduo_number(double mean)
 {
     return (struct ceduo_number){.mean = mean, .spread = 0, .kind = CEDUO_NORMAL};
 }
 
-static double reach(struct ceduo_number n)
+static double half_range(struct ceduo_number n)
 {
-    return n.kind == CEDUO_NORMAL ? CUT_SD * n.spread : n.spread;
+    return n.kind == CEDUO_NORMAL ? TRUNCATION_SD * n.spread : n.spread;
 }
 
 double ceduo_number_lowest(struct ceduo_number n)
 {
-    return n.mean - reach(n);
+    return n.mean - half_range(n);
 }
 
 double ceduo_number_highest(struct ceduo_number n)
 {
-    return n.mean + reach(n);
+    return n.mean + half_range(n);
 }
 
 double ceduo_number_draw(struct ceduo_number n, double u, double lo, double hi)
@@ -38,36 +38,36 @@ double ceduo_number_draw(struct ceduo_number n, double u, double lo, double hi)
     hi = fmin(hi, highest);
     if (n.kind == CEDUO_UNIFORM)
         return lo + u * (hi - lo);
-    double p_lo = lo == lowest ? BELOW_CUT : ceduo_normal_chance((lo - n.mean) / n.spread);
-    double p_hi = hi == highest ? 1 - BELOW_CUT : ceduo_normal_chance((hi - n.mean) / n.spread);
+    double p_lo = lo == lowest ? TRUNCATED_SHARE : ceduo_normal_chance((lo - n.mean) / n.spread);
+    double p_hi = hi == highest ? 1 - TRUNCATED_SHARE : ceduo_normal_chance((hi - n.mean) / n.spread);
     double x = n.mean + n.spread * ceduo_normal_quantile(p_lo + u * (p_hi - p_lo));
     return fmin(fmax(x, lo), hi);
 }
 
 /* ---- rocks ---- */
 
-/* The sizes of one rock, all drawn: the numbers of a def, in its order. */
+/* Sizes of one rock after drawing, in the order of ceduo_rock_def. */
 union sizes {
     struct {
         double diameter, height, volume, mass, density, axes[3];
     };
-    double all[8];
+    double values[8];
 };
 
-static const struct ceduo_number *number_of(const struct ceduo_rock_def *def, size_t i)
+static const struct ceduo_number *size_number(const struct ceduo_rock_def *def, size_t i)
 {
     const struct ceduo_number *const numbers[] = {&def->diameter, &def->height,  &def->volume,  &def->mass,
                                                   &def->density,  &def->axes[0], &def->axes[1], &def->axes[2]};
     return numbers[i];
 }
 
-/* CEDUO_BAD_ROCK unless what is given is above 0, and what the shape needs is given. */
+/* CEDUO_BAD_ROCK unless all given sizes are > 0, and the sizes that the shape needs are given. */
 static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, const union sizes *s, struct ceduo_rock *rock)
 {
     bool good = true;
     double d = s->diameter, h = s->height, a[3] = {s->axes[0], s->axes[1], s->axes[2]}, longest, squares;
     for (size_t i = 0; i < 8; i++)
-        good = good && !(s->all[i] <= 0) && !isinf(s->all[i]);
+        good = good && !(s->values[i] <= 0) && !isinf(s->values[i]);
     switch (shape) {
     case CEDUO_SPHERE:
         if (isnan(d))
@@ -104,7 +104,7 @@ static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, const union siz
     rock->mass = isnan(s->mass) ? rock->volume * s->density : s->mass;
     rock->radius = rock->mean_diameter / 2;
     rock->moment = rock->k * rock->mass * rock->radius * rock->radius;
-    good = good && rock->moment > 0 && isfinite(rock->moment); /* mass and radius are, too, then */
+    good = good && rock->moment > 0 && isfinite(rock->moment); /* implies mass and radius > 0 */
     return good ? CEDUO_OK : CEDUO_BAD_ROCK;
 }
 
@@ -112,7 +112,7 @@ enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct c
 {
     union sizes s;
     for (size_t i = 0; i < 8; i++)
-        s.all[i] = number_of(def, i)->mean;
+        s.values[i] = size_number(def, i)->mean;
     return rock_from_sizes(def->shape, &s, rock);
 }
 
@@ -126,7 +126,7 @@ struct ceduo_rock ceduo_rock_mean(const struct ceduo_rock_def *def)
 bool ceduo_rock_varies(const struct ceduo_rock_def *def)
 {
     for (size_t i = 0; i < 8; i++)
-        if (number_of(def, i)->spread > 0)
+        if (size_number(def, i)->spread > 0)
             return true;
     return false;
 }
@@ -135,6 +135,6 @@ enum ceduo_status ceduo_rock_draw(const struct ceduo_rock_def *def, const double
 {
     union sizes s;
     for (size_t i = 0; i < 8; i++)
-        s.all[i] = ceduo_number_draw(*number_of(def, i), u[i], 0, INFINITY);
+        s.values[i] = ceduo_number_draw(*size_number(def, i), u[i], 0, INFINITY);
     return rock_from_sizes(def->shape, &s, rock);
 }

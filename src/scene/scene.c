@@ -6,9 +6,9 @@
 
 #include "schema.h"
 
-#define SPEED_MAX 1e12 /* m, m/s, rad/s: of a release; beyond it the numbers of its flight are none */
+#define SPEED_MAX 1e12 /* m, m/s, rad/s: of a release; above it the numbers of a flight overflow */
 
-/* What is there has its sizes. */
+/* True if existing stems, stumps and logs have valid sizes. */
 static bool has_sizes(const struct ceduo_stand *s)
 {
     bool good = true;
@@ -26,7 +26,7 @@ static enum ceduo_status check_options(const struct ceduo_scene *scene)
 {
     double end = scene->slope.x[scene->slope.vertices - 1];
     for (size_t i = 0; i < scene->options_count; i++) {
-        double free = 0; /* from here on no belt has stems */
+        double end_of_stems = 0; /* end of the last belt with stems */
         for (size_t k = 0; k < scene->options[i].belts_count; k++) {
             const struct ceduo_belt *b = &scene->options[i].belts[k];
             if (!ceduo_schema_holds(ceduo_schema_belt(), b))
@@ -35,9 +35,9 @@ static enum ceduo_status check_options(const struct ceduo_scene *scene)
                 return CEDUO_BAD_STAND;
             if (ceduo_stand_is_bare(&b->stand))
                 continue;
-            if (!(b->from >= free) || !(b->to > b->from) || !(b->to <= end))
+            if (!(b->from >= end_of_stems) || !(b->to > b->from) || !(b->to <= end))
                 return CEDUO_BAD_BELT;
-            free = b->to;
+            end_of_stems = b->to;
         }
     }
     return CEDUO_OK;
@@ -68,7 +68,7 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
         return CEDUO_BAD_ARGUMENT;
     struct ceduo_rock rock;
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &rock);
-    /* what is counted is there; lists that are not looked at here, ceduo_schema_holds() does */
+    /* counted lists exist; ceduo_schema_holds() checks the other lists */
     bool lists = (scene->blocks || scene->blocks_count == 0) && (scene->controls || scene->controls_count == 0) &&
                  (scene->options || scene->options_count == 0);
     for (size_t i = 0; lists && i < scene->options_count; i++)
@@ -104,11 +104,11 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
             return CEDUO_CONTROL_BEHIND;
     }
     status = check_options(scene);
-    const struct object *all = ceduo_schema_scene();
-    for (size_t i = 0; i < all->n && status == CEDUO_OK; i++) {
-        const char *key = all->fields[i].key;
+    const struct object *root = ceduo_schema_scene();
+    for (size_t i = 0; i < root->n && status == CEDUO_OK; i++) {
+        const char *key = root->fields[i].key;
         bool checked = strcmp(key, "rock") == 0 || strcmp(key, "release") == 0 || strcmp(key, "options") == 0;
-        if (!checked && !ceduo_schema_field_holds(&all->fields[i], scene))
+        if (!checked && !ceduo_schema_field_holds(&root->fields[i], scene))
             status = CEDUO_BAD_NUMBER;
     }
     return status;

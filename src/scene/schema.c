@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-bool ceduo_path_next(const char *path, size_t length, size_t *at, struct path_step *step)
+bool ceduo_path_next(const char *path, size_t length, size_t *pos, struct path_step *step)
 {
-    size_t i = *at;
+    size_t i = *pos;
     if (i >= length)
         return false;
     if (path[i] == '[') {
@@ -14,7 +14,7 @@ bool ceduo_path_next(const char *path, size_t length, size_t *at, struct path_st
         if (!end || end == path + i + 1)
             return false;
         *step = (struct path_step){path + i + 1, (size_t)(end - path) - i - 1, true};
-        *at = (size_t)(end - path) + 1;
+        *pos = (size_t)(end - path) + 1;
         return true;
     }
     if (i > 0) {
@@ -28,7 +28,7 @@ bool ceduo_path_next(const char *path, size_t length, size_t *at, struct path_st
     if (i == from)
         return false;
     *step = (struct path_step){path + from, i - from, false};
-    *at = i;
+    *pos = i;
     return true;
 }
 
@@ -56,8 +56,8 @@ const struct field *ceduo_schema_field(const struct object *object, const char *
 const struct field *ceduo_schema_unit(const struct object *object, const struct field *field)
 {
     const char *key = ceduo_schema_other(object, field->key);
-    const struct field *other = key ? ceduo_schema_field(object, key) : NULL;
-    return other && other->offset == field->offset ? other : NULL;
+    const struct field *pair = key ? ceduo_schema_field(object, key) : NULL;
+    return pair && pair->offset == field->offset ? pair : NULL;
 }
 
 const struct field *ceduo_schema_step(const struct object *object, const struct path_step *step)
@@ -68,14 +68,14 @@ const struct field *ceduo_schema_step(const struct object *object, const struct 
     return NULL;
 }
 
-/* The row of the first n bytes of a path. *flags: of the row and of those around it. */
-static const struct field *row_at(const char *path, size_t n, unsigned *flags)
+/* Return the row of the first n bytes of a path. *flags: of the row and the enclosing rows. */
+static const struct field *find_row(const char *path, size_t n, unsigned *flags)
 {
     const struct object *object = ceduo_schema_scene();
     const struct field *f = NULL;
     struct path_step step;
-    size_t at = 0;
-    while (ceduo_path_next(path, n, &at, &step)) {
+    size_t pos = 0;
+    while (ceduo_path_next(path, n, &pos, &step)) {
         bool item = f && f->type == FIELD_LIST && object == NULL;
         if (item && !step.bracket && f->flags & FIELD_OR_ONE) {
             item = false;
@@ -89,13 +89,13 @@ static const struct field *row_at(const char *path, size_t n, unsigned *flags)
         *flags |= (unsigned)f->flags;
         object = item || f->type == FIELD_GROUP ? f->object : NULL;
     }
-    return at == n ? f : NULL;
+    return pos == n ? f : NULL;
 }
 
 const struct field *ceduo_schema_row(const char *path)
 {
     unsigned flags = 0;
-    return row_at(path, strlen(path), &flags);
+    return find_row(path, strlen(path), &flags);
 }
 
 const struct field *ceduo_schema_at(const char *path)
@@ -114,12 +114,12 @@ const struct field *ceduo_schema_fitted(const char *path)
 bool ceduo_schema_is_settled(const char *path)
 {
     unsigned flags = 0;
-    return row_at(path, strlen(path), &flags) && flags & FIELD_SETTLED;
+    return find_row(path, strlen(path), &flags) && flags & FIELD_SETTLED;
 }
 
-/* ---- what --set can change ---- */
+/* ---- paths of --set ---- */
 
-static enum path_value value_of(const struct field *f)
+static enum path_value path_kind(const struct field *f)
 {
     switch (f->type) {
     case FIELD_TEXT:
@@ -138,7 +138,7 @@ static enum path_value value_of(const struct field *f)
     }
 }
 
-/* Kind of the value at `rest` below a mapping or list item: its source, or a part of its source. */
+/* Return the kind of the value at `rest` below a mapping or list item: its source, or a part of the source. */
 static enum path_value source_part(const char *rest)
 {
     size_t n = strlen("source");
@@ -147,33 +147,33 @@ static enum path_value source_part(const char *rest)
     return strcmp(rest, "source.text") == 0 ? PATH_TEXT : PATH_OTHER;
 }
 
-/* Kind of the value at `rest` below a value: a number of a list or point, a part of a spread. */
+/* Return the kind of the value at `rest` below a value: a number of a list or point, a part of a spread. */
 static enum path_value value_part(const struct field *f, const char *rest)
 {
-    size_t at = 0, n = strlen(rest), item;
+    size_t pos = 0, n = strlen(rest), item;
     struct path_step step;
     bool spread = f->type == FIELD_SPREAD || f->type == FIELD_SPREADS;
     size_t depth = f->type == FIELD_POINTS ? 2 : f->type >= FIELD_NUMBERS || f->type == FIELD_SPREADS ? 1 : 0, steps = 0;
-    while (steps < depth && rest[at] == '[' && ceduo_path_next(rest, n, &at, &step) && ceduo_path_index(&step, &item))
+    while (steps < depth && rest[pos] == '[' && ceduo_path_next(rest, n, &pos, &step) && ceduo_path_index(&step, &item))
         steps++;
-    if (at == n)
+    if (pos == n)
         return steps < depth ? PATH_OTHER : f->type == FIELD_WORDS ? PATH_TEXT : PATH_NUMBER;
     if (!spread || steps < depth)
         return PATH_UNKNOWN;
-    if (strcmp(rest + at, ".mean") == 0 || strcmp(rest + at, ".spread") == 0)
+    if (strcmp(rest + pos, ".mean") == 0 || strcmp(rest + pos, ".spread") == 0)
         return PATH_NUMBER;
-    return strcmp(rest + at, ".kind") == 0 ? PATH_WORD : PATH_UNKNOWN;
+    return strcmp(rest + pos, ".kind") == 0 ? PATH_WORD : PATH_UNKNOWN;
 }
 
 enum path_value ceduo_schema_value(const char *path)
 {
     unsigned flags = 0;
     size_t n = strlen(path);
-    const struct field *f = row_at(path, n, &flags);
+    const struct field *f = find_row(path, n, &flags);
     if (f)
-        return f->type == FIELD_LIST && path[n - 1] == ']' ? PATH_OTHER : value_of(f);
-    for (; n > 0 && !f; n -= n > 0 && !f) /* the longest part that is a row */
-        f = path[n] == '.' || path[n] == '[' ? row_at(path, n, &flags) : NULL;
+        return f->type == FIELD_LIST && path[n - 1] == ']' ? PATH_OTHER : path_kind(f);
+    for (; n > 0 && !f; n -= n > 0 && !f) /* the longest prefix with a row */
+        f = path[n] == '.' || path[n] == '[' ? find_row(path, n, &flags) : NULL;
     if (!f)
         return source_part(path);
     if (f->type != FIELD_GROUP && f->type != FIELD_LIST)
@@ -226,7 +226,7 @@ static void init_fields(const struct object *object, char *item)
         case FIELD_FLAG:
             memcpy(to, &flag, sizeof flag);
             break;
-        default: /* texts and lists: none */
+        default: /* texts and lists have no default */
             break;
         }
     }
@@ -251,7 +251,7 @@ struct ceduo_scene ceduo_scene_default(void)
 {
     struct scene_draft draft;
     ceduo_schema_init(ceduo_schema_scene(), &draft);
-    draft.scene.release.x.mean = 0;  /* at the first vertex */
+    draft.scene.release.x.mean = 0;  /* the first vertex */
     draft.scene.slope.tolerance = 0; /* the default is for ground from the library */
     return draft.scene;
 }
@@ -261,7 +261,7 @@ struct ceduo_option ceduo_option_default(void)
     return (struct ceduo_option){0};
 }
 
-/* What the table of keys says of an item. */
+/* Defaults of a part, from the table of keys. */
 #define DEFAULT(name, schema)                                                                                                  \
     struct ceduo_##name ceduo_##name##_default(void)                                                                           \
     {                                                                                                                          \
@@ -294,41 +294,42 @@ bool ceduo_schema_spread_fits(const struct field *f, struct ceduo_number n)
 {
     double lowest = ceduo_number_lowest(n) / f->scale, highest = ceduo_number_highest(n) / f->scale;
     bool below = f->flags & FIELD_ABOVE ? !(lowest > f->lo) : lowest < f->lo;
-    bool cut = f->lo == 0 && f->hi == 1; /* drawn again until it lies inside */
-    return cut || isnan(n.mean) || !(below || highest > f->hi);
+    bool clamped = f->lo == 0 && f->hi == 1; /* draws are truncated to the range */
+    return clamped || isnan(n.mean) || !(below || highest > f->hi);
 }
 
-#define OTHER_MOST 1e4 /* times the largest number of a file */
+#define CONVERTED_MAX 1e4 /* × the maximum in files */
 
 static bool holds_number(const struct field *f, double si)
 {
     bool zero = f->flags & FIELD_ZERO, optional = f->flags & FIELD_ONE_OF || (!zero && !f->value);
-    /* made of another key: 10^4 shoots on each of 10^6 stools */
-    bool other = f->flags & FIELD_ONE_OF && si >= f->lo * f->scale && si <= OTHER_MOST * f->hi * f->scale;
-    return other || (optional && isnan(si)) || ((optional || zero) && si == 0) || ceduo_schema_in_range(f, si / f->scale);
+    /* converted from another key: 10^4 shoots on each of 10^6 stools */
+    bool converted = f->flags & FIELD_ONE_OF && si >= f->lo * f->scale && si <= CONVERTED_MAX * f->hi * f->scale;
+    return converted || (optional && isnan(si)) || ((optional || zero) && si == 0) || ceduo_schema_in_range(f, si / f->scale);
 }
 
 bool ceduo_schema_field_holds(const struct field *f, const void *item)
 {
-    const char *at = (const char *)item + f->offset, *items;
+    const char *member = (const char *)item + f->offset, *items;
     size_t n;
     if (f->flags & (FIELD_NOWHERE | FIELD_DRAFT))
         return true;
     switch (f->type) {
     case FIELD_NUMBER:
-        return f->flags & FIELD_PLACE || holds_number(f, *(const double *)(const void *)at);
+        return f->flags & FIELD_PLACE || holds_number(f, *(const double *)(const void *)member);
     case FIELD_COUNT: { /* 0: not given */
         uint64_t count =
-            f->size == sizeof(unsigned) ? *(const unsigned *)(const void *)at : *(const uint64_t *)(const void *)at;
-        return count == 0 || f->flags & FIELD_SETTLED || ceduo_schema_in_range(f, (double)count); /* a seed may be any */
+            f->size == sizeof(unsigned) ? *(const unsigned *)(const void *)member : *(const uint64_t *)(const void *)member;
+        return count == 0 || f->flags & FIELD_SETTLED || ceduo_schema_in_range(f, (double)count); /* any seed is valid */
     }
     case FIELD_CHOICE:
-        return *(const int *)(const void *)at >= (f->value ? 0 : -1) && *(const int *)(const void *)at < (int)f->choices->n;
+        return *(const int *)(const void *)member >= (f->value ? 0 : -1) &&
+               *(const int *)(const void *)member < (int)f->choices->n;
     case FIELD_GROUP:
-        return ceduo_schema_holds(f->object, at);
+        return ceduo_schema_holds(f->object, member);
     case FIELD_NUMBERS:
     case FIELD_LIST:
-        memcpy(&items, at, sizeof items);
+        memcpy(&items, member, sizeof items);
         memcpy(&n, (const char *)item + f->beside, sizeof n);
         for (size_t i = 0; items && i < n; i++)
             if (f->type == FIELD_LIST ? !ceduo_schema_holds(f->object, items + i * f->object->size)
@@ -363,7 +364,7 @@ bool ceduo_schema_range_text(const struct field *f, struct text *text)
     return low || high;
 }
 
-/* ---- showing the table ---- */
+/* ---- listing the table ---- */
 
 void ceduo_schema_visit(const struct object *object, const char *prefix,
                         void (*visit)(void *context, const char *path, const struct field *field), void *context)

@@ -27,33 +27,33 @@ double ceduo_slope_mirrored(const struct ceduo_slope *slope, double x)
     return slope->reversed ? 2 * slope->origin_x + slope->x[slope->vertices - 1] - x : x;
 }
 
-static double fall(const struct ceduo_slope *s, size_t j)
+static double segment_fall(const struct ceduo_slope *s, size_t j)
 {
     return (s->z[j] - s->z[j + 1]) / (s->x[j + 1] - s->x[j]);
 }
 
 double ceduo_slope_fall(const struct ceduo_slope *slope, double x)
 {
-    return fall(slope, ceduo_slope_segment(slope, x));
+    return segment_fall(slope, ceduo_slope_segment(slope, x));
 }
 
 double ceduo_slope_face(const struct ceduo_slope *slope)
 {
     for (size_t j = 0; j + 1 < slope->vertices; j++)
-        if (fall(slope, j) > CEDUO_FACE_FALL)
+        if (segment_fall(slope, j) > CEDUO_FACE_FALL)
             return slope->x[j];
     return NAN;
 }
 
 /* ---- topography ---- */
 
-/* Where the last face ends in (from, to]. */
-static double foot_between(const struct ceduo_slope *s, double from, double to)
+/* Return the end of the last face in (from, to]; NaN if there is none. */
+static double find_foot(const struct ceduo_slope *s, double from, double to)
 {
-    double foot = NAN, length = 0; /* of the segments before, all of which are steep */
+    double foot = NAN, length = 0; /* m, of the preceding steep segments */
     for (size_t j = 0; j + 1 < s->vertices && s->x[j + 1] <= to; j++) {
         double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j];
-        length = fall(s, j) > CEDUO_FACE_FALL ? length + sqrt(dx * dx + dz * dz) : 0;
+        length = segment_fall(s, j) > CEDUO_FACE_FALL ? length + sqrt(dx * dx + dz * dz) : 0;
         if (length >= CEDUO_FACE_LENGTH && s->x[j + 1] > from)
             foot = s->x[j + 1];
     }
@@ -67,7 +67,7 @@ static double longest_bench(const struct ceduo_slope *s, double from, double to)
         double a = fmax(s->x[j], from), b = fmin(s->x[j + 1], to);
         if (!(b > a))
             continue;
-        length = fall(s, j) <= CEDUO_BENCH_INCLINATION ? length + (b - a) : 0;
+        length = segment_fall(s, j) <= CEDUO_BENCH_INCLINATION ? length + (b - a) : 0;
         longest = fmax(longest, length);
     }
     return longest;
@@ -77,7 +77,7 @@ struct ceduo_topography ceduo_slope_topography(const struct ceduo_slope *slope, 
                                                double x)
 {
     double z = ceduo_slope_height(slope, x), start = ceduo_slope_height(slope, release_x) + release_height;
-    double foot = foot_between(slope, release_x, x);
+    double foot = find_foot(slope, release_x, x);
     struct ceduo_topography t = {.reach = ceduo_atan((start - z) / (x - release_x)), .shadow = NAN, .foot = foot};
     if (foot < x)
         t.shadow = ceduo_atan((ceduo_slope_height(slope, foot) - z) / (x - foot));
@@ -87,7 +87,7 @@ struct ceduo_topography ceduo_slope_topography(const struct ceduo_slope *slope, 
 
 /* ---- simplification ---- */
 
-static bool same_number(struct ceduo_number a, struct ceduo_number b)
+static bool numbers_equal(struct ceduo_number a, struct ceduo_number b)
 {
     return a.mean == b.mean && a.spread == b.spread && (a.kind == b.kind || a.spread == 0);
 }
@@ -96,10 +96,11 @@ bool ceduo_segment_same(const struct ceduo_segment *a, const struct ceduo_segmen
 {
     bool roughness = isnan(a->roughness_m) ? isnan(b->roughness_m) && a->roughness_rad == b->roughness_rad
                                            : a->roughness_m == b->roughness_m;
-    return roughness && a->friction == b->friction && a->mu == b->mu && same_number(a->rn, b->rn) && same_number(a->rt, b->rt);
+    return roughness && a->friction == b->friction && a->mu == b->mu && numbers_equal(a->rn, b->rn) &&
+           numbers_equal(a->rt, b->rt);
 }
 
-/* A profile under work: all its points, and which of them are kept. */
+/* Points of a profile during simplification, with flags of kept points. */
 struct points {
     size_t n;
     double *x, *z;
@@ -128,27 +129,27 @@ static void keep_at(struct points *p, double x)
     p->kept[i] = true;
 }
 
-/* Keep the point farthest from the line between two kept ones if it is farther than `tolerance`, and so on on both sides.
- * `stack`: capacity for the places of all points. */
-static void keep_far(struct points *p, double tolerance, size_t *stack)
+/* Keep the point farthest from the line between two kept points if its distance exceeds `tolerance`, then repeat on both sides.
+ * `stack` has capacity for all points. */
+static void keep_farthest(struct points *p, double tolerance, size_t *stack)
 {
     size_t depth = 0, from = 0;
     for (size_t i = p->n - 1; i > 0; i--)
         if (p->kept[i])
             stack[depth++] = i;
     while (depth > 0) {
-        size_t to = stack[depth - 1], far = from;
-        double dx = p->x[to] - p->x[from], dz = p->z[to] - p->z[from], most = tolerance * sqrt(dx * dx + dz * dz);
+        size_t to = stack[depth - 1], farthest = from;
+        double dx = p->x[to] - p->x[from], dz = p->z[to] - p->z[from], max = tolerance * sqrt(dx * dx + dz * dz);
         for (size_t i = from + 1; i < to; i++) {
-            double off = fabs((p->z[i] - p->z[from]) * dx - (p->x[i] - p->x[from]) * dz);
-            if (off > most) {
-                most = off;
-                far = i;
+            double distance = fabs((p->z[i] - p->z[from]) * dx - (p->x[i] - p->x[from]) * dz);
+            if (distance > max) {
+                max = distance;
+                farthest = i;
             }
         }
-        if (far > from) {
-            p->kept[far] = true;
-            stack[depth++] = far;
+        if (farthest > from) {
+            p->kept[farthest] = true;
+            stack[depth++] = farthest;
         } else {
             from = to;
             depth--;
@@ -161,12 +162,12 @@ enum ceduo_status ceduo_slope_simplify(const struct ceduo_slope *slope, double r
     *to = *slope;
     to->x = to->z = NULL;
     to->segments = NULL;
-    bool as_it_is = slope->tolerance == 0 || slope->simplified_at == release_x;
-    if (slope->tolerance == slope->simplified_to && as_it_is)
+    bool unchanged = slope->tolerance == 0 || slope->simplified_at == release_x;
+    if (slope->tolerance == slope->simplified_to && unchanged)
         return CEDUO_OK;
-    bool known = slope->points > 0;
-    size_t n = known ? slope->points : slope->vertices, capacity = n + slope->vertices + 1;
-    const double *x = known ? slope->points_x : slope->x, *z = known ? slope->points_z : slope->z;
+    bool has_points = slope->points > 0;
+    size_t n = has_points ? slope->points : slope->vertices, capacity = n + slope->vertices + 1;
+    const double *x = has_points ? slope->points_x : slope->x, *z = has_points ? slope->points_z : slope->z;
     struct points p = {.n = n};
     p.x = to->x = malloc(capacity * sizeof *to->x);
     p.z = to->z = malloc(capacity * sizeof *to->z);
@@ -183,7 +184,7 @@ enum ceduo_status ceduo_slope_simplify(const struct ceduo_slope *slope, double r
             if (!ceduo_segment_same(&slope->segments[j - 1], &slope->segments[j]))
                 keep_at(&p, slope->x[j]);
         if (slope->tolerance > 0)
-            keep_far(&p, slope->tolerance, stack);
+            keep_farthest(&p, slope->tolerance, stack);
         to->vertices = 0;
         for (size_t i = 0; i < p.n; i++)
             if (p.kept[i] || slope->tolerance == 0) {

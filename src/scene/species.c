@@ -9,9 +9,9 @@
 #define U_BEECH  102800
 #define U_SPRUCE 92213
 
-/* Volumes: Tabacchi, Di Cosmo, Gasparini, Morelli 2011, with the height and diameter of the sampled trees. */
-/* The last number: the fracture ratio of Dorren and Berger 2006, in the list that RockforNET uses. After the name: what foresters
- * call it in Italy, where a file may have that; maples are one. */
+/* Volumes: Tabacchi, Di Cosmo, Gasparini, Morelli 2011, with the heights and diameters of the sampled trees. The last number is
+ * the fracture ratio of Dorren and Berger 2006, from the list in RockforNET. After the name: accepted Italian and German words.
+ * All maples are one species. */
 #define SPECIES(X)                                                                                                             \
     X("ostrya-carpinifolia", "carpino nero|hopfenbuche", N_("hop hornbeam"), -1.4983, 0.038828, 0, 5, 30, 5, 35, U_BEECH,      \
       false, NAN)                                                                                                              \
@@ -31,8 +31,8 @@
       false, 2.7)                                                                                                              \
     X("picea-abies", "abete rosso|peccio|fichte", N_("spruce"), -9.1298, 0.034866, 1.4633, 5, 40, 6, 70, U_SPRUCE, true, 0.9)
 
-#define ALSO(name, also, common, ...) name "|" also "|" common,
-LIBRARY(species, SPECIES, ALSO);
+#define ALL_WORDS(name, synonyms, common, ...) name "|" synonyms "|" common,
+LIBRARY(species, SPECIES, ALL_WORDS);
 
 const struct ceduo_species *ceduo_species_list(size_t *count)
 {

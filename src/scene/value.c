@@ -1,19 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers of a scene by their paths. A finder follows the path step by step through the table of keys and at the same
- * time through the scene's memory, until it holds one number. A value only points into the scene, which owns everything. */
+/* A finder follows a path step by step through the table of keys, and in parallel through the memory of the scene. */
 #include "value.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Where a path has led to. */
+/* Position reached on a path. */
 struct finder {
     struct ceduo_scene *scene;
     const char *path;
     size_t length, at;
     const struct object *object;
     char *item;
-    size_t n; /* items alike that stand side by side */
+    size_t n; /* number of adjacent items that share the value */
 };
 
 static bool next(struct finder *f, struct path_step *step)
@@ -21,20 +20,20 @@ static bool next(struct finder *f, struct path_step *step)
     return ceduo_path_next(f->path, f->length, &f->at, step);
 }
 
-/* A place in brackets, of n. */
+/* Read an index in brackets, below n. */
 static bool next_index(struct finder *f, size_t n, size_t *index)
 {
     struct path_step step;
     return next(f, &step) && step.bracket && ceduo_path_index(&step, index) && *index < n;
 }
 
-/* Goes into the item of a list that the next step means: by its place or its name; a belt has its stand's. */
+/* Enter the item of a list that the next step selects by index or name. The name of a belt is that of its stand. */
 static bool enter_item(struct finder *f, const struct object *object, char *items, size_t n)
 {
     const struct field *named = ceduo_schema_field(object, "name");
     struct path_step step;
     size_t i;
-    if (!next(f, &step) || !step.bracket || !items) /* an empty list, or segments of materials that cannot be used */
+    if (!next(f, &step) || !step.bracket || !items) /* an empty list, or segments of invalid materials */
         return false;
     if (!ceduo_path_index(&step, &i))
         for (i = 0; i < n; i++) {
@@ -56,13 +55,14 @@ static bool enter_list(struct finder *f, const struct field *list)
     struct ceduo_slope *slope = &f->scene->slope;
     char *items;
     size_t n;
-    if (list->object == ceduo_schema_segment()) { /* one may be for all; materials give one for each stretch */
+    if (list->object ==
+        ceduo_schema_segment()) { /* a single segment applies to the whole slope; materials have one per stretch */
         size_t given = slope->segments_given;
         n = given > 0 ? given : slope->vertices - 1;
         f->n = given == 1 ? slope->vertices - 1 : 1;
         if (!enter_item(f, list->object, (char *)slope->segments, n))
             return false;
-        if (slope->reversed && given > 1) /* its file has them in the other order */
+        if (slope->reversed && given > 1) /* the file lists them in reverse order */
             f->item = (char *)(slope->segments + n - 1) - (f->item - (char *)slope->segments);
         return true;
     }
@@ -73,7 +73,7 @@ static bool enter_list(struct finder *f, const struct field *list)
         return false;
     memcpy(&items, f->item + list->offset, sizeof items);
     memcpy(&n, f->item + list->beside, sizeof n);
-    if (list->flags & FIELD_OR_ONE && f->path[f->at] == '.') { /* the only one, without a place */
+    if (list->flags & FIELD_OR_ONE && f->path[f->at] == '.') { /* the only item, without an index */
         f->object = list->object;
         f->item = items;
         return n == 1;
@@ -83,8 +83,8 @@ static bool enter_list(struct finder *f, const struct field *list)
 
 /* ---- kinds of numbers ---- */
 
-/* mean, spread, or nothing more. */
-static bool find_part(struct finder *f, struct value *v)
+/* Read "mean", "spread" or the end of the path. */
+static bool find_spread_part(struct finder *f, struct value *v)
 {
     struct path_step step;
     if (!next(f, &step))
@@ -102,7 +102,8 @@ static bool find_number(struct finder *f, const struct field *field, struct valu
     v->origin = field->flags & FIELD_PLACE ? f->scene->slope.origin_x : 0;
     switch (field->type) {
     case FIELD_NUMBER:
-        if (f->object == ceduo_schema_segment() && ceduo_schema_other(f->object, field->key)) /* of stems it is counted anew */
+        if (f->object == ceduo_schema_segment() &&
+            ceduo_schema_other(f->object, field->key)) /* not for stems: their per_ha is recomputed */
             v->other =
                 (double *)(void *)(f->item + ceduo_schema_field(f->object, ceduo_schema_other(f->object, field->key))->offset);
         v->relative = field->flags & FIELD_PLACE ? (double *)(void *)(f->item + field->beside) : NULL;
@@ -111,16 +112,16 @@ static bool find_number(struct finder *f, const struct field *field, struct valu
     case FIELD_CHOICE:
         return f->at == f->length;
     case FIELD_SPREAD:
-        return find_part(f, v);
+        return find_spread_part(f, v);
     case FIELD_SPREADS:
         v->at = next_index(f, 3, &i) ? at + i * sizeof(struct ceduo_number) : NULL;
-        return v->at && find_part(f, v);
+        return v->at && find_spread_part(f, v);
     case FIELD_NUMBERS:
         memcpy(&items, at, sizeof items);
         memcpy(&n, f->item + field->beside, sizeof n);
         v->at = next_index(f, n, &i) ? items + i * sizeof(double) : NULL;
         return v->at && f->at == f->length;
-    case FIELD_POINTS: /* materials may have put vertices of their own between; all is relative to the first x */
+    case FIELD_POINTS: /* materials may have added vertices; all x are relative to the first */
         if (s->segments_given == 0 || s->simplified_to > 0 || !next_index(f, s->vertices, &i) || !next_index(f, 2, &n) ||
             (n == 0 && i == 0))
             return false;
@@ -144,7 +145,7 @@ bool ceduo_value_find(struct ceduo_scene *scene, const char *path, struct value 
         if (field->type == FIELD_GROUP) {
             f.object = field->object;
             f.item += field->offset;
-        } else if (field->type != FIELD_LIST) { /* the path ends in it, or goes on to one of its numbers */
+        } else if (field->type != FIELD_LIST) { /* the path ends here, or continues to a number of the value */
             return !(field->flags & (FIELD_NOWHERE | FIELD_DRAFT)) && find_number(&f, field, value);
         }
     }
@@ -181,16 +182,16 @@ double ceduo_value_get(const struct value *v)
 bool ceduo_value_put(const struct value *v, double number)
 {
     const struct field *f = v->field;
-    bool spread = v->part == VALUE_SPREAD, whole = number == floor(number);
-    bool inside = spread ? number >= 0 && isfinite(number) : ceduo_schema_in_range(f, number);
-    double si = number * f->scale, here = spread || v->relative ? si : si - v->origin;
+    bool spread = v->part == VALUE_SPREAD, integer = number == floor(number);
+    bool in_range = spread ? number >= 0 && isfinite(number) : ceduo_schema_in_range(f, number);
+    double si = number * f->scale, stored = spread || v->relative ? si : si - v->origin;
     int choice = (int)(f->type == FIELD_CHOICE && number >= -1 && number < (double)f->choices->n ? number : -2);
     struct ceduo_number changed = {0};
-    if (f->type == FIELD_CHOICE ? !whole || choice < -1 : !inside || (f->type == FIELD_COUNT && !whole))
+    if (f->type == FIELD_CHOICE ? !integer || choice < -1 : !in_range || (f->type == FIELD_COUNT && !integer))
         return false;
     if (is_spread(f)) {
         memcpy(&changed, v->at, sizeof changed);
-        *(spread ? &changed.spread : &changed.mean) = here;
+        *(spread ? &changed.spread : &changed.mean) = stored;
         struct ceduo_number given = changed;
         given.mean += v->origin;
         if (!ceduo_schema_spread_fits(f, given))
@@ -198,14 +199,14 @@ bool ceduo_value_put(const struct value *v, double number)
     }
     for (size_t i = 0; i < v->n; i++) {
         char *at = (char *)v->at + i * v->stride;
-        if (f->type == FIELD_CHOICE) /* to the word of that index; -1: not said */
+        if (f->type == FIELD_CHOICE) /* index of a word; -1: not given */
             memcpy(at, &choice, sizeof choice);
         else if (is_spread(f))
             memcpy(at, &changed, sizeof changed);
         else if (f->type == FIELD_COUNT)
             ceduo_schema_set_count(f, at, (uint64_t)number);
         else
-            memcpy(at, &here, sizeof here);
+            memcpy(at, &stored, sizeof stored);
         if (v->other)
             *(double *)(void *)((char *)v->other + i * v->stride) = NAN;
     }
@@ -216,7 +217,7 @@ bool ceduo_value_put(const struct value *v, double number)
 
 void ceduo_value_forget(const struct value *v)
 {
-    const double none = NAN; /* of a spread its mean */
+    const double nan = NAN; /* of a spread, this is the mean */
     for (size_t i = 0; i < v->n; i++)
-        memcpy((char *)v->at + i * v->stride, &none, sizeof none); /* no place along the slope: all these must be given */
+        memcpy((char *)v->at + i * v->stride, &nan, sizeof nan); /* never a place along the slope: places are required */
 }

@@ -6,12 +6,12 @@
 
 #include "ceduo/stand.h"
 
-/* The volume of a stem by its diameter, prepared for many stems of one kind: as given, or by the equation of the species inside its
- * rectangle of dbh and height. Outside it, by the form factor of the nearest point, so that a volume has no jump (assumed). Without a
- * species: form factor × basal area × height. */
+/* Volume of a stem by its diameter, prepared for many stems of one kind. It is the given volume, or follows from the equation
+ * of the species inside its rectangle of dbh and height. Outside, the form factor at the nearest point applies, so that the
+ * volume is continuous (assumed). Without a species: form factor × basal area × height. */
 struct stem_volume {
-    double given;                        /* m3, of the mean stem; NaN: not given */
-    double squares;                      /* m2: the mean of dbh2 */
+    double given;                        /* m3 of the mean stem; NaN: not given */
+    double squares;                      /* m2: mean of dbh2 */
     double dbh;                          /* m, of the mean stem */
     double height;                       /* m */
     const struct ceduo_species *species; /* NULL: not given */
@@ -29,7 +29,7 @@ static inline struct stem_volume stem_volume_of(const struct ceduo_stand *stand,
     return v;
 }
 
-/* Return m3 of a stem of diameter dbh without a given volume. `from` may be NULL. */
+/* Return the computed volume (m3) of a stem of diameter dbh. `from` may be NULL. */
 static inline double stem_volume_computed(const struct stem_volume *v, double dbh, enum ceduo_volume_from *from)
 {
     const struct ceduo_species *s = v->species;
@@ -47,7 +47,7 @@ static inline double stem_volume_computed(const struct stem_volume *v, double db
     return equation * (cm * cm * v->height / (d * d * h));
 }
 
-/* Return m3 of the mean stem. `from` may be NULL. */
+/* Return the volume (m3) of the mean stem. `from` may be NULL. */
 static inline double stem_volume_mean(const struct stem_volume *v, enum ceduo_volume_from *from)
 {
     if (isnan(v->given))
@@ -57,7 +57,8 @@ static inline double stem_volume_mean(const struct stem_volume *v, enum ceduo_vo
     return v->given;
 }
 
-/* Return m3 of one stem. A given volume is the mean of all stems, and grows with the square of the diameter. */
+/* Return the volume (m3) of one stem. A given volume is the mean of all stems, and is proportional to the square of the
+ * diameter. */
 static inline double stem_volume_one(const struct stem_volume *v, double dbh)
 {
     return isnan(v->given) ? stem_volume_computed(v, dbh, NULL) : v->given * (dbh * dbh / v->squares);

@@ -162,10 +162,10 @@ hash_each(&h, s.row[0], s.pointer);
 h = hash_bytes("abc", 3);
 h = hash_bytes(&s, sizeof s);
 h = hash_bytes(&p, sizeof p);
-static const struct field f[] = {TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), NO_RUN, "")};
-static const struct field f[] = {TEXT("title", NAMED(N_("title")), AT(scene_draft, scene.title), REQUIRED, "")};
-static const struct field f[] = {OTHER(FIELD_WORDS, "one_of", NAMED(""), LIST(doubt, one_of, one_of_count), 0, NULL, "", NULL, NULL)};
-static const struct field f[] = {OTHER(FIELD_FLAG, "x", NAMED(""), AT(ceduo_belt, felled), 0, NULL, "", NULL, NULL)};
+static const struct field f[] = {TEXT("title", NAMED(N_("title")), MEMBER(scene_draft, scene.title), NO_RUN, "")};
+static const struct field f[] = {TEXT("title", NAMED(N_("title")), MEMBER(scene_draft, scene.title), REQUIRED, "")};
+static const struct field f[] = {KIND_ROW(FIELD_WORDS, "one_of", NAMED(""), LIST(doubt, one_of, one_of_count), 0, NULL, "", NULL, NULL)};
+static const struct field f[] = {KIND_ROW(FIELD_FLAG, "x", NAMED(""), MEMBER(ceduo_belt, felled), 0, NULL, "", NULL, NULL)};
 """
 GOOD = (0, 3, 5, 6, 10, 13, 15, 18, 21)
 
