@@ -31,12 +31,12 @@ struct launch {
 static double height(const struct ground *g, double x, double z, size_t *segment)
 {
     size_t j = *segment;
-    while (j + 1 < g->n && x >= g->at[j + 1].x)
+    while (j + 1 < g->n && x >= g->vertices[j + 1].x)
         j++;
-    while (j > 0 && x < g->at[j].x)
+    while (j > 0 && x < g->vertices[j].x)
         j--;
     *segment = j;
-    return z - (g->at[j].z + g->segments[j].m * (x - g->at[j].x));
+    return z - (g->vertices[j].z + g->segments[j].m * (x - g->vertices[j].x));
 }
 
 static double by_quadratic(const struct ground *g, const struct launch *l, double step)

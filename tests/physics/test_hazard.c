@@ -43,7 +43,7 @@ TEST(weights_sum_to_what_comes_down)
     for (double v = 0.02; v < 40; v *= 1.3) {
         double rate = 0, larger = 0;
         for (uint64_t r = 0; r < ROCKS; r++) {
-            struct size s = ceduo_size_of(&sizes, r);
+            struct size s = ceduo_rock_size(&sizes, r);
             rate += s.volume > v ? s.weight * sizes.per_year / ROCKS : 0;
             larger += s.volume > v;
         }
@@ -64,7 +64,7 @@ TEST(every_few_rocks_have_all_sizes)
         for (uint64_t from = 0; from < 3000; from += 137) {
             int in[10] = {0};
             for (uint64_t r = from; r < from + 100; r++) {
-                double along = log(ceduo_size_of(&sizes, r).volume / 0.5) / log(80);
+                double along = log(ceduo_rock_size(&sizes, r).volume / 0.5) / log(80);
                 EXPECT(along, >, 0);
                 EXPECT(along, <, 1);
                 in[(int)(10 * along)]++;
@@ -85,9 +85,9 @@ TEST(typical_rocks_are_as_frequent_as_blocks)
     assert_true(ceduo_sizes_init(&sizes, &scene));
     double n = 0, larger = 0;
     for (uint64_t r = 0; r < ROCKS; r++)
-        if (ceduo_size_is_typical(&sizes, scene.simulation.seed, r)) {
+        if (ceduo_rock_is_typical(&sizes, scene.simulation.seed, r)) {
             n++;
-            larger += ceduo_size_of(&sizes, r).volume > 2;
+            larger += ceduo_rock_size(&sizes, r).volume > 2;
         }
     double p = above(&class, 2);
     EXPECT_NEAR(larger / n, p, 4 * sqrt(p * (1 - p) / n));
@@ -96,9 +96,9 @@ TEST(typical_rocks_are_as_frequent_as_blocks)
     assert_true(ceduo_sizes_init(&sizes, &scene));
     n = larger = 0;
     for (uint64_t r = 0; r < ROCKS; r++)
-        if (ceduo_size_is_typical(&sizes, scene.simulation.seed, r)) {
+        if (ceduo_rock_is_typical(&sizes, scene.simulation.seed, r)) {
             n++;
-            larger += ceduo_size_of(&sizes, r).volume > 0.5;
+            larger += ceduo_rock_size(&sizes, r).volume > 0.5;
         }
     EXPECT_NEAR(larger / n, 0.5 / 3.5, 4 * sqrt(0.5 / 3.5 * 3 / 3.5 / n));
     ceduo_sizes_release(&sizes);

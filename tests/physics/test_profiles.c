@@ -204,15 +204,15 @@ TEST(flights_land_as_without_blocks)
  * everywhere, so that the chords of blocks are parallel to the line. */
 static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, double fall, double top)
 {
-    const size_t block = (size_t)1 << GROUND_BITS;
+    const size_t chunk = (size_t)1 << GROUND_BITS;
     struct ceduo_slope s = slope_new(vertices);
     double x = 0, depth = line_uniform(r, .1, 2);
     for (size_t i = 0; i < vertices; i++) {
-        bool tooth = i % block != 0 && line_chance(r, .02);
+        bool tooth = i % chunk != 0 && line_chance(r, .02);
         s.x[i] = x;
         s.z[i] = top - fall * x;
         if (!tooth)
-            s.z[i] -= depth * (i % block == 0 ? 1 : line_uniform(r, 1, 2));
+            s.z[i] -= depth * (i % chunk == 0 ? 1 : line_uniform(r, 1, 2));
         for (int k = (int)line_uniform(r, -3, 3); tooth && k != 0; k -= k > 0 ? 1 : -1)
             s.z[i] = nextafter(s.z[i], k > 0 ? INFINITY : -INFINITY);
         s.segments[i] = site.segments[3];

@@ -73,13 +73,13 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
         run->slots && ceduo_run_block_init(&run->whole, run->controls) && ceduo_run_block_init(&run->tail, run->controls);
     for (size_t i = 0; good && i < run->slots_count; i++)
         good = ceduo_run_block_init(&run->slots[i], run->controls);
-    good = good && ceduo_prepared_init(&run->ready, def->scene, def->option) == CEDUO_OK;
-    run->ground_of_lanes = good && run->lanes_walk ? ceduo_lanes_ground_create(&run->ready.ground) : NULL;
+    good = good && ceduo_prepared_init(&run->prepared, def->scene, def->option) == CEDUO_OK;
+    run->ground_of_lanes = good && run->lanes_walk ? ceduo_lanes_ground_create(&run->prepared.ground) : NULL;
     if (!good || (run->lanes_walk && !run->ground_of_lanes)) {
         ceduo_run_free(run);
         return CEDUO_NO_MEMORY;
     }
-    run->alike = run->ready.wood.bare && ceduo_walk_alike(&run->ready);
+    run->identical = run->prepared.wood.bare && ceduo_walk_is_identical(&run->prepared);
     *out = run;
     return status;
 }
@@ -95,7 +95,7 @@ void ceduo_run_free(struct ceduo_run *run)
     free(run->slots);
     ceduo_run_samples_free(run);
     free(run->ground_of_lanes);
-    ceduo_prepared_release(&run->ready);
+    ceduo_prepared_release(&run->prepared);
     free(run);
 }
 

@@ -15,7 +15,7 @@ static struct ceduo_estimate share_of(uint64_t hits, uint64_t unfinished, uint64
 
 static struct released released_of(const struct ceduo_run *run, double missing)
 {
-    struct released all = {.n = (double)run->rocks, .per_year = run->ready.sizes.per_year, .missing = missing};
+    struct released all = {.n = (double)run->rocks, .per_year = run->prepared.sizes.per_year, .missing = missing};
     for (uint64_t r = 0; r < run->rocks; r++) {
         double w = run->weights[r];
         all.w += w;
@@ -27,7 +27,7 @@ static struct released released_of(const struct ceduo_run *run, double missing)
 /* The largest energies that the rocks could have: of how they are released, and of falling to the lowest ground. */
 static void bound_energies(const struct ceduo_run *run, struct weighted *could)
 {
-    const struct ceduo_scene *scene = &run->ready.scene;
+    const struct ceduo_scene *scene = &run->prepared.scene;
     const struct ceduo_release *start = &scene->release;
     const struct ceduo_number moves[] = {start->vx, start->vz, start->spin};
     double squares[3], low = INFINITY;
@@ -42,7 +42,7 @@ static void bound_energies(const struct ceduo_run *run, struct weighted *could)
                   ceduo_number_highest(start->height) - low;
     for (uint64_t r = 0; r < run->rocks; r++) {
         struct ceduo_rock rock = {0};
-        ceduo_prepared_rock(&run->ready, r, &rock);
+        ceduo_prepared_rock(&run->prepared, r, &rock);
         double mass_energy = scene->simulation.gravity * drop + 0.5 * (squares[0] + squares[1]);
         could[r] = (struct weighted){rock.mass * mass_energy + 0.5 * rock.moment * squares[2], run->weights[r]};
     }
@@ -68,20 +68,20 @@ static size_t gather_weighted(const struct ceduo_run *run, const double *column,
 static double top_of(const struct ceduo_run *run, uint64_t number, double height)
 {
     struct ceduo_rock rock = {0};
-    ceduo_prepared_rock(&run->ready, number, &rock);
+    ceduo_prepared_rock(&run->prepared, number, &rock);
     return height + rock.mean_diameter;
 }
 
 /* Return the 95th percentile of the heights of the tops of the rocks that arrive; NaN without design values. */
 static double top_p95(const struct ceduo_run *run, size_t control, double height_p95, struct weighted *scratch)
 {
-    const struct ceduo_scene *scene = &run->ready.scene;
+    const struct ceduo_scene *scene = &run->prepared.scene;
     const double *height = samples_of(run, control, HEIGHT);
     size_t n = 0;
     if (scene->design.survey < 0 || (scene->design.blocks < 0 && !run->sized))
         return NAN;
     if (!run->sized && !ceduo_scene_rock_varies(scene))
-        return height_p95 + run->ready.mean.mean_diameter;
+        return height_p95 + run->prepared.mean.mean_diameter;
     for (uint64_t r = 0; r < run->rocks; r++)
         if (!isnan(height[r]))
             scratch[n++] = (struct weighted){top_of(run, r, height[r]), weight_of(run, r)};
@@ -94,7 +94,7 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
                                        struct ceduo_arrivals *a, struct ceduo_hazard_curve *curve)
 {
     struct released all = released_of(run, s->missed[CEDUO_UNFINISHED]);
-    const double accepted = run->ready.scene.controls[control].accepted;
+    const double accepted = run->prepared.scene.controls[control].accepted;
     struct ceduo_distribution *const to[QUANTITIES] = {
         [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
     struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
@@ -111,7 +111,7 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
     a->top_p95 = top_p95(run, control, a->height.p95, values);
     size_t n = gather_weighted(run, samples_of(run, control, ENERGY), values);
     bool good = ceduo_hazard_read(&all, values, n, accepted, &a->hazard, curve); /* which sorts them */
-    a->hazard.accepted_return = isnan(accepted) ? NAN : ceduo_accepted_return(&run->ready.scene.controls[control]);
+    a->hazard.accepted_return = isnan(accepted) ? NAN : ceduo_accepted_return(&run->prepared.scene.controls[control]);
     for (size_t i = 0; i < n; i++) {
         weighted_sum_add(&reach, values[i].weight, 1);
         weighted_sum_add(&exceed, values[i].weight, values[i].value > accepted);
@@ -121,7 +121,7 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
     if (!isnan(accepted))
         a->exceed = ceduo_weighted_share(&all, &exceed, accepted);
     a->energy_per_released = (struct ceduo_estimate){energy.t / all.w, ceduo_weighted_se(&all, &energy), NAN, NAN};
-    if (!run->ready.wood.bare && n > 0) { /* no sample is kept of stems hit, but sums */
+    if (!run->prepared.wood.bare && n > 0) { /* no sample is kept of stems hit, but sums */
         double mean = s->hits.t / reach.t;
         struct weighted_sum about = {.tt = s->hits.tt - mean * (2 * s->hits.tw - mean * reach.tt),
                                      .tw = s->hits.tw - mean * reach.tt};
@@ -177,23 +177,23 @@ enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, 
                                  .exceeded = s.exceeded,
                                  .unfinished = s.ended[CEDUO_UNFINISHED],
                                  .exceed = CEDUO_NO_ESTIMATE,
-                                 .limit = ceduo_exceed_limit(&run->ready.scene, &run->ready.scene.controls[control]),
+                                 .limit = ceduo_exceed_limit(&run->prepared.scene, &run->prepared.scene.controls[control]),
                                  .contacts = CEDUO_NO_ESTIMATE,
                                  .hazard = ceduo_hazard_none(),
-                                 .topography = ceduo_prepared_topography(&run->ready, control)};
+                                 .topography = ceduo_prepared_topography(&run->prepared, control)};
     memcpy(a->ended, s.ended, sizeof a->ended);
     if (run->sized)
         return read_weighted(run, control, &s, a, curve);
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = (double)s.ended[e] / (double)run->rocks;
     a->reach = share_of(a->reached, a->unfinished, run->rocks);
-    if (!isnan(run->ready.scene.controls[control].accepted))
+    if (!isnan(run->prepared.scene.controls[control].accepted))
         a->exceed = share_of(a->exceeded, a->unfinished, run->rocks);
     const struct ceduo_moments *energy = &s.of[ENERGY]; /* of all released rocks; a rock that does not arrive counts as 0 */
     double n = (double)run->rocks, arrived = (double)energy->n / n;
     double m2 = energy->m2 + energy->mean * energy->mean * (double)energy->n * (1 - arrived);
     a->energy_per_released = (struct ceduo_estimate){energy->mean * arrived, n < 2 ? NAN : sqrt(m2 / (n - 1) / n), NAN, NAN};
-    if (!run->ready.wood.bare && s.contacts.n > 0)
+    if (!run->prepared.wood.bare && s.contacts.n > 0)
         a->contacts = (struct ceduo_estimate){s.contacts.mean, ceduo_moments_se(&s.contacts), NAN, NAN};
     struct weighted *scratch = malloc(((size_t)run->rocks + 1) * sizeof *scratch);
     double *values = (double *)scratch;
@@ -211,7 +211,7 @@ enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, 
             struct percentile at = ceduo_percentile_of(&d, k);
             double *const values_of[] = {at.value, at.lo, at.hi};
             for (size_t i = 0; i < 3; i++)
-                *values_of[i] = 0.5 * run->ready.mean.mass * (*values_of[i] * *values_of[i]);
+                *values_of[i] = 0.5 * run->prepared.mean.mass * (*values_of[i] * *values_of[i]);
         }
         d.se = ceduo_moments_se(energy);
         d.sd = ceduo_moments_sd(energy);
@@ -227,7 +227,7 @@ enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, 
 void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_brief *briefs)
 {
     const double *energies = ceduo_run_samples(run, control, CEDUO_SAMPLE_ENERGY);
-    double accepted = energies ? run->ready.scene.controls[control].accepted : NAN;
+    double accepted = energies ? run->prepared.scene.controls[control].accepted : NAN;
     for (size_t g = 0; g < groups; g++) {
         double all = 0, reached = 0, exceeded = 0, sum = 0;
         for (uint64_t r = run->rocks * g / groups; energies && r < run->rocks * (g + 1) / groups; r++) {
@@ -293,7 +293,7 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
     if (!run || !baseline || run->rocks == 0 || baseline->rocks == 0 || control >= run->controls ||
         control >= baseline->controls)
         return (struct ceduo_difference){CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
-    const struct ceduo_control *at = &run->ready.scene.controls[control];
+    const struct ceduo_control *at = &run->prepared.scene.controls[control];
     bool as_long = run->rocks == baseline->rocks;
     if (as_long && (run == baseline || (run->stems_from >= at->x && baseline->stems_from >= at->x)))
         return ceduo_no_difference(at->accepted);

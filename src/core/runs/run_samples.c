@@ -71,7 +71,7 @@ bool ceduo_run_samples_reserve(struct ceduo_run *run, uint64_t rocks)
         return false;
     run->weights = weights;
     for (uint64_t i = run->capacity; run->sized && i < capacity; i++)
-        weights[i] = ceduo_size_of(&run->ready.sizes, i).weight;
+        weights[i] = ceduo_rock_size(&run->prepared.sizes, i).weight;
     if (!run->samples && !(run->samples = calloc(run->columns, sizeof *run->samples)))
         return false;
     for (size_t i = 0; i < run->columns; i++) { /* each by itself: never are all there twice */

@@ -45,11 +45,11 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
 {
     struct worker *w = context;
     const struct ceduo_rock *rock = &walker->rock;
-    size_t control = w->run->ready.marks.at[mark].what;
+    size_t control = w->run->prepared.marks.items[mark].control;
     double speed = sqrt(c->vx * c->vx + c->vz * c->vz);
     double translation = 0.5 * rock->mass * (speed * speed);
     double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
-    bool exceeds = energy > w->run->ready.scene.controls[control].accepted; /* never, where that is NaN */
+    bool exceeds = energy > w->run->prepared.scene.controls[control].accepted; /* never, where that is NaN */
     w->arrivals[control * CEDUO_BLOCK_ROCKS + (walker->number - w->from)] =
         (struct arrival){.of = {[SPEED] = speed, [HEIGHT] = c->height, [ENERGY] = energy, [TRANSLATION] = translation},
                          .stems_hit = (double)c->stems_hit,
@@ -69,14 +69,15 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
     }
     w->block->contacts += walker->contacts;
     w->block->ends[end]++;
-    w->block->uphill += end == CEDUO_LEFT_SLOPE && !(walker->at.x > 0);
-    w->block->early += end == CEDUO_STOPPED_BY_STEMS && walker->at.x < w->run->ready.scene.release.x.mean + CEDUO_EARLY_M;
+    w->block->uphill += end == CEDUO_LEFT_SLOPE && !(walker->flight.x > 0);
+    w->block->early +=
+        end == CEDUO_STOPPED_BY_STEMS && walker->flight.x < w->run->prepared.scene.release.x.mean + CEDUO_EARLY_M;
     w->ends[walker->number - w->from] = (unsigned char)end;
-    const struct marks *marks = &w->run->ready.marks;
+    const struct marks *marks = &w->run->prepared.marks;
     for (size_t m = walker->next_mark; m < marks->n; m++) /* it counts at each control that it did not reach */
-        w->block->controls[marks->at[m].what].ended[end]++;
+        w->block->controls[marks->items[m].control].ended[end]++;
     if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
-        w->stops[walker->number - w->from] = walker->at.x;
+        w->stops[walker->number - w->from] = walker->flight.x;
     if (walker->cancelled)
         atomic_store(&w->chunk->stop, true);
 }
@@ -95,11 +96,11 @@ static bool next_rock(void *context, size_t lane)
         if (atomic_load_explicit(&w->chunk->stop, memory_order_relaxed))
             break;
         uint64_t number = w->next++;
-        bool again = run->alike && walker->g;
+        bool again = run->identical && walker->g;
         if (again)
-            ceduo_walk_release_again(walker, &w->first, number);
-        bool drawn = again || ceduo_walk_release(walker, &run->ready, number) == CEDUO_OK;
-        if (run->alike && !again)
+            ceduo_walk_release_identical(walker, &w->first, number);
+        bool drawn = again || ceduo_walk_release(walker, &run->prepared, number) == CEDUO_OK;
+        if (run->identical && !again)
             w->first = *walker;
         if (!drawn) { /* it has no trajectory: it is unfinished before every control */
             w->block->ends[CEDUO_UNFINISHED]++;
@@ -167,7 +168,7 @@ static int take_block(void *context, size_t i, size_t worker)
     struct chunk *chunk = context;
     struct worker *w = &chunk->workers[worker];
     struct ceduo_run *run = w->run;
-    enum ceduo_law law = run->ready.scene.simulation.law;
+    enum ceduo_law law = run->prepared.scene.simulation.law;
     uint64_t from = (chunk->first / CEDUO_BLOCK_ROCKS + i) * CEDUO_BLOCK_ROCKS, to = from + CEDUO_BLOCK_ROCKS;
     w->from = w->next = from < chunk->first ? chunk->first : from;
     w->to = to > chunk->end ? chunk->end : to;
@@ -178,7 +179,7 @@ static int take_block(void *context, size_t i, size_t worker)
         w->stops[k] = NAN;
     const struct lanes_job job = {.ground = run->ground_of_lanes,
                                   .law = law,
-                                  .alike = run->alike,
+                                  .identical = run->identical,
                                   .walkers = w->walkers,
                                   .next = next_rock,
                                   .ended = note_end,
@@ -206,10 +207,10 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     for (size_t i = 0; i < run->lanes; i++)
         w->walkers[i] = (struct walker){
             .cross = on_cross, .context = w, .arrivals_only = run->def.arrivals_only, .cancel = run->def.cancel};
-    if (!run->ready.wood.bare && !(w->stems = calloc(run->lanes, sizeof *w->stems)))
+    if (!run->prepared.wood.bare && !(w->stems = calloc(run->lanes, sizeof *w->stems)))
         return false;
     for (size_t i = 0; w->stems && i < run->lanes; i++) {
-        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood, run->def.kernel))
+        if (!ceduo_stems_init(&w->stems[i], &run->prepared.wood, run->def.kernel))
             return false;
         w->walkers[i].stems = &w->stems[i];
     }

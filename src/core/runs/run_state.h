@@ -40,7 +40,7 @@ struct block {
 
 struct ceduo_run {
     struct ceduo_run_def def;
-    struct prepared ready;
+    struct prepared_scene prepared;
     struct lanes_ground *ground_of_lanes;
     void (*lanes_walk)(const struct lanes_job *job); /* NULL: rocks are simulated one by one */
     size_t lanes;                                    /* rocks that a thread simulates at once */
@@ -56,7 +56,7 @@ struct ceduo_run {
     size_t slots_count;  /* CHUNK_BLOCKS, or as many as the run can have */
     bool sized;          /* rocks have weights */
     double *weights;     /* [capacity] */
-    bool alike;          /* the rocks differ in nothing but their numbers */
+    bool identical;      /* the rocks differ in nothing but their numbers */
     uint64_t capacity;   /* of the samples, in rocks */
     double **samples;    /* [columns][capacity]; NaN: the rock did not arrive, or did not stop */
 };

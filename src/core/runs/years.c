@@ -49,7 +49,7 @@ struct ceduo_window ceduo_window_of_most(struct ceduo_window w, unsigned max)
 static struct ceduo_window window_ahead(const struct ceduo_scene *scene)
 {
     struct ceduo_window w = {CEDUO_WINDOW_AHEAD, 1, CEDUO_YEARS_AHEAD, 1};
-    bool alike = true;
+    bool identical = true;
     for (size_t i = 0; i < scene->options_count; i++)
         for (size_t k = 0; k < scene->options[i].belts_count; k++) {
             const struct ceduo_belt *belt = &scene->options[i].belts[k];
@@ -58,10 +58,10 @@ static struct ceduo_window window_ahead(const struct ceduo_scene *scene)
                 w.last = rotation > w.last ? rotation : w.last;
             else if (!ceduo_stand_grows(&belt->stand))
                 continue;
-            alike = false;
+            identical = false;
         }
     w.last = w.last < CEDUO_AHEAD_MOST ? w.last : CEDUO_AHEAD_MOST;
-    return alike ? (struct ceduo_window){CEDUO_WINDOW_ALIKE, 0, 0, 1} : w;
+    return identical ? (struct ceduo_window){CEDUO_WINDOW_ALIKE, 0, 0, 1} : w;
 }
 
 struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene)

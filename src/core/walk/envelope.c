@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Each place is a control of a copy of the scene, which rocks pass one by one. */
+/* Each place becomes a control of a copy of the scene; rocks are simulated one by one. */
 #include "envelope.h"
 
 #include <gsl/gsl_statistics.h>
@@ -11,20 +11,22 @@
 #include "prepared.h"
 
 /* Values of the rocks that pass a place. */
-struct passed {
+struct passing_values {
     size_t n;
     double *height, *energy;
 };
 
-static void add_rock(struct passed *to, const struct ceduo_rock *rock, const struct ceduo_crossing *at)
+static void add_rock(struct passing_values *to, const struct ceduo_rock *rock, const struct ceduo_crossing *crossing)
 {
-    if (!at->reached)
+    if (!crossing->reached)
         return;
-    to->height[to->n] = at->height;
-    to->energy[to->n++] = 0.5 * rock->mass * (at->vx * at->vx + at->vz * at->vz) + 0.5 * rock->moment * (at->spin * at->spin);
+    to->height[to->n] = crossing->height;
+    to->energy[to->n++] = 0.5 * rock->mass * (crossing->vx * crossing->vx + crossing->vz * crossing->vz) +
+                          0.5 * rock->moment * (crossing->spin * crossing->spin);
 }
 
-/* Return the values of the ranks p n, rounded up. Each selection leaves smaller values before its rank and larger ones after. */
+/* Return the values of ranks p n, rounded up. Each selection leaves smaller values before its rank and larger values after
+ * it. */
 static struct ceduo_spread_of_cell select_ranks(double *values, size_t n)
 {
     if (n == 0)
@@ -40,60 +42,60 @@ static bool is_cancelled(void *flag)
     return ceduo_cancelled(flag);
 }
 
-/* Follow rocks, of blocks those whose sizes are as frequent as those that come down, and add what they bring to each place. */
-static enum ceduo_status follow_rocks(struct ceduo_follower *f, const struct sizes *sizes,
-                                      const struct ceduo_envelopes_def *def, struct ceduo_crossing *crossings,
-                                      struct passed *places)
+/* Simulate rocks, with blocks only those drawn with natural size frequencies, and add their values at each place. */
+static enum ceduo_status simulate_rocks(struct ceduo_follower *tracer, const struct sizes *sizes,
+                                        const struct ceduo_envelopes_def *def, struct ceduo_crossing *crossings,
+                                        struct passing_values *places)
 {
     const struct ceduo_watch watch = {.enough = is_cancelled, .context = (void *)def->cancel};
     enum ceduo_status status = CEDUO_OK;
-    uint64_t followed = 0;
-    for (uint64_t rock = 0; followed < def->rocks && status == CEDUO_OK; rock++) {
-        struct ceduo_trajectory way;
+    uint64_t simulated = 0;
+    for (uint64_t rock = 0; simulated < def->rocks && status == CEDUO_OK; rock++) {
+        struct ceduo_trajectory trajectory;
         if (ceduo_cancelled(def->cancel))
             return CEDUO_CANCELLED;
-        if (sizes->n > 0 && !ceduo_size_is_typical(sizes, def->scene->simulation.seed, rock))
+        if (sizes->n > 0 && !ceduo_rock_is_typical(sizes, def->scene->simulation.seed, rock))
             continue;
-        followed++;
-        status = ceduo_follower_follow(f, rock, &watch, &way, crossings);
+        simulated++;
+        status = ceduo_follower_follow(tracer, rock, &watch, &trajectory, crossings);
         for (size_t i = 0; i < def->places && status == CEDUO_OK; i++)
-            add_rock(&places[i], &way.rock, &crossings[i]);
+            add_rock(&places[i], &trajectory.rock, &crossings[i]);
     }
     return status;
 }
 
 enum ceduo_status ceduo_envelopes(const struct ceduo_envelopes_def *def, struct ceduo_envelope *envelopes)
 {
-    const size_t n = def->places, each = (size_t)def->rocks;
+    const size_t n = def->places, rocks = (size_t)def->rocks;
     struct ceduo_scene scene = *def->scene;
     struct ceduo_control *controls = calloc(n + 1, sizeof *controls);
     struct ceduo_crossing *crossings = calloc(n + 1, sizeof *crossings);
-    struct passed *places = calloc(n + 1, sizeof *places);
-    double *values = malloc((2 * n * each + 1) * sizeof *values);
-    struct ceduo_follower *follower = NULL;
+    struct passing_values *places = calloc(n + 1, sizeof *places);
+    double *values = malloc((2 * n * rocks + 1) * sizeof *values);
+    struct ceduo_follower *tracer = NULL;
     struct sizes sizes = {0};
     enum ceduo_status status = CEDUO_NO_MEMORY;
     if (!controls || !crossings || !places || !values || !ceduo_sizes_init(&sizes, def->scene))
         goto done;
     for (size_t i = 0; i < n; i++) {
         controls[i].x = def->x[i];
-        places[i].height = &values[2 * i * each];
-        places[i].energy = places[i].height + each;
+        places[i].height = &values[2 * i * rocks];
+        places[i].energy = places[i].height + rocks;
     }
     scene.controls = controls;
     scene.controls_count = n;
-    follower = ceduo_follower_create(&scene, def->option);
-    if (follower)
-        status = follow_rocks(follower, &sizes, def, crossings, places);
+    tracer = ceduo_follower_create(&scene, def->option);
+    if (tracer)
+        status = simulate_rocks(tracer, &sizes, def, crossings, places);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
-        struct passed *p = &places[i];
+        struct passing_values *p = &places[i];
         envelopes[i] = (struct ceduo_envelope){.passed = p->n,
                                                .mean_energy = p->n > 0 ? gsl_stats_mean(p->energy, 1, p->n) : NAN,
                                                .height = select_ranks(p->height, p->n),
                                                .energy = select_ranks(p->energy, p->n)};
     }
 done:
-    ceduo_follower_free(follower);
+    ceduo_follower_free(tracer);
     ceduo_sizes_release(&sizes);
     free(controls);
     free(crossings);

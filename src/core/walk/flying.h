@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The part of the walk above the ground: from one contact to the next, past marks and stems, and the contact itself.
- * walk.c alone includes this, after walk.h, so that the compiler sees the whole walk at once. */
+/* The part of the walk above the ground: from one contact to the next, past marks and stems, and the contact itself. Included
+ * only by walk.c, after walk.h, so that the compiler optimises the walk as a whole. */
 #ifndef CEDUO_FLYING_H
 #define CEDUO_FLYING_H
 
@@ -13,7 +13,7 @@
 #ifndef PAUSE
 #define PAUSE 4000 /* contacts, or stems */
 #endif
-#define PAUSE_SEGMENTS 64 /* a contact may pass over all segments: of a longer profile the pauses are shorter */
+#define PAUSE_SEGMENTS 64 /* a flight may pass all segments, so that longer profiles have shorter pauses */
 
 /* ---- what is next ---- */
 
@@ -23,13 +23,13 @@ static inline void set_next_stems(struct walker *w)
     w->stem_behind = -w->stems->side[1].next;
 }
 
-/* Whether nobody waits for the rock any more. */
+/* True if the caller has cancelled the trajectory. */
 static bool is_cancelled(const struct walker *w)
 {
     return ceduo_cancelled(w->cancel) || (w->watch && w->watch->enough && w->watch->enough(w->watch->context));
 }
 
-/* The contacts of the next pause: so near that the work up to there is done in a few milliseconds. */
+/* Return the contact count at which limits are checked next, a few milliseconds of work ahead. */
 static uint64_t next_pause(const struct walker *w)
 {
     uint64_t pieces = w->g->n / PAUSE_SEGMENTS + 1, step = PAUSE / pieces + 1, next = w->contacts + step;
@@ -45,54 +45,57 @@ static inline void pass_mark(struct walker *w, double vx, double vz, double spin
     w->cross(w->context, w, w->next_mark++, &c);
 }
 
-/* A flight `at` when it comes to a place. */
-static inline struct flight flight_to(const struct walker *w, const struct flight *at, double x, double t_end)
+/* Return the flight when it reaches x. */
+static inline struct flight flight_to(const struct walker *w, const struct flight *flight, double x, double t_end)
 {
-    double t = (x - at->x) / at->vx;
+    double t = (x - flight->x) / flight->vx;
     t = t < t_end ? t : t_end;
-    return (struct flight){.vx = at->vx, .vz = at->vz - w->g->gravity * t, .z = height_after(at->z, at->vz, w->g->half_g, t)};
+    return (struct flight){
+        .vx = flight->vx, .vz = flight->vz - w->g->gravity * t, .z = height_at_time(flight->z, flight->vz, w->g->half_g, t)};
 }
 
-void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double t_end)
+void ceduo_walk_pass_marks(struct walker *w, struct flight flight, double x, double t_end)
 {
     for (; w->next_x <= x; set_next_x(w)) {
-        struct flight f = flight_to(w, &at, w->next_x, t_end);
-        pass_mark(w, f.vx, f.vz, w->spin, f.z - w->marks->at[w->next_mark].z);
+        struct flight f = flight_to(w, &flight, w->next_x, t_end);
+        pass_mark(w, f.vx, f.vz, w->spin, f.z - w->marks->items[w->next_mark].z);
     }
 }
 
-NOINLINE void show_flight(const struct walker *w, struct flight at, double x1, double z1, double vz1, double seconds)
+NOINLINE void report_flight(const struct walker *w, struct flight flight, double x1, double z1, double vz1, double seconds)
 {
-    const struct ceduo_piece p = {false, at.x, at.z, at.vx, at.vz, x1, z1, at.vx, vz1, w->spin, seconds, w->contacts};
+    const struct ceduo_piece p = {false, flight.x,  flight.z, flight.vx, flight.vz, x1,
+                                  z1,    flight.vx, vz1,      w->spin,   seconds,   w->contacts};
     w->watch->piece(w->watch->context, &p);
 }
 
-FORCE_INLINE void fly(struct walker *w, struct flight *at, const struct landing *l)
+FORCE_INLINE void fly(struct walker *w, struct flight *flight, const struct landing *l)
 {
-    double vz = at->vz - w->g->gravity * l->t;
-    if (w->next_x <= l->x && at->vx > 0) /* untaken: rounding */
-        ceduo_walk_pass_marks(w, *at, l->x, l->t);
+    double vz = flight->vz - w->g->gravity * l->t;
+    if (w->next_x <= l->x && flight->vx > 0) /* untaken: rounding */
+        ceduo_walk_pass_marks(w, *flight, l->x, l->t);
     if (w->watch && w->watch->piece)
-        show_flight(w, *at, l->x, l->z, vz, l->t);
-    at->x = l->x;
-    at->z = l->z;
-    at->vz = vz;
-    at->segment = l->segment;
-    at->on_ground = true;
+        report_flight(w, *flight, l->x, l->z, vz, l->t);
+    flight->x = l->x;
+    flight->z = l->z;
+    flight->vz = vz;
+    flight->segment = l->segment;
+    flight->on_ground = true;
 }
 
 /* ---- stems ---- */
 
-NOINLINE void show_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double before,
-                        double taken)
+NOINLINE void report_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double energy_before,
+                          double known)
 {
     const struct ceduo_stem_passed p = {
-        x, stem->y, stem->dbh, stem->height, stem->shoot, stem->stool, clearance < stem->height, clearance, before, taken};
+        x,         stem->y,       stem->dbh, stem->height, stem->shoot, stem->stool, clearance < stem->height,
+        clearance, energy_before, known};
     w->watch->stem(w->watch->context, &p);
 }
 
-/* Takes the next stem of a side away; sets gives_up where the rock is not to be followed further. */
-static inline void go_to_next_stem(struct walker *w, int side)
+/* Consume the next stem on a side. Sets aborted if the trajectory must be abandoned. */
+static inline void advance_stem(struct walker *w, int side)
 {
     ceduo_stems_take(w->stems, side);
     set_next_stems(w);
@@ -101,18 +104,17 @@ static inline void go_to_next_stem(struct walker *w, int side)
         w->stems_pause = w->stems->effort + PAUSE;
         w->cancelled |= is_cancelled(w);
     }
-    w->gives_up = w->cancelled || ceduo_stems_too_many(w->stems);
+    w->aborted = w->cancelled || ceduo_stems_too_many(w->stems);
 }
 
-/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or the trajectory
- * is given up. */
+/* Consume the next stem along +x (side 0) or -x. False if there is none, or if the trajectory is aborted. */
 static bool take_stem(struct walker *w, int side, struct stem *stem)
 {
-    bool taken = w->stems->side[side].next_known;
-    if (taken)
+    bool known = w->stems->side[side].next_known;
+    if (known)
         *stem = *ceduo_stems_next(&w->stems->side[side]);
-    go_to_next_stem(w, side);
-    return taken && !w->gives_up;
+    advance_stem(w, side);
+    return known && !w->aborted;
 }
 
 static inline void count_hit(struct walker *w, const struct stem *stem)
@@ -121,50 +123,52 @@ static inline void count_hit(struct walker *w, const struct stem *stem)
     w->stools_met += ceduo_stems_meet(w->stems, stem);
 }
 
-/* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
+/* Record a hit of a stem at x by a rock of kinetic energy `energy`. Return the remaining share of its speed, 0 if it is
+ * stopped. */
 static double hit_stem(struct walker *w, struct stem *stem, double x, double clearance, double energy)
 {
     struct hit hit = {.energy = energy, .cost = stem->energy};
     count_hit(w, stem);
     double share = speed_kept(hit);
     if (w->watch && w->watch->stem)
-        show_stem(w, stem, x, clearance, energy, energy_taken(hit));
+        report_stem(w, stem, x, clearance, energy, energy_taken(hit));
     return share;
 }
 
-/* Flies past the stems between the rock and its landing `l`, which moves as stems are hit, and may not be known yet.
- * True where one stops the rock (or the trajectory is given up), at `at`. Behind a hit no landing is looked for while
- * the next stem stands over the same segment and the rock is still above the ground there: the parabola is concave, so
- * there was no contact before. */
-static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *at, struct landing *l, bool knows_landing)
+/* Fly past the stems before the landing `l`, which moves at each hit and may be unknown. True if a stem stops the rock or the
+ * trajectory is aborted, at `flight`. After a hit the landing is not computed if the next stem stands over the same segment and
+ * the rock is above the ground there. The parabola is concave, so there was no contact before. */
+static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *flight, struct landing *l,
+                                                     bool landing_known)
 {
     const struct ground *g = w->g;
-    int side = at->vx > 0 ? 0 : 1;
-    while (at->vx != 0) {
+    int side = flight->vx > 0 ? 0 : 1;
+    while (flight->vx != 0) {
         double x = side == 0 ? w->stem_ahead : w->stem_behind;
-        size_t j = at->segment;
-        bool near = side == 0 ? x <= g->at[j + 1].x : x >= g->at[j].x;
-        if (!knows_landing && !near) {
-            *l = next_landing(g, at);
-            knows_landing = true;
+        size_t j = flight->segment;
+        bool same_segment = side == 0 ? x <= g->vertices[j + 1].x : x >= g->vertices[j].x;
+        if (!landing_known && !same_segment) {
+            *l = next_landing(g, flight);
+            landing_known = true;
         }
-        if (knows_landing && (side == 0 ? !(x <= l->x) : !(x >= l->x)))
+        if (landing_known && (side == 0 ? !(x <= l->x) : !(x >= l->x)))
             return false;
-        double t = (x - at->x) / at->vx;
-        t = t < 0 ? 0 : knows_landing && t > l->t ? l->t : t;
-        struct landing here = {.t = t, .x = x, .z = height_after(at->z, at->vz, g->half_g, t)};
-        here.segment =
-            near ? j : gsl_interp_bsearch(g->x, x, j < l->segment ? j : l->segment, (j < l->segment ? l->segment : j) + 1);
-        double clearance = here.z - ground_height(g, here.segment, x);
-        if (!knows_landing && !(clearance >= 0)) {
-            *l = next_landing(g, at);
-            knows_landing = true;
+        double t = (x - flight->x) / flight->vx;
+        t = t < 0 ? 0 : landing_known && t > l->t ? l->t : t;
+        struct landing at_stem = {.t = t, .x = x, .z = height_at_time(flight->z, flight->vz, g->half_g, t)};
+        at_stem.segment =
+            same_segment ? j
+                         : gsl_interp_bsearch(g->x, x, j < l->segment ? j : l->segment, (j < l->segment ? l->segment : j) + 1);
+        double clearance = at_stem.z - ground_height(g, at_stem.segment, x);
+        if (!landing_known && !(clearance >= 0)) {
+            *l = next_landing(g, flight);
+            landing_known = true;
             continue;
         }
         struct stem stem;
         if (!take_stem(w, side, &stem)) {
-            if (w->gives_up) {
-                fly(w, at, &here); /* past the marks before */
+            if (w->aborted) {
+                fly(w, flight, &at_stem); /* report the marks before */
                 return true;
             }
             continue;
@@ -172,45 +176,45 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
         clearance = clearance > 0 ? clearance : 0;
         if (!(clearance < stem.height)) {
             if (w->watch && w->watch->stem)
-                show_stem(w, &stem, x, clearance, 0, 0);
+                report_stem(w, &stem, x, clearance, 0, 0);
             continue;
         }
-        fly(w, at, &here);
-        at->on_ground = false;
-        double energy = flying_energy(w->rock.mass, w->rock.moment, at->vx, at->vz, w->spin);
+        fly(w, flight, &at_stem);
+        flight->on_ground = false;
+        double energy = flying_energy(w->rock.mass, w->rock.moment, flight->vx, flight->vz, w->spin);
         double share = hit_stem(w, &stem, x, clearance, energy);
-        at->vx *= share;
-        at->vz *= share;
+        flight->vx *= share;
+        flight->vz *= share;
         w->spin *= share;
         if (!(share > 0))
             return true;
-        knows_landing = false;
+        landing_known = false;
     }
-    if (!knows_landing) /* untaken: rounding */
-        *l = next_landing(g, at);
+    if (!landing_known) /* untaken: rounding */
+        *l = next_landing(g, flight);
     return false;
 }
 
-/* Whether a stem stands before x, or perhaps does. */
-FORCE_INLINE bool stem_on_way(const struct walker *w, double x)
+/* True if a stem may stand before x (conservative). */
+FORCE_INLINE bool stem_before(const struct walker *w, double x)
 {
     return x >= w->stem_ahead || x <= w->stem_behind;
 }
 
 /* ---- contact ---- */
 
-/* The draw of this contact, of two contacts at a time. */
+/* Return the draw of this contact. One random pair serves two contacts. */
 FORCE_INLINE double contact_draw(const struct walker *w, struct contact_draws *draws, enum random_kind kind)
 {
     uint64_t n = w->contacts;
-    if (draws->of != n >> 1) {
-        draws->of = n >> 1;
+    if (draws->index != n >> 1) {
+        draws->index = n >> 1;
         draws->pair = random_pair(w->seed, w->number, n >> 1, kind);
     }
     return draws->pair.u[n & 1];
 }
 
-/* The section and how it is turned at this contact: by an angle in [-pi/2, pi/2), as half a turn changes nothing. */
+/* Set the section, with its orientation at this contact: an angle in [-pi/2, pi/2), because half a turn has no effect. */
 FORCE_INLINE void turn_section(struct walker *w, struct ground_point *to)
 {
     double angle = (contact_draw(w, &w->turns, RANDOM_TURN) - 0.5) * HALF_TURN;
@@ -225,9 +229,9 @@ FORCE_INLINE double largest_facet(const struct walker *w, size_t j)
 {
     if (!w->g->theta_varies)
         return w->g->segments[j].theta;
-    if (w->g->rough)
-        return w->theta[w->g->rough[j]];
-    const struct ceduo_segment *s = w->g->given[j];
+    if (w->g->roughness_index)
+        return w->theta[w->g->roughness_index[j]];
+    const struct ceduo_segment *s = w->g->source[j];
     return roughness_angle((struct ground_roughness){s->roughness_m, s->roughness_rad}, w->rock.radius);
 }
 
@@ -243,25 +247,25 @@ FORCE_INLINE struct ground_point ground_point(const struct walker *w, size_t j)
                              .mu = s->mu,
                              .friction = s->friction};
     if (w->g->rn_varies)
-        p.rn = ceduo_number_draw(w->g->given[j]->rn, w->rn_u, 0, 1);
+        p.rn = ceduo_number_draw(w->g->source[j]->rn, w->rn_u, 0, 1);
     if (w->g->rt_varies)
-        p.rt = ceduo_number_draw(w->g->given[j]->rt, w->rt_u, 0, 1);
+        p.rt = ceduo_number_draw(w->g->source[j]->rt, w->rt_u, 0, 1);
     return p;
 }
 
-FORCE_INLINE struct velocity velocity_at(const struct walker *w, const struct flight *at)
+FORCE_INLINE struct velocity velocity_at(const struct walker *w, const struct flight *flight)
 {
-    const struct ground_segment *s = &w->g->segments[at->segment];
-    return velocity_on(s->c, s->s, at->vx, at->vz);
+    const struct ground_segment *s = &w->g->segments[flight->segment];
+    return velocity_on(s->c, s->s, flight->vx, flight->vz);
 }
 
-/* A facet: its turn from the segment, against a rock that goes along +x, or upwards with facets to both sides. */
+/* A facet: its angle to the segment, against a rock that moves along +x, or upward with facets to both sides. */
 struct facet {
     double angle, sine, cosine;
 };
 
-/* The facet of the next contact, if that is on segment j. Called before the flight to it as well, for the segment that
- * the flight leaves: mostly that is as rough as the next, and all is ready when the rock comes down. */
+/* Set the facet of the next contact, assumed on segment j. It is first called before the flight, for the segment that the
+ * flight leaves: the next segment mostly has the same roughness, and then the facet is ready at landing. */
 FORCE_INLINE void turn_facet(struct walker *w, size_t j, struct facet *f)
 {
     double largest = largest_facet(w, j), angle = 0;
@@ -273,20 +277,19 @@ FORCE_INLINE void turn_facet(struct walker *w, size_t j, struct facet *f)
     }
 }
 
-/* A contact. */
-FORCE_INLINE void strike_ground(struct walker *w, struct flight *at, struct velocity *v, struct facet *facet,
+FORCE_INLINE void strike_ground(struct walker *w, struct flight *flight, struct velocity *v, struct facet *facet,
                                 const struct contact_law *law)
 {
-    const struct ground_segment *s = &w->g->segments[at->segment];
-    turn_facet(w, at->segment, facet);
+    const struct ground_segment *s = &w->g->segments[flight->segment];
+    turn_facet(w, flight->segment, facet);
     double sine = facet->sine, cosine = facet->cosine;
     facet_struck(w->g->facets == CEDUO_AGAINST, *v, &sine, &cosine);
-    struct ground_point point = ground_point(w, at->segment);
+    struct ground_point point = ground_point(w, flight->segment);
     if (law->sections)
         turn_section(w, &point);
     *v = strike(law, &point, sine, cosine, *v, &w->spin);
-    at->vx = v->along * s->c - v->off * s->s;
-    at->vz = v->along * s->s + v->off * s->c;
+    flight->vx = v->along * s->c - v->off * s->s;
+    flight->vz = v->along * s->s + v->off * s->c;
 }
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The slope, prepared. Vertices on one line with the same ground are merged; then blocks of 2^GROUND_BITS segments, and
- * blocks of those, each get a bound of how far the ground rises above their chord, so that a long flight passes a whole block
- * at once. The ground owns its columns but points to the slope's segments. */
+/* Preparation of a slope. Vertices on one line with the same ground are merged. Then chunks of 2^GROUND_BITS segments, and
+ * chunks of chunks, get an upper bound of the rise of the ground above their chord, so that a long flight can skip a whole
+ * chunk. The ground owns its columns but points to the slope's segments. */
 #include "ground.h"
 
 #include <float.h>
@@ -13,77 +13,77 @@
 #include "base/elementary.h"
 
 #ifndef MARGIN
-#define MARGIN 1e-10 /* of the slope's size; only speed depends on it */
+#define MARGIN 1e-10 /* of the slope's size; affects only speed */
 #endif
 #ifndef ON_LINE
-#define ON_LINE (4 * DBL_EPSILON) /* of the slope's size: a vertex this near to a line is on it but for rounding */
+#define ON_LINE (4 * DBL_EPSILON) /* of the slope's size: a vertex this near to a line is on it, apart from rounding */
 #endif
 #ifndef NO_BREAK
-#define NO_BREAK 1e-7 /* rad; a segment turned no further from the line costs a rolling rock nothing that a double shows */
+#define NO_BREAK 1e-7 /* rad; a smaller angle between segment and line costs a rolling rock less than rounding */
 #endif
 
-/* ---- vertices that matter ---- */
+/* ---- merging vertices ---- */
 
-/* Lines from one vertex: steepest and gentlest that pass as near to all vertices so far as rounding allows, and likewise
- * the slopes that no segment so far is turned from. */
+/* Slopes of lines from one vertex that pass all vertices so far within rounding, and turn from no segment by more than
+ * NO_BREAK. */
 struct lines {
     double lo, hi;
 };
 
-static void narrow(struct lines *l, double m, double by)
+static void narrow(struct lines *l, double m, double margin)
 {
-    l->lo = fmax(l->lo, m - by);
-    l->hi = fmin(l->hi, m + by);
+    l->lo = fmax(l->lo, m - margin);
+    l->hi = fmin(l->hi, m + margin);
 }
 
-/* The last vertex of the line that segment j begins: all vertices on the way are on it, and all ground is alike. */
-static size_t end_of_line(const struct ceduo_slope *slope, size_t j, double near)
+/* Return the last vertex of the line that begins with segment j. All vertices between are on it, and all ground is the same. */
+static size_t find_line_end(const struct ceduo_slope *slope, size_t j, double tolerance)
 {
     const double *x = slope->x, *z = slope->z;
     struct lines l = {-INFINITY, INFINITY};
     size_t end = j + 1;
     for (; end + 1 < slope->vertices; end++) {
         double m = (z[end] - z[end - 1]) / (x[end] - x[end - 1]), next = (z[end + 1] - z[end]) / (x[end + 1] - x[end]);
-        double turn = NO_BREAK * (1 + m * next); /* less than 0 beyond a right angle */
-        if (!(fabs(next - m) <= 2 * turn))       /* by far the most of a rough profile */
+        double turn = NO_BREAK * (1 + m * next); /* < 0 beyond a right angle */
+        if (!(fabs(next - m) <= 2 * turn))       /* the usual exit on a rough profile */
             break;
         if (!ceduo_segment_same(&slope->segments[j], &slope->segments[end]))
             break;
-        double dx = x[end] - x[j], far = x[end + 1] - x[j], chord = (z[end + 1] - z[j]) / far;
+        double dx = x[end] - x[j], dx_next = x[end + 1] - x[j], chord = (z[end + 1] - z[j]) / dx_next;
         narrow(&l, m, turn);
-        narrow(&l, (z[end] - z[j]) / dx, near * (1 + fmin(fabs(m), fabs(next))) / dx);
+        narrow(&l, (z[end] - z[j]) / dx, tolerance * (1 + fmin(fabs(m), fabs(next))) / dx);
         if (!(chord >= l.lo && chord <= l.hi && fabs(chord - next) <= turn))
             break;
     }
     return end;
 }
 
-/* Sets n and the vertices, and what ground each segment is given. */
+/* Set n, the vertices, and the source of each segment. */
 static void keep_vertices(struct ground *g, const struct ceduo_slope *slope, double size)
 {
     size_t n = 0, i = 0;
     while (i + 1 < slope->vertices) {
         g->x[n] = slope->x[i];
-        g->at[n] = (struct ground_vertex){slope->x[i], slope->z[i]};
-        g->given[n++] = &slope->segments[i];
-        i = end_of_line(slope, i, ON_LINE * size);
+        g->vertices[n] = (struct ground_vertex){slope->x[i], slope->z[i]};
+        g->source[n++] = &slope->segments[i];
+        i = find_line_end(slope, i, ON_LINE * size);
     }
     g->x[n] = slope->x[i];
-    g->at[n] = (struct ground_vertex){slope->x[i], slope->z[i]};
+    g->vertices[n] = (struct ground_vertex){slope->x[i], slope->z[i]};
     g->n = n;
-    g->at[-1] = (struct ground_vertex){g->at[0].x - 1, INFINITY};
-    for (size_t behind = 1; behind <= GROUND_BEHIND; behind++)
-        g->at[n + behind] = (struct ground_vertex){g->at[n].x + 1, INFINITY};
+    g->vertices[-1] = (struct ground_vertex){g->vertices[0].x - 1, INFINITY};
+    for (size_t k = 1; k <= GROUND_PADDING; k++)
+        g->vertices[n + k] = (struct ground_vertex){g->vertices[n].x + 1, INFINITY};
 }
 
 /* ---- segments ---- */
 
 static void prepare_segment(struct ground *g, size_t j, double radius)
 {
-    const struct ceduo_segment *from = g->given[j];
+    const struct ceduo_segment *from = g->source[j];
     struct ground_segment *to = &g->segments[j];
-    double dx = g->at[j + 1].x - g->at[j].x, dz = g->at[j + 1].z - g->at[j].z;
-    /* a length of few bits would make c and s longer than 1 together, and a contact would give energy */
+    double dx = g->vertices[j + 1].x - g->vertices[j].x, dz = g->vertices[j + 1].z - g->vertices[j].z;
+    /* with a subnormal length c and s would not be a unit vector, and a contact would add energy */
     double shortest = DBL_MIN / DBL_EPSILON, scale = fabs(dx) < shortest && fabs(dz) < shortest ? 0x1p600 : 1;
     double length = ceduo_length(dx * scale, dz * scale);
     to->m = dz / dx;
@@ -93,67 +93,67 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     to->mu = from->mu;
     to->rn = from->rn.mean;
     to->rt = from->rt.mean;
-    if (j > 0 && ceduo_segment_same(from, g->given[j - 1]))
+    if (j > 0 && ceduo_segment_same(from, g->source[j - 1]))
         to->theta = g->segments[j - 1].theta;
     else
         to->theta = roughness_angle((struct ground_roughness){from->roughness_m, from->roughness_rad}, radius);
-    g->along[j + 1] = g->along[j] + length / scale;
+    g->distance[j + 1] = g->distance[j] + length / scale;
     g->rn_varies |= from->rn.spread > 0;
     g->rt_varies |= from->rt.spread > 0;
 }
 
-/* Number the roughnesses of a profile where rocks differ in radius, so that each rock has the angle of each from its release on.
+/* Index the roughnesses of a profile if rocks differ in radius, so that each rock computes their angles once at its release.
  * False without memory. */
 static bool number_roughnesses(struct ground *g)
 {
     if (!g->theta_varies)
         return true;
-    g->rough = malloc(g->n);
-    if (!g->rough)
+    g->roughness_index = malloc(g->n);
+    if (!g->roughness_index)
         return false;
     for (size_t j = 0; j < g->n; j++) {
-        const struct ceduo_segment *s = g->given[j];
+        const struct ceduo_segment *s = g->source[j];
         size_t k = 0;
         while (k < g->roughness_count && g->roughness[k].height != s->roughness_m && g->roughness[k].angle != s->roughness_rad)
             k++;
         if (k == ROUGHNESS_MAX) {
-            free(g->rough);
-            g->rough = NULL;
+            free(g->roughness_index);
+            g->roughness_index = NULL;
             g->roughness_count = 0;
             return true;
         }
         if (k == g->roughness_count)
             g->roughness[g->roughness_count++] = (struct ground_roughness){s->roughness_m, s->roughness_rad};
-        g->rough[j] = (unsigned char)k;
+        g->roughness_index[j] = (unsigned char)k;
     }
     return true;
 }
 
-/* ---- blocks ---- */
+/* ---- chunks ---- */
 
-/* The blocks of each level from the blocks, or the vertices, of the level below: no more than a bound of what rises. */
+/* Build the chunks of each level from the chunks, or the vertices, of the level below. The rise is an upper bound. */
 static bool build_levels(struct ground *g, double margin)
 {
     for (int level = 1; level < GROUND_LEVELS && g->n >> (GROUND_BITS * level) >= 2; level++) { /* untaken: large */
-        size_t blocks = g->n >> (GROUND_BITS * level);
-        struct ground_block *to = calloc(blocks + 1 + GROUND_GROUP, sizeof *to);
+        size_t chunks = g->n >> (GROUND_BITS * level);
+        struct ground_chunk *to = calloc(chunks + 1 + GROUND_GROUP, sizeof *to);
         if (!to)
             return false;
         g->levels[level] = to;
         g->top = level;
-        for (size_t i = 0; i <= blocks; i++) {
+        for (size_t i = 0; i <= chunks; i++) {
             size_t vertex = i << (GROUND_BITS * level);
-            to[i] = (struct ground_block){.x = g->at[vertex].x, .z = g->at[vertex].z};
+            to[i] = (struct ground_chunk){.x = g->vertices[vertex].x, .z = g->vertices[vertex].z};
         }
-        for (size_t i = 0; i < blocks; i++) {
+        for (size_t i = 0; i < chunks; i++) {
             to[i].m = (to[i + 1].z - to[i].z) / (to[i + 1].x - to[i].x);
             for (size_t j = i << GROUND_BITS; j < (i + 1) << GROUND_BITS; j++) {
-                const struct ground_block *block = &to[i], *below = level > 1 ? &g->levels[level - 1][j] : NULL;
-                double x0 = below ? below[0].x : g->at[j].x, z0 = below ? below[0].z : g->at[j].z;
-                double x1 = below ? below[1].x : g->at[j + 1].x, z1 = below ? below[1].z : g->at[j + 1].z;
-                double above0 = z0 - (block->z + block->m * (x0 - block->x));
-                double above1 = z1 - (block->z + block->m * (x1 - block->x));
-                to[i].rise = max(block->rise, max(above0, above1) + (below ? below->rise : 0));
+                const struct ground_chunk *chunk = &to[i], *child = level > 1 ? &g->levels[level - 1][j] : NULL;
+                double x0 = child ? child[0].x : g->vertices[j].x, z0 = child ? child[0].z : g->vertices[j].z;
+                double x1 = child ? child[1].x : g->vertices[j + 1].x, z1 = child ? child[1].z : g->vertices[j + 1].z;
+                double above0 = z0 - (chunk->z + chunk->m * (x0 - chunk->x));
+                double above1 = z1 - (chunk->z + chunk->m * (x1 - chunk->x));
+                to[i].rise = max(chunk->rise, max(above0, above1) + (child ? child->rise : 0));
             }
             to[i].rise += margin;
         }
@@ -171,24 +171,24 @@ bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, d
     double size = 0;
     for (size_t i = 0; i < slope->vertices; i++)
         size = max(size, max(fabs(slope->x[i]), fabs(slope->z[i])));
-    struct ground_vertex *vertices = malloc((1 + slope->vertices + GROUND_BEHIND) * sizeof *vertices);
-    ground->at = vertices ? vertices + 1 : NULL;
+    struct ground_vertex *vertices = malloc((1 + slope->vertices + GROUND_PADDING) * sizeof *vertices);
+    ground->vertices = vertices ? vertices + 1 : NULL;
     ground->x = malloc(slope->vertices * sizeof *ground->x);
-    ground->given = malloc(slope->vertices * sizeof *ground->given);
-    if (!ground->at || !ground->x || !ground->given)
+    ground->source = malloc(slope->vertices * sizeof *ground->source);
+    if (!ground->vertices || !ground->x || !ground->source)
         goto fail;
     keep_vertices(ground, slope, size);
-    ground->along = malloc((ground->n + 1) * sizeof(double));
+    ground->distance = malloc((ground->n + 1) * sizeof(double));
     struct ground_segment *segments = aligned_alloc(sizeof *segments, (ground->n + 3) * sizeof *segments);
     ground->segments = segments ? &segments[1] : NULL;
-    if (!ground->along || !segments)
+    if (!ground->distance || !segments)
         goto fail;
     memset(segments, 0, sizeof *segments);
     memset(segments + ground->n + 1, 0, 2 * sizeof *segments);
-    ground->along[0] = 0;
+    ground->distance[0] = 0;
     for (size_t j = 0; j < ground->n; j++) {
         prepare_segment(ground, j, radius);
-        ground->theta_varies |= radius_varies && ground->given[j]->roughness_m > 0;
+        ground->theta_varies |= radius_varies && ground->source[j]->roughness_m > 0;
     }
     if (number_roughnesses(ground) && build_levels(ground, MARGIN * size))
         return true;
@@ -204,14 +204,14 @@ size_t ceduo_ground_segment(const struct ground *ground, double x)
 
 void ceduo_ground_release(struct ground *ground)
 {
-    if (ground->at)
-        free(ground->at - 1);
+    if (ground->vertices)
+        free(ground->vertices - 1);
     free(ground->x);
-    free(ground->along);
+    free(ground->distance);
     if (ground->segments)
         free(ground->segments - 1);
-    free(ground->given);
-    free(ground->rough);
+    free(ground->source);
+    free(ground->roughness_index);
     for (int l = 0; l < GROUND_LEVELS; l++)
         free(ground->levels[l]);
     memset(ground, 0, sizeof *ground);
@@ -223,7 +223,7 @@ double ceduo_ground_between(const struct ground *g, size_t j, double x0, double 
         return ground_length(&g->segments[j], x0, z0, x1, z1);
     if (j > k)
         return ceduo_ground_between(g, k, x1, z1, j, x0, z0);
-    double before = ground_length(&g->segments[j], x0, z0, g->at[j + 1].x, g->at[j + 1].z);
-    double after = ground_length(&g->segments[k], g->at[k].x, g->at[k].z, x1, z1);
-    return before + (g->along[k] - g->along[j + 1]) + after;
+    double before = ground_length(&g->segments[j], x0, z0, g->vertices[j + 1].x, g->vertices[j + 1].z);
+    double after = ground_length(&g->segments[k], g->vertices[k].x, g->vertices[k].z, x1, z1);
+    return before + (g->distance[k] - g->distance[j + 1]) + after;
 }

@@ -8,8 +8,8 @@
 #include "base/real.h"
 #include "ceduo/slope.h"
 
-/* A slope made ready for many rocks: what the walk needs at each vertex and segment, in pairs as lanes look them
- * up, a segment in one line of the cache. */
+/* A slope prepared for many rocks. Vertices and segments are stored in pairs, as lanes look them up; a segment fills one cache
+ * line. */
 struct ground_vertex {
     double x, z;
 };
@@ -19,83 +19,84 @@ struct ground_segment {
     double theta;        /* largest facet angle, for the radius of the mean rock */
     double c, s;         /* unit tangent along +x; the normal upward is (-s, c) */
     double rn, rt;       /* means */
-    double mu, friction; /* Coulomb's; of a rolling rock */
+    double mu, friction; /* Coulomb friction; rolling friction */
 };
 
 #ifndef GROUND_BITS
-#define GROUND_BITS 3 /* 2^3 segments are a block, 2^3 blocks one of the next level; only speed depends on it */
+#define GROUND_BITS 3 /* a chunk has 2^3 segments, a chunk of the next level 2^3 chunks; affects only speed */
 #endif
-#define GROUND_LEVELS 16
-#define GROUND_GROUP  (GROUND_BITS > 3 ? 1 << GROUND_BITS : 8) /* so many are read at once, be they there or not */
-#define GROUND_BEHIND (1 + GROUND_GROUP)
+#define GROUND_LEVELS  16
+#define GROUND_GROUP   (GROUND_BITS > 3 ? 1 << GROUND_BITS : 8) /* number read at once, possibly beyond the end */
+#define GROUND_PADDING (1 + GROUND_GROUP)
 
-/* Some neighbouring segments: their first vertex, the slope of the chord to the first of the next block, and how high
- * the ground rises above that chord, with a margin for rounding. A parabola that is as high above the chord at two places
- * touches no segment between. */
-struct ground_block {
+/* Some neighbouring segments: their first vertex, the slope of the chord to the first vertex of the next chunk, and the maximum
+ * rise of the ground above this chord, with a margin for rounding. A parabola that is higher above the chord than `rise` at two
+ * places touches no segment between. */
+struct ground_chunk {
     double x, z, m, rise;
 };
 
-/* The roughness of a ground: a height, m, or an angle. */
+/* Roughness of a ground: a height, m, or an angle, rad. */
 struct ground_roughness {
     double height, angle; /* one of them is NaN */
 };
 #define ROUGHNESS_MAX 16
 
-/* The largest facet angle under a rock of this radius, m. */
+/* Return the largest facet angle, rad, under a rock of this radius, m. */
 FORCE_INLINE double roughness_angle(struct ground_roughness r, double radius)
 {
     return isnan(r.height) ? r.angle : ceduo_atan(r.height / radius);
 }
 
-/* Neighbours on one line with the same ground are one segment here, so its numbers are not those of the slope. */
+/* Neighbouring segments of the slope on one line with the same ground are one segment here, so indices differ from the
+ * slope. */
 struct ground {
-    size_t n;                 /* segments */
-    struct ground_vertex *at; /* n + 1; with one before and GROUND_BEHIND behind: walls without top, so that a flight over
-                               * the profile's end is one that strikes a wall */
-    double *x, *along;        /* n + 1; x once more, for searches; along: metres of ground from the first vertex */
-    struct ground_segment *segments;    /* n; with an empty one before and two behind, which lanes beyond a wall read */
-    const struct ceduo_segment **given; /* n: the slope's, for spreads and roughness heights */
+    size_t n; /* segments */
+    struct ground_vertex
+        *vertices;        /* n + 1, between 1 and GROUND_PADDING infinite walls; a flight over the profile's end strikes one */
+    double *x, *distance; /* n + 1; a copy of x for searches; metres along the ground from the first vertex */
+    struct ground_segment *segments;     /* n, between 1 and 2 empty segments, which lanes beyond a wall read */
+    const struct ceduo_segment **source; /* n: segments of the slope, for spreads and roughness heights */
     enum ceduo_facets facets;
-    bool rn_varies, rt_varies, theta_varies; /* from rock to rock */
-    size_t roughness_count; /* of the profile; 0: theta does not vary, or there are more than the array holds */
+    bool rn_varies, rt_varies, theta_varies; /* between rocks */
+    size_t roughness_count;                  /* of the profile; 0: theta does not vary, or more than ROUGHNESS_MAX */
     struct ground_roughness roughness[ROUGHNESS_MAX];
-    unsigned char *rough; /* n: the roughness of each segment; NULL if there is no count */
+    unsigned char *roughness_index; /* n: roughness of each segment; NULL if roughness_count is 0 */
     double gravity, half_g;
-    int top; /* level; level l has blocks of 2^(GROUND_BITS l) segments, from 1 on, and only whole ones */
-    struct ground_block *levels[GROUND_LEVELS];
+    int top; /* top level; level l >= 1 has only complete chunks of 2^(GROUND_BITS l) segments; 0: none */
+    struct ground_chunk *levels[GROUND_LEVELS];
 };
 
-/* Builds `ground` for a checked slope; radius of the mean rock; whether radii differ. False without memory. */
+/* Build the ground of a checked slope, for the radius of the mean rock. False without memory. */
 bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, double gravity, double radius,
                        bool radius_varies);
 void ceduo_ground_release(struct ground *ground);
 
-/* The segment that x lies on, the right-hand one at a vertex. */
+/* Return the segment that contains x, the right-hand one at a vertex. */
 size_t ceduo_ground_segment(const struct ground *ground, double x);
 
-/* Whether z tells better than x where a point lies. */
+/* True if z determines a point better than x. */
 FORCE_INLINE bool ground_is_steep(const struct ground_segment *s)
 {
     return s->m > 1 || s->m < -1;
 }
 
-/* Height of the ground at x on segment j. */
+/* Return the height of the ground at x on segment j. */
 FORCE_INLINE double ground_height(const struct ground *g, size_t j, double x)
 {
-    if (x >= g->at[j + 1].x)
-        return g->at[j + 1].z;
-    return g->at[j].z + g->segments[j].m * (x - g->at[j].x);
+    if (x >= g->vertices[j + 1].x)
+        return g->vertices[j + 1].z;
+    return g->vertices[j].z + g->segments[j].m * (x - g->vertices[j].x);
 }
 
-/* Metres of ground between two points of one segment. */
+/* Return the metres along the ground between two points of one segment. */
 FORCE_INLINE double ground_length(const struct ground_segment *s, double x0, double z0, double x1, double z1)
 {
     double d = ground_is_steep(s) ? (z1 - z0) / s->s : (x1 - x0) / s->c;
     return d < 0 ? -d : d;
 }
 
-/* Metres of ground between a point on segment j and one on segment k. */
+/* Return the metres along the ground between a point on segment j and a point on segment k. */
 double ceduo_ground_between(const struct ground *g, size_t j, double x0, double z0, size_t k, double x1, double z1);
 
 #endif

@@ -4,32 +4,32 @@
 
 #include "base/real.h"
 
-/* One impact on the ground, in the axes of the facet. A law turns what comes in into what goes out (vn outward). */
+/* Motion at an impact, in the axes of the facet. A law maps the incoming to the outgoing motion (vn outward). */
 struct impact {
     real vn, vt; /* m/s: speed into the facet (>= 0), speed along it */
-    real spin;   /* rad/s, positive where the rock rolls forward */
+    real spin;   /* rad/s, positive if the rock rolls forward */
 };
 
-/* What a law needs to know of rock and ground. */
+/* Parameters of rock and ground for a law. */
 struct ground_point {
-    real rn, rt;   /* 0…1 */
-    real radius;   /* R, m */
-    real k;        /* I/(MR2) */
-    bool scale_rn; /* lumped only: Rn divided by 1 + (Vn/K)2 */
-    bool bound;    /* by friction: see bound_by_friction() */
-    real friction; /* tan of an angle; unused unless `bound`, or the law has sections */
-    real mu;       /* of laws of sections, which are turned: */
-    real sine, cosine;
+    real rn, rt;       /* 0…1 */
+    real radius;       /* R, m */
+    real k;            /* I/(MR2) */
+    bool scale_rn;     /* lumped only: Rn divided by 1 + (Vn/K)2 */
+    bool bound;        /* see bound_by_friction() */
+    real friction;     /* tan of the rolling friction angle; used only if `bound`, or by a law with sections */
+    real mu;           /* Coulomb friction, only for laws with sections */
+    real sine, cosine; /* orientation of the section */
     struct {
         real wide, high, reach, gyration; /* of struct section */
     } section;
 };
 
-/* A law of contacts, of CEDUO_LAWS: a header law_NAME.h defines law_NAME. */
+/* A contact law of CEDUO_LAWS; law_NAME.h defines law_NAME. */
 struct contact_law {
-    struct impact (*struck)(struct impact in, const struct ground_point *at);
-    bool spins;    /* it knows spin; otherwise the rock is a point mass */
-    bool sections; /* it needs a section of the rock, turned at random at each contact */
+    struct impact (*struck)(struct impact in, const struct ground_point *point);
+    bool spins;    /* uses spin; false: the rock is a point mass */
+    bool sections; /* needs a section of the rock, with a random orientation at each contact */
 };
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The walk of lanes (lanes.h) and the drawing of stems for wide registers: whoever includes it has said how many numbers one
- * holds (REAL_LANES) and what the kernel is called (KERNEL). The rest of the program is for any machine: this file alone sets the
- * target. What is computed here and in lanes_*.h is computed by walk.c for one rock: the same operations in the same order, where
- * it is not the same text. Each stage is done for one register after the other: short enough that the processor begins one before
- * the other is done, and small enough to stay in its registers. */
+/* The walk of lanes (lanes.h) and the drawing of stems for wide registers. The including file defines REAL_LANES, the numbers
+ * per register, and KERNEL, the name of the kernel. Only this file sets a target; the rest of the program runs on any machine.
+ * This file and lanes_*.h use the same operations in the same order as walk.c for one rock, unless they share its code. Each
+ * stage processes one register after the other. A stage is so short that the processor overlaps the registers, and so small
+ * that it needs no spills. */
 #include "core/wood/kernel.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -25,95 +25,95 @@
 
 /* ---- all contacts ---- */
 
-FORCE_INLINE void step_lanes(struct form form, struct lanes *k, bool even)
+FORCE_INLINE void step_lanes(struct kernel_params params, struct lanes *k, bool even)
 {
-    unsigned pass, leave, alone = form.wood ? pass_stems(form, k) : 0;
-    alone |= disturbed(form, k, &pass, &leave);
-    pass &= ~alone;
-    leave &= ~alone;
+    unsigned pass, leave, scalar = params.stems ? pass_stems(params, k) : 0;
+    scalar |= find_scalar_lanes(params, k, &pass, &leave);
+    pass &= ~scalar;
+    leave &= ~scalar;
     for (; pass; pass &= pass - 1)
-        pass_marks_alone(k, (size_t)__builtin_ctz(pass));
+        pass_marks_scalar(k, (size_t)__builtin_ctz(pass));
     for (; leave; leave &= leave - 1) {
         size_t i = (size_t)__builtin_ctz(leave);
-        end_alone(k, i, k->to_x[i], k->to_z[i], CEDUO_LEFT_SLOPE);
+        end_lane(k, i, k->to_x[i], k->to_z[i], CEDUO_LEFT_SLOPE);
     }
-    for (; alone; alone &= alone - 1)
-        come_down_alone(k, (size_t)__builtin_ctz(alone));
+    for (; scalar; scalar &= scalar - 1)
+        land_scalar(k, (size_t)__builtin_ctz(scalar));
     if (even) {
-        draw_ahead(k, RANDOM_FACET, k->draw);
-        if (form.law->sections)
-            draw_ahead(k, RANDOM_TURN, k->turn);
+        draw_two_contacts(k, RANDOM_FACET, k->draw);
+        if (params.law->sections)
+            draw_two_contacts(k, RANDOM_TURN, k->turn);
     } else {
-        for (; k->fresh; k->fresh &= k->fresh - 1)
-            load_draws(k, (size_t)__builtin_ctz(k->fresh));
+        for (; k->need_draws; k->need_draws &= k->need_draws - 1)
+            load_draws(k, (size_t)__builtin_ctz(k->need_draws));
     }
-    k->fresh = 0;
-    if (k->varies)
-        ground_alone(form, k);
-    else if (k->sized)
-        theta_alone(k);
+    k->need_draws = 0;
+    if (k->ground_varies)
+        load_ground_scalar(params, k);
+    else if (k->theta_varies)
+        load_theta(k);
     EACH_REGISTER(i)
-        turn_lanes(form, k, i);
-    k->rolled = k->friction_bound ? k->rolls : 0;
+        draw_facets(params, k, i);
+    k->rolled = k->friction_bound ? k->rolling : 0;
     EACH_REGISTER(i)
-        strike_lanes(form, k, i);
-    unsigned far = k->far ? find_segments_far(form, k) : find_segments(form, k);
-    unsigned waits = form.wood ? k->waits : 0, left = 0, near = 0;
+        strike_lanes(params, k, i);
+    unsigned unfound = k->has_chunks ? find_segments_far(params, k) : find_segments(params, k);
+    unsigned waiting = params.stems ? k->waiting : 0, off_slope = 0, may_roll = 0;
     EACH_REGISTER(i)
-        left |= land_lanes(form, k, i, &near);
-    k->left = (left & k->live & ~waits) | (k->left & waits);
-    far &= ~waits;
-    alone = far;
-    near &= k->live & ~far & ~in_the_air(form, k);
-    k->rolls = 0;
-    if (near)
+        off_slope |= land_lanes(params, k, i, &may_roll);
+    k->off_slope = (off_slope & k->live & ~waiting) | (k->off_slope & waiting);
+    unfound &= ~waiting;
+    scalar = unfound;
+    may_roll &= k->live & ~unfound & ~in_the_air(params, k);
+    k->rolling = 0;
+    if (may_roll)
         EACH_REGISTER(i)
-            if (near >> i & REGISTER)
-                k->rolls |= roll_lanes(form, k, i, near, &alone);
-    k->there = k->rolls;
-    alone &= ~k->rolls;
-    unsigned still_aloft = form.wood ? alone & k->aloft : 0;
-    alone &= ~still_aloft;
-    k->aloft = still_aloft;
-    for (; still_aloft; still_aloft &= still_aloft - 1) /* untaken: rounding */
-        come_down_alone(k, (size_t)__builtin_ctz(still_aloft));
-    for (; alone; alone &= alone - 1) {
-        size_t i = (size_t)__builtin_ctz(alone);
-        go_off_alone(k, i, !(far >> i & 1));
+            if (may_roll >> i & REGISTER)
+                k->rolling |= roll_lanes(params, k, i, may_roll, &scalar);
+    k->at_contact = k->rolling;
+    scalar &= ~k->rolling;
+    unsigned still_after_hit = params.stems ? scalar & k->after_hit : 0;
+    scalar &= ~still_after_hit;
+    k->after_hit = still_after_hit;
+    for (; still_after_hit; still_after_hit &= still_after_hit - 1) /* untaken: rounding */
+        land_scalar(k, (size_t)__builtin_ctz(still_after_hit));
+    for (; scalar; scalar &= scalar - 1) {
+        size_t i = (size_t)__builtin_ctz(scalar);
+        depart_scalar(k, i, !(unfound >> i & 1));
     }
 }
 
-/* Few are left: one after the other to its end. */
-static void finish_alone(struct lanes *k)
+/* Finish the few remaining rocks, one after the other. */
+static void finish_scalar(struct lanes *k)
 {
     for (; k->live; k->live &= k->live - 1) {
         size_t i = (size_t)__builtin_ctz(k->live);
         struct walker *w = &k->job->walkers[i];
-        struct course c = course_of(k, i);
-        if (!c.flies && !(k->rolls >> i & 1)) { /* a rock that has just begun */
-            const struct ground_segment *s = &k->g->segments[c.at.segment];
-            c.along = c.at.vx * s->c + c.at.vz * s->s;
-            c.off = c.at.vz * s->c - c.at.vx * s->s;
+        struct rock_state c = save_lane(k, i);
+        if (!c.flies && !(k->rolling >> i & 1)) { /* a newly released rock */
+            const struct ground_segment *s = &k->g->segments[c.flight.segment];
+            c.along = c.flight.vx * s->c + c.flight.vz * s->s;
+            c.off = c.flight.vz * s->c - c.flight.vx * s->s;
         }
         enum ceduo_end end;
-        if (!c.aloft || ceduo_walk_come_down(w, &c, &end))
+        if (!c.landing_unknown || ceduo_walk_come_down(w, &c, &end))
             end = ceduo_walk_on(w, &c, k->job->law);
         k->job->ended(k->job->context, i, end);
     }
 }
 
-FORCE_INLINE void walk_lanes(struct form form, struct lanes *k)
+FORCE_INLINE void walk_lanes(struct kernel_params params, struct lanes *k)
 {
     for (uint64_t step = 0;; step++) {
-        if (k->empty && __builtin_popcount(k->live) <= LANES / 4)
+        if (k->exhausted && __builtin_popcount(k->live) <= LANES / 4)
             break;
-        step_lanes(form, k, step % 2 == 0);
+        step_lanes(params, k, step % 2 == 0);
     }
-    finish_alone(k);
+    finish_scalar(k);
 }
 
-/* With what is known of the ground and the law compiled in. */
-#define WALK(law, small, wood) walk_lanes((struct form){&(law), small, wood}, k)
+/* Instantiate the walk for a law and its compile-time parameters. */
+#define WALK(law, small, wood) walk_lanes((struct kernel_params){&(law), small, wood}, k)
 #define X(NAME, name)                                                                                                          \
     static void walk_##name(struct lanes *k, bool small, bool wood)                                                            \
     {                                                                                                                          \
@@ -138,13 +138,13 @@ static void walk_job(const struct lanes_job *job)
     k.g = w->g;
     k.seed = w->seed;
     bool small = job->ground->small;
-    k.far = k.g->top > 0;
-    k.varies = k.g->rn_varies || k.g->rt_varies || (k.g->theta_varies && !k.g->rough);
-    k.sized = k.g->theta_varies;
+    k.has_chunks = k.g->top > 0;
+    k.ground_varies = k.g->rn_varies || k.g->rt_varies || (k.g->theta_varies && !k.g->roughness_index);
+    k.theta_varies = k.g->theta_varies;
     k.against = k.g->facets == CEDUO_AGAINST;
     k.scale_rn = w->scale_rn;
     k.friction_bound = w->friction_bound;
-    k.tallest = w->stems ? w->stems->wood->tallest + 1e-6 : 0; /* more than rounding can make of a height */
+    k.tallest = w->stems ? w->stems->wood->tallest + 1e-6 : 0; /* margin above rounding of heights */
     k.steep = job->ground->steep;
     static void (*const walks[])(struct lanes *, bool, bool) = {
 #define X(NAME, name) walk_##name,

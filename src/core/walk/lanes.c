@@ -7,7 +7,7 @@
 _Static_assert(sizeof(struct ground_vertex) == 16, "a vertex is a pair of numbers");
 _Static_assert(sizeof(struct ground_segment) == (size_t)16 << SEGMENT_SHIFT, "a segment is pairs of numbers");
 
-/* A table of `entries` pairs that begin at `first`, `1 << shift` pairs from one to the next. */
+/* Set a table of `entries` pairs from `first` on, with a stride of `1 << shift` pairs. */
 static void set_table(struct lanes_table *t, const void *first, int shift, size_t entries)
 {
     t->pairs = (const double(*)[2])first;
@@ -27,11 +27,11 @@ struct lanes_ground *ceduo_lanes_ground_create(const struct ground *g)
     size_t entries = g->n + 3;
     lanes->small = entries <= TABLE_SMALL;
     const struct ground_segment *before = g->segments - 1;
-    set_table(&lanes->place, g->at - 1, 0, entries);
-    set_table(&lanes->slope, &before->m, SEGMENT_SHIFT, entries);
-    set_table(&lanes->tilt, &before->c, SEGMENT_SHIFT, entries);
-    set_table(&lanes->share, &before->rn, SEGMENT_SHIFT, entries);
-    set_table(&lanes->grip, &before->mu, SEGMENT_SHIFT, entries);
+    set_table(&lanes->vertices, g->vertices - 1, 0, entries);
+    set_table(&lanes->slopes, &before->m, SEGMENT_SHIFT, entries);
+    set_table(&lanes->tangents, &before->c, SEGMENT_SHIFT, entries);
+    set_table(&lanes->restitutions, &before->rn, SEGMENT_SHIFT, entries);
+    set_table(&lanes->frictions, &before->mu, SEGMENT_SHIFT, entries);
     for (size_t j = 0; j < g->n; j++)
         lanes->steep |= ground_is_steep(&g->segments[j]);
     return lanes;

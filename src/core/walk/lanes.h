@@ -5,42 +5,41 @@
 #include "ceduo/run.h"
 #include "walk.h"
 
-/* The walk of walk.h for some rocks at once, one in each lane of wide registers: the same bits for every rock. What
- * happens seldom (marks, rolling over vertices and past stems, far landings on long slopes) is done lane by lane by
- * the scalar walk. */
+/* The walk of walk.h for several rocks at once, one per lane of wide registers, with the same bits for every rock. Rare events
+ * (marks, rolling over vertices and past stems, far landings on long slopes) are done lane by lane by the scalar walk. */
 
-/* Two numbers for each vertex or segment i, at [i + 1 << shift]: look_up() of lanes.h. */
+/* Two numbers per vertex or segment i, at [i + 1 << shift]; see look_up(). */
 #define TABLE_SMALL 16
 struct lanes_table {
-    _Alignas(64) double first[TABLE_SMALL], second[TABLE_SMALL]; /* of a small table, once more */
+    _Alignas(64) double first[TABLE_SMALL], second[TABLE_SMALL]; /* copy of a small table */
     const double (*pairs)[2];
     int shift;
 };
 
-/* The ground in tables, which are read where it has them. */
+/* The ground as tables. They point into struct ground. */
 struct lanes_ground {
-    struct lanes_table place; /* x, z of a vertex */
-    struct lanes_table slope; /* m, largest facet angle */
-    struct lanes_table tilt;  /* c, s */
-    struct lanes_table share; /* rn, rt */
-    struct lanes_table grip;  /* mu, friction */
-    bool steep;               /* some segments are steeper than 45 degrees */
-    bool small;               /* all fit TABLE_SMALL */
+    struct lanes_table vertices;     /* x, z of a vertex */
+    struct lanes_table slopes;       /* m, largest facet angle */
+    struct lanes_table tangents;     /* c, s */
+    struct lanes_table restitutions; /* rn, rt */
+    struct lanes_table frictions;    /* mu, friction */
+    bool steep;                      /* some segment is steeper than 45 degrees */
+    bool small;                      /* all tables fit TABLE_SMALL */
 };
 
-/* To be freed before the ground is released; NULL without memory. */
+/* Return the tables; NULL without memory. Caller frees them before the ground. */
 struct lanes_ground *ceduo_lanes_ground_create(const struct ground *g);
 
-/* So many rocks at once: more than a register holds, so that one works while another waits. */
+/* Number of lanes: several registers, so that one is computed while another waits for data. */
 #define LANES 32
 
-/* Many rocks to be followed. They end in another order than they began. */
+/* A job of many rocks. They may end in another order than they began. */
 struct lanes_job {
     const struct lanes_ground *ground;
     enum ceduo_law law;
-    bool alike;                               /* the rocks differ in nothing but their numbers */
-    struct walker *walkers;                   /* one for each lane, all of one run */
-    bool (*next)(void *context, size_t lane); /* releases the next rock into that lane's walker; false: none left */
+    bool identical;                           /* the rocks differ only in their numbers */
+    struct walker *walkers;                   /* one per lane, all of one run */
+    bool (*next)(void *context, size_t lane); /* releases the next rock in the walker of this lane; false: none left */
     void (*ended)(void *context, size_t lane, enum ceduo_end end);
     void *context;
 };

@@ -8,13 +8,13 @@
 
 /* ---- random numbers ---- */
 
-FORCE_INLINE real unit(ints p)
+FORCE_INLINE real to_unit(ints p)
 {
     return to_real(p >> 11) * 0x1p-53;
 }
 
-/* Draws two contacts ahead for every lane, in every second step. A lane at an odd contact has its next draw already. */
-FORCE_INLINE void draw_ahead(struct lanes *k, enum random_kind kind, double draws[3][LANES])
+/* Draw the next two contacts of every lane, in every second step. A lane at an odd contact already has its next draw. */
+FORCE_INLINE void draw_two_contacts(struct lanes *k, enum random_kind kind, double draws[3][LANES])
 {
     const uint64_t seed = k->seed;
     EACH_REGISTER(i) {
@@ -22,7 +22,7 @@ FORCE_INLINE void draw_ahead(struct lanes *k, enum random_kind kind, double draw
         ints event = (contacts + 1) >> 1, y = splat_ints(kind);
         const ints key = RANDOM_KEY(seed, rock);
         RANDOM_BITS(event, y, seed, rock, key);
-        real first = load(&draws[0][i]), u0 = unit(event), u1 = unit(y);
+        real first = load(&draws[0][i]), u0 = to_unit(event), u1 = to_unit(y);
         mask even = equal_ints(contacts & 1, splat_ints(0));
         store(&draws[0][i], blend(even, u0, first));
         store(&draws[1][i], blend(even, u1, u0));
@@ -30,14 +30,14 @@ FORCE_INLINE void draw_ahead(struct lanes *k, enum random_kind kind, double draw
     }
 }
 
-/* The next draw of each lane; those in the air keep theirs. */
-FORCE_INLINE real next_draw(struct form form, const struct lanes *k, double draws[3][LANES], size_t i)
+/* Return the next draw of each lane. Lanes in the air keep their draws. */
+FORCE_INLINE real next_draw(struct kernel_params params, const struct lanes *k, double draws[3][LANES], size_t i)
 {
     real u = load(&draws[0][i]), v = load(&draws[1][i]), w = load(&draws[2][i]);
-    if (in_the_air(form, k)) {
-        mask air = lane_mask(in_the_air(form, k) >> i);
-        w = blend(air, v, w);
-        v = blend(air, u, v);
+    if (in_the_air(params, k)) {
+        mask in_air = lane_mask(in_the_air(params, k) >> i);
+        w = blend(in_air, v, w);
+        v = blend(in_air, u, v);
     }
     store(&draws[0][i], v);
     store(&draws[1][i], w);
@@ -46,113 +46,114 @@ FORCE_INLINE real next_draw(struct form form, const struct lanes *k, double draw
 
 /* ---- one contact in every lane ---- */
 
-/* Those that the scalar walk brings to the next contact. Of the others: which pass a mark, which leave the slope. */
-FORCE_INLINE unsigned disturbed(struct form form, const struct lanes *k, unsigned *pass, unsigned *leave)
+/* Return the lanes that the scalar walk must bring to the next contact. Of the other lanes, set which pass a mark and which
+ * leave the slope. */
+FORCE_INLINE unsigned find_scalar_lanes(struct kernel_params params, const struct lanes *k, unsigned *pass, unsigned *leave)
 {
-    unsigned mark = 0, stem = 0, many = 0;
+    unsigned mark = 0, stem = 0, pausing = 0;
     EACH_REGISTER(i) {
         real x = load(&k->to_x[i]);
         mark |= lane_bits(at_least(x, load(&k->next_x[i])) & less(splat(0), load(&k->vx[i]))) << i;
         stem |= lane_bits(at_least(x, load(&k->stem_ahead[i])) | at_least(load(&k->stem_behind[i]), x)) << i;
-        many |= (REGISTER & ~lane_bits(greater_ints(load_ints(&k->pause[i]), load_ints(&k->contacts[i])))) << i;
+        pausing |= (REGISTER & ~lane_bits(greater_ints(load_ints(&k->pause[i]), load_ints(&k->contacts[i])))) << i;
     }
-    unsigned lands = k->live & ~in_the_air(form, k), flies = lands & ~k->there;
-    unsigned alone = (stem & flies) | (many & lands);
-    *pass = mark & flies & ~alone;
-    *leave = k->left & lands & ~alone;
-    return alone;
+    unsigned lands = k->live & ~in_the_air(params, k), flies = lands & ~k->at_contact;
+    unsigned scalar = (stem & flies) | (pausing & lands);
+    *pass = mark & flies & ~scalar;
+    *leave = k->off_slope & lands & ~scalar;
+    return scalar;
 }
 
-/* The ground that each rock strikes, where that varies from rock to rock. */
-NOINLINE void ground_alone(struct form form, struct lanes *k)
+/* Load the ground under each rock, if it varies between rocks. */
+NOINLINE void load_ground_scalar(struct kernel_params params, struct lanes *k)
 {
     for (size_t i = 0; i < LANES; i++)
-        if ((k->live & ~in_the_air(form, k)) >> i & 1)
+        if ((k->live & ~in_the_air(params, k)) >> i & 1)
             ceduo_walk_ground(&k->job->walkers[i], k->to[i] - 1, &k->rn[i], &k->rt[i], &k->theta[i]);
 }
 
-/* The largest facet angle where only that varies, with the rock's radius. */
-FORCE_INLINE void theta_alone(struct lanes *k)
+/* Load the largest facet angles, if only these vary, with the rock's radius. */
+FORCE_INLINE void load_theta(struct lanes *k)
 {
-    const unsigned char *rough = k->g->rough;
+    const unsigned char *rough = k->g->roughness_index;
     for (size_t i = 0; i < LANES; i++)
         if (k->to[i] - 1 < k->g->n)
             k->theta[i] = k->job->walkers[i].theta[rough[k->to[i] - 1]];
 }
 
-/* How the facets and sections of the lanes from i on are turned. */
-FORCE_INLINE void turn_lanes(struct form form, struct lanes *k, size_t i)
+/* Draw the orientation of facets and sections, for the lanes from i on. */
+FORCE_INLINE void draw_facets(struct kernel_params params, struct lanes *k, size_t i)
 {
     real sine, cosine, largest = load(&k->theta[i]);
-    real angle = facet_angle(k->against, largest, next_draw(form, k, k->draw, i));
+    real angle = facet_angle(k->against, largest, next_draw(params, k, k->draw, i));
     angle = blend(less(splat(0), largest), angle, splat(0));
     lanes_sincos(&angle, &sine, &cosine);
     store(&k->facet.sine[i], sine);
     store(&k->facet.cosine[i], cosine);
-    if (form.law->sections) {
-        angle = (next_draw(form, k, k->turn, i) - 0.5) * HALF_TURN;
+    if (params.law->sections) {
+        angle = (next_draw(params, k, k->turn, i) - 0.5) * HALF_TURN;
         lanes_sincos(&angle, &sine, &cosine);
-        store(&k->turned.sine[i], sine);
-        store(&k->turned.cosine[i], cosine);
+        store(&k->section_turn.sine[i], sine);
+        store(&k->section_turn.cosine[i], cosine);
     }
 }
 
-/* What a law needs to know of the lanes from i on. */
-FORCE_INLINE struct ground_point ground_points(struct form form, struct lanes *k, size_t i, ints segment)
+/* Return the parameters of the law for the lanes from i on. */
+FORCE_INLINE struct ground_point load_ground_points(struct kernel_params params, struct lanes *k, size_t i, ints segment)
 {
-    struct ground_point at = {.radius = load(&k->radius[i]), .k = load(&k->k[i]), .scale_rn = k->scale_rn};
-    at.bound = k->friction_bound;
-    if (k->varies) {
-        at.rn = load(&k->rn[i]);
-        at.rt = load(&k->rt[i]);
+    struct ground_point point = {.radius = load(&k->radius[i]), .k = load(&k->k[i]), .scale_rn = k->scale_rn};
+    point.bound = k->friction_bound;
+    if (k->ground_varies) {
+        point.rn = load(&k->rn[i]);
+        point.rt = load(&k->rt[i]);
     } else {
-        look_up(&k->ground->share, segment, form.small, &at.rn, &at.rt);
+        look_up(&k->ground->restitutions, segment, params.small, &point.rn, &point.rt);
     }
-    if (form.law->sections || k->friction_bound)
-        look_up(&k->ground->grip, segment, form.small, &at.mu, &at.friction);
-    if (form.law->sections) {
-        at.sine = load(&k->turned.sine[i]);
-        at.cosine = load(&k->turned.cosine[i]);
-        at.section.wide = load(&k->section.wide[i]);
-        at.section.high = load(&k->section.high[i]);
-        at.section.reach = load(&k->section.reach[i]);
-        at.section.gyration = load(&k->section.gyration[i]);
+    if (params.law->sections || k->friction_bound)
+        look_up(&k->ground->frictions, segment, params.small, &point.mu, &point.friction);
+    if (params.law->sections) {
+        point.sine = load(&k->section_turn.sine[i]);
+        point.cosine = load(&k->section_turn.cosine[i]);
+        point.section.wide = load(&k->section.wide[i]);
+        point.section.high = load(&k->section.high[i]);
+        point.section.reach = load(&k->section.reach[i]);
+        point.section.gyration = load(&k->section.gyration[i]);
     }
-    return at;
+    return point;
 }
 
-/* The lanes from i on come down and are struck, but for those in the air. */
-FORCE_INLINE void strike_lanes(struct form form, struct lanes *k, size_t i)
+/* Land and strike the lanes from i on, except those in the air. */
+FORCE_INLINE void strike_lanes(struct kernel_params params, struct lanes *k, size_t i)
 {
     real c, s, sine, cosine, vx = load(&k->vx[i]), vz = load(&k->vz[i]) - k->g->gravity * load(&k->t[i]);
     ints segment = load_ints(&k->to[i]);
-    look_up(&k->ground->tilt, segment, form.small, &c, &s);
+    look_up(&k->ground->tangents, segment, params.small, &c, &s);
     struct velocity v = velocity_on(c, s, vx, vz);
-    if (k->rolls) {
-        mask rolls = lane_mask(k->rolls >> i);
+    if (k->rolling) {
+        mask rolls = lane_mask(k->rolling >> i);
         v.along = blend(rolls, load(&k->along[i]), v.along);
         v.off = blend(rolls, splat(0), v.off);
     }
     sine = load(&k->facet.sine[i]);
     cosine = load(&k->facet.cosine[i]);
     facet_struck(k->against, v, &sine, &cosine);
-    const struct ground_point at = ground_points(form, k, i, segment);
+    const struct ground_point point = load_ground_points(params, k, i, segment);
     real spin = load(&k->spin[i]), x = load(&k->to_x[i]), z = load(&k->to_z[i]);
-    store(&k->before.along[i], v.along);
-    store(&k->before.spin[i], spin);
-    v = strike(form.law, &at, sine, cosine, v, &spin);
+    store(&k->before_contact.along[i], v.along);
+    store(&k->before_contact.spin[i], spin);
+    v = strike(params.law, &point, sine, cosine, v, &spin);
     vx = v.along * c - v.off * s;
     vz = v.along * s + v.off * c;
     ints contacts = load_ints(&k->contacts[i]);
-    if (in_the_air(form, k)) {
-        mask air = lane_mask(in_the_air(form, k) >> i), waits = lane_mask(k->waits >> i);
-        vx = blend(air, load(&k->vx[i]), vx);
-        vz = blend(air, load(&k->vz[i]), vz);
-        spin = blend(air, load(&k->spin[i]), spin);
-        x = blend(waits, load(&k->x[i]), x);
-        z = blend(waits, load(&k->z[i]), z);
-        segment = blend_ints(waits, load_ints(&k->segment[i]), segment);
-        contacts = blend_ints(air, contacts, contacts + 1);
+    if (in_the_air(params, k)) {
+        mask in_air = lane_mask(in_the_air(params, k) >> i), waiting = lane_mask(k->waiting >> i);
+        vx = blend(in_air, load(&k->vx[i]), vx);
+        vz = blend(in_air, load(&k->vz[i]), vz);
+        spin = blend(in_air, load(&k->spin[i]), spin);
+        x = blend(waiting, load(&k->x[i]), x);
+        z = blend(waiting, load(&k->z[i]), z);
+        segment = blend_ints(waiting, load_ints(&k->segment[i]), segment);
+        contacts = blend_ints(in_air, contacts, contacts + 1);
     } else {
         contacts += 1;
     }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The search for landings on a long slope, of flights along +x: what land_far() of landing.h finds. The lanes take turns,
- * so that one works while what another needs is fetched, and each looks at all vertices of a block at once, or at all
- * blocks of the next larger one. Those that look at blocks of one size follow each other, so that no branch depends on it. */
+/* Search for landings on a long slope, for flights along +x; the result is that of land_from_vertex_chunked(). The lanes
+ * alternate, so that one is computed while data of another are prefetched. Each step tests all vertices of a chunk at once, or
+ * all chunks of the next larger one. Lanes at chunks of the same size follow each other, so that no branch depends on the
+ * size. */
 #ifndef CEDUO_LANES_FAR_H
 #define CEDUO_LANES_FAR_H
 
@@ -9,109 +10,110 @@
 
 #define GROUP_LAST ((1 << GROUND_BITS) - 1)
 
-/* A flight in one lane, and the last vertex (from 0) which it is known to clear. The vertices from there on are looked
- * at in blocks of a level. */
+/* A flight in one lane, and the last vertex (from 0) that it is known to clear. The search continues from there. */
 struct far_search {
     double x, z, vz, inv;
     uint64_t vertex;
 };
 
-/* How high it is above points. */
-FORCE_INLINE real above_all(const struct lanes *k, const struct far_search *f, real x, real z)
+/* Return the heights of the flight above points. */
+FORCE_INLINE real heights_above(const struct lanes *k, const struct far_search *f, real x, real z)
 {
     real t = (x - f->x) * f->inv;
-    return height_after(splat(f->z), splat(f->vz), k->g->half_g, t) - z;
+    return height_at_time(splat(f->z), splat(f->vz), k->g->half_g, t) - z;
 }
 
-/* Which blocks from `b` on the flight may touch. */
-FORCE_INLINE unsigned blocks_under(const struct lanes *k, const struct far_search *f, const struct ground_block *b)
+/* Return which chunks from `b` on the flight may touch. */
+FORCE_INLINE unsigned chunks_touched(const struct lanes *k, const struct far_search *f, const struct ground_chunk *b)
 {
     unsigned under = 0;
-    for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES, b += REAL_LANES) {
+    for (unsigned offset = 0; offset < GROUND_GROUP; offset += REAL_LANES, b += REAL_LANES) {
         real x, z, m, rise;
         load_fours((const double(*)[2]) & b->x, &x, &z, &m, &rise);
-        real here = above_all(k, f, x, z);
+        real height = heights_above(k, f, x, z);
         double t = (b[REAL_LANES].x - f->x) * f->inv;
-        real next = shift_in(here, (f->z + (f->vz - k->g->half_g * t) * t) - b[REAL_LANES].z);
-        under |= (REGISTER & ~lane_bits(at_least(here, rise) & at_least(next, rise))) << at;
+        real next_height = shift_in(height, (f->z + (f->vz - k->g->half_g * t) * t) - b[REAL_LANES].z);
+        under |= (REGISTER & ~lane_bits(at_least(height, rise) & at_least(next_height, rise))) << offset;
     }
     return under;
 }
 
-/* Looks at the vertices up to the end of their block; whether the flight lands before one. */
+/* Test the vertices up to the end of their chunk. True if the flight lands before one. */
 FORCE_INLINE bool search_vertices(const struct lanes *k, struct far_search *f)
 {
-    const double(*to)[2] = k->ground->place.pairs + f->vertex + 2;
+    const double(*to)[2] = k->ground->vertices.pairs + f->vertex + 2;
     unsigned count = (GROUP_LAST + 1) - (f->vertex & GROUP_LAST), under = 0; /* bit 0 is the vertex at `to` */
-    for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES) {
+    for (unsigned offset = 0; offset < GROUND_GROUP; offset += REAL_LANES) {
         real x, z;
-        load_pairs(to + at, &x, &z);
-        under |= (REGISTER & ~lane_bits(at_least(above_all(k, f, x, z), splat(0)))) << at;
+        load_pairs(to + offset, &x, &z);
+        under |= (REGISTER & ~lane_bits(at_least(heights_above(k, f, x, z), splat(0)))) << offset;
     }
     under &= (1u << count) - 1;
     f->vertex += under ? (unsigned)__builtin_ctz(under) : count;
     return under;
 }
 
-/* Looks at the blocks up to the end of the larger one which they are part of; the level to go on at. */
-FORCE_INLINE int search_blocks(const struct lanes *k, struct far_search *f, int level)
+/* Test the chunks up to the end of the enclosing larger chunk. Return the level to continue at. */
+FORCE_INLINE int search_chunks(const struct lanes *k, struct far_search *f, int level)
 {
     int shift = GROUND_BITS * level;
-    uint64_t i = f->vertex >> shift, there = (k->g->n >> shift) - i, count = (GROUP_LAST + 1) - (i & GROUP_LAST);
-    count = count < there ? count : there;
-    unsigned under = blocks_under(k, f, k->g->levels[level] + i) & ((1u << count) - 1);
+    uint64_t i = f->vertex >> shift, available = (k->g->n >> shift) - i, count = (GROUP_LAST + 1) - (i & GROUP_LAST);
+    count = count < available ? count : available;
+    unsigned under = chunks_touched(k, f, k->g->levels[level] + i) & ((1u << count) - 1);
     uint64_t clear = under ? (unsigned)__builtin_ctz(under) : count;
     bool larger = !under && count > 0 && ((i + count) & GROUP_LAST) == 0 && level < k->g->top;
-    bool down = under || count == there;
+    bool down = under || count == available;
     f->vertex = (i + clear) << shift;
     return level + (larger ? 1 : down ? -1 : 0);
 }
 
-/* What the flight looks at when it is its turn again, and a little more of vertices. */
-FORCE_INLINE void fetch_for(const struct lanes *k, const struct far_search *f, int level)
+/* Prefetch what this search reads next, and a few more vertices. */
+FORCE_INLINE void prefetch_search(const struct lanes *k, const struct far_search *f, int level)
 {
-    const char *from = level == 0 ? (const char *)(k->ground->place.pairs + f->vertex + 2)
+    const char *from = level == 0 ? (const char *)(k->ground->vertices.pairs + f->vertex + 2)
                                   : (const char *)(k->g->levels[level] + (f->vertex >> GROUND_BITS * level));
-    for (size_t line = 0; line < sizeof(struct ground_block[8]) / 64; line++)
+    for (size_t line = 0; line < sizeof(struct ground_chunk[8]) / 64; line++)
         __builtin_prefetch(from + 64 * line);
 }
 
-/* One look of each flight that is at a level; at[l]: those of level l. Returns those that have come to where they land. */
-FORCE_INLINE unsigned look_at_level(const struct lanes *k, struct far_search *searches, int level, unsigned at[GROUND_LEVELS])
+/* Advance each search at a level by one step. lanes_at[l] are the lanes at level l. Return the lanes that found their
+ * landing. */
+FORCE_INLINE unsigned search_level(const struct lanes *k, struct far_search *searches, int level,
+                                   unsigned lanes_at[GROUND_LEVELS])
 {
-    unsigned left = at[level], landed = 0;
-    at[level] = 0;
-    for (; left; left &= left - 1) {
-        size_t i = (size_t)__builtin_ctz(left);
+    unsigned remaining = lanes_at[level], landed = 0;
+    lanes_at[level] = 0;
+    for (; remaining; remaining &= remaining - 1) {
+        size_t i = (size_t)__builtin_ctz(remaining);
         struct far_search *f = &searches[i];
         if (level == 0 && search_vertices(k, f)) {
             landed |= 1u << i;
             __builtin_prefetch(&k->g->segments[f->vertex]); /* where it lands */
             continue;
         }
-        int next = level == 0 ? 1 : search_blocks(k, f, level);
-        at[next] |= 1u << i;
-        fetch_for(k, f, next);
+        int next_level = level == 0 ? 1 : search_chunks(k, f, level);
+        lanes_at[next_level] |= 1u << i;
+        prefetch_search(k, f, next_level);
     }
     return landed;
 }
 
-/* Follows those of `lanes`, each from its vertex, which it clears, to the last that it clears: up to larger blocks and down
- * again, all flights of a level at a time. */
+/* Advance each of `lanes` from its vertex, which it clears, to the last vertex that it clears. Passes go up to larger chunks
+ * and down again, all lanes of a level at a time. */
 NOINLINE void search_far(struct lanes *k, unsigned lanes)
 {
     struct far_search searches[LANES];
-    unsigned at[GROUND_LEVELS] = {lanes};
+    unsigned lanes_at[GROUND_LEVELS] = {lanes};
     for (size_t i = 0; i < LANES; i++) {
         searches[i] = (struct far_search){k->x[i], k->z[i], k->vz[i], k->inv[i], k->vertex[i] - 1};
         if (lanes >> i & 1)
-            fetch_for(k, &searches[i], 0);
+            prefetch_search(k, &searches[i], 0);
     }
-    for (unsigned left = lanes; left;) {
+    for (unsigned remaining = lanes; remaining;) {
         for (int level = 0; level <= k->g->top; level++)
-            left &= ~look_at_level(k, searches, level, at);
+            remaining &= ~search_level(k, searches, level, lanes_at);
         for (int level = k->g->top; level >= 0; level--)
-            left &= ~look_at_level(k, searches, level, at);
+            remaining &= ~search_level(k, searches, level, lanes_at);
     }
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);

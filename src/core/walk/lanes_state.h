@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lanes: what each holds of its rock, and how the scalar walk does for one lane what happens
- * seldom. */
+/* State of the lanes, and rare events that the scalar walk handles for one lane. */
 #ifndef CEDUO_LANES_LANE_H
 #define CEDUO_LANES_LANE_H
 
@@ -15,26 +14,26 @@
 #define ALL_LANES        ((unsigned)(((uint64_t)1 << LANES) - 1))
 
 #ifdef LOOK_UP_16
-#define LOOK_UP_WRAPS true /* a small table is looked up at i modulo 16, whatever i is */
+#define LOOK_UP_WRAPS true /* look_up() in a small table uses i modulo 16 */
 #else
 #define LOOK_UP_WRAPS false
 #endif
 
-/* The two numbers at i of a table for each lane; `small`: it has no more than 16. */
+/* Look up the two numbers at i of a table, for each lane. `small`: the table has at most 16 entries. */
 FORCE_INLINE void look_up(const struct lanes_table *table, ints i, bool small, real *first, real *second)
 {
 #ifdef LOOK_UP_16
     /* untaken 2: machine */
-    if (small) { /* without going to memory lane by lane */
+    if (small) { /* in registers */
         *first = look_up_16(table->first, i);
         *second = look_up_16(table->second, i);
         return;
     }
 #endif
     (void)small;
-    uint64_t at[REAL_LANES];
-    store_ints(at, i << table->shift);
-    gather_pairs(table->pairs, at, first, second);
+    uint64_t index[REAL_LANES];
+    store_ints(index, i << table->shift);
+    gather_pairs(table->pairs, index, first, second);
 }
 
 /* A chord in each lane. */
@@ -47,111 +46,111 @@ FORCE_INLINE struct chord load_chord(const struct chords *from, size_t i)
     return (struct chord){load(&from->x0[i]), load(&from->z0[i]), load(&from->x1[i]), load(&from->z1[i]), load(&from->m[i])};
 }
 
-FORCE_INLINE void store_chord(struct chords *to, size_t i, struct chord on)
+FORCE_INLINE void store_chord(struct chords *to, size_t i, struct chord chord)
 {
-    store(&to->x0[i], on.x0);
-    store(&to->z0[i], on.z0);
-    store(&to->x1[i], on.x1);
-    store(&to->z1[i], on.z1);
-    store(&to->m[i], on.m);
+    store(&to->x0[i], chord.x0);
+    store(&to->z0[i], chord.z0);
+    store(&to->x1[i], chord.x1);
+    store(&to->z1[i], chord.z1);
+    store(&to->m[i], chord.m);
 }
 
-FORCE_INLINE struct chord pick_chord(mask m, struct chord p, struct chord q)
+FORCE_INLINE struct chord blend_chord(mask m, struct chord p, struct chord q)
 {
     return (struct chord){blend(m, p.x0, q.x0), blend(m, p.z0, q.z0), blend(m, p.x1, q.x1), blend(m, p.z1, q.z1),
                           blend(m, p.m, q.m)};
 }
 
-/* What is known before the first step, so that the steps are compiled for it. */
-struct form {
+/* Compile-time parameters of the step functions. */
+struct kernel_params {
     const struct contact_law *law;
-    bool small; /* the tables have 16 numbers */
-    bool wood;  /* there are stems */
+    bool small; /* the tables have at most 16 entries */
+    bool stems; /* there are stems */
 };
 
-/* All rocks in the lanes, as they come round to the next contact. `segment` and `to` count from 1, as the tables of
- * struct lanes_ground do; 0 and n + 1 lie off the slope. */
+/* State of all rocks in the lanes between two contacts. `segment` and `to` count from 1, as the tables of struct lanes_ground;
+ * 0 and n + 1 lie off the slope. */
 struct lanes {
     const struct lanes_job *job;
     const struct lanes_ground *ground;
     const struct ground *g;
     uint64_t seed;
-    bool far;    /* the ground has blocks */
-    bool varies; /* the ground from rock to rock, */
-    bool sized;  /* or only the largest facet angle, with the rock's radius */
+    bool has_chunks;    /* the ground has chunks */
+    bool ground_varies; /* the ground varies between rocks */
+    bool theta_varies;  /* or only the largest facet angle, with the rock's radius */
     bool against, scale_rn, friction_bound;
-    bool steep; /* so is the ground */
+    bool steep; /* some segment is steeper than 45 degrees */
 
     _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES];
     uint64_t segment[LANES];
-    /* the landing to come, with the ends, slope and largest facet angle of its segment */
+    /* next landing, with the ends, slope and largest facet angle of its segment */
     double t[LANES], to_x[LANES], to_z[LANES];
     uint64_t to[LANES];
-    struct chords on;
+    struct chords chords;
     double theta[LANES];
-    double along[LANES], off[LANES]; /* velocity on the segment, behind a contact */
+    double along[LANES], off[LANES]; /* m/s: velocity in the segment's axes after a contact */
     struct {
         double along[LANES], spin[LANES];
-    } before;               /* velocity and spin before the contact, of lanes that rolled to it */
+    } before_contact;       /* of lanes that rolled to the contact */
     double inv[LANES];      /* 1/vx */
-    uint64_t vertex[LANES]; /* from 1; which the search for the landing has come to */
-    double draw[3][LANES];  /* for the facets of the next contacts, */
+    uint64_t vertex[LANES]; /* from 1; vertex reached by the search for the landing */
+    double draw[3][LANES];  /* draws for the facets of the next contacts */
     struct {
         double sine[LANES], cosine[LANES];
-    } facet, turned;       /* of the facets, and of the sections */
-    double turn[3][LANES]; /* and for how the sections are turned there */
+    } facet, section_turn; /* orientations of facet and section */
+    double turn[3][LANES]; /* draws for the orientations of the sections */
     struct {
         double wide[LANES], high[LANES], reach[LANES], gyration[LANES];
     } section;
     double next_x[LANES], stem_ahead[LANES], stem_behind[LANES];
     struct {
-        double height[LANES];           /* of the next ahead; */
-        double cost[LANES];             /* energy that a hit of it takes: see struct hit */
-        const struct stem *next[LANES]; /* NULL where it does not wait, or is not known */
-        double after[LANES];            /* where the stem stands that waits behind it, which is next if that is */
-        double sure[LANES];             /* before here */
-        double around[LANES];           /* so far reach stools that stand around the release */
-        double free_to[LANES];          /* before here the flight is above `tallest` */
+        double height[LANES];           /* m, of the next stem ahead */
+        double cost[LANES];             /* J that a hit takes, see struct hit */
+        const struct stem *next[LANES]; /* NULL: not in the queue, or unknown */
+        double second_x[LANES];         /* x of the following queued stem, which is next if */
+        double certain_to[LANES];       /* it is before this x */
+        double overlap_to[LANES];       /* x up to which stools around the release may reach */
+        double clear_to[LANES];         /* x up to which the flight is above `tallest` */
         uint64_t *met[LANES];           /* of struct stems */
         uint64_t hit[LANES], stools_met[LANES];
-    } stem; /* counts and `next` go back to the walker and its stems by show_stems_met() */
+    } stem; /* save_stems() returns counts and `next` to the walker and its stems */
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
-    double rn[LANES], rt[LANES]; /* where the ground varies */
+    double rn[LANES], rt[LANES]; /* if ground_varies */
     uint64_t contacts[LANES], pause[LANES], number[LANES];
-    double tallest; /* m: all stems that may wait are less tall */
+    double tallest; /* m: above the height of any stem */
 
     /* bit i is lane i */
-    unsigned live;   /* has a rock */
-    unsigned there;  /* is at its next contact already, at to_x, to_z */
-    unsigned rolls;  /* of these: with speed `along` on the ground, which vx, vz do not know yet */
-    unsigned rolled; /* rolled to its last contact, and goes on as before if it still rolls */
-    unsigned left;   /* lands off the slope */
-    unsigned fresh;  /* has no draws yet */
-    unsigned aloft;  /* behind a stem: where it lands is looked for now */
-    unsigned waits;  /* among stems: it stays as it is while others land */
-    unsigned lost;   /* of these: where it lands is not known */
-    unsigned paused; /* what stands next is not known */
-    bool empty;      /* no rock waits */
-    bool same_start; /* every rock comes to its first contact as `start`, without passing a mark */
-    struct course start;
+    unsigned live;            /* has a rock */
+    unsigned at_contact;      /* has reached its next contact, at to_x, to_z */
+    unsigned rolling;         /* likewise, rolling with speed `along`; vx, vz are not set */
+    unsigned rolled;          /* rolled to its last contact; if it still rolls, its motion continues */
+    unsigned off_slope;       /* lands off the slope */
+    unsigned need_draws;      /* has no draws yet */
+    unsigned after_hit;       /* after a hit: its landing is searched in this step */
+    unsigned waiting;         /* among stems: unchanged while other lanes land */
+    unsigned landing_unknown; /* likewise, its landing is unknown */
+    unsigned stem_unknown;    /* its next stem is unknown */
+    bool exhausted;           /* no rocks are left */
+    bool shared_start;        /* every rock reaches its first contact in state `start`, without passing a mark */
+    struct rock_state start;
 };
 
 _Static_assert(offsetof(struct lanes, contacts) % 64 == 0, "what is for lanes is loaded from whole lines of the cache");
 
-/* Segments, and their largest facet angles. */
-FORCE_INLINE struct chord look_up_chord(struct form form, const struct lanes *k, ints segment, real *theta)
+/* Look up segments, and their largest facet angles. */
+FORCE_INLINE struct chord look_up_chord(struct kernel_params params, const struct lanes *k, ints segment, real *theta)
 {
-    struct chord on;
-    look_up(&k->ground->place, segment, form.small, &on.x0, &on.z0);
-    look_up(&k->ground->place, segment + 1, form.small, &on.x1, &on.z1);
-    look_up(&k->ground->slope, segment, form.small, &on.m, theta);
-    return on;
+    struct chord chord;
+    look_up(&k->ground->vertices, segment, params.small, &chord.x0, &chord.z0);
+    look_up(&k->ground->vertices, segment + 1, params.small, &chord.x1, &chord.z1);
+    look_up(&k->ground->slopes, segment, params.small, &chord.m, theta);
+    return chord;
 }
 
-/* Lanes that come to no contact in this step. */
-FORCE_INLINE unsigned in_the_air(struct form form, const struct lanes *k)
+/* Return the lanes without a contact in this step. */
+FORCE_INLINE unsigned in_the_air(struct kernel_params params, const struct lanes *k)
 {
-    return form.wood ? k->aloft | k->waits : 0;
+    return params.stems ? k->after_hit | k->waiting : 0;
 }
 
 /* ---- one lane and its walker ---- */
@@ -171,8 +170,8 @@ static void load_draws(struct lanes *k, size_t i)
         load_draws_of(w, RANDOM_TURN, k->turn, i);
 }
 
-/* What a rock has met, and which stem comes next, as its lane knows it. */
-static inline void show_stems_met(const struct lanes *k, size_t i)
+/* Save hits and next stem of a lane to its walker. */
+static inline void save_stems(const struct lanes *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     if (!w->stems)
@@ -186,26 +185,26 @@ static inline void show_stems_met(const struct lanes *k, size_t i)
     w->stem_ahead = side->next = k->stem_ahead[i];
 }
 
-/* The next stem ahead, if there is one. */
+/* Load the next stem ahead, if there is one. */
 static void load_stem(struct lanes *k, size_t i)
 {
     const struct walker *w = &k->job->walkers[i];
     unsigned bit = 1u << i;
     k->stem_ahead[i] = w->stem_ahead;
-    k->paused &= ~bit;
+    k->stem_unknown &= ~bit;
     if (!w->stems)
         return;
     struct stems_side *side = &w->stems->side[0];
     k->stem.hit[i] = w->stems_hit;
     k->stem.stools_met[i] = w->stools_met;
     k->stem.met[i] = w->stems->met;
-    k->stem.around[i] = w->stems->start + 2 * w->stems->wood->reach;
+    k->stem.overlap_to[i] = w->stems->start + 2 * w->stems->wood->reach;
     k->stem.next[i] = NULL;
-    k->stem.after[i] = k->stem.sure[i] = INFINITY;
+    k->stem.second_x[i] = k->stem.certain_to[i] = INFINITY;
     if (w->stem_ahead == INFINITY)
         return;
     if (!side->next_known) {
-        k->paused |= bit;
+        k->stem_unknown |= bit;
         return;
     }
     k->stem.height[i] = ceduo_stems_next(side)->height;
@@ -213,13 +212,13 @@ static void load_stem(struct lanes *k, size_t i)
     if (side->next_waits) {
         side->waiting[side->end].along = INFINITY;
         k->stem.next[i] = &side->waiting[side->first];
-        k->stem.after[i] = k->stem.next[i][1].along;
-        k->stem.sure[i] = side->sure;
+        k->stem.second_x[i] = k->stem.next[i][1].along;
+        k->stem.certain_to[i] = side->sure;
     }
 }
 
-/* A course, with what the walker knows of itself and the scalar walk may have changed. */
-static void load_course(struct lanes *k, size_t i, const struct course *c)
+/* Load a state, and the members of the walker that the scalar walk may have changed. */
+static void load_state(struct lanes *k, size_t i, const struct rock_state *c)
 {
     const struct lanes_ground *ground = k->ground;
     const struct walker *w = &k->job->walkers[i];
@@ -229,66 +228,66 @@ static void load_course(struct lanes *k, size_t i, const struct course *c)
     k->contacts[i] = w->contacts;
     k->pause[i] = w->pause;
     load_stem(k, i);
-    k->x[i] = c->at.x;
-    k->z[i] = c->at.z;
-    k->vx[i] = c->at.vx;
-    k->vz[i] = c->at.vz;
-    k->segment[i] = c->at.segment + 1;
+    k->x[i] = c->flight.x;
+    k->z[i] = c->flight.z;
+    k->vx[i] = c->flight.vx;
+    k->vz[i] = c->flight.vz;
+    k->segment[i] = c->flight.segment + 1;
     k->t[i] = c->flies ? c->l.t : 0;
-    k->to_x[i] = c->flies ? c->l.x : c->at.x;
-    k->to_z[i] = c->flies ? c->l.z : c->at.z;
+    k->to_x[i] = c->flies ? c->l.x : c->flight.x;
+    k->to_z[i] = c->flies ? c->l.z : c->flight.z;
     k->along[i] = c->along;
-    uint64_t j = c->flies ? c->l.segment + 1 : c->at.segment + 1;
+    uint64_t j = c->flies ? c->l.segment + 1 : c->flight.segment + 1;
     k->to[i] = j;
-    k->on.x0[i] = ground->place.pairs[j][0];
-    k->on.z0[i] = ground->place.pairs[j][1];
-    k->on.x1[i] = ground->place.pairs[j + 1][0];
-    k->on.z1[i] = ground->place.pairs[j + 1][1];
-    const double *slope = ground->slope.pairs[j << ground->slope.shift];
-    k->on.m[i] = slope[0];
+    k->chords.x0[i] = ground->vertices.pairs[j][0];
+    k->chords.z0[i] = ground->vertices.pairs[j][1];
+    k->chords.x1[i] = ground->vertices.pairs[j + 1][0];
+    k->chords.z1[i] = ground->vertices.pairs[j + 1][1];
+    const double *slope = ground->slopes.pairs[j << ground->slopes.shift];
+    k->chords.m[i] = slope[0];
     k->theta[i] = slope[1];
 }
 
-/* The walker brought up to date, and the lane's course. */
-static struct course course_of(struct lanes *k, size_t i)
+/* Save a lane to its walker, and return its state. */
+static struct rock_state save_lane(struct lanes *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     unsigned bit = 1u << i;
-    bool left = k->left & bit;
-    size_t to = left ? (k->vx[i] < 0 ? 0 : w->g->n - 1) : k->to[i] - 1;
+    bool off_slope = k->off_slope & bit;
+    size_t to = off_slope ? (k->vx[i] < 0 ? 0 : w->g->n - 1) : k->to[i] - 1;
     w->spin = k->spin[i];
     w->contacts = k->contacts[i];
-    show_stems_met(k, i);
-    bool there = k->there & bit, rolls = k->rolls & bit;
+    save_stems(k, i);
+    bool at_contact = k->at_contact & bit, rolling = k->rolling & bit;
     const struct ground_segment *s = &k->g->segments[k->segment[i] - 1];
-    return (struct course){.at = {.x = there ? k->to_x[i] : k->x[i],
-                                  .z = there ? k->to_z[i] : k->z[i],
-                                  .vx = rolls ? k->along[i] * s->c : k->vx[i],
-                                  .vz = rolls ? k->along[i] * s->s : k->vz[i],
-                                  .segment = k->segment[i] - 1,
-                                  .on_ground = !((k->aloft | k->lost) & bit)},
-                           .flies = !there,
-                           .aloft = (k->aloft | k->lost) & bit,
-                           .rolled = rolls,
-                           .along = k->along[i],
-                           .l = {.t = k->t[i], .x = k->to_x[i], .z = k->to_z[i], .segment = to, .left = left}};
+    return (struct rock_state){.flight = {.x = at_contact ? k->to_x[i] : k->x[i],
+                                          .z = at_contact ? k->to_z[i] : k->z[i],
+                                          .vx = rolling ? k->along[i] * s->c : k->vx[i],
+                                          .vz = rolling ? k->along[i] * s->s : k->vz[i],
+                                          .segment = k->segment[i] - 1,
+                                          .on_ground = !((k->after_hit | k->landing_unknown) & bit)},
+                               .flies = !at_contact,
+                               .landing_unknown = (k->after_hit | k->landing_unknown) & bit,
+                               .rolled = rolling,
+                               .along = k->along[i],
+                               .l = {.t = k->t[i], .x = k->to_x[i], .z = k->to_z[i], .segment = to, .off_slope = off_slope}};
 }
 
-/* The next rock, at its first contact. */
+/* Load the next rock, at its first contact. */
 static void refill(struct lanes *k, size_t i)
 {
     const struct lanes_job *job = k->job;
     struct walker *w = &job->walkers[i];
     unsigned bit = 1u << i;
-    k->left &= ~bit;
-    k->rolls &= ~bit;
-    k->there |= bit;
+    k->off_slope &= ~bit;
+    k->rolling &= ~bit;
+    k->at_contact |= bit;
     while (job->next(job->context, i)) {
         enum ceduo_end end;
         double mark = w->next_x;
-        bool known = k->same_start;
-        if (known || ceduo_walk_start(w, &k->start, &end)) {
-            load_course(k, i, &k->start);
+        bool is_shared = k->shared_start;
+        if (is_shared || ceduo_walk_start(w, &k->start, &end)) {
+            load_state(k, i, &k->start);
             k->radius[i] = w->rock.radius;
             k->k[i] = w->k;
             k->mass[i] = w->rock.mass;
@@ -298,16 +297,16 @@ static void refill(struct lanes *k, size_t i)
             k->section.high[i] = w->section.high;
             k->section.reach[i] = w->section.reach;
             k->section.gyration[i] = w->section.gyration;
-            k->fresh |= bit;
-            k->same_start = known || (job->alike && w->next_x == mark);
+            k->need_draws |= bit;
+            k->shared_start = is_shared || (job->identical && w->next_x == mark);
             return;
         }
         job->ended(job->context, i, end);
     }
-    /* An idle lane is computed like the others; its results are ignored. */
-    k->empty = true;
+    /* An idle lane is computed like any other lane; its results are ignored. */
+    k->exhausted = true;
     k->live &= ~bit;
-    k->paused &= ~bit;
+    k->stem_unknown &= ~bit;
     k->segment[i] = k->to[i] = 1;
     k->next_x[i] = k->stem_ahead[i] = INFINITY;
     k->stem_behind[i] = -INFINITY;
@@ -321,80 +320,80 @@ static void finish(struct lanes *k, size_t i, enum ceduo_end end)
     refill(k, i);
 }
 
-/* ---- what happens seldom ---- */
+/* ---- rare events ---- */
 
-/* A flight that comes to stems which are left to the scalar walk, or a rock of many contacts. */
-NOINLINE void come_down_alone(struct lanes *k, size_t i)
+/* Land a flight that meets stems left to the scalar walk, or a rock with many contacts. */
+NOINLINE void land_scalar(struct lanes *k, size_t i)
 {
-    struct course c = course_of(k, i);
+    struct rock_state c = save_lane(k, i);
     unsigned bit = 1u << i;
     enum ceduo_end end;
     if (!ceduo_walk_come_down(&k->job->walkers[i], &c, &end)) {
-        k->aloft &= ~bit;
+        k->after_hit &= ~bit;
         finish(k, i, end);
         return;
     }
-    load_course(k, i, &c);
-    k->there |= bit;
-    k->aloft &= ~bit;
-    k->left &= ~bit;
+    load_state(k, i, &c);
+    k->at_contact |= bit;
+    k->after_hit &= ~bit;
+    k->off_slope &= ~bit;
 }
 
-/* A flight that ends at (x, z). */
-NOINLINE void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_end end)
+/* End a flight at (x, z). */
+NOINLINE void end_lane(struct lanes *k, size_t i, double x, double z, enum ceduo_end end)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
-    show_stems_met(k, i);
-    w->at.x = x;
-    w->at.z = z;
+    save_stems(k, i);
+    w->flight.x = x;
+    w->flight.z = z;
     finish(k, i, end);
 }
 
-/* A flight passes marks up to x, which it reaches after t. */
-FORCE_INLINE void pass_marks(struct lanes *k, size_t i, const struct flight *at, double x, double t, double spin)
+/* Report the marks that a flight passes up to x, which it reaches after t. */
+FORCE_INLINE void pass_marks(struct lanes *k, size_t i, const struct flight *flight, double x, double t, double spin)
 {
     struct walker *w = &k->job->walkers[i];
     w->spin = spin;
-    show_stems_met(k, i);
-    ceduo_walk_pass_marks(w, *at, x, t);
+    save_stems(k, i);
+    ceduo_walk_pass_marks(w, *flight, x, t);
     k->next_x[i] = w->next_x;
     k->pause[i] = w->pause;
 }
 
-/* A flight that passes marks and goes on in its lane. */
-NOINLINE void pass_marks_alone(struct lanes *k, size_t i)
+/* Report the marks that a flight passes before its landing. */
+NOINLINE void pass_marks_scalar(struct lanes *k, size_t i)
 {
-    struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
-    pass_marks(k, i, &at, k->to_x[i], k->t[i], k->spin[i]);
+    struct flight flight = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
+    pass_marks(k, i, &flight, k->to_x[i], k->t[i], k->spin[i]);
 }
 
-/* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */
-NOINLINE void go_off_alone(struct lanes *k, size_t i, bool knows_landing)
+/* Continue after a contact, if the rock rolls or flies vertically, or if the search for its landing is long. */
+NOINLINE void depart_scalar(struct lanes *k, size_t i, bool landing_known)
 {
     struct walker *w = &k->job->walkers[i];
-    struct course c = course_of(k, i);
+    struct rock_state c = save_lane(k, i);
     unsigned bit = 1u << i;
     uint64_t contacts = w->contacts;
     enum ceduo_end end;
     c.off = k->off[i];
-    bool rolls = ceduo_walk_rolls(w, &c, knows_landing);
-    if (!rolls && knows_landing) /* as the lane has it */
+    bool rolling = ceduo_walk_rolls(w, &c, landing_known);
+    if (!rolling && landing_known) /* as in the lane */
         return;
-    const struct rolling before = {k->before.along[i], k->before.spin[i]};
-    if (rolls && !ceduo_walk_roll(w, &c, k->rolled & bit ? &before : NULL, &end)) {
+    const struct rolling before = {k->before_contact.along[i], k->before_contact.spin[i]};
+    if (rolling && !ceduo_walk_roll(w, &c, k->rolled & bit ? &before : NULL, &end)) {
         finish(k, i, end);
         return;
     }
-    load_course(k, i, &c);
+    load_state(k, i, &c);
     if (w->contacts != contacts)
         load_draws(k, i);
-    k->left &= ~bit;
+    k->off_slope &= ~bit;
     if (c.flies) {
-        k->left |= c.l.left ? bit : 0;
+        k->off_slope |= c.l.off_slope ? bit : 0;
     } else {
-        k->there |= bit;
-        k->rolls |= bit;
+        k->at_contact |= bit;
+        k->rolling |= bit;
     }
 }
 

@@ -4,7 +4,7 @@
 
 #include "impact.h"
 
-/* The speeds are 20, 30 and 250 ft/s. */
+/* 20, 30 and 250 ft/s in m/s. */
 #define CRSP_A 6.096
 #define CRSP_K 9.144
 #define CRSP_C 76.2
@@ -18,17 +18,17 @@ FORCE_INLINE real crsp_friction(real rt, real slip)
 FORCE_INLINE real crsp_scaling(real rn, real rt, real vn)
 {
     real s = vn / (CRSP_C * rn), zero = splat(0);
-    return blend(equal(rn, zero), blend(equal(vn, zero), rt, zero), rt / (s * s + 1)); /* where Rn is 0, its limit */
+    return blend(equal(rn, zero), blend(equal(vn, zero), rt, zero), rt / (s * s + 1)); /* the limit if Rn is 0 */
 }
 
 /* Pfeiffer & Higgins 1990; CRSP 3.0 (Pfeiffer et al. 1993). */
-FORCE_INLINE struct impact crsp_struck(struct impact in, const struct ground_point *at)
+FORCE_INLINE struct impact crsp_struck(struct impact in, const struct ground_point *point)
 {
-    real roll = in.spin * at->radius; /* speed of the rock's rim */
-    real f = crsp_friction(at->rt, in.vt - roll), sf = crsp_scaling(at->rn, at->rt, in.vn), s = in.vn / CRSP_K;
-    real vt = vsqrt((at->k * (roll * roll) + in.vt * in.vt) * (f * sf) / (1 + at->k));
+    real roll = in.spin * point->radius; /* m/s at the rim of the rock */
+    real f = crsp_friction(point->rt, in.vt - roll), sf = crsp_scaling(point->rn, point->rt, in.vn), s = in.vn / CRSP_K;
+    real vt = vsqrt((point->k * (roll * roll) + in.vt * in.vt) * (f * sf) / (1 + point->k));
     vt = vcopysign(vt, blend(equal(in.vt, splat(0)), in.spin, in.vt));
-    return (struct impact){.vn = at->rn * in.vn / (1 + s * s), .vt = vt, .spin = vt / at->radius};
+    return (struct impact){.vn = point->rn * in.vn / (1 + s * s), .vt = vt, .spin = vt / point->radius};
 }
 
 static const struct contact_law law_crsp = {.struck = crsp_struck, .spins = true};

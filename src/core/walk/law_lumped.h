@@ -6,13 +6,13 @@
 
 #define LUMPED_K 9.144 /* m/s, 30 ft/s: the speed that scales Rn in Pfeiffer & Higgins 1990 */
 
-/* A point mass: each part of the velocity keeps its own share; no spin. */
-FORCE_INLINE struct impact lumped_struck(struct impact in, const struct ground_point *at)
+/* A point mass: each component of the velocity is scaled; no spin. */
+FORCE_INLINE struct impact lumped_struck(struct impact in, const struct ground_point *point)
 {
-    real rn = at->rn, s = in.vn / LUMPED_K;
-    if (at->scale_rn)
+    real rn = point->rn, s = in.vn / LUMPED_K;
+    if (point->scale_rn)
         rn = rn / (1 + s * s);
-    return (struct impact){.vn = rn * in.vn, .vt = at->rt * in.vt, .spin = splat(0)};
+    return (struct impact){.vn = rn * in.vn, .vt = point->rt * in.vt, .spin = splat(0)};
 }
 
 static const struct contact_law law_lumped = {.struck = lumped_struck};

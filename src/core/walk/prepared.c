@@ -40,7 +40,7 @@ void ceduo_sizes_release(struct sizes *s)
     free(s->classes);
 }
 
-struct size ceduo_size_of(const struct sizes *s, uint64_t rock)
+struct size ceduo_rock_size(const struct sizes *s, uint64_t rock)
 {
     uint64_t place = s->start + rock * GOLDEN;
     double along = ((double)(place >> 11) * 0x1p-53 + 0x1p-54) * s->length;
@@ -51,12 +51,12 @@ struct size ceduo_size_of(const struct sizes *s, uint64_t rock)
     return (struct size){ceduo_exp(c->from + along), c->weight * ceduo_exp(-c->exponent * along)};
 }
 
-bool ceduo_size_is_typical(const struct sizes *s, uint64_t seed, uint64_t rock)
+bool ceduo_rock_is_typical(const struct sizes *s, uint64_t seed, uint64_t rock)
 {
     double most = 0;
     for (size_t i = 0; i < s->n; i++)
         most = s->classes[i].weight > most ? s->classes[i].weight : most;
-    return random_pair(seed, rock, 1, RANDOM_SIZE).u[0] * most < ceduo_size_of(s, rock).weight;
+    return random_pair(seed, rock, 1, RANDOM_SIZE).u[0] * most < ceduo_rock_size(s, rock).weight;
 }
 
 void ceduo_rock_resize(struct ceduo_rock *rock, double volume)
@@ -78,24 +78,25 @@ static int by_x(const void *a, const void *b)
     const struct mark *p = a, *q = b;
     if (p->x != q->x)
         return p->x < q->x ? -1 : 1;
-    return (p->what > q->what) - (p->what < q->what);
+    return (p->control > q->control) - (p->control < q->control);
 }
 
 static bool make_marks(struct marks *marks, const struct ceduo_scene *scene)
 {
     size_t n = marks->n = scene->controls_count;
-    marks->at = malloc((n + 1) * sizeof *marks->at);
-    if (!marks->at)
+    marks->items = malloc((n + 1) * sizeof *marks->items);
+    if (!marks->items)
         return false;
     for (size_t i = 0; i < n; i++)
-        marks->at[i] = (struct mark){scene->controls[i].x, ceduo_slope_height(&scene->slope, scene->controls[i].x), i};
-    qsort(marks->at, n, sizeof *marks->at, by_x);
+        marks->items[i] = (struct mark){scene->controls[i].x, ceduo_slope_height(&scene->slope, scene->controls[i].x), i};
+    qsort(marks->items, n, sizeof *marks->items, by_x);
     return true;
 }
 
-enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene, const struct ceduo_option *option)
+enum ceduo_status ceduo_prepared_init(struct prepared_scene *to, const struct ceduo_scene *scene,
+                                      const struct ceduo_option *option)
 {
-    *to = (struct prepared){.scene = *scene, .varies = ceduo_rock_varies(&scene->rock)};
+    *to = (struct prepared_scene){.scene = *scene, .varies = ceduo_rock_varies(&scene->rock)};
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &to->mean);
     if (status != CEDUO_OK)
         return status;
@@ -111,33 +112,33 @@ enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_sc
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
-struct ceduo_topography ceduo_prepared_topography(const struct prepared *ready, size_t control)
+struct ceduo_topography ceduo_prepared_topography(const struct prepared_scene *prepared, size_t control)
 {
-    const struct ceduo_scene *scene = &ready->scene;
+    const struct ceduo_scene *scene = &prepared->scene;
     return ceduo_slope_topography(&scene->slope, scene->release.x.mean, scene->release.height.mean, scene->controls[control].x);
 }
 
-enum ceduo_status ceduo_prepared_rock(const struct prepared *ready, uint64_t number, struct ceduo_rock *rock)
+enum ceduo_status ceduo_prepared_rock(const struct prepared_scene *prepared, uint64_t number, struct ceduo_rock *rock)
 {
-    const struct ceduo_rock_def *def = &ready->scene.rock;
+    const struct ceduo_rock_def *def = &prepared->scene.rock;
     enum ceduo_status status = CEDUO_OK;
-    *rock = ready->mean;
-    if (ready->varies) {
+    *rock = prepared->mean;
+    if (prepared->varies) {
         double u[8];
         for (uint64_t i = 0; i < 8; i++)
-            u[i] = random_open(ready->scene.simulation.seed, number, i, RANDOM_ROCK);
+            u[i] = random_open(prepared->scene.simulation.seed, number, i, RANDOM_ROCK);
         status = ceduo_rock_draw(def, u, rock);
     }
-    if (ready->sizes.n > 0)
-        ceduo_rock_resize(rock, ceduo_size_of(&ready->sizes, number).volume);
+    if (prepared->sizes.n > 0)
+        ceduo_rock_resize(rock, ceduo_rock_size(&prepared->sizes, number).volume);
     return status;
 }
 
-void ceduo_prepared_release(struct prepared *p)
+void ceduo_prepared_release(struct prepared_scene *p)
 {
     ceduo_sizes_release(&p->sizes);
     ceduo_wood_release(&p->wood);
-    free(p->marks.at);
+    free(p->marks.items);
     ceduo_ground_release(&p->ground);
     ceduo_slope_simplified_free(&p->simplified);
 }

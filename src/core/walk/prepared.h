@@ -6,22 +6,22 @@
 #include "core/wood/wood.h"
 #include "ground.h"
 
-/* Sizes of the blocks that come down. Their logarithms are spread evenly over all classes, so that rare large blocks are
- * as well known as frequent small ones, and each rock has a weight: how many times more often such a size comes down than
- * it is drawn. On the mean weights are 1.
+/* Sizes of the blocks that come down. Their logarithms are uniform over all classes, so that rare large blocks are as precise
+ * as frequent small ones. The weight of a rock is the natural frequency of its size over the frequency of drawing it. The mean
+ * weight is 1.
  *
- * Within a class the number above v goes with v^-b, cut at its upper end; b = 0 is the limit, where the logarithms are
- * even. Rock i takes the place frac(u + i g) of the whole range, g the golden ratio and u of the seed (Weyl 1916): any
- * rocks that follow each other have all sizes. */
+ * Within a class the number above v is proportional to v^-b, truncated at its upper end; b = 0 is the limit of uniform
+ * logarithms. Rock i has the position frac(u + i g) in the whole range, with g the golden ratio and u from the seed (Weyl
+ * 1916), so that any sequence of rocks has all sizes. */
 struct sizes {
-    size_t n;        /* classes; 0: all rocks are of the scene's rock */
+    size_t n;        /* classes; 0: all rocks are the scene's rock */
     double length;   /* of all classes together, in ln(volume) */
-    double per_year; /* of all together */
+    double per_year; /* of all classes together */
     uint64_t start;
     struct size_class {
         double from, length; /* ln(volume) */
         double exponent;
-        double weight; /* at `from`; it goes with exp(-exponent (ln v - from)) */
+        double weight; /* at `from`; proportional to exp(-exponent (ln v - from)) */
     } * classes;
 };
 
@@ -33,46 +33,47 @@ struct size {
 bool ceduo_sizes_init(struct sizes *sizes, const struct ceduo_scene *scene);
 void ceduo_sizes_release(struct sizes *sizes);
 
-/* Whether a rock is one of those whose sizes are as frequent as those of the blocks that come down: the same rocks every
- * time, so many of each size as its weight is to the largest. */
-bool ceduo_size_is_typical(const struct sizes *sizes, uint64_t seed, uint64_t rock);
+/* True if a rock belongs to a fixed subset with natural size frequencies. A rock is selected with probability weight over
+ * largest weight. */
+bool ceduo_rock_is_typical(const struct sizes *sizes, uint64_t seed, uint64_t rock);
 
-struct size ceduo_size_of(const struct sizes *sizes, uint64_t rock);
+struct size ceduo_rock_size(const struct sizes *sizes, uint64_t rock);
 
-/* Scales a rock to a volume; shape and density stay. */
+/* Scale a rock to a volume, with the same shape and density. */
 void ceduo_rock_resize(struct ceduo_rock *rock, double volume);
 
-/* A place where something is noted of a rock's first passage going +x: a control. */
+/* A control, where the first passage of a rock along +x is recorded. */
 struct mark {
-    double x, z; /* m; z: the ground */
-    size_t what; /* the control's index */
+    double x, z;    /* m; z: the ground */
+    size_t control; /* index in the scene */
 };
 
 struct marks {
     size_t n;
-    struct mark *at; /* rising along x */
+    struct mark *items; /* sorted by x */
 };
 
-/* A scene made ready to simulate rocks through one forest: what a walker reads. */
-struct prepared {
-    struct ceduo_scene scene;      /* with the profile that is simulated */
-    struct ceduo_slope simplified; /* owns that profile; x NULL: it is the caller's */
+/* A scene prepared for one forest. Walkers read it. */
+struct prepared_scene {
+    struct ceduo_scene scene;      /* with the simulated profile */
+    struct ceduo_slope simplified; /* owns this profile; x NULL: the caller owns it */
     struct ceduo_rock mean;
-    bool varies; /* so do rocks from one to the next, besides the sizes of blocks */
+    bool varies; /* rocks vary, apart from the sizes of blocks */
     struct sizes sizes;
     struct ground ground;
     struct marks marks;
     struct wood wood;
 };
 
-/* `option` NULL: without forest. CEDUO_BAD_ROCK or CEDUO_NO_MEMORY; release it in any case. */
-enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene, const struct ceduo_option *option);
-void ceduo_prepared_release(struct prepared *p);
+/* `option` may be NULL (without forest). Return CEDUO_OK, CEDUO_BAD_ROCK or CEDUO_NO_MEMORY. Caller releases it in any case. */
+enum ceduo_status ceduo_prepared_init(struct prepared_scene *to, const struct ceduo_scene *scene,
+                                      const struct ceduo_option *option);
+void ceduo_prepared_release(struct prepared_scene *p);
 
-/* How a control (in the scene's order) lies below the mean release, on the profile that is simulated. */
-struct ceduo_topography ceduo_prepared_topography(const struct prepared *ready, size_t control);
+/* Return the topography of a control (in the scene's order) below the mean release, on the simulated profile. */
+struct ceduo_topography ceduo_prepared_topography(const struct prepared_scene *prepared, size_t control);
 
-/* Rock `number` of a run, of its own size. What ceduo_rock_draw() says. */
-enum ceduo_status ceduo_prepared_rock(const struct prepared *ready, uint64_t number, struct ceduo_rock *rock);
+/* Draw rock `number` of a run, with its size. Return the status of ceduo_rock_draw(). */
+enum ceduo_status ceduo_prepared_rock(const struct prepared_scene *prepared, uint64_t number, struct ceduo_rock *rock);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rocks followed one by one (trajectory.c), with all pieces of their trajectories. Within a piece everything has a closed
- * form: a flight is a parabola over straight pieces of ground, and along a roll the square of the speed is linear in x. */
+/* Rocks simulated one by one (trajectory.c), with all segments of their trajectories. Within a segment all integrals have
+ * closed forms: a flight is a parabola over straight ground, and along a roll the squared speed is linear in x. */
 #include "ceduo/record.h"
 
 #include <math.h>
@@ -11,18 +11,18 @@
 #include "base/real.h"
 #include "scene/schema.h"
 
-/* Sums along a stretch; they become means at the end. */
-struct along {
+/* Integrals along a stretch, divided by its length at the end. */
+struct stretch_sums {
     double length, speed, height, speed2; /* integrals over x */
-    double spin2, roll2;                  /* of the spin in flight; of the speed in a roll, which goes with the spin */
+    double spin2, roll2; /* of squared spin in flight; of squared speed in a roll, proportional to squared spin */
 };
 
 struct recorder {
     const struct ceduo_record_def *def;
     struct ceduo_record *record;
     struct ceduo_rock_record *rock;
-    struct along *along; /* [stretch] */
-    size_t blows_room;
+    struct stretch_sums *sums; /* [stretch] */
+    size_t blows_capacity;
     bool no_memory;
 };
 
@@ -33,7 +33,7 @@ static double square(double x)
 
 /* ---- the height of a flight above the ground ---- */
 
-/* The part of a flight above segment j, between `from` and `to`: from t[0] to t[1]; false where there is none. */
+/* Set the times t[0] and t[1] of a flight above segment j between `from` and `to`. False if there are none. */
 static bool part_above(const struct ceduo_slope *s, const struct ceduo_piece *p, size_t j, double from, double to, double t[2])
 {
     double lo = max(s->x[j], from), hi = fmin(s->x[j + 1], to);
@@ -49,33 +49,34 @@ static double height_in(const struct ceduo_slope *s, const struct ceduo_piece *p
     return p->z + t * (p->vz - gravity / 2 * t) - (s->z[j] + m * (x - s->x[j]));
 }
 
-/* Over one segment it is largest at an end, or where the flight is parallel to the ground. */
+/* Return the maximum height of a flight. Over one segment it is at an end, or where the flight is parallel to the ground. */
 static double largest_height(const struct ceduo_scene *scene, const struct ceduo_piece *p)
 {
     const struct ceduo_slope *s = &scene->slope;
     double t[2], gravity = scene->simulation.gravity;
-    double most = p->z - ceduo_slope_height(s, p->x), left = fmin(p->x, p->x1), right = max(p->x, p->x1);
+    double highest = p->z - ceduo_slope_height(s, p->x), left = fmin(p->x, p->x1), right = max(p->x, p->x1);
     size_t last = ceduo_slope_segment(s, right);
     for (size_t j = ceduo_slope_segment(s, left); right > left && j <= last; j++) {
         if (!part_above(s, p, j, left, right, t))
             continue;
         double top = (p->vz - (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]) * p->vx) / gravity;
-        most = max(most, max(height_in(s, p, gravity, j, t[0]), height_in(s, p, gravity, j, t[1])));
+        highest = max(highest, max(height_in(s, p, gravity, j, t[0]), height_in(s, p, gravity, j, t[1])));
         if (top > t[0] && top < t[1])
-            most = max(most, height_in(s, p, gravity, j, top));
+            highest = max(highest, height_in(s, p, gravity, j, top));
     }
-    return most;
+    return highest;
 }
 
 /* ---- means along a stretch ---- */
 
-/* The integral of sqrt(vx2 + s2) over the vertical speed s, from 0. */
+/* Return the integral of sqrt(vx2 + s2) over the vertical speed s, from 0. */
 static double speed_integral(double vx, double s)
 {
     return (s * sqrt(vx * vx + s * s) + vx * vx * asinh(s / fabs(vx))) / 2;
 }
 
-static void add_flight(const struct ceduo_scene *scene, const struct ceduo_piece *p, double lo, double hi, struct along *a)
+static void add_flight(const struct ceduo_scene *scene, const struct ceduo_piece *p, double lo, double hi,
+                       struct stretch_sums *a)
 {
     double gravity = scene->simulation.gravity, v = fabs(p->vx);
     double first = ((p->vx > 0 ? lo : hi) - p->x) / p->vx, last = ((p->vx > 0 ? hi : lo) - p->x) / p->vx;
@@ -84,7 +85,7 @@ static void add_flight(const struct ceduo_scene *scene, const struct ceduo_piece
     a->speed2 += v * (v * v * (last - first) + (s0 * s0 * s0 - s1 * s1 * s1) / (3 * gravity));
     a->spin2 += square(p->spin) * (hi - lo);
     const struct ceduo_slope *s = &scene->slope;
-    double height = 0, t[2]; /* its integral over time, from one piece of ground to the next */
+    double height = 0, t[2]; /* integral over time, summed over the segments of ground */
     size_t end = ceduo_slope_segment(s, hi);
     for (size_t j = ceduo_slope_segment(s, lo); j <= end; j++)
         if (part_above(s, p, j, lo, hi, t)) /* Simpson's rule is exact for a parabola */
@@ -94,7 +95,7 @@ static void add_flight(const struct ceduo_scene *scene, const struct ceduo_piece
     a->height += v * height;
 }
 
-static void add_roll(const struct ceduo_piece *p, double lo, double hi, struct along *a)
+static void add_roll(const struct ceduo_piece *p, double lo, double hi, struct stretch_sums *a)
 {
     double start = square(p->vx) + square(p->vz), rate = (square(p->vx1) + square(p->vz1) - start) / (p->x1 - p->x);
     double a2 = fmax(0, start + rate * (lo - p->x)), b2 = fmax(0, start + rate * (hi - p->x));
@@ -116,11 +117,11 @@ static void on_piece(void *context, const struct ceduo_piece *p)
         r->rock->largest_height = max(r->rock->largest_height, largest_height(def->scene, p));
     for (size_t i = 0; i < def->stretches_count; i++) {
         double lo = max(fmin(p->x, p->x1), def->stretches[i].from), hi = fmin(max(p->x, p->x1), def->stretches[i].to);
-        r->along[i].length += hi > lo ? hi - lo : 0;
+        r->sums[i].length += hi > lo ? hi - lo : 0;
         if (hi > lo && p->rolls)
-            add_roll(p, lo, hi, &r->along[i]);
+            add_roll(p, lo, hi, &r->sums[i]);
         else if (hi > lo)
-            add_flight(def->scene, p, lo, hi, &r->along[i]);
+            add_flight(def->scene, p, lo, hi, &r->sums[i]);
     }
 }
 
@@ -130,7 +131,7 @@ static void on_stem(void *context, const struct ceduo_stem_passed *stem)
     struct ceduo_record *record = r->record;
     if (!stem->hit)
         return;
-    struct ceduo_blow *grown = ceduo_grow(record->blows, record->blows_count, &r->blows_room, sizeof *grown);
+    struct ceduo_blow *grown = ceduo_grow(record->blows, record->blows_count, &r->blows_capacity, sizeof *grown);
     if (!grown) {
         r->no_memory = true;
         return;
@@ -150,32 +151,32 @@ static enum ceduo_status record_rock(struct recorder *r, struct ceduo_follower *
     const struct ceduo_record_def *def = r->def;
     const struct ceduo_watch watch = {
         .enough = is_cancelled, .piece = on_piece, .stem = def->blows ? on_stem : NULL, .context = r};
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     size_t first = r->record->blows_count;
     if (is_cancelled(r))
         return CEDUO_CANCELLED;
     r->rock = &r->record->rocks[rock];
     *r->rock = (struct ceduo_rock_record){.stop_x = NAN};
     for (size_t i = 0; i < def->stretches_count; i++)
-        r->along[i] = (struct along){0};
+        r->sums[i] = (struct stretch_sums){0};
     enum ceduo_status status =
-        ceduo_follower_follow(follower, rock, &watch, &way, &r->record->crossings[rock * def->scene->controls_count]);
+        ceduo_follower_follow(follower, rock, &watch, &trajectory, &r->record->crossings[rock * def->scene->controls_count]);
     if (status != CEDUO_OK || r->no_memory)
         return r->no_memory ? CEDUO_NO_MEMORY : status;
-    r->rock->mass = way.rock.mass;
-    r->rock->moment = way.rock.moment;
-    r->rock->stop_x = way.end == CEDUO_AT_REST || way.end == CEDUO_STOPPED_BY_STEMS ? way.x : NAN;
+    r->rock->mass = trajectory.rock.mass;
+    r->rock->moment = trajectory.rock.moment;
+    r->rock->stop_x = trajectory.end == CEDUO_AT_REST || trajectory.end == CEDUO_STOPPED_BY_STEMS ? trajectory.x : NAN;
     for (size_t i = 0; i < def->stretches_count; i++) {
-        const struct along *a = &r->along[i]; /* by the lumped law rocks do not spin */
+        const struct stretch_sums *a = &r->sums[i]; /* rocks do not spin by the lumped law */
         bool spins = def->scene->simulation.law != CEDUO_LAW_LUMPED;
-        double spin2 = spins ? a->spin2 + a->roll2 / square(way.rock.radius) : 0;
+        double spin2 = spins ? a->spin2 + a->roll2 / square(trajectory.rock.radius) : 0;
         double length = a->length > 0 ? a->length : NAN;
-        double energy = (way.rock.mass * a->speed2 + way.rock.moment * spin2) / 2;
+        double energy = (trajectory.rock.mass * a->speed2 + trajectory.rock.moment * spin2) / 2;
         r->record->means[rock * def->stretches_count + i] =
             (struct ceduo_stretch_means){a->length, a->speed / length, a->height / length, energy / length};
     }
     for (size_t i = first; i < r->record->blows_count; i++)
-        r->record->blows[i].height += way.rock.radius;
+        r->record->blows[i].height += trajectory.rock.radius;
     return CEDUO_OK;
 }
 
@@ -200,12 +201,12 @@ enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_
     record->rocks = calloc(n + 1, sizeof *record->rocks);
     record->crossings = calloc(n * def->scene->controls_count + 1, sizeof *record->crossings);
     record->means = calloc(n * def->stretches_count + 1, sizeof *record->means);
-    r.along = calloc(def->stretches_count + 1, sizeof *r.along);
-    bool ready = follower && record->rocks && record->crossings && record->means && r.along;
+    r.sums = calloc(def->stretches_count + 1, sizeof *r.sums);
+    bool ready = follower && record->rocks && record->crossings && record->means && r.sums;
     status = ready ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (uint64_t i = 0; status == CEDUO_OK && i < def->rocks; i++)
         status = record_rock(&r, follower, i);
-    free(r.along);
+    free(r.sums);
     ceduo_follower_free(follower);
     if (status != CEDUO_OK)
         ceduo_record_release(record);

@@ -8,21 +8,21 @@
 #include "prepared.h"
 #include "walk.h"
 
-struct noter {
+struct crossing_writer {
     const struct marks *marks;
     struct ceduo_crossing *crossings;
 };
 
-static void note_crossing(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing)
+static void store_crossing(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing)
 {
     (void)w;
-    struct noter *noter = context;
-    if (noter->crossings)
-        noter->crossings[noter->marks->at[mark].what] = *crossing;
+    struct crossing_writer *crossing_writer = context;
+    if (crossing_writer->crossings)
+        crossing_writer->crossings[crossing_writer->marks->items[mark].control] = *crossing;
 }
 
 struct ceduo_follower {
-    struct prepared ready;
+    struct prepared_scene prepared;
     struct stems stems;
 };
 
@@ -31,8 +31,8 @@ struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, co
     struct ceduo_follower *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
-    if (ceduo_prepared_init(&f->ready, scene, option) == CEDUO_OK &&
-        ceduo_stems_init(&f->stems, &f->ready.wood, CEDUO_KERNEL_BEST))
+    if (ceduo_prepared_init(&f->prepared, scene, option) == CEDUO_OK &&
+        ceduo_stems_init(&f->stems, &f->prepared.wood, CEDUO_KERNEL_BEST))
         return f;
     ceduo_follower_free(f);
     return NULL;
@@ -41,25 +41,27 @@ struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, co
 enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock, const struct ceduo_watch *watch,
                                         struct ceduo_trajectory *to, struct ceduo_crossing *crossings)
 {
-    const struct ceduo_scene *scene = &f->ready.scene;
-    struct noter noter = {&f->ready.marks, crossings};
-    struct walker w = {
-        .watch = watch, .cross = note_crossing, .context = &noter, .stems = f->ready.wood.bare ? NULL : &f->stems};
+    const struct ceduo_scene *scene = &f->prepared.scene;
+    struct crossing_writer crossing_writer = {&f->prepared.marks, crossings};
+    struct walker w = {.watch = watch,
+                       .cross = store_crossing,
+                       .context = &crossing_writer,
+                       .stems = f->prepared.wood.bare ? NULL : &f->stems};
     if (crossings)
         memset(crossings, 0, scene->controls_count * sizeof *crossings);
-    enum ceduo_status status = ceduo_walk_release(&w, &f->ready, rock);
+    enum ceduo_status status = ceduo_walk_release(&w, &f->prepared, rock);
     if (status != CEDUO_OK)
         return status;
-    *to =
-        (struct ceduo_trajectory){.rock = w.rock, .x0 = w.at.x, .z0 = w.at.z, .vx0 = w.at.vx, .vz0 = w.at.vz, .spin0 = w.spin};
+    *to = (struct ceduo_trajectory){
+        .rock = w.rock, .x0 = w.flight.x, .z0 = w.flight.z, .vx0 = w.flight.vx, .vz0 = w.flight.vz, .spin0 = w.spin};
     to->end = ceduo_walk(&w, scene->simulation.law);
-    to->x = w.at.x;
-    to->z = w.at.z;
+    to->x = w.flight.x;
+    to->z = w.flight.z;
     to->contacts = w.contacts;
     to->stems_hit = w.stems_hit;
     to->stools_met = w.stools_met;
     to->stems_drawn = w.stems ? w.stems->drawn : 0;
-    if (f->stems.no_memory) /* be it for stems that the rock does not come to */
+    if (f->stems.no_memory) /* also for stems that the rock does not reach */
         return CEDUO_NO_MEMORY;
     return w.cancelled ? CEDUO_CANCELLED : CEDUO_OK;
 }
@@ -69,7 +71,7 @@ void ceduo_follower_free(struct ceduo_follower *f)
     if (!f)
         return;
     ceduo_stems_release(&f->stems);
-    ceduo_prepared_release(&f->ready);
+    ceduo_prepared_release(&f->prepared);
     free(f);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One rock from its release to its end: it flies to its next contact (flying.h), is thrown off again or rolls
- * (rolling.h), until it rests, leaves the slope, is stopped by a stem, or takes too long. The walk of lanes (kernel_text.h) does
- * the same for many rocks and hands over to this one what is rare. */
+/* One rock from its release to its end. It flies to its next contact (flying.h), then bounces or rolls (rolling.h), until it
+ * rests, leaves the slope, is stopped by a stem, or exceeds a limit. The walk of lanes (kernel_text.h) does the same for many
+ * rocks and passes rare events to this one. */
 #include "walk.h"
 
 #include "rolling.h"
@@ -15,26 +15,26 @@ static double draw_release(const struct walker *w, struct ceduo_number n, uint64
     return ceduo_number_draw(n, random_open(w->seed, w->number, event, RANDOM_RELEASE), -INFINITY, INFINITY);
 }
 
-/* Under the law arm the rock's inertia is that of the section which it got. */
+/* Draw the section. Under the arm law it determines the rock's inertia. */
 static void draw_section(struct walker *w)
 {
     double u = random_pair(w->seed, w->number, 0, RANDOM_SECTION).u[0];
-    w->section = section_of(&w->rock, (int)(3 * u));
+    w->section = make_section(&w->rock, (int)(3 * u));
     w->k = 1 / (w->section.reach * w->section.reach);
     w->rock.k = w->k;
     w->rock.moment = w->k * w->rock.mass * w->rock.radius * w->rock.radius;
 }
 
-enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *ready, uint64_t number)
+enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared_scene *prepared, uint64_t number)
 {
-    const struct ceduo_scene *scene = &ready->scene;
-    const struct ground *g = w->g = &ready->ground;
-    w->marks = &ready->marks;
+    const struct ceduo_scene *scene = &prepared->scene;
+    const struct ground *g = w->g = &prepared->ground;
+    w->marks = &prepared->marks;
     w->seed = scene->simulation.seed;
     w->number = number;
     w->scale_rn = scene->simulation.scale_rn;
     w->friction_bound = scene->simulation.friction_bound;
-    enum ceduo_status status = ceduo_prepared_rock(ready, number, &w->rock);
+    enum ceduo_status status = ceduo_prepared_rock(prepared, number, &w->rock);
     if (status != CEDUO_OK)
         return status;
     w->rn_u = g->rn_varies ? random_open(w->seed, number, 0, RANDOM_GROUND) : 0;
@@ -49,18 +49,18 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
         draw_section(w);
     w->spin = law->spins ? draw_release(w, scene->release.spin, 4) : 0;
     size_t segment = ceduo_ground_segment(g, x);
-    w->at = (struct flight){.x = x,
-                            .z = ground_height(g, segment, x) + height,
-                            .vx = draw_release(w, scene->release.vx, 2),
-                            .vz = draw_release(w, scene->release.vz, 3),
-                            .segment = segment,
-                            .on_ground = !(height > 0)};
+    w->flight = (struct flight){.x = x,
+                                .z = ground_height(g, segment, x) + height,
+                                .vx = draw_release(w, scene->release.vx, 2),
+                                .vz = draw_release(w, scene->release.vz, 3),
+                                .segment = segment,
+                                .on_ground = !(height > 0)};
     w->contacts = 0;
     w->pause = next_pause(w);
     w->stems_pause = PAUSE;
-    w->cancelled = w->gives_up = false;
-    w->facets.of = w->turns.of = UINT64_MAX;
-    w->next_mark = 0; /* all stand below each release */
+    w->cancelled = w->aborted = false;
+    w->facets.index = w->turns.index = UINT64_MAX;
+    w->next_mark = 0; /* all marks are below the release */
     set_next_x(w);
     w->stems_hit = w->stools_met = 0;
     w->stem_ahead = INFINITY;
@@ -72,23 +72,23 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     return CEDUO_OK;
 }
 
-bool ceduo_walk_alike(const struct prepared *ready)
+bool ceduo_walk_is_identical(const struct prepared_scene *prepared)
 {
-    const struct ground *g = &ready->ground;
-    const struct ceduo_release *r = &ready->scene.release;
-    return !ceduo_scene_rock_varies(&ready->scene) && !g->rn_varies && !g->rt_varies && !(r->x.spread > 0) &&
+    const struct ground *g = &prepared->ground;
+    const struct ceduo_release *r = &prepared->scene.release;
+    return !ceduo_scene_rock_varies(&prepared->scene) && !g->rn_varies && !g->rt_varies && !(r->x.spread > 0) &&
            !(r->height.spread > 0) && !(r->vx.spread > 0) && !(r->vz.spread > 0) && !(r->spin.spread > 0);
 }
 
-void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint64_t number)
+void ceduo_walk_release_identical(struct walker *w, const struct walker *first, uint64_t number)
 {
     w->number = number;
     w->spin = first->spin;
-    w->at = first->at;
+    w->flight = first->flight;
     w->contacts = 0;
     w->pause = first->pause;
     w->cancelled = false;
-    w->facets.of = w->turns.of = UINT64_MAX;
+    w->facets.index = w->turns.index = UINT64_MAX;
     w->next_mark = first->next_mark;
     w->next_x = first->next_x;
     if (w->has_section)
@@ -97,8 +97,8 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
 
 /* ---- the whole trajectory ---- */
 
-/* Whether a long trajectory is to end here: too many contacts, or nobody waits for it any more. */
-NOINLINE bool has_enough(struct walker *w)
+/* True if the trajectory must end: too many contacts, or cancelled. */
+NOINLINE bool must_stop(struct walker *w)
 {
     if (w->arrivals_only && is_behind_marks(w))
         return true;
@@ -107,69 +107,69 @@ NOINLINE bool has_enough(struct walker *w)
     return w->cancelled || w->contacts >= CEDUO_CONTACTS_MOST;
 }
 
-/* Lands at `l`, which may not be known yet, past the stems before it; false where that ends it. */
-FORCE_INLINE bool come_down(struct walker *w, struct flight *at, struct landing *l, bool knows_landing, enum ceduo_end *end)
+/* Fly past the stems to the landing `l`, which may be unknown. False if the trajectory ends. */
+FORCE_INLINE bool come_down(struct walker *w, struct flight *flight, struct landing *l, bool landing_known, enum ceduo_end *end)
 {
-    if ((!knows_landing || stem_on_way(w, l->x)) && fly_past_stems(w, at, l, knows_landing)) {
-        w->at = *at;
-        *end = w->gives_up ? CEDUO_UNFINISHED : CEDUO_STOPPED_BY_STEMS;
+    if ((!landing_known || stem_before(w, l->x)) && fly_past_stems(w, flight, l, landing_known)) {
+        w->flight = *flight;
+        *end = w->aborted ? CEDUO_UNFINISHED : CEDUO_STOPPED_BY_STEMS;
         return false;
     }
-    fly(w, at, l);
-    if (l->left) {
-        w->at = *at;
+    fly(w, flight, l);
+    if (l->off_slope) {
+        w->flight = *flight;
         *end = CEDUO_LEFT_SLOPE;
         return false;
     }
     return true;
 }
 
-/* The same for a rock that rolls after a contact, standing still where it does until it rests or rolls on. */
-bool ceduo_walk_roll(struct walker *w, struct course *c, const struct rolling *before, enum ceduo_end *end)
+/* A rock that stands still rolls again until it rests, leaves or reaches a limit. */
+bool ceduo_walk_roll(struct walker *w, struct rock_state *c, const struct rolling *before, enum ceduo_end *end)
 {
-    bool enough = false;
-    w->at = c->at;
+    bool stops = false;
+    w->flight = c->flight;
     if (before) {
         c->along = before->along;
         w->spin = before->spin;
     }
     double u = rolling_speed(c->along, w->k, w->spin, w->rock.radius);
-    enum after_roll then = u == 0 && rests(w) ? STANDS : roll_on(w, u, &c->l);
-    while (then == STANDS && !rests(w) && !(enough = w->contacts >= w->pause && has_enough(w))) {
+    enum roll_outcome outcome = u == 0 && rests(w) ? STANDS : roll_on(w, u, &c->l);
+    while (outcome == STANDS && !rests(w) && !(stops = w->contacts >= w->pause && must_stop(w))) {
         w->contacts++;
-        then = roll_on(w, 0, &c->l);
+        outcome = roll_on(w, 0, &c->l);
     }
-    *end = then == STANDS && !enough         ? CEDUO_AT_REST
-           : then == ROLLED_OUT              ? CEDUO_LEFT_SLOPE
-           : then == STOPPED && !w->gives_up ? CEDUO_STOPPED_BY_STEMS
-                                             : CEDUO_UNFINISHED;
-    c->at = w->at;
+    *end = outcome == STANDS && !stops         ? CEDUO_AT_REST
+           : outcome == ROLLED_OUT             ? CEDUO_LEFT_SLOPE
+           : outcome == STOPPED && !w->aborted ? CEDUO_STOPPED_BY_STEMS
+                                               : CEDUO_UNFINISHED;
+    c->flight = w->flight;
     c->along = w->along;
     c->off = 0;
-    c->flies = then == TOOK_OFF;
-    c->rolled = then == ROLLED;
-    return then == TOOK_OFF || then == ROLLED;
+    c->flies = outcome == TOOK_OFF;
+    c->rolled = outcome == ROLLED;
+    return outcome == TOOK_OFF || outcome == ROLLED;
 }
 
-FORCE_INLINE void set_velocity(const struct walker *w, struct course *c)
+FORCE_INLINE void set_velocity(const struct walker *w, struct rock_state *c)
 {
-    struct velocity v = velocity_at(w, &c->at);
+    struct velocity v = velocity_at(w, &c->flight);
     c->along = v.along;
     c->off = v.off;
 }
 
-FORCE_INLINE void start(const struct walker *w, struct course *c)
+FORCE_INLINE void start(const struct walker *w, struct rock_state *c)
 {
-    c->at = w->at;
+    c->flight = w->flight;
     set_velocity(w, c);
-    c->flies = !c->at.on_ground || c->off > 0;
+    c->flies = !c->flight.on_ground || c->off > 0;
     if (c->flies)
-        c->l = next_landing(w->g, &c->at);
+        c->l = next_landing(w->g, &c->flight);
 }
 
-FORCE_INLINE enum ceduo_end walk_over(struct walker *w, struct course c, const struct contact_law *law, bool blocks)
+FORCE_INLINE enum ceduo_end walk_over(struct walker *w, struct rock_state c, const struct contact_law *law, bool chunks)
 {
-    struct flight at = c.at; /* w->at is brought up to date for those who are called */
+    struct flight flight = c.flight; /* w->flight is updated before calls */
     struct velocity v = {c.along, c.off};
     struct facet facet = {.angle = 0, .sine = 0, .cosine = 1};
     struct landing l = c.l;
@@ -177,29 +177,29 @@ FORCE_INLINE enum ceduo_end walk_over(struct walker *w, struct course c, const s
     enum ceduo_end end;
     for (;;) {
         if (flies) {
-            if (!come_down(w, &at, &l, true, &end))
+            if (!come_down(w, &flight, &l, true, &end))
                 return end;
-            v = velocity_at(w, &at);
+            v = velocity_at(w, &flight);
             rolled = false;
         }
-        if (w->contacts >= w->pause && has_enough(w)) {
-            w->at = at;
+        if (w->contacts >= w->pause && must_stop(w)) {
+            w->flight = flight;
             return CEDUO_UNFINISHED;
         }
         const struct rolling before = {.along = v.along, .spin = w->spin};
-        strike_ground(w, &at, &v, &facet, law);
+        strike_ground(w, &flight, &v, &facet, law);
         w->contacts++;
-        turn_facet(w, at.segment, &facet);
-        at.on_ground = true;
-        l = next_landing_over(w->g, &at, blocks);
-        flies = !is_roll(w, &at, v.off, &l);
+        turn_facet(w, flight.segment, &facet);
+        flight.on_ground = true;
+        l = next_landing_over(w->g, &flight, chunks);
+        flies = !is_roll(w, &flight, v.off, &l);
         if (flies)
             continue;
-        c.at = at;
+        c.flight = flight;
         c.along = v.along;
         if (!ceduo_walk_roll(w, &c, rolled && w->friction_bound ? &before : NULL, &end))
             return end;
-        at = c.at;
+        flight = c.flight;
         v = (struct velocity){c.along, c.off};
         l = c.l;
         flies = c.flies;
@@ -207,18 +207,18 @@ FORCE_INLINE enum ceduo_end walk_over(struct walker *w, struct course c, const s
     }
 }
 
-/* The walk of each law. */
+/* One walk per law. */
 #define X(NAME, name)                                                                                                          \
-    static enum ceduo_end walk_##name(struct walker *w, const struct course *c)                                                \
+    static enum ceduo_end walk_##name(struct walker *w, const struct rock_state *c)                                            \
     {                                                                                                                          \
         return w->g->top > 0 ? walk_over(w, *c, &law_##name, true) : walk_over(w, *c, &law_##name, false);                     \
     }
 CEDUO_LAWS(X)
 #undef X
 
-enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law)
+enum ceduo_end ceduo_walk_on(struct walker *w, const struct rock_state *c, enum ceduo_law law)
 {
-    static enum ceduo_end (*const walks[])(struct walker *, const struct course *) = {
+    static enum ceduo_end (*const walks[])(struct walker *, const struct rock_state *) = {
 #define X(NAME, name) walk_##name,
         CEDUO_LAWS(X)
 #undef X
@@ -228,51 +228,51 @@ enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum cedu
 
 enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
 {
-    struct course c = {.flies = false};
+    struct rock_state c = {.flies = false};
     start(w, &c);
     return ceduo_walk_on(w, &c, law);
 }
 
-/* ---- the trajectory in pieces ---- */
+/* ---- steps of a trajectory ---- */
 
-bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t)
+bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight flight, double t)
 {
     const struct stem stem = *ceduo_stems_next(&w->stems->side[0]);
-    go_to_next_stem(w, 0);
-    if ((hit || w->gives_up) && w->next_x <= stem.along)
-        ceduo_walk_pass_marks(w, at, stem.along, t);
-    if (hit && !w->gives_up)
+    advance_stem(w, 0);
+    if ((hit || w->aborted) && w->next_x <= stem.along)
+        ceduo_walk_pass_marks(w, flight, stem.along, t);
+    if (hit && !w->aborted)
         count_hit(w, &stem);
-    return !w->gives_up;
+    return !w->aborted;
 }
 
-bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end)
+bool ceduo_walk_come_down(struct walker *w, struct rock_state *c, enum ceduo_end *end)
 {
     if (c->flies) {
-        if (!come_down(w, &c->at, &c->l, !c->aloft, end))
+        if (!come_down(w, &c->flight, &c->l, !c->landing_unknown, end))
             return false;
         set_velocity(w, c);
-        c->flies = c->aloft = false;
+        c->flies = c->landing_unknown = false;
     }
-    if (w->contacts >= w->pause && has_enough(w)) {
-        w->at = c->at;
+    if (w->contacts >= w->pause && must_stop(w)) {
+        w->flight = c->flight;
         *end = CEDUO_UNFINISHED;
         return false;
     }
     return true;
 }
 
-bool ceduo_walk_start(struct walker *w, struct course *c, enum ceduo_end *end)
+bool ceduo_walk_start(struct walker *w, struct rock_state *c, enum ceduo_end *end)
 {
     start(w, c);
     return ceduo_walk_come_down(w, c, end);
 }
 
-bool ceduo_walk_rolls(const struct walker *w, struct course *c, bool knows_landing)
+bool ceduo_walk_rolls(const struct walker *w, struct rock_state *c, bool landing_known)
 {
-    if (!knows_landing)
-        c->l = next_landing(w->g, &c->at);
-    c->flies = !is_roll(w, &c->at, c->off, &c->l);
+    if (!landing_known)
+        c->l = next_landing(w->g, &c->flight);
+    c->flies = !is_roll(w, &c->flight, c->off, &c->l);
     return !c->flies;
 }
 

@@ -13,16 +13,16 @@
 #include "flight.h"
 #include "prepared.h"
 
-/* The section in which a rock meets the ground under the law arm: an ellipse whose half-axes are one of the three pairs of
- * the rock's, so scaled that their mean over the pairs is R. */
+/* Section of a rock that meets the ground under the arm law: an ellipse with one of the three pairs of half-axes of the rock,
+ * scaled so that their mean over the pairs is R. */
 struct section {
-    double wide, high; /* squares of the half-axes over that of the radius of gyration: together 5 */
+    double wide, high; /* squared half-axes over the squared radius of gyration; their sum is 5 */
     double reach;      /* R over the radius of gyration */
     double gyration;   /* m */
 };
 
-/* That of pair 0, 1 or 2. */
-static inline struct section section_of(const struct ceduo_rock *rock, int pair)
+/* Return the section of pair 0, 1 or 2. */
+static inline struct section make_section(const struct ceduo_rock *rock, int pair)
 {
     const double *axes = rock->axes;
     double a = axes[pair], b = axes[(pair + 1) % 3], longer = a < b ? b : a;
@@ -39,44 +39,44 @@ struct walker {
     uint64_t seed, number;
     bool scale_rn, friction_bound;
     struct ceduo_rock rock;
-    double k;         /* 0 where the law knows no spin */
-    bool has_section; /* under the law arm */
+    double k;         /* 0 if the law has no spin */
+    bool has_section; /* under the arm law */
     struct section section;
-    double rn_u, rt_u;           /* quantiles of this rock's ground */
+    double rn_u, rt_u;           /* quantiles of rn and rt for this rock */
     double theta[ROUGHNESS_MAX]; /* largest facet angle of this rock on each roughness of the ground */
-    struct flight at;            /* where it is now */
-    double along;                /* after a roll: speed along the segment */
+    struct flight flight;        /* current position and velocity */
+    double along;                /* m/s along the segment, after a roll */
     double spin;
     uint64_t contacts;
-    uint64_t pause;       /* contacts after which to look up: at the most, or whether to stop */
-    uint64_t stems_pause; /* the same, of the effort spent on stems */
+    uint64_t pause;       /* contact count at which limits and cancellation are checked next */
+    uint64_t stems_pause; /* likewise, of stems->effort */
     size_t next_mark;
-    double next_x;                  /* of that mark, infinite behind the last */
+    double next_x;                  /* m, of this mark; infinite after the last */
     struct stems *stems;            /* NULL: no forest */
     double stem_ahead, stem_behind; /* x of the next stem in either direction; infinite: none */
     uint64_t stems_hit, stools_met;
     struct contact_draws {
-        uint64_t of;
-        struct random_pair pair; /* of contacts 2 of and 2 of + 1 */
-    } facets, turns;             /* turns: of the section */
-    /* at a control */
+        uint64_t index;
+        struct random_pair pair; /* for contacts 2 index and 2 index + 1 */
+    } facets, turns;             /* turns: orientation of the section */
+    /* called at a control */
     void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
-    const struct ceduo_watch *watch; /* NULL: nobody looks */
+    const struct ceduo_watch *watch; /* may be NULL */
     void *context;                   /* of cross */
-    bool arrivals_only;              /* nothing is asked behind the last mark: it stops soon after, CEDUO_UNFINISHED */
-    const atomic_bool *cancel;       /* looked at now and then on long trajectories; may be NULL */
-    bool cancelled;                  /* it was raised, or memory ran out: the trajectory is not at its end */
-    bool gives_up;                   /* among stems: cancelled, or there were too many */
+    bool arrivals_only;              /* stop soon after the last mark, with CEDUO_UNFINISHED */
+    const atomic_bool *cancel;       /* checked regularly on long trajectories; may be NULL */
+    bool cancelled;                  /* cancelled or out of memory: the trajectory is incomplete */
+    bool aborted;                    /* among stems: cancelled, or too many stems */
 };
 
-/* Where a rock stands between two contacts: in flight to `l`, or on the ground at its next contact. */
-struct course {
-    struct flight at;
+/* State of a rock between two contacts: in flight to `l`, or on the ground at its next contact. */
+struct rock_state {
+    struct flight flight;
     bool flies;
-    bool aloft;        /* and `l` is not known yet, behind a stem */
-    bool rolled;       /* on the ground: it rolled to here, with speed `along` */
-    double along, off; /* velocity, on the ground */
-    struct landing l;  /* in flight */
+    bool landing_unknown; /* in flight after a stem, `l` is not set */
+    bool rolled;          /* on the ground, reached by rolling with speed `along` */
+    double along, off;    /* velocity, on the ground */
+    struct landing l;     /* in flight */
 };
 
 /* ---- what is next ---- */
@@ -88,54 +88,54 @@ static inline bool is_behind_marks(const struct walker *w)
 
 static inline void set_next_x(struct walker *w)
 {
-    w->next_x = is_behind_marks(w) ? INFINITY : w->marks->at[w->next_mark].x;
+    w->next_x = is_behind_marks(w) ? INFINITY : w->marks->items[w->next_mark].x;
     if (w->arrivals_only && is_behind_marks(w))
         w->pause = 0;
 }
 
 /* ---- the walk ---- */
 
-/* Draws rock number `number` of the scene and puts it at its release. walker.stems and those who look on are the
- * caller's to set before. */
-enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *ready, uint64_t number);
+/* Draw rock `number` of the scene and place it at its release. Caller sets stems and callbacks before. */
+enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared_scene *prepared, uint64_t number);
 
-/* Whether all rocks of a scene without forest start alike; another such rock, from one at its release and a walker that
- * was released before. */
-bool ceduo_walk_alike(const struct prepared *ready);
-void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint64_t number);
+/* True if all rocks of a scene without forest start identically. Then ceduo_walk_release_identical() releases another rock by
+ * copying `first`, a walker at its release; `w` must have been released before. */
+bool ceduo_walk_is_identical(const struct prepared_scene *prepared);
+void ceduo_walk_release_identical(struct walker *w, const struct walker *first, uint64_t number);
 
-/* Follows it to its end. */
+/* Simulate a released rock to its end. */
 enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law);
 
-/* ---- the trajectory in pieces, for the walk of lanes ---- */
+/* ---- steps of a trajectory, for the walk of lanes ---- */
 
-/* From the release to the first contact. All of these return false where the trajectory ended before, at w->at. */
-bool ceduo_walk_start(struct walker *w, struct course *c, enum ceduo_end *end);
+/* Move from the release to the first contact. This and the following functions return false if the trajectory ends before, at
+ * w->flight. */
+bool ceduo_walk_start(struct walker *w, struct rock_state *c, enum ceduo_end *end);
 
-/* Notes the marks that a flight passes up to x, where it lands after t. */
-void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double t);
+/* Report the marks that a flight passes up to x, where it lands after t. */
+void ceduo_walk_pass_marks(struct walker *w, struct flight flight, double x, double t);
 
-/* Takes the next stem ahead. False where the rock is not to be followed further; there, and if it is hit, the marks up to it are
- * passed by the flight that leads there in t. */
-bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t);
+/* Consume the next stem ahead, which the flight reaches after t. False if the trajectory is aborted. Then, or if the stem is
+ * hit, the marks before it are passed. */
+bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight flight, double t);
 
-/* To the next contact. */
-bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end);
+/* Move to the next contact. */
+bool ceduo_walk_come_down(struct walker *w, struct rock_state *c, enum ceduo_end *end);
 
-/* Whether a rock rolls behind a contact, which leaves it with velocity v; else it flies to l, which may be known. */
-bool ceduo_walk_rolls(const struct walker *w, struct course *c, bool knows_landing);
+/* True if a rock rolls after a contact; otherwise it flies to c->l, computed here unless `landing_known`. */
+bool ceduo_walk_rolls(const struct walker *w, struct rock_state *c, bool landing_known);
 
-/* Roll on from such a contact, into flight or to the next contact. `before`: the motion that a rock keeps which rolled to
- * the contact; NULL: the contact was an impact. */
+/* Roll from such a contact, into flight or to the next contact. `before`: motion of a rock that rolled to the contact, which
+ * continues; NULL: the contact was an impact. */
 struct rolling {
     double along, spin; /* m/s, rad/s */
 };
-bool ceduo_walk_roll(struct walker *w, struct course *c, const struct rolling *before, enum ceduo_end *end);
+bool ceduo_walk_roll(struct walker *w, struct rock_state *c, const struct rolling *before, enum ceduo_end *end);
 
-/* From between two contacts to the end. */
-enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law);
+/* Continue from between two contacts to the end. */
+enum ceduo_end ceduo_walk_on(struct walker *w, const struct rock_state *c, enum ceduo_law law);
 
-/* The ground of a segment as this rock meets it. */
+/* Set the ground of a segment for this rock. */
 void ceduo_walk_ground(const struct walker *w, size_t segment, double *rn, double *rt, double *largest_angle);
 
 #endif
