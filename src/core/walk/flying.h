@@ -97,7 +97,7 @@ NOINLINE void report_stem(const struct walker *w, const struct stem *stem, doubl
 /* Consume the next stem on a side. Sets aborted if the trajectory must be abandoned. */
 static inline void advance_stem(struct walker *w, int side)
 {
-    ceduo_stems_take(w->stems, side);
+    ceduo_stems_consume(w->stems, side);
     set_next_stems(w);
     w->cancelled |= w->stems->no_memory;
     if (w->stems->effort >= w->stems_pause) {
@@ -120,7 +120,7 @@ static bool take_stem(struct walker *w, int side, struct stem *stem)
 static inline void count_hit(struct walker *w, const struct stem *stem)
 {
     w->stems_hit++;
-    w->stools_met += ceduo_stems_meet(w->stems, stem);
+    w->stools_met += ceduo_stems_record_hit(w->stems, stem);
 }
 
 /* Record a hit of a stem at x by a rock of kinetic energy `energy`. Return the remaining share of its speed, 0 if it is
