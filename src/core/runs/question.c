@@ -21,8 +21,7 @@ static enum ceduo_status simulate_years(const struct ceduo_question *q, struct c
     const struct ceduo_simulated *bare = &a->result->bare;
     uint64_t rocks = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
     rocks = q->year_rocks > 0 && q->year_rocks < rocks ? q->year_rocks : rocks;
-    bool independent =
-        q->years_apart && rocks > 0 && scene->blocks_count == 0 && scene->simulation.contact_model != CEDUO_INDEX;
+    bool separate = q->years_apart && rocks > 0 && scene->blocks_count == 0 && scene->simulation.contact_model != CEDUO_INDEX;
     struct ceduo_years **years = calloc(scene->options_count + 1, sizeof *years);
     *(rotation ? &a->rotations : &a->years) = years;
     enum ceduo_status status = years ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -36,9 +35,8 @@ static enum ceduo_status simulate_years(const struct ceduo_question *q, struct c
         window = q->years_most > 0 ? ceduo_window_of_most(window, q->years_most) : window;
         status = ceduo_years_create(scene, option, window, &years[i]);
         if (status == CEDUO_OK) /* a constant window is year 0, today: its run exists */
-            status = independent && window.kind != CEDUO_WINDOW_ALIKE
-                         ? ceduo_years_simulate_apart(years[i], &q->run, bare, rocks)
-                         : ceduo_years_simulate(years[i], pool, bare, rocks);
+            status = separate && window.kind != CEDUO_WINDOW_ALIKE ? ceduo_years_simulate_apart(years[i], &q->run, bare, rocks)
+                                                                   : ceduo_years_simulate(years[i], pool, bare, rocks);
     }
     return status;
 }
