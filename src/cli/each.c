@@ -26,8 +26,8 @@ static void append_names(const struct each *e, bool set, struct text *text)
     size_t n = 0;
     for (size_t i = 0; i < e->heads_count; i++)
         if (is_wanted(&e->heads[i], set))
-            ceduo_csv_list(text, &n, e->heads[i].name, strlen(e->heads[i].name));
-    ceduo_csv_list_end(text, n);
+            ceduo_csv_append_name(text, &n, e->heads[i].name, strlen(e->heads[i].name));
+    ceduo_csv_append_rest(text, n);
     if (n == 0)
         ceduo_text_put(text, _("none"));
 }
@@ -78,9 +78,9 @@ static bool check_numbers(const struct each *e)
         struct csv_cell cell = ceduo_csv_cell(&e->table, i);
         if (e->heads[i].sets != PATH_NUMBER || is_yaml(cell) || ceduo_csv_is_empty(cell))
             continue;
-        enum csv_numeral how = ceduo_csv_numeral(&e->table, cell, number);
+        enum csv_numeral how = ceduo_csv_normalize_number(&e->table, cell, number);
         if (how != CSV_NUMERAL_GOOD && how != CSV_NUMERAL_NONE)
-            good = ceduo_csv_no_number(&e->table, cell, how);
+            good = ceduo_csv_report_number(&e->table, cell, how);
     }
     return good;
 }
@@ -96,7 +96,7 @@ static bool read_rows(struct each *e)
         return ceduo_problem(t->problems, t->source, 0, 0, _("no row below the head"));
     e->rows = ceduo_arena_take(&e->arena, t->rows * sizeof *e->rows);
     t->arena = &e->row_arena; /* the scan has made the list of cells long enough */
-    while (ceduo_csv_next(t)) {
+    while (ceduo_csv_next_row(t)) {
         bool bad = t->bad || !check_numbers(e);
         e->bad_rows |= bad;
         e->rows[e->rows_count++] = (struct each_row){t->place, bad};
@@ -111,7 +111,7 @@ static enum exit_status read_table(struct each *e)
     bool good = ceduo_csv_open(&e->table, &e->arena, e->given->each, &problems);
     if (good) {
         e->table.source->foreign = false; /* its name was given for this */
-        good = ceduo_csv_first(&e->table) && read_heads(e);
+        good = ceduo_csv_read_head(&e->table) && read_heads(e);
     }
     if (good)
         announce(e);
@@ -154,7 +154,7 @@ static const char *make_change(struct each *e, size_t column)
     ceduo_text_format(&change, "%s=", head->name);
     if (head->sets == PATH_TEXT || (head->sets == PATH_FILE && !is_yaml(cell)))
         append_quoted(&change, e->cells[column]);
-    else if (head->sets == PATH_NUMBER && !is_yaml(cell) && ceduo_csv_numeral(&e->table, cell, number) == CSV_NUMERAL_GOOD)
+    else if (head->sets == PATH_NUMBER && !is_yaml(cell) && ceduo_csv_normalize_number(&e->table, cell, number) == CSV_NUMERAL_GOOD)
         ceduo_text_put(&change, number);
     else
         ceduo_text_put(&change, e->cells[column]);
@@ -165,7 +165,7 @@ static const char *make_change(struct each *e, size_t column)
 static void read_row(struct each *e, const struct each_row *row)
 {
     struct word_list *sets = &e->arguments.sets;
-    ceduo_csv_return(&e->table, row->place);
+    ceduo_csv_reread(&e->table, row->place);
     e->arguments.label = e->name;
     for (size_t i = e->heads_count; i-- > 0;) {
         struct csv_cell cell = ceduo_csv_cell(&e->table, i);

@@ -145,13 +145,13 @@ static bool check_copied(const struct csv *table, size_t column, const struct me
     bool path = strpbrk(head, ".[");
     const char *instead = path ? ceduo_gone(head) : NULL;
     if (instead)
-        return ceduo_csv_complain(table, table->heads[column], "'%s': %s", head, _(instead));
+        return ceduo_csv_error(table, table->heads[column], "'%s': %s", head, _(instead));
     const char *meant = path ? find_nearest(m, arena, head) : find_meant(m, arena, head);
     if (meant)
-        return ceduo_csv_complain(table, table->heads[column],
+        return ceduo_csv_error(table, table->heads[column],
                                   _("'%s' is no path of --set; write '%s' to set it, or rename the column to copy it"), head,
                                   meant);
-    return !path || ceduo_csv_complain(table, table->heads[column],
+    return !path || ceduo_csv_error(table, table->heads[column],
                                        _("'%s' is no path of --set (ceduo --list-parameters); the head of a column that is "
                                          "copied has no '.' or '['"),
                                        head);
@@ -185,7 +185,7 @@ static bool check_twice(const struct csv *table, struct arena *arena, const stru
     for (size_t i = 1; i < named && twice < CEDUO_PROBLEMS_MOST; i++)
         if (strcmp(sorted[i - 1].text, sorted[i].text) == 0) {
             twice++;
-            ceduo_csv_complain(table, table->heads[sorted[i].column], _("'%s' is given twice"), heads[sorted[i].column].name);
+            ceduo_csv_error(table, table->heads[sorted[i].column], _("'%s' is given twice"), heads[sorted[i].column].name);
         }
     return twice == 0;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Walks the nodes of a document along the table of the scene. Each row says how its value is read and where it goes.
- * The binder keeps the path to the present value for messages; a value that is wrong is noted by its path, and
- * reading goes on. Lists and texts lie in the arena of the caller. */
+/* Reads the nodes of a document by the table of keys. Each row gives the type of its value and the member that holds it.
+ * The binder keeps the path of the current value for messages. It marks an invalid value by its path and continues.
+ * Lists and texts are in the caller's arena. */
 #include "bind.h"
 
 #include <math.h>
@@ -14,15 +14,15 @@
 #include "ceduo/rock.h"
 #include "scene/fields.h"
 
-#define KEYS_SHOWN_MOST 32
-#define KEYS_ALL_TOLD   4 /* so few are told, unless what is meant begins alike */
+#define KEYS_MAX 32 /* keys in a message */
+#define KEYS_FEW 4  /* at most this many: list them all, unless the nearest has the same first letter */
 
 struct binder {
     const struct binding *to;
     struct text path;
-    size_t file_start; /* where the path within the present file begins */
-    bool partial;      /* what the present mapping starts from is not known */
-    double end;        /* of the profile, m; NaN: not asked yet, or not known */
+    size_t file_start; /* bytes of `path` that lead to the root of the current file */
+    bool partial;      /* the current mapping has an unreadable base */
+    double end;        /* x of the profile's end, m; NaN: not computed yet, or unknown */
 };
 
 /* ---- reporting ---- */
@@ -33,31 +33,31 @@ static const char *path_here(const struct binder *b)
     return path[0] == '.' ? path + 1 : path;
 }
 
-/* Marks the value at the current path as invalid; later checks skip it. */
-static void note_bad(struct binder *b)
+/* Mark the value at the current path as invalid, so that later checks skip it. */
+static void mark_invalid(struct binder *b)
 {
-    struct bad_values *bad = b->to->bad;
-    bool room = bad->n < CEDUO_BAD_MOST;
-    const char *path = room ? ceduo_arena_string(b->to->arena, ceduo_text_string(&b->path)) : NULL;
+    struct invalid_values *invalid = b->to->invalid;
+    bool full = invalid->n >= CEDUO_INVALID_MAX;
+    const char *path = full ? NULL : ceduo_arena_string(b->to->arena, ceduo_text_string(&b->path));
     if (path)
-        bad->paths[bad->n] = path;
-    bad->n += path || !room;
+        invalid->paths[invalid->n] = path;
+    invalid->n += path || full;
 }
 
-/* What is wrong with a value; false, so that a check can end with it. */
+/* Report an error at a value. Return false. */
 __attribute__((format(printf, 3, 4))) static bool report(struct binder *b, const struct node *node, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
     ceduo_problem_v(b->to->problems, ceduo_node_place(node, path_here(b)), format, args);
     va_end(args);
-    note_bad(b);
+    mark_invalid(b);
     return false;
 }
 
 /* ---- the path ---- */
 
-static size_t enter(struct binder *b, const char *key)
+static size_t enter_key(struct binder *b, const char *key)
 {
     size_t before = b->path.length;
     if (before > 0)
@@ -73,73 +73,73 @@ static size_t enter_item(struct binder *b, size_t i)
     return before;
 }
 
-static void leave(struct binder *b, size_t before)
+static void leave_path(struct binder *b, size_t before)
 {
     ceduo_text_cut(&b->path, before);
 }
 
 static const struct object source_object;
 
-const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *said)
+const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *message)
 {
-    const char *words[KEYS_SHOWN_MOST + 1]; /* and the source */
+    const char *words[KEYS_MAX + 1]; /* + 1: source */
     size_t n = 0;
-    for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++) /* untaken: large */
+    for (size_t i = 0; i < object->n && n < KEYS_MAX; i++) /* untaken: large */
         words[n++] = object->fields[i].key;
-    if (object != &source_object) /* any value has one */
+    if (object != &source_object) /* every mapping may have a source */
         words[n++] = "source";
     const char *near = ceduo_text_nearest(key, words, n);
     LOCAL_TEXT(list);
     ceduo_text_words(&list, words, n, ", ");
-    if (near && n <= KEYS_ALL_TOLD && near[0] != key[0])
+    if (near && n <= KEYS_FEW && near[0] != key[0])
         near = NULL;
-    ceduo_text_format(said, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"),
+    ceduo_text_format(message, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"),
                       near ? near : ceduo_text_string(&list));
     return near;
 }
 
 static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
 {
-    LOCAL_TEXT(said);
-    const char *instead = ceduo_gone(entry->key), *near = ceduo_bind_unknown_key(object, entry->key, &said);
+    LOCAL_TEXT(message);
+    const char *removed = ceduo_gone(entry->key), *near = ceduo_bind_unknown_key(object, entry->key, &message);
     struct problem_place place = ceduo_node_place(entry, NULL);
     if (entry->key_line) {
         place.line = entry->key_line;
         place.column = entry->key_column;
     }
-    size_t before = enter(b, entry->key);
-    if (entry->source->foreign && !instead) { /* whose key is not repeated */
+    size_t before = enter_key(b, entry->key);
+    if (entry->source->foreign && !removed) { /* do not echo keys of an unrecognized file */
         ceduo_problem_at(b->to->problems, place, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"),
                          "");
     } else {
         place.path = path_here(b);
         place.own = true;
-        ceduo_problem_at(b->to->problems, place, "%s", instead ? _(instead) : ceduo_text_string(&said));
+        ceduo_problem_at(b->to->problems, place, "%s", removed ? _(removed) : ceduo_text_string(&message));
     }
-    leave(b, before);
-    if (near) { /* what was meant is not known, but it is not missing */
-        before = enter(b, near);
-        note_bad(b);
-        leave(b, before);
+    leave_path(b, before);
+    if (near) { /* counts as present, so it is not reported as missing */
+        before = enter_key(b, near);
+        mark_invalid(b);
+        leave_path(b, before);
     }
 }
 
 /* ---- values ---- */
 
-/* Whether a value is of a kind; where it is not, that is reported with what was wanted. */
-static bool want(struct binder *b, const struct node *node, enum node_kind kind, const char *wanted)
+/* True if a value is of a kind; otherwise reports what was expected. */
+static bool expect_kind(struct binder *b, const struct node *node, enum node_kind kind, const char *expected)
 {
     if (node->kind == kind)
         return true;
     const char *found = node->kind == NODE_MAP ? _("a mapping") : node->kind == NODE_LIST ? _("a list") : _("a single value");
     struct problem_place place = ceduo_node_place(node, path_here(b));
     place.own = true;
-    ceduo_problem_at(b->to->problems, place, _("expected %s, not %s"), wanted, found);
-    note_bad(b);
+    ceduo_problem_at(b->to->problems, place, _("expected %s, not %s"), expected, found);
+    mark_invalid(b);
     return false;
 }
 
-/* "end", "end-10": a place from the end of the profile. False where it is none, or wrong, which is reported. */
+/* Read a place from the end of the profile: "end", "end-10". Return false if the value is not such a place, or on error. */
 static bool read_place(struct binder *b, const struct field *f, const struct node *node, double *value)
 {
     double back;
@@ -151,7 +151,7 @@ static bool read_place(struct binder *b, const struct field *f, const struct nod
     if (isnan(b->end))
         b->end = b->to->end(b->to->context);
     if (isnan(b->end))
-        note_bad(b); /* what is wrong with the profile is reported there */
+        mark_invalid(b); /* the check of the profile reports the cause */
     *value = b->end - back;
     return !isnan(b->end);
 }
@@ -160,7 +160,7 @@ static bool read_place(struct binder *b, const struct field *f, const struct nod
 
 static bool read_number(struct binder *b, const struct node *node, double *value)
 {
-    if (!want(b, node, NODE_SCALAR, _("a number")))
+    if (!expect_kind(b, node, NODE_SCALAR, _("a number")))
         return false;
     if (node->quoted)
         return report(b, node, _("'%s' is in quotes; write the number without them"), node->text);
@@ -185,15 +185,15 @@ static bool read_number(struct binder *b, const struct node *node, double *value
 
 static bool check_range(struct binder *b, const struct field *f, const struct node *node, double value)
 {
-    const char *said = NUMERAL(value), *gap = f->unit[0] ? " " : "", *unit = f->unit;
+    const char *number = NUMERAL(value), *gap = f->unit[0] ? " " : "", *unit = f->unit;
     if (value < f->lo)
-        return report(b, node, _("%s is below %s%s%s"), said, NUMERAL(f->lo), gap, unit);
+        return report(b, node, _("%s is below %s%s%s"), number, NUMERAL(f->lo), gap, unit);
     if (f->flags & FIELD_ABOVE && !(value > f->lo))
-        return report(b, node, _("%s is not above %s%s%s"), said, NUMERAL(f->lo), gap, unit);
+        return report(b, node, _("%s is not above %s%s%s"), number, NUMERAL(f->lo), gap, unit);
     if (value > f->hi)
-        return report(b, node, _("%s is above %s%s%s"), said, NUMERAL(f->hi), gap, unit);
+        return report(b, node, _("%s is above %s%s%s"), number, NUMERAL(f->hi), gap, unit);
     if (f->flags & FIELD_UNDER && !(value < f->hi))
-        return report(b, node, _("%s is not below %s%s%s"), said, NUMERAL(f->hi), gap, unit);
+        return report(b, node, _("%s is not below %s%s%s"), number, NUMERAL(f->hi), gap, unit);
     return true;
 }
 
@@ -209,8 +209,8 @@ static void warn_unusual(struct binder *b, const struct field *f, const struct n
 static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)
 {
     double value = 0;
-    size_t wrong = b->to->bad->n;
-    if (!read_place(b, f, node, &value) && (b->to->bad->n > wrong || !read_number(b, node, &value)))
+    size_t before = b->to->invalid->n;
+    if (!read_place(b, f, node, &value) && (b->to->invalid->n > before || !read_number(b, node, &value)))
         return false;
     if (!check_range(b, f, node, value))
         return false;
@@ -240,16 +240,16 @@ static void bind_count(struct binder *b, const struct field *f, const struct nod
 /* `to`: an int or an enum */
 static void bind_choice(struct binder *b, const struct choices *choices, const struct node *node, void *to)
 {
-    if (!want(b, node, NODE_SCALAR, _("a word")))
+    if (!expect_kind(b, node, NODE_SCALAR, _("a word")))
         return;
     int found = ceduo_choice_find(choices, node->text);
     if (found >= 0) {
         memcpy(to, &found, sizeof found);
         return;
     }
-    const char *instead = ceduo_gone(node->text);
-    if (instead) {
-        report(b, node, "%s", _(instead));
+    const char *removed = ceduo_gone(node->text);
+    if (removed) {
+        report(b, node, "%s", _(removed));
         return;
     }
     struct text list = {0};
@@ -262,16 +262,16 @@ static void bind_choice(struct binder *b, const struct choices *choices, const s
     ceduo_text_free(&list);
 }
 
-/* `to`: a char *, or NULL where nothing keeps it */
+/* `to`: a char *; may be NULL */
 static void bind_text(struct binder *b, const struct node *node, void *to)
 {
-    if (want(b, node, NODE_SCALAR, _("a text")) && to)
+    if (expect_kind(b, node, NODE_SCALAR, _("a text")) && to)
         memcpy(to, &node->text, sizeof node->text);
 }
 
 static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item);
 
-/* A number, or {mean: …, spread: …, kind: …}: rows made of that of the number. */
+/* Bind a number, or {mean: …, spread: …, kind: …}. The rows of these keys are made from the row of the number. */
 static void bind_spread(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
 {
     struct field rows[] = {*f, *f, WORD("kind", NAMED(NULL), AT(ceduo_number, kind), 0, NULL, "", &ceduo_spread_words)};
@@ -296,16 +296,16 @@ static void bind_spread(struct binder *b, const struct field *f, const struct no
                ceduo_number_lowest(*to) / f->scale, ceduo_number_highest(*to) / f->scale, f->unit);
 }
 
-/* A list, of whatever its items are: memory for them, which the member points to, and each item in turn. */
+/* Bind a list: allocate its items, set the member that points to them, and bind each item. */
 static void bind_list(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
     const struct object *object = f->object;
     bool points = f->type == FIELD_POINTS, words = f->type == FIELD_WORDS;
-    bool one = f->flags & FIELD_OR_ONE && node->kind == NODE_MAP; /* in place of the list */
+    bool one = f->flags & FIELD_OR_ONE && node->kind == NODE_MAP; /* one item instead of a list */
     size_t n = one ? 1 : node->n, size = object ? object->size : words ? sizeof(char *) : sizeof(double);
     if (f->flags & FIELD_OR_NONE && node->kind == NODE_SCALAR && strcmp(node->text, "none") == 0)
         return;
-    if (!one && !want(b, node, NODE_LIST, _("a list")))
+    if (!one && !expect_kind(b, node, NODE_LIST, _("a list")))
         return;
     void *items[2] = {ceduo_arena_take(b->to->arena, (n + 1) * size),
                       points ? ceduo_arena_take(b->to->arena, (n + 1) * size) : NULL}; /* x and z of points */
@@ -317,15 +317,15 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
     }
     for (size_t i = 0; i < n; i++) {
         const struct node *entry = one ? node : node->items[i];
-        char *at = (char *)items[0] + i * size;
+        char *value = (char *)items[0] + i * size;
         double *x = (double *)items[0] + i, *z = points ? (double *)items[1] + i : NULL;
         size_t before = one ? b->path.length : enter_item(b, i);
         if (object) {
-            ceduo_schema_init(object, at);
-            bind_map(b, object, entry, at);
+            ceduo_schema_init(object, value);
+            bind_map(b, object, entry, value);
         } else if (words) {
-            *(const char **)(void *)at = "";
-            bind_text(b, entry, at);
+            *(const char **)(void *)value = "";
+            bind_text(b, entry, value);
         } else if (points) {
             *x = *z = NAN;
             if (entry->kind != NODE_LIST || entry->n != 2)
@@ -336,7 +336,7 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
             *x = NAN;
             bind_number(b, f, entry, x);
         }
-        leave(b, before);
+        leave_path(b, before);
     }
 }
 
@@ -344,12 +344,12 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
 {
     void *to = (char *)item + f->offset;
     if (node->broken)
-        note_bad(b);
+        mark_invalid(b);
     if (node->broken && node->kind != NODE_MAP)
         return;
     switch (f->type) { /* untaken: table */
     case FIELD_TAG:
-        if (want(b, node, NODE_SCALAR, f->value) && strcmp(node->text, f->value) != 0)
+        if (expect_kind(b, node, NODE_SCALAR, f->value) && strcmp(node->text, f->value) != 0)
             report(b, node, _("'%s': expected '%s'"), node->text, f->value);
         break;
     case FIELD_TEXT:
@@ -368,7 +368,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         for (size_t i = 0; node->kind == NODE_LIST && node->n == 3 && i < 3; i++) {
             size_t before = enter_item(b, i);
             bind_spread(b, f, node->items[i], (struct ceduo_number *)to + i);
-            leave(b, before);
+            leave_path(b, before);
         }
         break;
     case FIELD_COUNT:
@@ -378,7 +378,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         bind_choice(b, f->choices, node, to);
         break;
     case FIELD_FLAG:
-        if (!want(b, node, NODE_SCALAR, _("true or false")))
+        if (!expect_kind(b, node, NODE_SCALAR, _("true or false")))
             break;
         *(bool *)to = strcmp(node->text, "true") == 0;
         if (node->quoted || (!*(bool *)to && strcmp(node->text, "false") != 0))
@@ -400,8 +400,8 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
 static void add_note(struct binder *b, const char *kind, const char *text, const char *text_it)
 {
     const char *path = ceduo_text_string(&b->path);
-    bool of_range = ceduo_path_leads_to("doubt", path) || strstr(path, ".stand.doubt[");
-    if (of_range || ceduo_path_leads_to("observed", path)) /* not of a value that is computed with */
+    bool is_range = ceduo_path_leads_to("doubt", path) || strstr(path, ".stand.doubt[");
+    if (is_range || ceduo_path_leads_to("observed", path)) /* not an input of the simulation */
         return;
     struct source_note *note = ceduo_arena_take(b->to->arena, sizeof *note);
     if (!note)
@@ -415,50 +415,50 @@ static void add_note(struct binder *b, const char *kind, const char *text, const
         *b->to->notes = note;
 }
 
-/* source: {kind: measured|literature|assumed|calibrated, text: …, text_it: …, except: […]} may stand in any mapping. */
-struct source_said {
+/* source: {kind: measured|literature|assumed|calibrated, text: …, text_it: …, except: […]}, allowed in every mapping. */
+struct source_value {
     int kind;
-    char *text, *text_it, **except; /* except: values that it is not of */
+    char *text, *text_it, **except; /* except: values with another source */
     size_t except_count;
 };
 
-#define UNSAID NAMED(NULL)
+#define UNLABELLED NAMED(NULL)
 static const char *const source_kinds[] = {N_("measured"), N_("literature"), N_("assumed"), N_("calibrated")};
 static const struct choices source_words = {.names = source_kinds, .n = 4};
 static const struct field source_fields[] = {
-    WORD("kind", UNSAID, AT(source_said, kind), REQUIRED, NULL, N_("measured, literature, assumed or calibrated"),
+    WORD("kind", UNLABELLED, AT(source_value, kind), REQUIRED, NULL, N_("measured, literature, assumed or calibrated"),
          &source_words),
-    TEXT("text", UNSAID, AT(source_said, text), NO_RUN, ""),
-    TEXT("text_it", UNSAID, AT(source_said, text_it), NO_RUN, ""),
-    OTHER(FIELD_WORDS, "except", UNSAID, LIST(source_said, except, except_count), NO_RUN, NULL, "", NULL, NULL),
+    TEXT("text", UNLABELLED, AT(source_value, text), NO_RUN, ""),
+    TEXT("text_it", UNLABELLED, AT(source_value, text_it), NO_RUN, ""),
+    OTHER(FIELD_WORDS, "except", UNLABELLED, LIST(source_value, except, except_count), NO_RUN, NULL, "", NULL, NULL),
 };
-static const struct object source_object = OBJECT(source_said, source_fields, NULL);
+static const struct object source_object = OBJECT(source_value, source_fields, NULL);
 
-/* Notes what a source says; the values that it is not of get notes of their own, and its text names them. */
+/* Add the note of a source. Values under `except` get a note of kind "changed", and the text of the source names them. */
 static void bind_source(struct binder *b, const struct node *node)
 {
-    struct source_said said;
+    struct source_value source;
     LOCAL_TEXT(changed);
-    size_t before = enter(b, "source");
-    ceduo_schema_init(&source_object, &said);
-    bind_map(b, &source_object, node, &said);
-    leave(b, before);
-    if (said.kind < 0)
+    size_t before = enter_key(b, "source");
+    ceduo_schema_init(&source_object, &source);
+    bind_map(b, &source_object, node, &source);
+    leave_path(b, before);
+    if (source.kind < 0)
         return;
-    for (size_t i = 0; i < said.except_count; i++) {
-        ceduo_text_format(&changed, i == 0 ? _("changed since: %s") : ", %s", said.except[i]);
-        before = enter(b, said.except[i]);
+    for (size_t i = 0; i < source.except_count; i++) {
+        ceduo_text_format(&changed, i == 0 ? _("changed since: %s") : ", %s", source.except[i]);
+        before = enter_key(b, source.except[i]);
         add_note(b, N_("changed"), _("the source around it is not of this value"), NULL);
-        leave(b, before);
+        leave_path(b, before);
     }
-    const char *const texts[2] = {said.text, said.text_it};
+    const char *const texts[2] = {source.text, source.text_it};
     struct text whole[2] = {{0}, {0}};
     for (int i = 0; i < 2; i++) {
         ceduo_text_put(&whole[i], texts[i] ? texts[i] : "");
         if (changed.length > 0)
             ceduo_text_then(&whole[i], "; ", "%s", ceduo_text_string(&changed));
     }
-    add_note(b, source_kinds[said.kind], ceduo_text_string(&whole[0]), texts[1] ? ceduo_text_string(&whole[1]) : NULL);
+    add_note(b, source_kinds[source.kind], ceduo_text_string(&whole[0]), texts[1] ? ceduo_text_string(&whole[1]) : NULL);
     ceduo_text_free(&whole[0]);
     ceduo_text_free(&whole[1]);
 }
@@ -467,19 +467,19 @@ static void report_missing(struct binder *b, const struct object *object, const 
 {
     for (size_t i = 0; i < object->n; i++) {
         const struct field *f = &object->fields[i];
-        bool tag = f->type == FIELD_TAG && node->key; /* not needed where the mapping stands in another file */
-        const struct field *other = ceduo_schema_unit(object, f);
-        if (!(f->flags & FIELD_REQUIRED) || tag || ceduo_node_get(node, f->key) || (other && ceduo_node_get(node, other->key)))
+        bool tag = f->type == FIELD_TAG && node->key; /* only required at the root of a file */
+        const struct field *alias = ceduo_schema_unit(object, f);
+        if (!(f->flags & FIELD_REQUIRED) || tag || ceduo_node_get(node, f->key) || (alias && ceduo_node_get(node, alias->key)))
             continue;
-        size_t before = enter(b, f->key);
-        bool told = false;
-        for (size_t k = 0; k < b->to->bad->n && k < CEDUO_BAD_MOST; k++)
-            told |= strcmp(b->to->bad->paths[k], ceduo_text_string(&b->path)) == 0;
-        note_bad(b);
-        leave(b, before);
+        size_t before = enter_key(b, f->key);
+        bool reported = false;
+        for (size_t k = 0; k < b->to->invalid->n && k < CEDUO_INVALID_MAX; k++)
+            reported |= strcmp(b->to->invalid->paths[k], ceduo_text_string(&b->path)) == 0;
+        mark_invalid(b);
+        leave_path(b, before);
         struct problem_place place = ceduo_node_place(node, path_here(b));
         place.own = true;
-        if (!told) /* the mapping itself is good */
+        if (!reported)
             ceduo_problem_at(b->to->problems, place, _("'%s' is missing: %s"), f->key,
                              f->type == FIELD_TAG ? f->value : _(f->meaning));
     }
@@ -490,7 +490,7 @@ static bool is_digits(const char *text)
     return text[0] && !text[strspn(text, "0123456789")];
 }
 
-/* In brackets a decimal comma parts a number in two entries: {spacing_m: 0,35} says 'spacing_m: 0' and '35'. */
+/* In brackets a decimal comma splits a number into two entries: {spacing_m: 0,35} is 'spacing_m: 0' and '35'. */
 static bool report_decimal_comma(struct binder *b, const struct node *map, size_t i)
 {
     const struct node *whole = map->items[i], *rest = i + 1 < map->n ? map->items[i + 1] : NULL;
@@ -498,38 +498,38 @@ static bool report_decimal_comma(struct binder *b, const struct node *map, size_
                !rest->quoted && !rest->text[0] && is_digits(rest->key) && is_digits(whole->text + strspn(whole->text, "+-"));
     if (!two || rest->key_line != whole->end_line || rest->key_column != whole->end_column + 1)
         return false;
-    size_t before = enter(b, whole->key);
+    size_t before = enter_key(b, whole->key);
     report(b, whole, DECIMAL_COMMA, (int)strlen(whole->text), whole->text, rest->key);
-    leave(b, before);
+    leave_path(b, before);
     return true;
 }
 
 static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item)
 {
-    if (!want(b, node, NODE_MAP, _("a mapping")))
+    if (!expect_kind(b, node, NODE_MAP, _("a mapping")))
         return;
     bool partial = b->partial;
     b->partial |= node->broken;
     size_t outer = b->file_start;
     if (node->written && node->written->kind == NODE_SCALAR)
-        b->file_start = b->path.length; /* a file of its own: paths begin anew */
+        b->file_start = b->path.length; /* included file: paths in messages restart here */
     size_t own = b->file_start;
     for (size_t i = 0; i < node->n; i++) {
         const struct node *entry = node->items[i];
         const struct field *f = ceduo_schema_field(object, entry->key);
-        bool other_file =
+        bool from_base =
             node->written && entry->source != node->source && !entry->source->is_option && !node->source->is_option;
-        b->file_start = other_file ? b->path.length : own; /* from the file of a base */
+        b->file_start = from_base ? b->path.length : own;
         if (report_decimal_comma(b, node, i)) {
             i++;
         } else if (f) {
-            size_t before = enter(b, entry->key);
-            const char *other = ceduo_schema_other(object, f->key);
-            if (other && ceduo_schema_field(object, other) < f && ceduo_node_get(node, other))
-                report(b, entry, _("%s already says this; keep one of the two"), other);
+            size_t before = enter_key(b, entry->key);
+            const char *rival = ceduo_schema_other(object, f->key);
+            if (rival && ceduo_schema_field(object, rival) < f && ceduo_node_get(node, rival))
+                report(b, entry, _("%s already says this; keep one of the two"), rival);
             else
                 bind_field(b, f, entry, item);
-            leave(b, before);
+            leave_path(b, before);
         } else if (strcmp(entry->key, "source") == 0 && object != &source_object) {
             bind_source(b, entry);
         } else {
@@ -552,14 +552,14 @@ void ceduo_bind(const struct binding *to, const struct object *object, const str
 
 /* ---- notes ---- */
 
-void ceduo_notes_each(const struct source_note *notes, const char *kind, void (*say)(void *context, const char *text),
+void ceduo_notes_each(const struct source_note *notes, const char *kind, void (*print)(void *context, const char *text),
                       void *context)
 {
     if (!notes)
         return;
-    ceduo_notes_each(notes->before, kind, say, context); /* kept last first */
+    ceduo_notes_each(notes->before, kind, print, context); /* the list begins with the last */
     if (strcmp(notes->kind, kind) == 0)
-        say(context, notes->text);
+        print(context, notes->text);
 }
 
 bool ceduo_path_leads_to(const char *outer, const char *path)
@@ -587,7 +587,7 @@ const struct source_note *ceduo_notes_find(const struct source_note *notes, cons
         if (!ceduo_path_leads_to(note->path, path))
             continue;
         size_t n = strlen(note->path), max = best ? strlen(best->path) : 0;
-        if (!best || n > max || (n == max && strcmp(best->kind, "changed") == 0)) /* its own goes before what is around */
+        if (!best || n > max || (n == max && strcmp(best->kind, "changed") == 0)) /* the most specific note wins */
             best = note;
     }
     return best;

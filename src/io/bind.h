@@ -7,62 +7,63 @@
 
 /* ---- notes ---- */
 
-#define CEDUO_NOTE_TABLE "table" /* kind of a note: what was understood of a table */
+#define CEDUO_NOTE_TABLE "table" /* kind of a note: how a table was read */
 
-/* A note of where a value comes from. */
+/* Source of a value. */
 struct source_note {
-    const char *path;           /* of the mapping that it stands in, or of a value in it that it is not of */
-    const char *kind;           /* measured, literature, assumed; changed: of a value that the source around it is not of */
-    const char *text, *text_it; /* in Italian; NULL: not said */
-    bool made;                  /* by the program, not in the files */
+    const char *path;    /* mapping that holds the source, or a value in it that has another source */
+    const char *kind;    /* measured, literature, assumed, calibrated; changed: the source around the value no longer applies */
+    const char *text;    /* in English */
+    const char *text_it; /* in Italian; NULL: not given */
+    bool made;           /* by the program, not in the files */
     const struct source_note *before;
 };
 
-/* Call `say` with the text of each note of a kind, in the order of the files. */
-void ceduo_notes_each(const struct source_note *notes, const char *kind, void (*say)(void *context, const char *text),
+/* Call `print` with the text of each note of a kind, in the order of the files. */
+void ceduo_notes_each(const struct source_note *notes, const char *kind, void (*print)(void *context, const char *text),
                       void *context);
 
-/* Whether `outer` is `path` or leads to it. */
+/* True if `outer` is `path` or leads to it. */
 bool ceduo_path_leads_to(const char *outer, const char *path);
 
-/* Whether a note is of growth or cutting: it matters to the years to come, not to the stand as it is. */
+/* True if a note is about growth or cutting: it affects future years only. */
 bool ceduo_note_of_years(const struct source_note *note);
 
-/* True where some value below `path` is "assumed", "calibrated", …, but for growth and cutting. */
+/* True if a value below `path` has a note of this kind. Growth and cutting are ignored. */
 bool ceduo_notes_say(const struct source_note *notes, const char *kind, const char *path);
 
-/* The note of the innermost mapping around a value; NULL where nothing is said. */
+/* Return the note of the innermost mapping around a value; NULL: none. */
 const struct source_note *ceduo_notes_find(const struct source_note *notes, const char *path);
 
 /* ---- values ---- */
 
-/* Reads the values of a document into the structures that the table of the scene names. */
+/* Reads the values of a document into the structures that the table of keys names. */
 
-#define CEDUO_BAD_MOST 100 /* with more, nobody asks what else does not fit */
+#define CEDUO_INVALID_MAX 100 /* with more invalid values, cross-checks are skipped */
 
 /* Paths of values that could not be read, are missing or do not exist. */
-struct bad_values {
-    const char *paths[CEDUO_BAD_MOST];
-    size_t n; /* more than there is room for: too many */
+struct invalid_values {
+    const char *paths[CEDUO_INVALID_MAX];
+    size_t n; /* may exceed CEDUO_INVALID_MAX */
 };
 
-/* Where what is read goes. */
+/* Destination of the values. */
 struct binding {
     struct arena *arena;
-    struct problems *problems;        /* what is wrong, with the path of each value; reading goes on, so that all is found */
-    struct problems *unusual;         /* numbers beyond what is usual; may be NULL */
-    const struct source_note **notes; /* every source */
-    struct bad_values *bad;           /* what is wrong */
-    /* Where the profile ends, m in its own coordinates, for places such as end-10: asked once, when a file has one. NaN as the
-     * answer: such places cannot be read. NULL where the object has no place. */
+    struct problems *problems;        /* errors, with the path of each value; reading continues after an error */
+    struct problems *unusual;         /* numbers outside their usual range; may be NULL */
+    const struct source_note **notes; /* all sources */
+    struct invalid_values *invalid;
+    /* Return x of the profile's end, m in the file's coordinates, for places such as end-10; NaN: unknown. Called at most once.
+     * May be NULL if the object has no place. */
     double (*end)(void *context);
     void *context;
 };
 
-/* Fills `item` (already holding its defaults) from a mapping. A number that is wrong keeps its default. */
+/* Fill `item`, which holds its defaults, from a mapping. An invalid number keeps its default. */
 void ceduo_bind(const struct binding *to, const struct object *object, const struct node *node, void *item);
 
-/* Says that an object has no such key: which was meant, or which there are. The one that was meant, or NULL. */
-const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *said);
+/* Append the message that an object has no such key, with the nearest key or all keys. Return the nearest key, or NULL. */
+const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *message);
 
 #endif

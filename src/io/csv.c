@@ -46,7 +46,7 @@ static bool is_separator(const struct csv *csv, const char *p)
 static void mark_bad(struct csv *csv, const char *at, const char *why)
 {
     if (!csv->bad)
-        ceduo_csv_complain(csv, (struct csv_cell){.at = at}, "%s", why);
+        ceduo_csv_error(csv, (struct csv_cell){.at = at}, "%s", why);
     csv->bad = true;
 }
 
@@ -152,7 +152,7 @@ static bool read_filled(struct csv *csv)
 
 /* ---- heads ---- */
 
-bool ceduo_csv_among(const char *p, size_t n, const char *words)
+bool ceduo_csv_matches(const char *p, size_t n, const char *words)
 {
     char given[FOLDED_MAX], one[FOLDED_MAX];
     ceduo_utf8_fold(p, n, given, sizeof given);
@@ -190,26 +190,26 @@ static bool is_head(struct csv_cell head, const char *name, size_t length, const
     if (n == 0 || strncmp(given, wanted, n) != 0)
         return false;
     if (before < head.n && units)
-        return !given[n] && ceduo_csv_among(head.p + before, head.n - before, units);
-    return !given[n] || (units && ceduo_csv_among(given + n, strlen(given + n), units));
+        return !given[n] && ceduo_csv_matches(head.p + before, head.n - before, units);
+    return !given[n] || (units && ceduo_csv_matches(given + n, strlen(given + n), units));
 }
 
 /* Column with a name of n bytes, as ceduo_csv_column(). */
 static size_t find_name(const struct csv *csv, const char *name, size_t n, const char *units)
 {
     char wanted[FOLDED_MAX];
-    size_t found = CEDUO_CSV_NONE;
+    size_t found = CEDUO_CSV_NOT_FOUND;
     ceduo_utf8_fold(name, n, wanted, sizeof wanted);
     for (size_t i = 0; i < csv->heads_count; i++)
         if (is_head(csv->heads[i], name, n, wanted, units))
-            found = found == CEDUO_CSV_NONE ? i : CEDUO_CSV_TWICE;
+            found = found == CEDUO_CSV_NOT_FOUND ? i : CEDUO_CSV_DUPLICATE;
     return found;
 }
 
 size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, const char *units)
 {
-    size_t found = head->name ? find_name(csv, head->name, strlen(head->name), units) : CEDUO_CSV_NONE;
-    for (const char *also = head->also ? head->also : ""; *also && found == CEDUO_CSV_NONE; also += *also == '|') {
+    size_t found = head->name ? find_name(csv, head->name, strlen(head->name), units) : CEDUO_CSV_NOT_FOUND;
+    for (const char *also = head->also ? head->also : ""; *also && found == CEDUO_CSV_NOT_FOUND; also += *also == '|') {
         size_t n = strcspn(also, "|");
         found = find_name(csv, also, n, units);
         also += n;
@@ -244,7 +244,7 @@ static size_t count_known(const struct csv *csv, const struct csv_head *heads, s
 {
     size_t known = 0;
     for (size_t i = 0; i < n; i++)
-        known += ceduo_csv_column(csv, &heads[i], heads[i].units) != CEDUO_CSV_NONE;
+        known += ceduo_csv_column(csv, &heads[i], heads[i].units) != CEDUO_CSV_NOT_FOUND;
     return known;
 }
 
@@ -305,7 +305,7 @@ static void take_units(struct csv *csv)
     bool units = read_record(&row) && !is_blank_record(&row) && row.cells_count <= csv->heads_count;
     for (size_t i = 0; units && i < row.cells_count; i++) {
         bool none = ceduo_csv_is_empty(row.cells[i]);
-        units = none || ceduo_csv_among(row.cells[i].p, row.cells[i].n, UNITS);
+        units = none || ceduo_csv_matches(row.cells[i].p, row.cells[i].n, UNITS);
         found += !none;
     }
     if (!units || found == 0)
@@ -323,7 +323,7 @@ static void take_units(struct csv *csv)
     }
 }
 
-void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns)
+void ceduo_csv_find_head(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns)
 {
     find_head(csv, heads, n);
     if (read_record(csv))
@@ -331,15 +331,15 @@ void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, siz
     take_units(csv);
     for (size_t i = 0; i < n; i++) {
         columns[i] = ceduo_csv_column(csv, &heads[i], heads[i].units);
-        csv->source->foreign &= columns[i] == CEDUO_CSV_NONE;
+        csv->source->foreign &= columns[i] == CEDUO_CSV_NOT_FOUND;
     }
     for (size_t i = 0; i < n; i++)
-        if (columns[i] == CEDUO_CSV_TWICE)
+        if (columns[i] == CEDUO_CSV_DUPLICATE)
             ceduo_problem(csv->problems, csv->source, csv->head_place.line, 1,
                           _("the column '%s' is there twice; rename all but one"), _(heads[i].name));
 }
 
-bool ceduo_csv_first(struct csv *csv)
+bool ceduo_csv_read_head(struct csv *csv)
 {
     size_t most = 1;
     char best = csv->separator ? csv->separator : ',';
@@ -357,7 +357,7 @@ bool ceduo_csv_first(struct csv *csv)
     return !csv->bad;
 }
 
-void ceduo_csv_headless(struct csv *csv, char separator)
+void ceduo_csv_begin_headless(struct csv *csv, char separator)
 {
     struct csv_place begin = csv->next;
     csv->separator = separator;
@@ -370,7 +370,7 @@ void ceduo_csv_headless(struct csv *csv, char separator)
     csv->next = begin;
 }
 
-void ceduo_csv_names(const struct csv *csv, struct text *names)
+void ceduo_csv_append_heads(const struct csv *csv, struct text *names)
 {
     size_t begin = names->length;
     for (size_t i = 0; i < csv->heads_count; i++) {
@@ -386,7 +386,7 @@ void ceduo_csv_names(const struct csv *csv, struct text *names)
     }
 }
 
-void ceduo_csv_list(struct text *names, size_t *n, const char *name, size_t length)
+void ceduo_csv_append_name(struct text *names, size_t *n, const char *name, size_t length)
 {
     if (++*n > NAMES_MAX)
         return;
@@ -394,7 +394,7 @@ void ceduo_csv_list(struct text *names, size_t *n, const char *name, size_t leng
     ceduo_text_safe_n(names, name, length);
 }
 
-void ceduo_csv_list_end(struct text *names, size_t n)
+void ceduo_csv_append_rest(struct text *names, size_t n)
 {
     if (n > NAMES_MAX)
         ceduo_text_format(names, _(" and %zu more"), n - NAMES_MAX);
@@ -409,9 +409,9 @@ void ceduo_csv_describe(const struct csv *csv, const size_t *used, size_t n, con
         for (size_t k = 0; k < n; k++)
             needed |= used[k] == i;
         if (!needed)
-            ceduo_csv_list(&names, &unused, csv->heads[i].p, csv->heads[i].n);
+            ceduo_csv_append_name(&names, &unused, csv->heads[i].p, csv->heads[i].n);
     }
-    ceduo_csv_list_end(&names, unused);
+    ceduo_csv_append_rest(&names, unused);
     if (csv->decimal == ',')
         ceduo_text_put(line, _("; decimal commas"));
     ceduo_text_put(line, notes);
@@ -433,7 +433,7 @@ void ceduo_csv_scan(struct csv *csv)
     while (read_filled(csv)) {
         csv->rows++;
         most = csv->cells_count > most ? csv->cells_count : most;
-        ceduo_csv_note(csv);
+        ceduo_csv_note_decimal(csv);
     }
     csv->width = most > filled ? of_head : filled;
     csv->longer = csv->longer_by_one = 0;
@@ -467,17 +467,17 @@ static void check_width(struct csv *csv)
     csv->bad = true;
     struct csv_cell at = csv->cells[n > width ? width : n - 1];
     if (n < width)
-        ceduo_csv_complain(csv, at, _("too few columns: %zu, the head has %zu"), n, width);
+        ceduo_csv_error(csv, at, _("too few columns: %zu, the head has %zu"), n, width);
     else if (csv->separator == ',')
-        ceduo_csv_complain(csv, at,
-                           _("more columns than the first line has: %zu instead of %zu; if commas stand for decimals, separate "
-                             "the columns by semicolons"),
-                           n, width);
+        ceduo_csv_error(csv, at,
+                        _("more columns than the first line has: %zu instead of %zu; if commas stand for decimals, separate "
+                          "the columns by semicolons"),
+                        n, width);
     else
-        ceduo_csv_complain(csv, at, _("more columns than the first line has: %zu instead of %zu"), n, width);
+        ceduo_csv_error(csv, at, _("more columns than the first line has: %zu instead of %zu"), n, width);
 }
 
-bool ceduo_csv_next(struct csv *csv)
+bool ceduo_csv_next_row(struct csv *csv)
 {
     if (!read_filled(csv))
         return false;
@@ -485,7 +485,7 @@ bool ceduo_csv_next(struct csv *csv)
     return true;
 }
 
-void ceduo_csv_return(struct csv *csv, struct csv_place place)
+void ceduo_csv_reread(struct csv *csv, struct csv_place place)
 {
     csv->next = place;
     read_record(csv);
@@ -501,7 +501,7 @@ struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column)
     return (struct csv_cell){.p = "", .at = at};
 }
 
-bool ceduo_csv_is(struct csv_cell cell, const char *word)
+bool ceduo_csv_equals(struct csv_cell cell, const char *word)
 {
     return strlen(word) == cell.n && strncasecmp(cell.p, word, cell.n) == 0;
 }
@@ -519,7 +519,7 @@ bool ceduo_csv_is_empty(struct csv_cell cell)
         "",   "-",  ".",    "NA",   "N/A", "NaN",          "NULL",         "n.d.",        "n.r.",
         "nd", "nr", "#N/A", "#N/D", "#NV", "\xe2\x80\x93", "\xe2\x80\x94", "\xe2\x88\x92"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-        if (ceduo_csv_is(cell, words[i]))
+        if (ceduo_csv_equals(cell, words[i]))
             return true;
     return false;
 }
@@ -538,7 +538,7 @@ size_t ceduo_csv_line(const struct csv *csv, struct csv_cell cell)
     return from.line;
 }
 
-bool ceduo_csv_complain(const struct csv *csv, struct csv_cell cell, const char *format, ...)
+bool ceduo_csv_error(const struct csv *csv, struct csv_cell cell, const char *format, ...)
 {
     if (!csv->problems)
         return false;

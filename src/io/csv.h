@@ -55,8 +55,8 @@ struct csv {
 /* Read a file. Report an error and return false if it cannot be read, if its encoding is broken, or if it is no text. */
 bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems);
 
-#define CEDUO_CSV_NONE  SIZE_MAX
-#define CEDUO_CSV_TWICE (SIZE_MAX - 1)
+#define CEDUO_CSV_NOT_FOUND SIZE_MAX
+#define CEDUO_CSV_DUPLICATE (SIZE_MAX - 1)
 
 enum csv_unit {
     CSV_UNIT_NONE,
@@ -74,48 +74,48 @@ struct csv_head {
     double lo, hi;     /* range of its numbers, in the usual unit */
 };
 
-/* Column with one of n known heads; CEDUO_CSV_NONE; CEDUO_CSV_TWICE. Case, blanks and punctuation do not matter. A unit may
+/* Column with one of n known heads; CEDUO_CSV_NOT_FOUND; CEDUO_CSV_DUPLICATE. Case, blanks and punctuation do not matter. A unit may
  * follow the name, in brackets or without. Earlier names win. */
 size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, const char *units);
 
 /* Find the head of a table: the line among the first 20, and the separator, with most of n known heads. Reads a row of units
  * below it. Sets columns[i] for each head. Reports columns that occur twice. The file is foreign until a head is known. */
-void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns);
+void ceduo_csv_find_head(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns);
 
 /* Take the first line that is not blank as the head. Reports an empty file and returns false. */
-bool ceduo_csv_first(struct csv *csv);
+bool ceduo_csv_read_head(struct csv *csv);
 
 /* Take a table without a head: the first record that is not blank is its first row. */
-void ceduo_csv_headless(struct csv *csv, char separator);
+void ceduo_csv_begin_headless(struct csv *csv, char separator);
 
 /* Mark a column as one of numbers, if there is such a column. */
-static inline void ceduo_csv_has_numbers(struct csv *csv, size_t column)
+static inline void ceduo_csv_mark_numeric(struct csv *csv, size_t column)
 {
     if (column < csv->heads_count)
         csv->heads[column].numeric = true;
 }
 
 /* Read the whole table once: number of cells a record has, rows, decimal sign of the columns that are marked as numeric. Call it
- * before the first ceduo_csv_next(). */
+ * before the first ceduo_csv_next_row(). */
 void ceduo_csv_scan(struct csv *csv);
 
 /* Read the next record that is not blank; false at the end. A broken record is reported and marked bad. */
-bool ceduo_csv_next(struct csv *csv);
+bool ceduo_csv_next_row(struct csv *csv);
 
 /* Read a record again. */
-void ceduo_csv_return(struct csv *csv, struct csv_place place);
+void ceduo_csv_reread(struct csv *csv, struct csv_place place);
 
 /* Cell of the present record; an empty cell at its end if it has fewer. */
 struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column);
 
 /* True if a text is one of the words, separated by |. Case, blanks and punctuation do not matter. */
-bool ceduo_csv_among(const char *p, size_t n, const char *words);
+bool ceduo_csv_matches(const char *p, size_t n, const char *words);
 
 /* Order of two cells as of memcmp(); 0: they have the same bytes. */
 int ceduo_csv_compare(struct csv_cell a, struct csv_cell b);
 
 /* True if a cell is a word; case does not matter. */
-bool ceduo_csv_is(struct csv_cell cell, const char *word);
+bool ceduo_csv_equals(struct csv_cell cell, const char *word);
 
 /* True if a cell has no value: empty, -, ., NA, NaN, NULL, n.d., n.r., #N/A, #N/D. */
 bool ceduo_csv_is_empty(struct csv_cell cell);
@@ -128,18 +128,18 @@ bool ceduo_csv_has_stray_quote(struct csv_cell cell);
 void ceduo_csv_describe(const struct csv *csv, const size_t *used, size_t n, const char *notes, struct text *line);
 
 /* Append name number *n, from 0, of a list that shows ten, and count it. */
-void ceduo_csv_list(struct text *names, size_t *n, const char *name, size_t length);
+void ceduo_csv_append_name(struct text *names, size_t *n, const char *name, size_t length);
 /* Append how many of n names the list does not show. */
-void ceduo_csv_list_end(struct text *names, size_t n);
+void ceduo_csv_append_rest(struct text *names, size_t n);
 
 /* Append all heads, separated by commas; of a foreign file the beginning only. */
-void ceduo_csv_names(const struct csv *csv, struct text *names);
+void ceduo_csv_append_heads(const struct csv *csv, struct text *names);
 
 enum csv_numeral { CSV_NUMERAL_GOOD, CSV_NUMERAL_NONE, CSV_NUMERAL_TWO_WAYS, CSV_NUMERAL_TWO_NUMBERS, CSV_NUMERAL_OTHER_SIGN };
 
 /* Write a number with a dot for decimals and without thousands separators to `to`. */
 #define CSV_NUMERAL_CAPACITY 128
-enum csv_numeral ceduo_csv_numeral(const struct csv *csv, struct csv_cell cell, char to[CSV_NUMERAL_CAPACITY]);
+enum csv_numeral ceduo_csv_normalize_number(const struct csv *csv, struct csv_cell cell, char to[CSV_NUMERAL_CAPACITY]);
 
 /* Remove the unit that follows the number in a cell, one of `units` (may be NULL), separated by |. False if there is none. */
 bool ceduo_csv_split_unit(struct csv_cell *cell, const char *units);
@@ -151,13 +151,13 @@ bool ceduo_csv_value(const struct csv *csv, struct csv_cell cell, double *value)
 bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, double hi, const char *unit, double *value);
 
 /* Note the decimal sign of the present record, if it shows one. */
-void ceduo_csv_note(struct csv *csv);
+void ceduo_csv_note_decimal(struct csv *csv);
 
-/* Report why a cell is not the number that ceduo_csv_numeral() looks for; returns false. */
-bool ceduo_csv_no_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral why);
+/* Report why a cell is not the number that ceduo_csv_normalize_number() looks for; returns false. */
+bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral why);
 
 /* Report a problem at a cell of the present record; returns false. */
-bool ceduo_csv_complain(const struct csv *csv, struct csv_cell cell, const char *format, ...)
+bool ceduo_csv_error(const struct csv *csv, struct csv_cell cell, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* Line of a cell of the present record. */

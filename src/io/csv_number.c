@@ -126,7 +126,7 @@ static char shown_decimal(const struct numeral *numeral)
     return '\0';
 }
 
-enum csv_numeral ceduo_csv_numeral(const struct csv *csv, struct csv_cell cell, char to[CSV_NUMERAL_CAPACITY])
+enum csv_numeral ceduo_csv_normalize_number(const struct csv *csv, struct csv_cell cell, char to[CSV_NUMERAL_CAPACITY])
 {
     struct numeral numeral;
     double value;
@@ -158,7 +158,7 @@ bool ceduo_csv_split_unit(struct csv_cell *cell, const char *units)
     for (int k = 0; k < 2 && units; k++) { /* cm, then m2, which ends in a digit */
         while (n > 0 && !is_digit(cell->p[n - 1]))
             n--;
-        if (n > 0 && n < cell->n && ceduo_csv_among(cell->p + n, cell->n - n, units)) {
+        if (n > 0 && n < cell->n && ceduo_csv_matches(cell->p + n, cell->n - n, units)) {
             cell->n = n;
             return true;
         }
@@ -182,7 +182,7 @@ static uint32_t hidden_character(struct csv_cell cell)
     return 0;
 }
 
-bool ceduo_csv_no_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral why)
+bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral why)
 {
     struct numeral n;
     char word[CSV_NUMERAL_CAPACITY];
@@ -190,51 +190,52 @@ bool ceduo_csv_no_number(const struct csv *csv, struct csv_cell cell, enum csv_n
     bool fits = cell.n < sizeof word;
     snprintf(word, sizeof word, "%.*s", fits ? (int)cell.n : 0, cell.p);
     if (!fits)
-        ceduo_csv_complain(csv, cell, _("'%s' is not a number"), "\xe2\x80\xa6");
+        ceduo_csv_error(csv, cell, _("'%s' is not a number"), "\xe2\x80\xa6");
     else if (hidden && why != CSV_NUMERAL_TWO_WAYS && why != CSV_NUMERAL_OTHER_SIGN)
-        ceduo_csv_complain(csv, cell, _("the character U+%04X cannot be meant in a number; remove it"), (unsigned)hidden);
+        ceduo_csv_error(csv, cell, _("the character U+%04X cannot be meant in a number; remove it"), (unsigned)hidden);
     else if (why == CSV_NUMERAL_TWO_WAYS && take_apart(cell, &n) == CSV_NUMERAL_GOOD)
-        ceduo_csv_complain(csv, cell, _("'%s' can be read in two ways: write '%.*s%s' or '%.*s%c%s'"), word,
-                           (int)strcspn(n.text, ".,"), n.text, strpbrk(n.text, ".,") + 1, (int)strcspn(n.text, ".,"), n.text,
-                           csv->decimal    ? csv->decimal
-                           : n.sign == '.' ? ','
-                                           : '.',
-                           strpbrk(n.text, ".,") + 1);
+        ceduo_csv_error(csv, cell, _("'%s' can be read in two ways: write '%.*s%s' or '%.*s%c%s'"), word,
+                        (int)strcspn(n.text, ".,"), n.text, strpbrk(n.text, ".,") + 1, (int)strcspn(n.text, ".,"), n.text,
+                        csv->decimal    ? csv->decimal
+                        : n.sign == '.' ? ','
+                                        : '.',
+                        strpbrk(n.text, ".,") + 1);
     else if (why == CSV_NUMERAL_TWO_NUMBERS)
-        ceduo_csv_complain(csv, cell, _("'%s': two numbers in one cell; keep one"), word);
+        ceduo_csv_error(csv, cell, _("'%s': two numbers in one cell; keep one"), word);
     else if (why == CSV_NUMERAL_OTHER_SIGN)
-        ceduo_csv_complain(csv, cell, _("'%s': decimals stand after a %s on line %zu; write all numbers in the same way"), word,
-                           csv->decimal == ',' ? _("comma") : _("dot"), csv->decimal_line);
+        ceduo_csv_error(csv, cell, _("'%s': decimals stand after a %s on line %zu; write all numbers in the same way"), word,
+                        csv->decimal == ',' ? _("comma") : _("dot"), csv->decimal_line);
     else
-        ceduo_csv_complain(csv, cell, _("'%s' is not a number"), word);
+        ceduo_csv_error(csv, cell, _("'%s' is not a number"), word);
     return false;
 }
 
 bool ceduo_csv_value(const struct csv *csv, struct csv_cell cell, double *value)
 {
     char text[CSV_NUMERAL_CAPACITY];
-    return ceduo_csv_numeral(csv, cell, text) == CSV_NUMERAL_GOOD && ceduo_number_read(text, value) == CEDUO_NUMBER_GOOD;
+    return ceduo_csv_normalize_number(csv, cell, text) == CSV_NUMERAL_GOOD &&
+           ceduo_number_read(text, value) == CEDUO_NUMBER_GOOD;
 }
 
 bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, double hi, const char *unit, double *value)
 {
     char text[CSV_NUMERAL_CAPACITY];
     if (cell.n == 0)
-        return ceduo_csv_complain(csv, cell, _("a value is missing; remove the line"));
+        return ceduo_csv_error(csv, cell, _("a value is missing; remove the line"));
     struct csv_cell bare = cell;
     ceduo_csv_split_unit(&bare, unit);
-    enum csv_numeral how = ceduo_csv_numeral(csv, bare, text);
+    enum csv_numeral how = ceduo_csv_normalize_number(csv, bare, text);
     if (how != CSV_NUMERAL_GOOD)
-        return ceduo_csv_no_number(csv, cell, how);
+        return ceduo_csv_report_number(csv, cell, how);
     bool large = ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE;
     if (!large && *value >= lo && *value <= hi)
         return true;
     if (!large && *value < lo && lo > -hi)
-        return ceduo_csv_complain(csv, cell, _("'%s' is below %g %s"), text, lo, unit);
-    return ceduo_csv_complain(csv, cell, _("beyond %g %s"), hi, unit);
+        return ceduo_csv_error(csv, cell, _("'%s' is below %g %s"), text, lo, unit);
+    return ceduo_csv_error(csv, cell, _("beyond %g %s"), hi, unit);
 }
 
-void ceduo_csv_note(struct csv *csv)
+void ceduo_csv_note_decimal(struct csv *csv)
 {
     for (size_t i = 0; i < csv->cells_count && i < csv->heads_count; i++) {
         struct numeral numeral;

@@ -112,20 +112,20 @@ static bool read_coordinate(struct reader *r, enum column c, double *value)
     struct csv_cell cell = ceduo_csv_cell(&r->csv, r->columns[c]);
     bool none = ceduo_csv_is_empty(cell);
     if (c == ELEVATION && cell.n > 0 && none)
-        return ceduo_csv_complain(&r->csv, cell, _("'%.*s' is no height; remove the row, or fill the gap in the terrain model"),
-                                  (int)cell.n, cell.p);
+        return ceduo_csv_error(&r->csv, cell, _("'%.*s' is no height; remove the row, or fill the gap in the terrain model"),
+                               (int)cell.n, cell.p);
     char text[CSV_NUMERAL_CAPACITY];
-    if (c == ELEVATION && ceduo_csv_numeral(&r->csv, cell, text) == CSV_NUMERAL_GOOD &&
+    if (c == ELEVATION && ceduo_csv_normalize_number(&r->csv, cell, text) == CSV_NUMERAL_GOOD &&
         (ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE || is_no_data(*value)))
-        return ceduo_csv_complain(&r->csv, cell,
-                                  _("'%s' stands for no data; remove the row, or fill the gap in the terrain model"), text);
+        return ceduo_csv_error(&r->csv, cell,
+                               _("'%s' stands for no data; remove the row, or fill the gap in the terrain model"), text);
     return ceduo_csv_number(&r->csv, cell, vertex->lo, vertex->hi, "m", value);
 }
 
 /* True if rows hold places on the map, beside distances or instead of them. */
 static bool has_places(const struct reader *r)
 {
-    return r->map || (r->csv.headless && r->columns[EAST] != CEDUO_CSV_NONE);
+    return r->map || (r->csv.headless && r->columns[EAST] != CEDUO_CSV_NOT_FOUND);
 }
 
 static void read_row(struct reader *r, size_t layer)
@@ -241,7 +241,7 @@ static bool are_numbers(const struct csv *csv)
     double value;
     bool good = true;
     for (size_t i = 0; good && i < csv->cells_count; i++) {
-        enum csv_numeral how = ceduo_csv_numeral(csv, csv->cells[i], text);
+        enum csv_numeral how = ceduo_csv_normalize_number(csv, csv->cells[i], text);
         good = how == CSV_NUMERAL_GOOD ? ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD : how != CSV_NUMERAL_NONE;
     }
     return good;
@@ -255,9 +255,9 @@ static bool take_headless(struct reader *r, struct csv_place begin)
         struct problems *problems = csv->problems;
         csv->next = begin;
         csv->problems = NULL;
-        ceduo_csv_headless(csv, *s);
+        ceduo_csv_begin_headless(csv, *s);
         ceduo_csv_scan(csv);
-        bool good = ceduo_csv_next(csv) && csv->cells_count >= 2 && are_numbers(csv);
+        bool good = ceduo_csv_next_row(csv) && csv->cells_count >= 2 && are_numbers(csv);
         csv->problems = problems;
         csv->next = begin;
         if (!good)
@@ -266,8 +266,8 @@ static bool take_headless(struct reader *r, struct csv_place begin)
         if (csv->cells_count == 2 || csv->cells_count == 4) {
             r->columns[DISTANCE] = csv->cells_count - 2;
             r->columns[ELEVATION] = csv->cells_count - 1;
-            r->columns[EAST] = csv->cells_count == 4 ? 0 : CEDUO_CSV_NONE;
-            r->columns[NORTH] = csv->cells_count == 4 ? 1 : CEDUO_CSV_NONE;
+            r->columns[EAST] = csv->cells_count == 4 ? 0 : CEDUO_CSV_NOT_FOUND;
+            r->columns[NORTH] = csv->cells_count == 4 ? 1 : CEDUO_CSV_NOT_FOUND;
             return true;
         }
         return ceduo_problem(r->problems, csv->source, csv->place.line, 1,
@@ -284,14 +284,14 @@ static bool check_units(struct reader *r)
 {
     bool good = true;
     for (enum column c = DISTANCE; c <= ELEVATION; c++) {
-        size_t column = r->columns[c] == CEDUO_CSV_NONE ? ceduo_csv_column(&r->csv, &heads[c], NULL) : CEDUO_CSV_NONE;
-        if (column >= CEDUO_CSV_TWICE || (c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NONE))
+        size_t column = r->columns[c] == CEDUO_CSV_NOT_FOUND ? ceduo_csv_column(&r->csv, &heads[c], NULL) : CEDUO_CSV_NOT_FOUND;
+        if (column >= CEDUO_CSV_DUPLICATE || (c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NOT_FOUND))
             continue;
         r->csv.source->foreign = false;
-        good = ceduo_csv_complain(&r->csv, r->csv.heads[column],
-                                  _("its values must be in m; convert them and name the "
-                                    "column '%s'"),
-                                  heads[c].name);
+        good = ceduo_csv_error(&r->csv, r->csv.heads[column],
+                               _("its values must be in m; convert them and name the "
+                                 "column '%s'"),
+                               heads[c].name);
     }
     return good;
 }
@@ -302,20 +302,21 @@ static bool find_columns(struct reader *r)
     const struct csv_place begin = csv->next;
     size_t before = r->problems->met, *columns = r->columns;
     csv->blanks = csv->comments = true;
-    ceduo_csv_find(csv, heads, COLUMNS, columns);
+    ceduo_csv_find_head(csv, heads, COLUMNS, columns);
     if (r->problems->met > before)
         return false;
-    if (columns[WKT] != CEDUO_CSV_NONE)
+    if (columns[WKT] != CEDUO_CSV_NOT_FOUND)
         return true;
-    r->map = columns[DISTANCE] == CEDUO_CSV_NONE && columns[EAST] != CEDUO_CSV_NONE && columns[NORTH] != CEDUO_CSV_NONE;
-    bool none = columns[ELEVATION] == CEDUO_CSV_NONE && columns[DISTANCE] == CEDUO_CSV_NONE;
+    r->map = columns[DISTANCE] == CEDUO_CSV_NOT_FOUND && columns[EAST] != CEDUO_CSV_NOT_FOUND &&
+             columns[NORTH] != CEDUO_CSV_NOT_FOUND;
+    bool none = columns[ELEVATION] == CEDUO_CSV_NOT_FOUND && columns[DISTANCE] == CEDUO_CSV_NOT_FOUND;
     if (!check_units(r))
         return false;
     if (none)
         return take_headless(r, begin);
-    if (columns[DISTANCE] == CEDUO_CSV_NONE && !r->map) /* x may be along the slope */
+    if (columns[DISTANCE] == CEDUO_CSV_NOT_FOUND && !r->map) /* x may be along the slope */
         columns[DISTANCE] = columns[EAST];
-    if ((!r->map && columns[DISTANCE] == CEDUO_CSV_NONE) || columns[ELEVATION] == CEDUO_CSV_NONE)
+    if ((!r->map && columns[DISTANCE] == CEDUO_CSV_NOT_FOUND) || columns[ELEVATION] == CEDUO_CSV_NOT_FOUND)
         return ceduo_problem(r->problems, csv->source, csv->head_place.line, 1,
                              _("the first line must name the columns 'distance' and 'elevation'"));
     return true;
@@ -350,23 +351,23 @@ static bool read_rows(struct reader *r)
     size_t before = r->problems->met, layer = 0, length = 0;
     for (enum column c = DISTANCE; c <= NORTH; c++)
         if (c == ELEVATION || (c == DISTANCE ? !r->map : has_places(r)))
-            ceduo_csv_has_numbers(csv, r->columns[c]);
+            ceduo_csv_mark_numeric(csv, r->columns[c]);
     ceduo_csv_scan(csv);
-    for (size_t from = csv->next.at; ceduo_csv_next(csv); from = csv->next.at) {
+    for (size_t from = csv->next.at; ceduo_csv_next_row(csv); from = csv->next.at) {
         const struct csv_cell name = ceduo_csv_cell(csv, r->columns[LAYER]);
         const char *gmt = gmt_line(csv, from, &length);
         if (csv->bad)
             continue;
-        if (r->columns[WKT] != CEDUO_CSV_NONE) {
+        if (r->columns[WKT] != CEDUO_CSV_NOT_FOUND) {
             const struct csv_cell wkt = ceduo_csv_cell(csv, r->columns[WKT]), label = ceduo_csv_cell(csv, r->columns[LABEL]);
             r->map = true;
             if (is_wkt(wkt.p, wkt.n))
                 read_wkt(r, wkt.p, wkt.p + wkt.n, ceduo_csv_line(csv, wkt), name.n > 0 ? name : label);
             else if (!csv->headless)
-                ceduo_csv_complain(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
+                ceduo_csv_error(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
             continue;
         }
-        if (r->columns[LAYER] != CEDUO_CSV_NONE)
+        if (r->columns[LAYER] != CEDUO_CSV_NOT_FOUND)
             layer = layer_of(r, name.p, name.n);
         else if (gmt || begins_again(r) || r->layers_count == 0)
             layer = layer_of(r, gmt, gmt ? length : 0);
@@ -632,7 +633,7 @@ static void understand(struct reader *r, struct points *p, const char *path)
 {
     LOCAL_TEXT(line);
     const struct csv *csv = &r->csv;
-    const bool wkt = r->columns[WKT] != CEDUO_CSV_NONE, table = csv->heads_count > 0 && !csv->headless;
+    const bool wkt = r->columns[WKT] != CEDUO_CSV_NOT_FOUND, table = csv->heads_count > 0 && !csv->headless;
     size_t used[5] = {r->columns[wkt ? WKT : r->map ? EAST : DISTANCE]}, n = 1;
     double rise = p->z[p->n - 1] - p->z[0];
     if (!wkt && r->map)
@@ -668,9 +669,9 @@ static bool read_points(struct reader *r)
     if (!is_wkt(begin, (size_t)(end - begin)))
         return find_columns(r) && read_rows(r);
     for (size_t c = 0; c < COLUMNS; c++)
-        r->columns[c] = c == WKT ? 0 : CEDUO_CSV_NONE;
+        r->columns[c] = c == WKT ? 0 : CEDUO_CSV_NOT_FOUND;
     r->csv.source->foreign = false;
-    ceduo_csv_headless(&r->csv, '\n'); /* each line is one cell */
+    ceduo_csv_begin_headless(&r->csv, '\n'); /* each line is one cell */
     return read_rows(r);
 }
 

@@ -125,7 +125,7 @@ static bool end_lines(struct csv *csv)
 
 bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems)
 {
-    *csv = (struct csv){.source = (struct source *)(uintptr_t)ceduo_file_read(arena, path, CSV_BYTES_MOST, problems),
+    *csv = (struct csv){.source = (struct source *)(uintptr_t)ceduo_file_read(arena, path, CSV_BYTES_MAX, problems),
                         .arena = arena,
                         .problems = problems};
     size_t before = problems->met;

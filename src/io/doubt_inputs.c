@@ -254,7 +254,7 @@ static const char *common_path(struct scene_file *file, const struct ceduo_input
         from = strchr(item, ']');
     }
     ceduo_text_put(&path, from);
-    bool all = input->places_count > 1 && path.bytes && ceduo_input_count(file, path.bytes) == input->places_count;
+    bool all = input->places_count > 1 && path.bytes && ceduo_input_count_places(file, path.bytes) == input->places_count;
     return all ? ceduo_input_path(file, ceduo_arena_string(&file->arena, path.bytes))
                : ceduo_input_path(file, input->places[0]);
 }

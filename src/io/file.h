@@ -8,7 +8,7 @@
 #include "problem.h"
 
 #define YAML_BYTES_MOST ((size_t)16 * 1024 * 1024)
-#define CSV_BYTES_MOST  ((size_t)64 * 1024 * 1024)
+#define CSV_BYTES_MAX   ((size_t)64 * 1024 * 1024)
 
 /* A copy of a source with its name and its string of bytes, for as long as the arena. NULL without memory. */
 const struct source *ceduo_source_keep(struct arena *arena, struct source source);

@@ -70,7 +70,7 @@ void ceduo_inputs_keep_today(struct scene_inputs *inputs);
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input);
 
 /* Number of places of a path, which may have [*]; 0: not every item has such a value, so that it cannot be set. */
-size_t ceduo_input_count(struct scene_file *file, const char *path);
+size_t ceduo_input_count_places(struct scene_file *file, const char *path);
 
 /* Whether one of n inputs has a place, written either way. */
 bool ceduo_inputs_have(const struct ceduo_input *inputs, size_t n, const char *place);

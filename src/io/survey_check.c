@@ -52,7 +52,7 @@ static double mean_basal_area(const struct ceduo_survey *survey)
 
 static bool has_column(const struct survey_reader *r, enum column c)
 {
-    return r->columns[c] < CEDUO_CSV_TWICE;
+    return r->columns[c] < CEDUO_CSV_DUPLICATE;
 }
 
 /* True if the heads of these columns name their units, as far as they are there. */
@@ -81,11 +81,11 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
     const struct csv_cell head = head_of(r, size);
     const struct csv_cell height = has_column(r, HEIGHT) ? r->csv.heads[r->columns[HEIGHT]] : (struct csv_cell){.p = ""};
     const bool may_be_altitude =
-        has_column(r, HEIGHT) && (!r->units[HEIGHT] || ceduo_csv_among(height.p, height.n, "alt|alt m|alt mt|alt metri"));
+        has_column(r, HEIGHT) && (!r->units[HEIGHT] || ceduo_csv_matches(height.p, height.n, "alt|alt m|alt mt|alt metri"));
     bool *asked = r->answers->asked;
     if (may_be_altitude && s.height > HEIGHT_BARE && !r->answers->given[SURVEY_HEIGHTS]) {
         asked[SURVEY_HEIGHTS] = true;
-        return ceduo_csv_complain(
+        return ceduo_csv_error(
             &r->csv, head_of(r, HEIGHT),
             _("a mean height of %.0f m: name the column 'height_m' if it holds heights in metres, 'altitude' if it holds "
               "altitudes"),
@@ -93,7 +93,7 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
     }
     if (!sized && s.dbh > DBH_BARE && s.height < SLENDERNESS_MIN * s.height_of_dbh) {
         asked[SURVEY_DIAMETERS] = true;
-        return ceduo_csv_complain(
+        return ceduo_csv_error(
             &r->csv, head,
             size == DBH ? _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column 'dbh_mm' if it is "
                             "in millimetres, 'dbh_cm' if it is in centimetres")
@@ -102,14 +102,14 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
             s.dbh * 100, s.height);
     }
     if (basal > BASAL_MOST)
-        return ceduo_csv_complain(
+        return ceduo_csv_error(
             &r->csv, head_of(r, area),
             _("a basal area of %.0f m2/ha is more than any forest has; are the areas in m2 and the diameters in cm?"), basal);
     if (basal <= BASAL_BARE || (sized && laid))
         return true;
     asked[SURVEY_AREAS] = !laid;
     asked[SURVEY_DIAMETERS] = !sized;
-    return ceduo_csv_complain(
+    return ceduo_csv_error(
         &r->csv, sized ? head_of(r, area) : head,
         size == DBH ? _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'dbh_cm' if it is right, "
                         "'dbh_mm' if the diameters are in millimetres")

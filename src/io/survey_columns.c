@@ -203,7 +203,7 @@ static bool has_unit(struct csv_cell head, const char *units)
 bool ceduo_survey_is_vague(const struct csv *csv, size_t column)
 {
     struct csv_cell head = csv->heads[column];
-    return ceduo_csv_among(head.p, head.n, VAGUE);
+    return ceduo_csv_matches(head.p, head.n, VAGUE);
 }
 
 /* Refuse a column with a known name and an unknown unit. */
@@ -211,19 +211,19 @@ static bool check_foreign_unit(const struct csv *csv, enum column c)
 {
     const struct csv_head *head = &ceduo_survey_heads[c];
     size_t found = ceduo_csv_column(csv, head, NULL);
-    found = found == CEDUO_CSV_NONE ? ceduo_csv_column(csv, head, FOREIGN_UNITS) : found;
-    if (found >= CEDUO_CSV_TWICE)
+    found = found == CEDUO_CSV_NOT_FOUND ? ceduo_csv_column(csv, head, FOREIGN_UNITS) : found;
+    if (found >= CEDUO_CSV_DUPLICATE)
         return true;
     const struct csv_cell cell = csv->heads[found];
     size_t n = 0;
     while (n < cell.n && !strchr(" ([_.", cell.p[n]))
         n++;
-    if (ceduo_csv_among(cell.p, n, VAGUE))
+    if (ceduo_csv_matches(cell.p, n, VAGUE))
         return true; /* h (hours) */
     LOCAL_TEXT(name);
     ceduo_text_safe_n(&name, cell.p, cell.n);
-    return ceduo_csv_complain(csv, cell, _("'%s': its values must be in %s; convert them and name the column '%s'"),
-                              ceduo_text_string(&name), _(head->unit), _(head->name));
+    return ceduo_csv_error(csv, cell, _("'%s': its values must be in %s; convert them and name the column '%s'"),
+                           ceduo_text_string(&name), _(head->unit), _(head->name));
 }
 
 /* Refuse a table without a column, with the names of the columns that it has unless it is foreign. */
@@ -231,7 +231,7 @@ static bool refuse_head(const struct csv *csv, const char *missing)
 {
     const struct problem_place place = {csv->source, csv->head_place.line, 1, NULL, true};
     LOCAL_TEXT(names);
-    ceduo_csv_names(csv, &names);
+    ceduo_csv_append_heads(csv, &names);
     if (csv->source->foreign)
         return ceduo_problem_at(csv->problems, place, _("the first line must name the column %s"), missing);
     return ceduo_problem_at(csv->problems, place, _("the first line must name the column %s; it has: %s"), missing,
@@ -241,10 +241,10 @@ static bool refuse_head(const struct csv *csv, const char *missing)
 bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum csv_unit units[COLUMNS])
 {
     size_t before = csv->problems->met;
-    ceduo_csv_find(csv, ceduo_survey_heads, COLUMNS, columns);
+    ceduo_csv_find_head(csv, ceduo_survey_heads, COLUMNS, columns);
     bool none[COLUMNS];
     for (int c = 0; c < COLUMNS; c++)
-        none[c] = columns[c] == CEDUO_CSV_NONE;
+        none[c] = columns[c] == CEDUO_CSV_NOT_FOUND;
     bool sized = !none[DBH] || !none[CIRCUMFERENCE], laid = !none[AREA] || !none[RADIUS];
     for (int c = 0; c < COLUMNS; c++) {
         const char *usual = ceduo_survey_heads[c].units, *other = ceduo_survey_heads[c].other;
@@ -252,7 +252,7 @@ bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum cs
         bool needed = c == DBH || c == CIRCUMFERENCE ? !sized : c == AREA || c == RADIUS ? !laid : true;
         if (usual && none[c] && needed)
             check_foreign_unit(csv, (enum column)c);
-        if (!usual || columns[c] >= CEDUO_CSV_TWICE)
+        if (!usual || columns[c] >= CEDUO_CSV_DUPLICATE)
             continue;
         const struct csv_cell head = csv->heads[columns[c]];
         units[c] = other && has_unit(head, other) ? CSV_UNIT_OTHER : has_unit(head, usual) ? CSV_UNIT_USUAL : CSV_UNIT_NONE;

@@ -40,7 +40,7 @@ static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum csv_u
         return false;
     if (!unit && *value > SLOPE_BARE) {
         r->answers->asked[SURVEY_SLOPES] = true;
-        return ceduo_csv_complain(
+        return ceduo_csv_error(
             &r->csv, cell,
             _("a slope of %g without a unit: name the column 'slope_deg' if it is in degrees, 'slope (%%)' if "
               "it is in percent"),
@@ -49,7 +49,7 @@ static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum csv_u
     r->marked_slopes |= own != CSV_UNIT_NONE;
     r->bare_slopes |= !unit && *value > 0;
     if (r->marked_slopes && r->bare_slopes)
-        return ceduo_csv_complain(&r->csv, cell, _("some slopes have a unit and others have none; write it in each cell"));
+        return ceduo_csv_error(&r->csv, cell, _("some slopes have a unit and others have none; write it in each cell"));
     *value = percent ? atan(*value / 100) * 180 / M_PI : *value;
     return true;
 }
@@ -67,8 +67,7 @@ static bool read_number(struct survey_reader *r, enum column c, double *value)
                               : ceduo_csv_split_unit(&cell, head->units) ? CSV_UNIT_USUAL
                                                                          : CSV_UNIT_NONE;
     if (own && r->units[c] && own != r->units[c])
-        return ceduo_csv_complain(&r->csv, cell,
-                                  _("the first line gives another unit for this column; write it without a unit"));
+        return ceduo_csv_error(&r->csv, cell, _("the first line gives another unit for this column; write it without a unit"));
     if (c == SLOPE)
         return read_slope(r, cell, own, value);
     bool mm = (own ? own : r->units[c]) == CSV_UNIT_OTHER;
@@ -88,7 +87,7 @@ static bool read_count(struct survey_reader *r, enum column c, size_t *count)
     if (!read_number(r, c, &value))
         return false;
     if (!isnan(value) && value != floor(value))
-        return ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' must be a whole number"), HEAD(c));
+        return ceduo_csv_error(&r->csv, r->fields[c], _("'%s' must be a whole number"), HEAD(c));
     *count = isnan(value) ? 0 : (size_t)value;
     return true;
 }
@@ -102,7 +101,7 @@ static bool read_diameter(struct survey_reader *r, enum column c, double *value)
     if (cell.n < sizeof text)
         memcpy(text, cell.p, cell.n);
     if (sscanf(text, "%d - %d%n", &lo, &hi, &n) == 2 && n == (int)cell.n && hi > lo && lo >= 0)
-        return ceduo_csv_complain(&r->csv, cell, _("'%s' is a class: write its middle, %g"), text, (lo + hi) / 2.0);
+        return ceduo_csv_error(&r->csv, cell, _("'%s' is a class: write its middle, %g"), text, (lo + hi) / 2.0);
     return read_number(r, c, value);
 }
 
@@ -130,12 +129,12 @@ static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
         r->filled++;
     }
     if (name->n == 0)
-        return ceduo_csv_complain(&r->csv, *name, _("'%s' is missing: give it in each row"), HEAD(PLOT));
+        return ceduo_csv_error(&r->csv, *name, _("'%s' is missing: give it in each row"), HEAD(PLOT));
     size_t i = r->plots_count;
     while (i > 0 && !(ceduo_csv_compare(r->plots[i - 1].name, *name) == 0 && are_same_sites(r->plots[i - 1].sites, sites)))
         i--; /* mostly the last */
     if (i == 0 && r->plots_count == PLOTS_MOST)
-        return ceduo_csv_complain(&r->csv, *name, _("more than %d plots"), PLOTS_MOST);
+        return ceduo_csv_error(&r->csv, *name, _("more than %d plots"), PLOTS_MOST);
     if (i == 0) {
         r->plots[r->plots_count] = (struct survey_plot){
             .name = *name, .line = r->csv.place.line, .values = {[AREA] = NAN, [RADIUS] = NAN, [SLOPE] = NAN, [STOOLS] = NAN}};
@@ -155,8 +154,8 @@ static bool check_area(struct survey_reader *r, enum column c, double value)
     if ((c != AREA && c != RADIUS) || !(area < AREA_BARE) || r->units[c])
         return true;
     r->answers->asked[SURVEY_AREAS] = true;
-    return ceduo_csv_complain(&r->csv, r->fields[c], _("a plot of %.3g m2 is very small; name the column '%s' if it is right"),
-                              area, HEAD(c));
+    return ceduo_csv_error(&r->csv, r->fields[c], _("a plot of %.3g m2 is very small; name the column '%s' if it is right"),
+                           area, HEAD(c));
 }
 
 /* Read the values of a plot. A value that is given again must be the same. */
@@ -168,32 +167,32 @@ static bool read_plot(struct survey_reader *r, struct survey_plot *plot)
         bool read = read_number(r, c, &now) && check_area(r, c, now),
              differs = read && !isnan(now) && !isnan(*known) && now != *known;
         if (differs && (c == AREA || c == RADIUS))
-            ceduo_csv_complain(
+            ceduo_csv_error(
                 &r->csv, r->fields[c],
                 _("'%s' is %g elsewhere for this plot, here %g; if thin stems were measured on a smaller area, make a "
                   "survey of each area and join the stands: as two plots they would count half"),
                 HEAD(c), *known, now);
         else if (differs && c == STOOLS)
-            ceduo_csv_complain(&r->csv, r->fields[c],
-                               _("'%s' is %g elsewhere for this plot, here %g; name the column '%s' if it numbers the stools"),
-                               HEAD(c), *known, now, HEAD(STOOL));
+            ceduo_csv_error(&r->csv, r->fields[c],
+                            _("'%s' is %g elsewhere for this plot, here %g; name the column '%s' if it numbers the stools"),
+                            HEAD(c), *known, now, HEAD(STOOL));
         else if (differs)
-            ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), HEAD(c), *known, now);
+            ceduo_csv_error(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), HEAD(c), *known, now);
         if (read && c == STOOLS && now != floor(now) && !isnan(now))
-            read = ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' must be a whole number"), HEAD(c));
+            read = ceduo_csv_error(&r->csv, r->fields[c], _("'%s' must be a whole number"), HEAD(c));
         good = good && read && !differs;
         *known = read && isnan(*known) ? now : *known;
     }
     const struct csv_cell year = r->fields[YEAR];
     plot->year = plot->year.n == 0 ? year : plot->year;
     if (year.n > 0 && ceduo_csv_compare(year, plot->year) != 0)
-        return ceduo_csv_complain(
-            &r->csv, year,
-            _("this plot was surveyed in the years %.*s and %.*s: keep the rows of one year, or rename the "
-              "column if it is no year of a survey"),
-            plot->year.n < 20 ? (int)plot->year.n : 20, plot->year.p, year.n < 20 ? (int)year.n : 20, year.p);
+        return ceduo_csv_error(&r->csv, year,
+                               _("this plot was surveyed in the years %.*s and %.*s: keep the rows of one year, or rename the "
+                                 "column if it is no year of a survey"),
+                               plot->year.n < 20 ? (int)plot->year.n : 20, plot->year.p, year.n < 20 ? (int)year.n : 20,
+                               year.p);
     if (r->fields[AREA].n > 0 && r->fields[RADIUS].n > 0)
-        return ceduo_csv_complain(&r->csv, r->fields[RADIUS], _("%s already says this; keep one of the two"), HEAD(AREA));
+        return ceduo_csv_error(&r->csv, r->fields[RADIUS], _("%s already says this; keep one of the two"), HEAD(AREA));
     return good;
 }
 
@@ -204,25 +203,25 @@ static bool read_species(struct survey_reader *r, int *found)
 {
     const struct csv_cell species = r->fields[SPECIES], genus = r->fields[GENUS], cell = species.n > 0 ? species : genus;
     *found = ceduo_survey_find_species(species, genus);
-    if (*found >= 0 || cell.n == 0 || ceduo_csv_among(cell.p, cell.n, OTHER_SPECIES))
+    if (*found >= 0 || cell.n == 0 || ceduo_csv_matches(cell.p, cell.n, OTHER_SPECIES))
         return true;
     LOCAL_TEXT(all);
     for (size_t i = 0, n; i < ceduo_species_words.n; i++)
         ceduo_text_format(&all, "%s%s", i > 0 ? ", " : "", _(ceduo_species_list(&n)[i].common));
-    return ceduo_csv_complain(&r->csv, cell, _("'%.*s' is an unknown species; leave it empty, or one of: %s"), SHOWN(cell),
-                              ceduo_text_string(&all));
+    return ceduo_csv_error(&r->csv, cell, _("'%.*s' is an unknown species; leave it empty, or one of: %s"), SHOWN(cell),
+                           ceduo_text_string(&all));
 }
 
 /* Numbers of stems of each kind in a row: of the kind that the row names, or by columns of their own. */
 static bool read_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KINDS_COUNT])
 {
     const struct csv_cell kind = r->fields[KIND], count = r->fields[COUNT];
-    const bool tally = r->columns[KIND] == CEDUO_CSV_NONE;
+    const bool tally = r->columns[KIND] == CEDUO_CSV_NOT_FOUND;
     size_t sum = 0, given;
     bool good = true;
     int found = ceduo_survey_find_word(&ceduo_survey_kind_words, kind);
     if (!tally && found < 0)
-        return ceduo_csv_complain(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"), SHOWN(kind));
+        return ceduo_csv_error(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"), SHOWN(kind));
     for (enum column c = SHOOTS; c <= TREES; c++) {
         good = read_count(r, c, &counts[c - SHOOTS]) && good;
         sum += counts[c - SHOOTS];
@@ -231,18 +230,18 @@ static bool read_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
         return false;
     for (int k = 0; !tally && k < CEDUO_SURVEY_STUMP; k++)
         if (k != found && counts[k] > 0)
-            return ceduo_csv_complain(&r->csv, r->fields[SHOOTS + k], _("this row is of another kind; leave '%s' empty here"),
-                                      HEAD(SHOOTS + k));
+            return ceduo_csv_error(&r->csv, r->fields[SHOOTS + k], _("this row is of another kind; leave '%s' empty here"),
+                                   HEAD(SHOOTS + k));
     bool own = !tally && found < CEDUO_SURVEY_STUMP && r->fields[SHOOTS + found].n > 0;
     if (count.n > 0 && (tally || own) && given != sum)
-        return ceduo_csv_complain(&r->csv, count,
-                                  _("'%s' is %zu, but '%s', '%s' and '%s' add up to %zu; correct one, or leave it empty"),
-                                  HEAD(COUNT), given, HEAD(SHOOTS), HEAD(STANDARDS), HEAD(TREES), sum);
+        return ceduo_csv_error(&r->csv, count,
+                               _("'%s' is %zu, but '%s', '%s' and '%s' add up to %zu; correct one, or leave it empty"),
+                               HEAD(COUNT), given, HEAD(SHOOTS), HEAD(STANDARDS), HEAD(TREES), sum);
     if (tally || own)
         return true;
-    if (count.n == 0 && r->columns[COUNT] != CEDUO_CSV_NONE)
-        return ceduo_csv_complain(&r->csv, count, _("'%s' is missing: write the number of stems, 0 for none"), HEAD(COUNT));
-    counts[found] = r->columns[COUNT] == CEDUO_CSV_NONE ? 1 : given;
+    if (count.n == 0 && r->columns[COUNT] != CEDUO_CSV_NOT_FOUND)
+        return ceduo_csv_error(&r->csv, count, _("'%s' is missing: write the number of stems, 0 for none"), HEAD(COUNT));
+    counts[found] = r->columns[COUNT] == CEDUO_CSV_NOT_FOUND ? 1 : given;
     return true;
 }
 
@@ -252,12 +251,12 @@ static bool read_status(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
     const struct csv_cell status = r->fields[STATUS];
     size_t sum = counts[CEDUO_SURVEY_SHOOT] + counts[CEDUO_SURVEY_STANDARD] + counts[CEDUO_SURVEY_TREE];
     int found = ceduo_survey_find_word(&ceduo_survey_status_words, status);
-    if (r->columns[STATUS] == CEDUO_CSV_NONE)
+    if (r->columns[STATUS] == CEDUO_CSV_NOT_FOUND)
         return true;
     if (status.n > 0 && found < 0)
-        return ceduo_csv_complain(&r->csv, status,
-                                  _("'%.*s' is no status: live, dead or cut; rename the column if it is something else"),
-                                  SHOWN(status));
+        return ceduo_csv_error(&r->csv, status,
+                               _("'%.*s' is no status: live, dead or cut; rename the column if it is something else"),
+                               SHOWN(status));
     r->unmarked += status.n == 0 ? sum : 0;
     if (found <= SURVEY_LIVE)
         return true;
@@ -271,29 +270,28 @@ static bool read_dbh(struct survey_reader *r, double *dbh)
 {
     const struct csv *csv = &r->csv;
     const struct csv_cell *fields = r->fields;
-    const enum column c = fields[DBH].n > 0 || r->columns[CIRCUMFERENCE] == CEDUO_CSV_NONE ? DBH : CIRCUMFERENCE;
+    const enum column c = fields[DBH].n > 0 || r->columns[CIRCUMFERENCE] == CEDUO_CSV_NOT_FOUND ? DBH : CIRCUMFERENCE;
     double girth;
     bool good = read_diameter(r, DBH, dbh);
     if (!read_number(r, CIRCUMFERENCE, &girth) || !good)
         return false;
     double ratio = *dbh / (girth / M_PI); /* NaN: one of the two */
     if (ratio > SAME_DBH || ratio < 1 / SAME_DBH)
-        return ceduo_csv_complain(csv, fields[CIRCUMFERENCE],
-                                  _("a circumference of %g cm is a diameter of %.3g cm, not %g; leave one empty"), girth,
-                                  girth / M_PI, *dbh);
+        return ceduo_csv_error(csv, fields[CIRCUMFERENCE],
+                               _("a circumference of %g cm is a diameter of %.3g cm, not %g; leave one empty"), girth,
+                               girth / M_PI, *dbh);
     *dbh = isnan(*dbh) ? girth / M_PI : *dbh;
-    const enum column missing = r->columns[DBH] == CEDUO_CSV_NONE ? CIRCUMFERENCE : DBH;
+    const enum column missing = r->columns[DBH] == CEDUO_CSV_NOT_FOUND ? CIRCUMFERENCE : DBH;
     if (isnan(*dbh))
-        return ceduo_csv_complain(csv, fields[missing], _("'%s' is missing: give it in each row"), HEAD(missing));
+        return ceduo_csv_error(csv, fields[missing], _("'%s' is missing: give it in each row"), HEAD(missing));
     if (*dbh > DBH_MOST && r->units[c] == CSV_UNIT_OTHER)
-        return ceduo_csv_complain(csv, fields[c], _("%g cm: more than %d cm; correct it"), *dbh, DBH_MOST);
+        return ceduo_csv_error(csv, fields[c], _("%g cm: more than %d cm; correct it"), *dbh, DBH_MOST);
     if (*dbh > DBH_MOST)
-        return ceduo_csv_complain(csv, fields[c],
-                                  c == DBH
-                                      ? _("%g cm: more than %d cm; is it in mm? Then name the column 'dbh_mm'")
-                                      : _("a diameter of %g cm: more than %d cm; is the circumference in mm? Then name the "
-                                          "column 'circumference_mm'"),
-                                  *dbh, DBH_MOST);
+        return ceduo_csv_error(csv, fields[c],
+                               c == DBH ? _("%g cm: more than %d cm; is it in mm? Then name the column 'dbh_mm'")
+                                        : _("a diameter of %g cm: more than %d cm; is the circumference in mm? Then name the "
+                                            "column 'circumference_mm'"),
+                               *dbh, DBH_MOST);
     *dbh /= 100;
     return true;
 }
@@ -311,7 +309,7 @@ static bool read_sizes(struct survey_reader *r, struct ceduo_survey_stem *stem)
         return false;
     double lo = stump ? 0 : CEDUO_BREAST_HEIGHT, hi = stump ? STUMP_MOST : ceduo_survey_heads[HEIGHT].hi;
     if (stem->height <= lo || stem->height > hi)
-        return ceduo_csv_complain(
+        return ceduo_csv_error(
             csv, fields[HEIGHT],
             _("%g m is no height of a stem of this kind: it must be above %g and at most %g m; leave it empty if "
               "it was not measured"),
@@ -320,10 +318,10 @@ static bool read_sizes(struct survey_reader *r, struct ceduo_survey_stem *stem)
                         : !stump && !isnan(stem->energy)                          ? ENERGY
                                                                                   : PLOT;
     if (other != PLOT)
-        return ceduo_csv_complain(csv, fields[other], _("a stem of this kind has no '%s'; leave it empty here"), HEAD(other));
+        return ceduo_csv_error(csv, fields[other], _("a stem of this kind has no '%s'; leave it empty here"), HEAD(other));
     if (!isnan(stem->spacing) && fields[STOOL].n == 0)
-        return ceduo_csv_complain(csv, fields[SPACING], _("a shoot without a stool has no '%s'; leave it empty here"),
-                                  HEAD(SPACING));
+        return ceduo_csv_error(csv, fields[SPACING], _("a shoot without a stool has no '%s'; leave it empty here"),
+                               HEAD(SPACING));
     stem->energy *= 1000;
     return true;
 }
@@ -336,7 +334,7 @@ static bool add_stems(struct survey_reader *r, struct ceduo_survey_stem stem, si
     bool shoot = stem.kind == CEDUO_SURVEY_SHOOT, loose = shoot && r->fields[STOOL].n == 0;
     struct survey_plot *plot = &r->plots[stem.plot];
     if (r->stems_count + n > STEMS_MAX)
-        return ceduo_csv_complain(&r->csv, r->fields[COUNT], _("more than %d stems"), STEMS_MAX);
+        return ceduo_csv_error(&r->csv, r->fields[COUNT], _("more than %d stems"), STEMS_MAX);
     struct ceduo_survey_stem *stems =
         ceduo_arena_more(r->arena, r->stems, r->stems_count, n, &r->stems_capacity, sizeof *stems);
     struct survey_shoot *shoots =
@@ -378,17 +376,17 @@ static bool read_fields(struct survey_reader *r)
             cell->n = 0;
         bool name = c == PLOT || c == SPECIES || c == GENUS || c == KIND || c == STOOL || c == STATUS || c >= SITE;
         if (name && memchr(cell->p, '"', cell->n))
-            good = ceduo_csv_complain(&r->csv, *cell, _("a quote within a name is a slip; remove it"));
+            good = ceduo_csv_error(&r->csv, *cell, _("a quote within a name is a slip; remove it"));
         else if (name && memchr(cell->p, '\n', cell->n))
-            good = ceduo_csv_complain(&r->csv, *cell,
-                                      _("a line break within a name is a slip; remove it, and the quotes around it"));
+            good =
+                ceduo_csv_error(&r->csv, *cell, _("a line break within a name is a slip; remove it, and the quotes around it"));
     }
     return good;
 }
 
 static bool is_total(struct csv_cell cell)
 {
-    return cell.n > 0 && ceduo_csv_among(cell.p, cell.n, TOTALS);
+    return cell.n > 0 && ceduo_csv_matches(cell.p, cell.n, TOTALS);
 }
 
 /* True if a row holds totals: its first word says so, or the cell of a kind, species, stool or size. */
@@ -402,7 +400,7 @@ static bool is_total_row(const struct survey_reader *r)
     struct csv_cell first = ceduo_csv_cell(&r->csv, at), word = first; /* "Totale fusti" */
     for (size_t n = first.n; n > 0; n--)
         word.n = strchr(" :", first.p[n - 1]) ? n - 1 : word.n;
-    bool begins = r->columns[KIND] == CEDUO_CSV_NONE ? !sized : r->fields[KIND].n == 0;
+    bool begins = r->columns[KIND] == CEDUO_CSV_NOT_FOUND ? !sized : r->fields[KIND].n == 0;
     if (at != r->columns[STATUS] && (is_total(first) || (begins && is_total(word))))
         return true;
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
@@ -414,7 +412,7 @@ static bool is_total_row(const struct survey_reader *r)
 static bool has_stem(const struct survey_reader *r)
 {
     for (int c = SPECIES; c <= TREES; c++)
-        if (r->fields[c].n > 0 && !(c >= COUNT && ceduo_csv_is(r->fields[c], "0")))
+        if (r->fields[c].n > 0 && !(c >= COUNT && ceduo_csv_equals(r->fields[c], "0")))
             return true;
     return false;
 }
@@ -456,10 +454,10 @@ static bool check_numbering(struct survey_reader *r)
     size_t rises = 0, rows = 0;
     bool numbering = true;
     double value, last = 0;
-    if (r->columns[COUNT] >= CEDUO_CSV_TWICE || !ceduo_survey_is_vague(&r->csv, r->columns[COUNT]))
+    if (r->columns[COUNT] >= CEDUO_CSV_DUPLICATE || !ceduo_survey_is_vague(&r->csv, r->columns[COUNT]))
         return true;
     r->csv.problems = NULL;
-    while (numbering && ceduo_csv_next(&r->csv)) {
+    while (numbering && ceduo_csv_next_row(&r->csv)) {
         struct csv_cell cell = ceduo_csv_cell(&r->csv, r->columns[COUNT]);
         if (!ceduo_csv_value(&r->csv, cell, &value))
             continue;
@@ -470,8 +468,8 @@ static bool check_numbering(struct survey_reader *r)
     r->csv.problems = r->problems;
     r->csv.next = begin;
     return !numbering || rises < 2 ||
-           ceduo_csv_complain(&r->csv, r->csv.heads[r->columns[COUNT]],
-                              _("this column goes 1, 2, 3: name it 'id' if it numbers the stems, 'count' if it counts them"));
+           ceduo_csv_error(&r->csv, r->csv.heads[r->columns[COUNT]],
+                           _("this column goes 1, 2, 3: name it 'id' if it numbers the stems, 'count' if it counts them"));
 }
 
 /* ---- stools and areas ---- */
@@ -512,8 +510,8 @@ static void count_repeated(struct survey_reader *r)
 /* Report a problem at the stool of the first shoot of a plot that has none. */
 static bool refuse_loose(struct survey_reader *r, const struct survey_plot *plot, const char *why)
 {
-    ceduo_csv_return(&r->csv, plot->loose);
-    return ceduo_csv_complain(&r->csv, ceduo_csv_cell(&r->csv, r->columns[STOOL]), "%s", why);
+    ceduo_csv_reread(&r->csv, plot->loose);
+    return ceduo_csv_error(&r->csv, ceduo_csv_cell(&r->csv, r->columns[STOOL]), "%s", why);
 }
 
 /* Number the stools of a plot, whose n shoots begin at `shoots` and are sorted by stool. Shoots without a stool are spread evenly
@@ -588,13 +586,13 @@ static void scan_numbers(struct survey_reader *r)
 {
     for (int c = 0; c < COLUMNS; c++)
         if ((c >= AREA && c <= STOOLS) || (c >= DBH && c <= TREES))
-            ceduo_csv_has_numbers(&r->csv, r->columns[c]);
+            ceduo_csv_mark_numeric(&r->csv, r->columns[c]);
     ceduo_csv_scan(&r->csv);
 }
 
 static void read_rows(struct survey_reader *r)
 {
-    for (size_t n = 0; ceduo_csv_next(&r->csv); n++) {
+    for (size_t n = 0; ceduo_csv_next_row(&r->csv); n++) {
         if (n == STEMS_MAX) {
             ceduo_problem(r->problems, r->csv.source, r->csv.place.line, 1, _("more than %d rows"), STEMS_MAX);
             return;
@@ -618,7 +616,7 @@ static void take_answers(struct survey_reader *r)
     if (given[SURVEY_AREAS])
         r->units[AREA] = r->units[RADIUS] = CSV_UNIT_USUAL;
     if (given[SURVEY_HEIGHTS] == 2)
-        r->columns[HEIGHT] = CEDUO_CSV_NONE;
+        r->columns[HEIGHT] = CEDUO_CSV_NOT_FOUND;
 }
 
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct survey_answers *answers,

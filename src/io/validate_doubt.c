@@ -55,9 +55,9 @@ static const char *with_numbers(struct validator *v, const char *path)
         if (!step.bracket || ceduo_path_index(&step, &place))
             continue;
         int before = (int)(step.p - path);
-        const struct node *list = list_at(v->root, ceduo_format(v, "%.*s", before - 1, path));
+        const struct node *list = list_at(v->root, ceduo_asprintf(v, "%.*s", before - 1, path));
         if (list && ceduo_resolve_item(list, &step, &place))
-            return with_numbers(v, ceduo_format(v, "%.*s%zu%s", before, path, place, step.p + step.n));
+            return with_numbers(v, ceduo_asprintf(v, "%.*s%zu%s", before, path, place, step.p + step.n));
     }
     return path;
 }
@@ -68,7 +68,7 @@ static void add_place(struct places *p, const char *path)
     if (!items)
         return;
     p->items = items;
-    p->items[p->n++] = ceduo_format(p->v, "%s", with_numbers(p->v, path));
+    p->items[p->n++] = ceduo_asprintf(p->v, "%s", with_numbers(p->v, path));
 }
 
 /* The path, with every [*] replaced by each item in turn; where there is no such list nothing is added. False if a list is missing or
@@ -80,11 +80,11 @@ static bool add_all(struct places *p, const char *path)
         add_place(p, path);
         return true;
     }
-    const char *before = ceduo_format(p->v, "%.*s", (int)(star - path), path);
+    const char *before = ceduo_asprintf(p->v, "%.*s", (int)(star - path), path);
     const struct node *list = list_at(p->v->root, before);
     bool all = list && list->n > 0;
     for (size_t i = 0; list && i < list->n; i++)
-        all &= add_all(p, ceduo_format(p->v, "%s[%zu]%s", before, i, star + 3));
+        all &= add_all(p, ceduo_asprintf(p->v, "%s[%zu]%s", before, i, star + 3));
     return all;
 }
 
@@ -99,7 +99,7 @@ static const char *ground_of(struct validator *v, const char *path, const char *
     if (strncmp(path, GROUND, before) != 0 || !end || end[1] != '.')
         return NULL;
     *key = end + 2;
-    const char *name = ceduo_format(v, "%.*s", (int)(end - path - (ptrdiff_t)before), path + before);
+    const char *name = ceduo_asprintf(v, "%.*s", (int)(end - path - (ptrdiff_t)before), path + before);
     int known = ceduo_choice_find(&ceduo_material_words, name);
     return known < 0 ? name : ceduo_material_words.names[known];
 }
@@ -113,7 +113,7 @@ static const char *kept_path(struct validator *v, const char *path)
         return path;
     while (k < file->kept_count && file->kept[k] != option)
         k++;
-    return k < file->kept_count ? ceduo_format(v, "options[%zu%s", k, strchr(path, ']')) : NULL;
+    return k < file->kept_count ? ceduo_asprintf(v, "options[%zu%s", k, strchr(path, ']')) : NULL;
 }
 
 /* Adds all places of a path that the scene has. Ground that stands in no list of segments has one of them for each stretch. */
@@ -124,11 +124,11 @@ static void find_places(struct places *p, const char *path)
     const char *key, *name = ground_of(v, path, &key);
     struct value value;
     size_t n = p->n, stretches = scene->slope.vertices - 1;
-    if (name && (p->items = ceduo_room(v, stretches, sizeof *p->items))) /* such a path has no other places */
+    if (name && (p->items = ceduo_alloc(v, stretches, sizeof *p->items))) /* such a path has no other places */
         p->n = ceduo_input_ground(v->arena, v->file->ground_assumed ? NULL : v->root, scene, name, key, false, p->items);
     else if (!name && scene->slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
         for (size_t j = 0; j < stretches; j++)
-            add_place(p, ceduo_format(v, "slope.segments[%zu].%s", j, path + sizeof SEGMENTS - 1));
+            add_place(p, ceduo_asprintf(v, "slope.segments[%zu].%s", j, path + sizeof SEGMENTS - 1));
     else if (!name)
         add_all(p, path);
     for (size_t i = n; i < p->n; i++)
@@ -161,40 +161,40 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
     input->mean = mean;
     input->sd = sd;
     if (gamma && sd > CEDUO_GAMMA_MOST * mean)
-        return ceduo_complain(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MOST);
+        return ceduo_reject(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MOST);
     input->lo = gamma ? ceduo_input_quantile(input, 0) : normal ? mean - 3 * sd : row->doubt.lo;
     input->hi = gamma ? ceduo_input_quantile(input, 1) : normal ? mean + 3 * sd : row->doubt.hi;
     if (!(input->lo < input->hi))
-        return ceduo_complain(v, row->at, normal ? "sd" : "hi", _("the range is empty; make it larger"));
+        return ceduo_reject(v, row->at, normal ? "sd" : "hi", _("the range is empty; make it larger"));
     const double ends[] = {input->lo, input->hi};
     const char *const keys[] = {normal ? "mean" : "lo", normal ? "sd" : "hi"};
     for (int i = 0; i < 2; i++)
         if (!ceduo_schema_in_range(field, ends[i]))
-            return ceduo_complain(v, row->at, keys[i], _("%s is outside the range of %s: %s"), NUMERAL(ends[i]), field->key,
-                                  ceduo_range(v, field));
+            return ceduo_reject(v, row->at, keys[i], _("%s is outside the range of %s: %s"), NUMERAL(ends[i]), field->key,
+                                ceduo_describe_range(v, field));
     return true;
 }
 
 static bool read_words(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
 {
     size_t n = row->doubt.one_of_count;
-    int *words = ceduo_room(v, n, sizeof *words);
+    int *words = ceduo_alloc(v, n, sizeof *words);
     input->kind = CEDUO_INPUT_WORDS;
     input->words = words;
     input->words_count = n;
     if (n < 2)
-        ceduo_complain(v, row->at, "one_of", _("name at least two words"));
+        ceduo_reject(v, row->at, "one_of", _("name at least two words"));
     for (size_t i = 0; words && i < n; i++) {
         const char *word = row->doubt.one_of[i], *instead = ceduo_gone(word);
-        const char *at = ceduo_format(v, "%s.one_of[%zu]", row->at, i);
+        const char *at = ceduo_asprintf(v, "%s.one_of[%zu]", row->at, i);
         words[i] = ceduo_choice_find(field->choices, word);
         if (instead)
-            return ceduo_complain(v, at, "", "%s", _(instead));
+            return ceduo_reject(v, at, "", "%s", _(instead));
         if (words[i] < 0)
-            return ceduo_complain(v, at, "", _("'%s' is unknown; one of: %s"), word, ceduo_words(v, field->choices));
+            return ceduo_reject(v, at, "", _("'%s' is unknown; one of: %s"), word, ceduo_list_choices(v, field->choices));
         for (size_t k = 0; k < i; k++)
             if (words[k] == words[i])
-                return ceduo_complain(v, at, "", _("'%s' is given twice"), word);
+                return ceduo_reject(v, at, "", _("'%s' is given twice"), word);
     }
     return words && n >= 2;
 }
@@ -205,19 +205,19 @@ static bool make_input(struct validator *v, const struct row *row, struct places
 {
     const struct doubt *d = &row->doubt;
     bool of_stand = row->within[0] != '\0';
-    const char *path = of_stand ? ceduo_format(v, "%s%s", row->within, d->path) : kept_path(v, d->path);
+    const char *path = of_stand ? ceduo_asprintf(v, "%s%s", row->within, d->path) : kept_path(v, d->path);
     if (!path)
         return false;
     const struct field *field = field_of(v, path);
     const char *instead = ceduo_gone(path);
     *places = (struct places){.v = v};
     if (instead)
-        return ceduo_complain(v, row->at, "path", "%s", _(instead));
+        return ceduo_reject(v, row->at, "path", "%s", _(instead));
     if (!field)
-        return ceduo_complain(v, row->at, "path",
-                              _("no answer is in doubt because of '%s'; name a number or a word of the rock, its release, the "
-                                "slope, a stand or the law"),
-                              d->path);
+        return ceduo_reject(v, row->at, "path",
+                            _("no answer is in doubt because of '%s'; name a number or a word of the rock, its release, the "
+                              "slope, a stand or the law"),
+                            d->path);
     find_places(places, path);
     if (places->n == 0)
         return false;
@@ -226,9 +226,9 @@ static bool make_input(struct validator *v, const struct row *row, struct places
     bool words = d->one_of != NULL, choice = field->type == FIELD_CHOICE;
     bool given = range == 2 ? normal == 0 && !words : normal == 2 ? range == 0 && !words : words && range + normal == 0;
     if (!given || words != choice)
-        return ceduo_complain(v, row->at, "",
-                              choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
-                              field->key);
+        return ceduo_reject(v, row->at, "",
+                            choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
+                            field->key);
     *input = (struct ceduo_input){.path = of_stand ? ceduo_input_path(v->file, places->items[0]) : d->path,
                                   .places = places->items,
                                   .places_count = places->n,
@@ -239,8 +239,8 @@ static bool make_input(struct validator *v, const struct row *row, struct places
 static void add_input(struct validator *v, struct ceduo_input input, const char *at)
 {
     size_t n = v->file->inputs_count;
-    struct ceduo_input *inputs = ceduo_arena_more(v->arena, v->file->inputs, n, 1, &v->inputs_room, sizeof *inputs);
-    const char **rows = ceduo_arena_more(v->arena, v->rows, n, 1, &v->rows_room, sizeof *rows);
+    struct ceduo_input *inputs = ceduo_arena_more(v->arena, v->file->inputs, n, 1, &v->inputs_capacity, sizeof *inputs);
+    const char **rows = ceduo_arena_more(v->arena, v->rows, n, 1, &v->rows_capacity, sizeof *rows);
     if (!inputs || !rows)
         return;
     v->file->inputs = inputs;
@@ -259,13 +259,13 @@ static struct row *list_rows(struct validator *v, size_t *n)
     size_t room = 0, several = options && options->kind == NODE_LIST ? options->n : 0;
     for (size_t o = 0; o < (several ? several : 1); o++) {
         const struct node *forest = ceduo_node_get(several ? options->items[o] : v->root, "forest");
-        const char *option = several ? ceduo_format(v, "options[%zu].", o) : "";
+        const char *option = several ? ceduo_asprintf(v, "options[%zu].", o) : "";
         for (size_t k = 0; forest && forest->kind == NODE_LIST && k < forest->n; k++) {
-            const char *within = ceduo_format(v, "%sforest[%zu].stand.", option, k);
+            const char *within = ceduo_asprintf(v, "%sforest[%zu].stand.", option, k);
             const struct node *list = ceduo_node_get(ceduo_node_get(forest->items[k], "stand"), "doubt");
             for (size_t i = 0; list && list->kind == NODE_LIST && i < list->n; i++) {
-                const char *at = ceduo_format(v, "%sdoubt[%zu]", within, i);
-                if (!ceduo_is_sound(v, at))
+                const char *at = ceduo_asprintf(v, "%sdoubt[%zu]", within, i);
+                if (!ceduo_is_valid_below(v, at))
                     continue;
                 struct row *rows = ceduo_arena_more(v->arena, all, *n, 1, &room, sizeof *all);
                 if (!rows)
@@ -293,20 +293,20 @@ static void take_stands(struct validator *v)
         if (r->done)
             continue;
         ceduo_schema_init(object, &r->doubt);
-        ceduo_bind(&(struct binding){.arena = v->arena, .problems = v->problems, .notes = &notes, .bad = &v->bad}, object, node,
-                   &r->doubt);
+        ceduo_bind(&(struct binding){.arena = v->arena, .problems = v->problems, .notes = &notes, .invalid = &v->invalid},
+                   object, node, &r->doubt);
         for (size_t before = 0; before < r->i; before++) {
             const char *other = ceduo_node_text(r->list->items[before], "path");
             twice |= other && ceduo_schema_same(other, r->doubt.path);
         }
         if (twice)
-            ceduo_complain(v, r->at, "path", _("'%s' is given twice"), r->doubt.path);
+            ceduo_reject(v, r->at, "path", _("'%s' is given twice"), r->doubt.path);
         bool good = !twice && make_input(v, r, &places, &input);
         for (struct row *same = r + 1; same < rows + n; same++)
             if (same->list->items[same->i] == node) {
                 same->done = true;
                 if (good)
-                    find_places(&places, ceduo_format(v, "%s%s", same->within, r->doubt.path));
+                    find_places(&places, ceduo_asprintf(v, "%s%s", same->within, r->doubt.path));
             }
         if (!good)
             continue;
@@ -333,7 +333,7 @@ struct draws {
     struct csv csv;
     size_t columns, rows;
     double **values; /* [column][row] */
-    size_t places_count, places_room;
+    size_t places_count, places_capacity;
     struct drawn *places; /* column by column, then sorted */
 };
 
@@ -372,8 +372,8 @@ static bool take_header(struct draws *t)
                 return ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"),
                                         _("the table has a column '%s', which is no value of this scene"), path);
             }
-            t->places =
-                ceduo_arena_more(v->arena, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places);
+            t->places = ceduo_arena_more(v->arena, t->places, t->places_count, found.places_count, &t->places_capacity,
+                                         sizeof *t->places);
             if (!t->places)
                 return false;
             for (size_t i = 0; i < found.places_count; i++)
@@ -388,19 +388,19 @@ static bool read_table(struct draws *t, const char *path)
     struct problems *problems = t->v->problems;
     struct csv *csv = &t->csv;
     size_t before = problems->met;
-    if (!ceduo_csv_open(csv, t->v->arena, path, problems) || !ceduo_csv_first(csv))
+    if (!ceduo_csv_open(csv, t->v->arena, path, problems) || !ceduo_csv_read_head(csv))
         return false;
     t->columns = csv->heads_count;
-    t->values = ceduo_room(t->v, t->columns, sizeof *t->values);
+    t->values = ceduo_alloc(t->v, t->columns, sizeof *t->values);
     bool good = t->values != NULL;
     for (size_t c = 0; c < t->columns; c++)
         csv->heads[c].numeric = true;
     ceduo_csv_scan(csv);
     for (size_t c = 0; good && c < t->columns; c++)
-        good = (t->values[c] = ceduo_room(t->v, csv->rows, sizeof **t->values)) != NULL;
+        good = (t->values[c] = ceduo_alloc(t->v, csv->rows, sizeof **t->values)) != NULL;
     if (!good || !take_header(t))
         return false;
-    for (; ceduo_csv_next(csv); t->rows++) {
+    for (; ceduo_csv_next_row(csv); t->rows++) {
         for (size_t c = 0, h = 0; c < t->columns && !csv->bad; c++) {
             struct csv_cell cell = ceduo_csv_cell(csv, c);
             double *to = &t->values[c][t->rows];
@@ -408,8 +408,8 @@ static bool read_table(struct draws *t, const char *path)
             for (; h < t->places_count && t->places[h].column == c; h++) { /* one range is reported once */
                 const struct field *f = t->places[h].field;
                 if (number && !ceduo_schema_in_range(f, *to))
-                    ceduo_csv_complain(csv, cell, _("%s is outside the range of %s: %s"), NUMERAL(*to), f->key,
-                                       ceduo_range(t->v, f));
+                    ceduo_csv_error(csv, cell, _("%s is outside the range of %s: %s"), NUMERAL(*to), f->key,
+                                    ceduo_describe_range(t->v, f));
             }
         }
     }
@@ -436,8 +436,8 @@ static void add_draws(struct validator *v)
                          _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), v->draws->text);
     if (!path || !read_table(&t, path))
         return;
-    const char **places = ceduo_room(v, t.places_count, sizeof *places);
-    const double **draws = ceduo_room(v, t.places_count, sizeof *draws);
+    const char **places = ceduo_alloc(v, t.places_count, sizeof *places);
+    const double **draws = ceduo_alloc(v, t.places_count, sizeof *draws);
     for (size_t i = 0; places && draws && i < t.places_count; i++) {
         places[i] = t.places[i].place;
         draws[i] = t.values[t.places[i].column];
@@ -457,20 +457,20 @@ static void add_draws(struct validator *v)
     LOCAL_TEXT(line);
     ceduo_text_safe(&line, ceduo_file_name(path));
     ceduo_text_format(&line, _(": %zu draws of %zu values that belong together"), t.rows, t.columns);
-    ceduo_understand(v, "doubt.draws", ceduo_text_string(&line));
+    ceduo_add_table_note(v, "doubt.draws", ceduo_text_string(&line));
 }
 
 /* ---- all ---- */
 
 void ceduo_validate_doubt(struct validator *v)
 {
-    size_t n = ceduo_is_sound(v, "doubt") ? v->draft.doubts_count : 0;
-    if (!v->profile || ceduo_is_too_long(v, "doubt", n))
+    size_t n = ceduo_is_valid_below(v, "doubt") ? v->draft.doubts_count : 0;
+    if (!v->has_profile || ceduo_is_too_long(v, "doubt", n))
         return;
     if (v->draws)
         add_draws(v);
     for (size_t i = 0; i < n; i++) {
-        const struct row row = {.doubt = v->draft.doubts[i], .at = ceduo_format(v, "doubt[%zu]", i), .within = ""};
+        const struct row row = {.doubt = v->draft.doubts[i], .at = ceduo_asprintf(v, "doubt[%zu]", i), .within = ""};
         struct places places;
         struct ceduo_input input;
         bool good = make_input(v, &row, &places, &input), twice = false;
@@ -482,7 +482,7 @@ void ceduo_validate_doubt(struct validator *v)
             twice |= b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(with_numbers(v, b->path), with_numbers(v, input.path));
         }
         if (twice)
-            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.doubt.path);
+            ceduo_reject(v, row.at, "path", _("'%s' is given twice"), row.doubt.path);
         else if (good)
             add_input(v, input, row.at);
     }
@@ -521,7 +521,7 @@ static const char *value_text(struct validator *v, size_t i, size_t k)
     if (input->kind == CEDUO_INPUT_WORDS)
         return f->choices->names[input->words[k]];
     const char *sign = input->kind == CEDUO_INPUT_NORMAL ? k == 0 ? " (mean - 3 sd)" : " (mean + 3 sd)" : "";
-    return ceduo_format(v, "%s%s%s%s", NUMERAL(k == 0 ? input->lo : input->hi), f->unit[0] ? " " : "", f->unit, sign);
+    return ceduo_asprintf(v, "%s%s%s%s", NUMERAL(k == 0 ? input->lo : input->hi), f->unit[0] ? " " : "", f->unit, sign);
 }
 
 static const char *reason(enum ceduo_status status)
@@ -561,21 +561,21 @@ static void check_end(struct ends *e, size_t i, size_t k, size_t j, size_t m)
                       : k == 0                           ? "lo"
                                                          : "hi";
     if (i != j)
-        ceduo_complain(v, v->rows[i], key, _("%s and %s of %s cannot be computed together: %s; make one of the ranges smaller"),
-                       value_text(v, i, k), value_text(v, j, m), v->file->inputs[j].path, reason(status));
+        ceduo_reject(v, v->rows[i], key, _("%s and %s of %s cannot be computed together: %s; make one of the ranges smaller"),
+                     value_text(v, i, k), value_text(v, j, m), v->file->inputs[j].path, reason(status));
     else if (input->kind == CEDUO_INPUT_WORDS)
-        ceduo_complain(v, v->rows[i], key, _("%s cannot be computed: %s; leave it out"), value_text(v, i, k), reason(status));
+        ceduo_reject(v, v->rows[i], key, _("%s cannot be computed: %s; leave it out"), value_text(v, i, k), reason(status));
     else
-        ceduo_complain(v, v->rows[i], key, _("%s cannot be computed: %s; make the range smaller"), value_text(v, i, k),
-                       reason(status));
+        ceduo_reject(v, v->rows[i], key, _("%s cannot be computed: %s; make the range smaller"), value_text(v, i, k),
+                     reason(status));
 }
 
 /* Refuses ranges with an end where the scene cannot be computed: of each input by itself, then of any two places along the slope. */
 void ceduo_validate_ends(struct validator *v)
 {
     size_t n = v->file->inputs_count, places_count = 0, before = v->problems->met;
-    struct ends e = {.v = v, .u = ceduo_room(v, n, sizeof *e.u)};
-    size_t *places = ceduo_room(v, n, sizeof *places);
+    struct ends e = {.v = v, .u = ceduo_alloc(v, n, sizeof *e.u)};
+    size_t *places = ceduo_alloc(v, n, sizeof *places);
     bool good = n > 0 && e.u && places && ceduo_scene_check(&v->draft.scene, NULL) == CEDUO_OK &&
                 ceduo_inputs_open(&e.copy, &v->draft.scene, v->file->inputs, n) == CEDUO_OK;
     for (size_t i = 0; good && i < n; i++) {
@@ -610,7 +610,7 @@ const struct field *ceduo_input_find(struct scene_file *file, const char *path, 
     return find_fitted(&v, path, input);
 }
 
-size_t ceduo_input_count(struct scene_file *file, const char *path)
+size_t ceduo_input_count_places(struct scene_file *file, const char *path)
 {
     struct problems problems = {0};
     struct validator v = validator_of(file, &problems);

@@ -145,8 +145,8 @@ static bool split_only(const struct place *p, struct table *t)
     while (n > 0 && only[n - 1] == ' ')
         n--;
     if (n == 0)
-        return ceduo_complain(p->v, p->at, "only", _("'%s' is not COLUMN=WORD, such as block=1"), only);
-    t->only_name = ceduo_format(p->v, "%.*s", (int)n, only);
+        return ceduo_reject(p->v, p->at, "only", _("'%s' is not COLUMN=WORD, such as block=1"), only);
+    t->only_name = ceduo_asprintf(p->v, "%.*s", (int)n, only);
     t->only_word = equals + 1 + strspn(equals + 1, " ");
     return true;
 }
@@ -163,34 +163,34 @@ static bool find_columns(const struct place *p, struct table *t)
     const struct csv_place begin = csv->next;
     LOCAL_TEXT(all);
     double number;
-    ceduo_csv_find(csv, heads, COLUMNS, t->columns);
-    csv->source->foreign = t->columns[VALUES] == CEDUO_CSV_NONE; /* any file has some column that a scene may name */
+    ceduo_csv_find_head(csv, heads, COLUMNS, t->columns);
+    csv->source->foreign = t->columns[VALUES] == CEDUO_CSV_NOT_FOUND; /* any file has some column that a scene may name */
     size_t *column = &t->columns[p->values->column ? NAMED : VALUES];
-    bool place = p->is->where == CEDUO_WHERE_AT_REST && csv->heads_count > 0 && *column < CEDUO_CSV_TWICE;
-    bool map = place && !p->values->column && t->columns[MAP] != CEDUO_CSV_NONE &&
-               ceduo_csv_among(csv->heads[*column].p, csv->heads[*column].n, "x|x_m");
-    if (*column == CEDUO_CSV_NONE && !p->values->column && csv->heads_count == 1) {
+    bool place = p->is->where == CEDUO_WHERE_AT_REST && csv->heads_count > 0 && *column < CEDUO_CSV_DUPLICATE;
+    bool map = place && !p->values->column && t->columns[MAP] != CEDUO_CSV_NOT_FOUND &&
+               ceduo_csv_matches(csv->heads[*column].p, csv->heads[*column].n, "x|x_m");
+    if (*column == CEDUO_CSV_NOT_FOUND && !p->values->column && csv->heads_count == 1) {
         *column = 0;
         if (ceduo_csv_value(csv, csv->heads[0], &number)) {
             csv->next = begin;
-            ceduo_csv_headless(csv, csv->separator);
+            ceduo_csv_begin_headless(csv, csv->separator);
         }
     }
-    ceduo_csv_names(csv, &all);
+    ceduo_csv_append_heads(csv, &all);
     const char *key = ceduo_node_get(p->node, "column") ? "column" : "csv", *names = ceduo_text_string(&all);
     if (map)
-        return ceduo_complain(p->v, p->at, key,
-                              _("the table has x and y, which are places on a map; name the column that holds the distance "
-                                "along the slope (column); it has: %s"),
-                              names);
-    if (*column == CEDUO_CSV_TWICE)
-        return ceduo_complain(p->v, p->at, key, _("the table has this column twice; rename one: %s"), names);
-    if (*column == CEDUO_CSV_NONE && p->values->column)
-        return ceduo_complain(p->v, p->at, key, _("the table has no column '%s'; it has: %s"), p->values->column, names);
-    if (*column == CEDUO_CSV_NONE)
-        return ceduo_complain(p->v, p->at, key, _("name the column that holds the values (column); the table has: %s"), names);
-    if (t->only_name && t->columns[ONLY] >= CEDUO_CSV_TWICE)
-        return ceduo_complain(p->v, p->at, "only", _("the table has no column '%s'; it has: %s"), t->only_name, names);
+        return ceduo_reject(p->v, p->at, key,
+                            _("the table has x and y, which are places on a map; name the column that holds the distance "
+                              "along the slope (column); it has: %s"),
+                            names);
+    if (*column == CEDUO_CSV_DUPLICATE)
+        return ceduo_reject(p->v, p->at, key, _("the table has this column twice; rename one: %s"), names);
+    if (*column == CEDUO_CSV_NOT_FOUND && p->values->column)
+        return ceduo_reject(p->v, p->at, key, _("the table has no column '%s'; it has: %s"), p->values->column, names);
+    if (*column == CEDUO_CSV_NOT_FOUND)
+        return ceduo_reject(p->v, p->at, key, _("name the column that holds the values (column); the table has: %s"), names);
+    if (t->only_name && t->columns[ONLY] >= CEDUO_CSV_DUPLICATE)
+        return ceduo_reject(p->v, p->at, "only", _("the table has no column '%s'; it has: %s"), t->only_name, names);
     t->columns[VALUES] = *column;
     return true;
 }
@@ -203,9 +203,9 @@ static bool is_wanted(const struct table *t)
         return true;
     struct csv_cell cell = ceduo_csv_cell(&t->csv, t->columns[ONLY]);
     if (ceduo_csv_has_stray_quote(cell))
-        return ceduo_csv_complain(&t->csv, cell, _("a quote within a cell; remove it, or put the cell in quotes"));
-    return ceduo_csv_is(cell, t->only_word) || (ceduo_number_read(t->only_word, &wanted) == CEDUO_NUMBER_GOOD &&
-                                                ceduo_csv_value(&t->csv, cell, &number) && number == wanted);
+        return ceduo_csv_error(&t->csv, cell, _("a quote within a cell; remove it, or put the cell in quotes"));
+    return ceduo_csv_equals(cell, t->only_word) || (ceduo_number_read(t->only_word, &wanted) == CEDUO_NUMBER_GOOD &&
+                                                    ceduo_csv_value(&t->csv, cell, &number) && number == wanted);
 }
 
 /* Note what was read from a table, for the user. */
@@ -222,7 +222,7 @@ static void understand(const struct place *p, const struct table *t, const char 
     if (t->only_name)
         ceduo_text_format(&line, _("; rows with %s = %s"), t->only_name, t->only_word);
     ceduo_csv_describe(&t->csv, t->columns, COLUMNS, "", &line);
-    ceduo_understand(p->v, p->at, ceduo_text_string(&line));
+    ceduo_add_table_note(p->v, p->at, ceduo_text_string(&line));
 }
 
 static bool read_table(const struct place *p, const char *path)
@@ -233,19 +233,19 @@ static bool read_table(const struct place *p, const char *path)
     struct csv *csv = &t.csv;
     if (!split_only(p, &t) || !ceduo_csv_open(csv, v->arena, path, v->problems) || !find_columns(p, &t))
         return false;
-    ceduo_csv_has_numbers(csv, t.columns[VALUES]);
+    ceduo_csv_mark_numeric(csv, t.columns[VALUES]);
     ceduo_csv_scan(csv);
-    to->values = ceduo_room(v, csv->rows, sizeof *to->values);
+    to->values = ceduo_alloc(v, csv->rows, sizeof *to->values);
     if (!to->values)
         return false;
-    while (ceduo_csv_next(csv))
+    while (ceduo_csv_next_row(csv))
         if (!csv->bad && is_wanted(&t) &&
             ceduo_csv_number(csv, ceduo_csv_cell(csv, t.columns[VALUES]), -1e9, 1e9, ceduo_observed_quantity(p->kind)->unit,
                              &to->values[to->values_count]))
             to->values_count++;
     if (to->values_count > 0)
         understand(p, &t, path);
-    return to->values_count > 0 || ceduo_complain(v, p->at, "csv", _("the table has no such row")); /* untaken: complaint */
+    return to->values_count > 0 || ceduo_reject(v, p->at, "csv", _("the table has no such row")); /* untaken: complaint */
 }
 
 /* Values from a table, if they are not listed. False if there is a problem. */
@@ -256,18 +256,18 @@ static bool take_values(const struct place *p)
     size_t before = v->problems->met;
     const struct node *csv = ceduo_node_get(p->node, "csv"), *list = ceduo_node_get(p->node, p->is->list);
     if (csv && list)
-        return ceduo_complain(v, p->at, "csv", _("%s already says this; keep one of the two"), p->is->list);
+        return ceduo_reject(v, p->at, "csv", _("%s already says this; keep one of the two"), p->is->list);
     const char *path = csv ? ceduo_resolve_path(v->arena, csv, "scenes") : NULL;
     if (path)
         return read_table(p, path) && v->problems->met == before;
     if (csv)
-        return ceduo_complain(v, p->at, "csv",
-                              _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), csv->text);
+        return ceduo_reject(v, p->at, "csv",
+                            _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), csv->text);
     if (list && values->values_count == 0)
-        return ceduo_complain(v, p->at, p->is->list, _("the list is empty"));
+        return ceduo_reject(v, p->at, p->is->list, _("the list is empty"));
     const char *of_table = values->column ? "column" : values->only ? "only" : NULL;
     /* untaken: complaint */
-    return !of_table || ceduo_complain(v, p->at, of_table, _("names something of a table; name the table, csv"));
+    return !of_table || ceduo_reject(v, p->at, of_table, _("names something of a table; name the table, csv"));
 }
 
 /* Either values, or their mean, sd and number. */
@@ -276,7 +276,7 @@ static bool check_form(const struct place *p)
     const struct observed_values *values = p->values;
     int means = !isnan(values->mean) + !isnan(values->sd) + (values->n > 0);
     return means == (values->values_count > 0 ? 0 : 3) ||
-           ceduo_complain(p->v, p->at, "", _("give values, or their mean, sd and n")); /* untaken: complaint */
+           ceduo_reject(p->v, p->at, "", _("give values, or their mean, sd and n")); /* untaken: complaint */
 }
 
 /* Whether every value lies on the slope beyond seen_from_m, where rocks stopped there, or is not negative; the first that does
@@ -288,14 +288,14 @@ static bool check_each(const struct place *p)
     bool stops = p->is->where == CEDUO_WHERE_AT_REST;
     for (size_t i = 0; i < values->values_count; i++) {
         double x = values->values[i];
-        const char *path = ceduo_node_get(p->node, "csv") ? ceduo_format(v, "%s.csv", p->at)
-                                                          : ceduo_format(v, "%s.%s[%zu]", p->at, p->is->list, i);
+        const char *path = ceduo_node_get(p->node, "csv") ? ceduo_asprintf(v, "%s.csv", p->at)
+                                                          : ceduo_asprintf(v, "%s.%s[%zu]", p->at, p->is->list, i);
         if (stops && !ceduo_check_on_slope(p->v, path, "", x))
             return false;
         if (stops && x < values->seen_from)
-            return ceduo_complain(v, path, "", _("%s lies before seen_from_m, %s"), NUMERAL(x), NUMERAL(values->seen_from));
+            return ceduo_reject(v, path, "", _("%s lies before seen_from_m, %s"), NUMERAL(x), NUMERAL(values->seen_from));
         if (!stops && x < 0)
-            return ceduo_complain(v, path, "", _("%s is below 0"), NUMERAL(x));
+            return ceduo_reject(v, path, "", _("%s is below 0"), NUMERAL(x));
     }
     return true;
 }
@@ -306,7 +306,7 @@ static bool check_released(const struct place *p)
     const struct observed_values *values = p->values;
     unsigned long long observed = p->is->list ? values->values_count : values->count, of = values->of;
     /* untaken: complaint */
-    return of == 0 || observed <= of || ceduo_complain(p->v, p->at, "of", _("%llu were seen of %llu released"), observed, of);
+    return of == 0 || observed <= of || ceduo_reject(p->v, p->at, "of", _("%llu were seen of %llu released"), observed, of);
 }
 
 static bool check_values(const struct place *p)
@@ -319,8 +319,8 @@ static bool check_values(const struct place *p)
     case CEDUO_WHERE_AT_PLACE:
         return (!p->is->list || check_form(p)) && ceduo_check_on_slope(p->v, p->at, "x_m", values->x) &&
                /* untaken: complaint */
-               (values->x > last || ceduo_complain(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"),
-                                                   NUMERAL(values->x), NUMERAL(last))) &&
+               (values->x > last || ceduo_reject(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"),
+                                                 NUMERAL(values->x), NUMERAL(last))) &&
                (p->is->list ? check_each(p) : check_released(p));
     case CEDUO_WHERE_ON_STEMS: /* of which a rock may strike several */
         return ceduo_check_stretch(p->v, p->at, values->from, values->to) && check_each(p);
@@ -328,7 +328,7 @@ static bool check_values(const struct place *p)
         return check_form(p) && check_each(p);
     case CEDUO_WHERE_ALONG:
         return check_form(p) && check_each(p) &&
-               ceduo_check_stretch(p->v, ceduo_format(p->v, "%s.on_the_way", p->row_path), p->row->way_from, p->row->way_to);
+               ceduo_check_stretch(p->v, ceduo_asprintf(p->v, "%s.on_the_way", p->row_path), p->row->way_from, p->row->way_to);
     }
     return false;
 }
@@ -345,12 +345,12 @@ static void set_name(const struct place *p, struct ceduo_observation *o)
         o->name_given = p->row->name;
         o->name = ceduo_in_language(p->row->name, p->row->name_it);
     } else if (p->is->where == CEDUO_WHERE_AT_PLACE) {
-        o->name_given = ceduo_format(p->v, "%s at %s m", path, NUMERAL(x));
-        o->name = ceduo_format(p->v, _("%s at %s m"), what, ceduo_number_spoken(NUMERAL(x)));
+        o->name_given = ceduo_asprintf(p->v, "%s at %s m", path, NUMERAL(x));
+        o->name = ceduo_asprintf(p->v, _("%s at %s m"), what, ceduo_number_spoken(NUMERAL(x)));
     } else if (p->is->where == CEDUO_WHERE_ALONG) {
-        o->name_given = ceduo_format(p->v, "%s %s-%s m", path, NUMERAL(from), NUMERAL(to));
-        o->name = ceduo_format(p->v, "%s %s\xe2\x80\x93%s m", what, ceduo_number_spoken(NUMERAL(from)),
-                               ceduo_number_spoken(NUMERAL(to)));
+        o->name_given = ceduo_asprintf(p->v, "%s %s-%s m", path, NUMERAL(from), NUMERAL(to));
+        o->name = ceduo_asprintf(p->v, "%s %s\xe2\x80\x93%s m", what, ceduo_number_spoken(NUMERAL(from)),
+                                 ceduo_number_spoken(NUMERAL(to)));
     } else {
         o->name_given = path;
         o->name = what;
@@ -391,7 +391,7 @@ static bool find_option(struct validator *v, const char *path, const struct obse
         ceduo_text_then(&all, *option > 0 ? ", " : "", "%s", name);
     }
     if (row->option)
-        ceduo_complain(v, path, "option", _("the scene has no option '%s'; it has: %s"), row->option, ceduo_text_string(&all));
+        ceduo_reject(v, path, "option", _("the scene has no option '%s'; it has: %s"), row->option, ceduo_text_string(&all));
     return false;
 }
 
@@ -402,19 +402,19 @@ static void validate_row(struct validator *v, const char *path, struct observed 
     bool any = false;
     const struct node *node = ceduo_resolve_at(v->root, path);
     if (ceduo_node_get(node, "rock")) {
-        ceduo_validate_rock(v, ceduo_format(v, "%s.rock", path), &row->rock);
+        ceduo_validate_rock(v, ceduo_asprintf(v, "%s.rock", path), &row->rock);
         shared.rock = &row->rock;
     } else if (v->sized_by_blocks) {
-        ceduo_complain(v, path, "", _("'rock' is missing: blocks have many sizes; give the rock that was observed"));
+        ceduo_reject(v, path, "", _("'rock' is missing: blocks have many sizes; give the rock that was observed"));
     }
     if (ceduo_node_get(node, "release")) {
-        ceduo_validate_release(v, ceduo_format(v, "%s.release", path), &row->release);
+        ceduo_validate_release(v, ceduo_asprintf(v, "%s.release", path), &row->release);
         shared.release = &row->release;
     }
     bool good = find_option(v, path, row, &shared.option) && v->problems->met == before;
     for (int kind = 0; kind < CEDUO_OBSERVED_KINDS; kind++) {
         const struct ceduo_observed_row *is = ceduo_observed_row((enum ceduo_observed_kind)kind);
-        const char *at = ceduo_format(v, "%s.%s", path, is->path);
+        const char *at = ceduo_asprintf(v, "%s.%s", path, is->path);
         const struct place p = {.v = v,
                                 .row = row,
                                 .row_path = path,
@@ -442,18 +442,18 @@ static void validate_row(struct validator *v, const char *path, struct observed 
         if (strncmp(last, key, n + 1) != 0)
             ceduo_text_then(&keys, last[0] ? ", " : "", "%.*s", (int)n, key);
     }
-    ceduo_complain(v, path, "", _("say what was seen, one of: %s"), ceduo_text_string(&keys));
+    ceduo_reject(v, path, "", _("say what was seen, one of: %s"), ceduo_text_string(&keys));
 }
 
 void ceduo_validate_observed(struct validator *v)
 {
     struct observed *rows = v->draft.observed;
     size_t n = v->draft.observed_count;
-    if (n == 0 || !ceduo_is_sound(v, "observed") || !v->profile || ceduo_is_too_long(v, "observed", n))
+    if (n == 0 || !ceduo_is_valid_below(v, "observed") || !v->has_profile || ceduo_is_too_long(v, "observed", n))
         return;
-    v->file->observations = ceduo_room(v, n * CEDUO_OBSERVED_KINDS, sizeof *v->file->observations);
+    v->file->observations = ceduo_alloc(v, n * CEDUO_OBSERVED_KINDS, sizeof *v->file->observations);
     for (size_t i = 0; v->file->observations && i < n; i++)
-        validate_row(v, ceduo_format(v, "observed[%zu]", i), &rows[i]);
+        validate_row(v, ceduo_asprintf(v, "observed[%zu]", i), &rows[i]);
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < i; k++)
             ceduo_check_name(v, "observed", i, rows[i].name, rows[k].name);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rock and its release, whether they are the scene's or those of something observed; the blocks that come down, and the places
- * where they are counted. */
+/* The rock and its release, of the scene or of an observation; the block classes and the controls. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +7,7 @@
 #include "base/language.h"
 #include "validator.h"
 
-/* What each shape is given by, and how that is written. A sphere has one of its keys, the others have all. */
+/* Keys and an example of each shape. A sphere has one of its keys, the other shapes have all. */
 static const struct {
     const char *keys[4], *example;
 } shapes[] = {[CEDUO_SPHERE] = {{"diameter_m", "volume_m3", "mass_kg"}, "diameter_m: 1"},
@@ -20,7 +19,7 @@ static void check_rock(struct validator *v, const char *path, const struct ceduo
 {
     struct ceduo_rock rock;
     if (ceduo_rock_of_means(def, &rock) != CEDUO_OK)
-        ceduo_complain(v, path, "", _("the rock is too small or too large to compute"));
+        ceduo_reject(v, path, "", _("the rock is too small or too large to compute"));
 }
 
 void ceduo_validate_rock(struct validator *v, const char *path, const struct ceduo_rock_def *def)
@@ -28,12 +27,12 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct ced
     static const char *const sizes[] = {"diameter_m", "height_m", "axes_m", "volume_m3"};
     const enum ceduo_shape shape = def->shape;
     const char *const *keys = shapes[shape].keys, *name = ceduo_shape_words.names[shape];
-    const struct node *node = ceduo_resolve_at(v->root, path), *said = ceduo_node_get(node, "shape");
-    bool of_scene = strcmp(path, "rock") == 0, blocks = of_scene && ceduo_node_get(v->root, "blocks");
+    const struct node *node = ceduo_resolve_at(v->root, path), *shape_node = ceduo_node_get(node, "shape");
+    bool is_scene_rock = strcmp(path, "rock") == 0, blocks = is_scene_rock && ceduo_node_get(v->root, "blocks");
     bool by_mass = shape != CEDUO_SPHERE && ceduo_is_given(v, path, "mass_kg");
     size_t before = v->problems->met;
     int n = 0;
-    if (!ceduo_is_known(v, "%s.shape", path))
+    if (!ceduo_is_valid(v, "%s.shape", path))
         return;
     for (size_t i = 0; i < 4; i++) {
         bool belongs = false;
@@ -41,33 +40,33 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct ced
             belongs |= strcmp(keys[k], sizes[i]) == 0;
         if (belongs || !ceduo_node_get(node, sizes[i]))
             continue;
-        if (said && said->source->is_option) /* nothing of the file can be taken out there */
-            ceduo_complain(v, path, sizes[i],
-                           _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), name, name,
-                           shapes[shape].example);
+        if (shape_node && shape_node->source->is_option) /* --set cannot remove a key of the file */
+            ceduo_reject(v, path, sizes[i],
+                         _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), name, name,
+                         shapes[shape].example);
         else
-            ceduo_complain(v, path, sizes[i], _("does not belong to the shape '%s'; remove it"), name);
+            ceduo_reject(v, path, sizes[i], _("does not belong to the shape '%s'; remove it"), name);
     }
     for (size_t i = 0; keys[i]; i++)
         n += ceduo_is_given(v, path, keys[i]);
     bool by_blocks = blocks && !by_mass && n == 0;
     for (size_t i = 0; keys[i] && shape != CEDUO_SPHERE && !by_blocks; i++)
         if (!ceduo_is_given(v, path, keys[i]))
-            ceduo_complain(v, path, "", _("'%s' is missing: the shape '%s' needs it"), keys[i], name);
+            ceduo_reject(v, path, "", _("'%s' is missing: the shape '%s' needs it"), keys[i], name);
     if (shape == CEDUO_SPHERE && n != 1 && !by_blocks)
-        ceduo_complain(
-            v, path, "",
-            blocks ? _("blocks say how large the rocks are: a sphere needs none of diameter_m, volume_m3 and mass_kg, or "
-                       "one, here %d are given")
-                   : _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"),
-            n);
+        ceduo_reject(v, path, "",
+                     blocks
+                         ? _("blocks say how large the rocks are: a sphere needs none of diameter_m, volume_m3 and mass_kg, or "
+                             "one, here %d are given")
+                         : _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"),
+                     n);
     if (shape != CEDUO_SPHERE && ceduo_node_get(node, "mass_kg") && ceduo_node_get(node, "density_kg_m3"))
-        ceduo_complain(v, path, "density_kg_m3", _("%s already says this; keep one of the two"), "mass_kg");
-    if (of_scene && !ceduo_is_given(v, path, "density_kg_m3") && !by_mass)
+        ceduo_reject(v, path, "density_kg_m3", _("%s already says this; keep one of the two"), "mass_kg");
+    if (is_scene_rock && !ceduo_is_given(v, path, "density_kg_m3") && !by_mass)
         ceduo_assume(v, "rock.density_kg_m3",
-                     ceduo_format(v, _("density of limestone, %g kg/m3"), ceduo_scene_default().rock.density.mean));
-    v->sized_by_blocks |= by_blocks && before == v->problems->met && ceduo_is_sound(v, path);
-    if (before == v->problems->met && ceduo_is_sound(v, path) && !by_blocks)
+                     ceduo_asprintf(v, _("density of limestone, %g kg/m3"), ceduo_scene_default().rock.density.mean));
+    v->sized_by_blocks |= by_blocks && before == v->problems->met && ceduo_is_valid_below(v, path);
+    if (before == v->problems->met && ceduo_is_valid_below(v, path) && !by_blocks)
         check_rock(v, path, def);
 }
 
@@ -75,18 +74,18 @@ void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_
 {
     const struct ceduo_slope *slope = &v->draft.scene.slope;
     struct ceduo_number *x = &release->x;
-    path = ceduo_format(v, "%s.x_m", path);
+    path = ceduo_asprintf(v, "%s.x_m", path);
     release->x_assumed = isnan(x->mean);
     x->mean = release->x_assumed ? 0 : x->mean - v->origin;
-    if (!v->profile || !ceduo_is_sound(v, path))
+    if (!v->has_profile || !ceduo_is_valid_below(v, path))
         return;
     double end = slope->x[slope->vertices - 1], first = ceduo_number_lowest(*x), last = ceduo_number_highest(*x);
     if (!(first >= 0) || !(last < end))
-        ceduo_complain(v, path, "", _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
-                       NUMERAL((first >= 0 ? last : first) + v->origin), NUMERAL(v->origin), NUMERAL(end + v->origin));
+        ceduo_reject(v, path, "", _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
+                     NUMERAL((first >= 0 ? last : first) + v->origin), NUMERAL(v->origin), NUMERAL(end + v->origin));
 }
 
-/* ---- the blocks that come down ---- */
+/* ---- blocks ---- */
 
 /* Integral of e^(a u) over u from 0 to `length`. */
 static double integral(double a, double length)
@@ -94,27 +93,26 @@ static double integral(double a, double length)
     return a == 0 ? length : ceduo_expm1(a * length) / a;
 }
 
-/* Return the mean volume of the blocks that come down, m3. */
+/* Return the mean volume of the blocks, m3, weighted by their frequency. */
 static double mean_volume(const struct ceduo_scene *scene)
 {
     double volume = 0, per_year = 0;
     for (size_t i = 0; i < scene->blocks_count; i++) {
         const struct ceduo_block_class *b = &scene->blocks[i];
-        double length = ceduo_log(b->volumes[1] / b->volumes[0]); /* number of ln(v) goes with e^(-exponent ln v) */
+        double length = ceduo_log(b->volumes[1] / b->volumes[0]); /* density of ln v: proportional to e^(-exponent ln v) */
         volume += b->per_year * b->volumes[0] * integral(1 - b->exponent, length) / integral(-b->exponent, length);
         per_year += b->per_year;
     }
     return volume / per_year;
 }
 
-/* Gives a rock without a size that of the mean block, all dimensions equal: figures that are of one rock, such as the ADC, are of
- * that. */
+/* Set the size of a rock without one to the mean block, all dimensions equal. Figures of a single rock, such as the ADC, use it. */
 static void size_by_blocks(struct validator *v)
 {
     struct ceduo_rock_def *rock = &v->draft.scene.rock;
     const double volume = mean_volume(&v->draft.scene);
-    const double full = rock->shape == CEDUO_CYLINDER ? 4 / M_PI : rock->shape == CEDUO_ELLIPSOID ? 6 / M_PI : 1;
-    const struct ceduo_number edge = ceduo_number(ceduo_cbrt(volume * full));
+    const double box = rock->shape == CEDUO_CYLINDER ? 4 / M_PI : rock->shape == CEDUO_ELLIPSOID ? 6 / M_PI : 1;
+    const struct ceduo_number edge = ceduo_number(ceduo_cbrt(volume * box));
     if (rock->shape == CEDUO_SPHERE)
         rock->volume = ceduo_number(volume);
     else if (rock->shape == CEDUO_CYLINDER)
@@ -133,101 +131,101 @@ void ceduo_validate_blocks(struct validator *v)
     size_t n = scene->blocks_count;
     if (!blocks)
         return;
-    if (n == 0 && ceduo_is_known(v, "blocks"))
-        ceduo_complain(v, "blocks", "", _("the list is empty"));
+    if (n == 0 && ceduo_is_valid(v, "blocks"))
+        ceduo_reject(v, "blocks", "", _("the list is empty"));
     const struct ceduo_rock_def *r = &scene->rock;
     bool spreads = r->diameter.spread > 0 || r->volume.spread > 0 || r->mass.spread > 0;
     if (ceduo_node_get(v->root, "rocks_per_year"))
-        ceduo_complain(v, "rocks_per_year", "", _("%s already says this; keep one of the two"), "blocks");
+        ceduo_reject(v, "rocks_per_year", "", _("%s already says this; keep one of the two"), "blocks");
     if (blocks->kind == NODE_MAP && !ceduo_is_given(v, "blocks", "exponent"))
-        ceduo_complain(v, "blocks", "",
-                       _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
-    if (r->shape == CEDUO_SPHERE && spreads && ceduo_is_sound(v, "rock")) /* whose proportions are always the same */
-        ceduo_complain(v, "rock", "", _("blocks say how large the rocks are; remove the size, or give it without a spread"));
-    if (ceduo_is_too_long(v, "blocks", n) || !ceduo_is_sound(v, "blocks"))
+        ceduo_reject(v, "blocks", "", _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
+    if (r->shape == CEDUO_SPHERE && spreads && ceduo_is_valid_below(v, "rock")) /* a sphere has no proportions */
+        ceduo_reject(v, "rock", "", _("blocks say how large the rocks are; remove the size, or give it without a spread"));
+    if (ceduo_is_too_long(v, "blocks", n) || !ceduo_is_valid_below(v, "blocks"))
         return;
     bool good = true, single = blocks->kind == NODE_MAP;
     scene->rocks_per_year = n > 0 ? 0 : NAN;
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_block_class *b = &scene->blocks[i];
-        const char *path = single ? "blocks.volume_m3" : ceduo_format(v, "blocks[%zu].volume_m3", i);
+        const char *path = single ? "blocks.volume_m3" : ceduo_asprintf(v, "blocks[%zu].volume_m3", i);
         bool two = b->volumes_count == 2, rise = two && b->volumes[0] < b->volumes[1];
         scene->rocks_per_year += b->per_year;
         if (!two)
-            ceduo_complain(v, path, "", _("expected %s"), "[lo, hi]");
+            ceduo_reject(v, path, "", _("expected %s"), "[lo, hi]");
         else if (!rise)
-            ceduo_complain(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"), NUMERAL(b->volumes[0]),
-                           NUMERAL(b->volumes[1]));
+            ceduo_reject(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"), NUMERAL(b->volumes[0]),
+                         NUMERAL(b->volumes[1]));
         good &= rise;
     }
-    for (size_t i = 0; i < n && good; i++) { /* of those before it none may hold the same sizes */
+    for (size_t i = 0; i < n && good; i++) { /* classes must not overlap */
         const struct ceduo_block_class *b = scene->blocks;
         size_t k = 0;
         while (k < i && !(b[i].volumes[0] < b[k].volumes[1] && b[k].volumes[0] < b[i].volumes[1]))
             k++;
         if (k < i)
-            ceduo_complain(v, ceduo_format(v, "blocks[%zu].volume_m3", i), "",
-                           _("the class overlaps one before it, from %s to %s m3; let them touch at most"),
-                           NUMERAL(b[k].volumes[0]), NUMERAL(b[k].volumes[1]));
+            ceduo_reject(v, ceduo_asprintf(v, "blocks[%zu].volume_m3", i), "",
+                         _("the class overlaps one before it, from %s to %s m3; let them touch at most"),
+                         NUMERAL(b[k].volumes[0]), NUMERAL(b[k].volumes[1]));
     }
     if (v->sized_by_blocks && good && n > 0)
         size_by_blocks(v);
 }
 
-/* ---- where they are counted ---- */
+/* ---- controls ---- */
 
-/* With blocks an accepted energy is judged by how often it is exceeded. */
+/* Check accepted_return_y, which requires blocks; otherwise add its default as an assumption. */
 static void check_return(struct validator *v, size_t i, const struct ceduo_control *c)
 {
-    const char *path = ceduo_format(v, "controls[%zu].accepted_return_y", i);
+    const char *path = ceduo_asprintf(v, "controls[%zu].accepted_return_y", i);
     bool given = ceduo_resolve_at(v->root, path), blocks = ceduo_node_get(v->root, "blocks");
-    if (given && !blocks && ceduo_is_known(v, "%s", path))
-        ceduo_complain(v, path, "", _("nothing says how often rocks come down; add 'blocks', or remove this"));
+    if (given && !blocks && ceduo_is_valid(v, "%s", path))
+        ceduo_reject(v, path, "", _("nothing says how often rocks come down; add 'blocks', or remove this"));
     else if (!given && blocks && !isnan(c->accepted))
-        ceduo_assume(v, path,
-                     ceduo_format(v,
-                                  ngettext("a rock above the accepted energy may come once in %d year",
-                                           "a rock above the accepted energy may come once in %d years", CEDUO_ACCEPTED_RETURN),
-                                  CEDUO_ACCEPTED_RETURN));
+        ceduo_assume(
+            v, path,
+            ceduo_asprintf(v,
+                           ngettext("a rock above the accepted energy may come once in %d year",
+                                    "a rock above the accepted energy may come once in %d years", CEDUO_ACCEPTED_RETURN),
+                           CEDUO_ACCEPTED_RETURN));
 }
 
 void ceduo_validate_controls(struct validator *v)
 {
     struct ceduo_scene *scene = &v->draft.scene;
-    bool listed = scene->controls_count > 0;
-    size_t n = listed ? scene->controls_count : v->draft.controls_m_count;
-    const char *path = listed ? "controls" : "controls_m";
+    bool has_list = scene->controls_count > 0;
+    size_t n = has_list ? scene->controls_count : v->draft.controls_m_count;
+    const char *path = has_list ? "controls" : "controls_m";
     scene->controls_count = 0;
-    if (!ceduo_is_known(v, "controls") || !ceduo_is_known(v, "controls_m"))
+    if (!ceduo_is_valid(v, "controls") || !ceduo_is_valid(v, "controls_m"))
         return;
     if (n == 0) {
-        ceduo_complain(v, "", "", _("'controls' is missing: name at least one place where passing rocks are counted"));
+        ceduo_reject(v, "", "", _("'controls' is missing: name at least one place where passing rocks are counted"));
         return;
     }
-    if (ceduo_is_too_long(v, path, n) || (!listed && !(scene->controls = ceduo_room(v, n, sizeof *scene->controls))))
+    if (ceduo_is_too_long(v, path, n) || (!has_list && !(scene->controls = ceduo_alloc(v, n, sizeof *scene->controls))))
         return;
-    bool starts = v->profile && ceduo_is_sound(v, "release.x_m");
-    double last = starts ? ceduo_number_highest(scene->release.x) : -INFINITY;
+    bool has_release = v->has_profile && ceduo_is_valid_below(v, "release.x_m");
+    double last = has_release ? ceduo_number_highest(scene->release.x) : -INFINITY;
     for (size_t i = 0; i < n; i++) {
         struct ceduo_control *c = &scene->controls[i];
-        const char *at = ceduo_format(v, listed ? "%s[%zu].x_m" : "%s[%zu]", path, i);
+        const char *item = ceduo_asprintf(v, has_list ? "%s[%zu].x_m" : "%s[%zu]", path, i);
         size_t k = 0;
-        if (!listed) { /* by its x alone */
+        if (!has_list) {
             ceduo_schema_init(ceduo_schema_field(ceduo_schema_scene(), "controls")->object, c);
             c->x_given = v->draft.controls_m[i];
         }
         c->name = (char *)(uintptr_t)ceduo_in_language(c->name_given, c->name);
         c->x = c->x_given - v->origin;
-        const char *here = NUMERAL(c->x_given);
+        const char *x = NUMERAL(c->x_given);
         while (k < i && scene->controls[k].x != c->x)
             k++;
         check_return(v, i, c);
-        if (!ceduo_check_on_slope(v, at, "", c->x_given))
+        if (!ceduo_check_on_slope(v, item, "", c->x_given))
             continue;
         if (c->x <= last)
-            ceduo_complain(v, at, "", _("%s does not lie beyond the release, %s m"), here, NUMERAL(last + v->origin));
+            ceduo_reject(v, item, "", _("%s does not lie beyond the release, %s m"), x, NUMERAL(last + v->origin));
         else if (k < i)
-            ceduo_complain(v, at, "", _("'%s' is given twice"), here);
+            ceduo_reject(v, item, "", _("'%s' is given twice"), x);
     }
     scene->controls_count = n;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The slope: vertices from the scene or a CSV file, made relative to the first; then the ground of each segment, given
- * directly, by materials, or talus. A slope whose nodes are those of the last time is taken over whole. */
+/* The slope: vertices from the scene or a CSV file, relative to the first; then the ground of each segment, given directly, by
+ * materials, or talus. A slope is reused if its nodes are unchanged. */
 #include <math.h>
 #include <string.h>
 
@@ -27,56 +27,56 @@ static bool read_vertices(struct validator *v, struct points *p)
     const struct ceduo_slope *s = &v->draft.scene.slope;
     bool csv = ceduo_is_given(v, "slope", "csv"), list = ceduo_is_given(v, "slope", "vertices_m");
     if (!csv && !list)
-        return ceduo_complain(v, "slope", "", _("'vertices_m' is missing: the profile"));
+        return ceduo_reject(v, "slope", "", _("'vertices_m' is missing: the profile"));
     *p = (struct points){.x = s->x, .z = s->z, .n = s->vertices};
-    if (list || !ceduo_is_known(v, "slope.csv"))
-        return list && ceduo_is_known(v, "slope.vertices_m");
+    if (list || !ceduo_is_valid(v, "slope.csv"))
+        return list && ceduo_is_valid(v, "slope.vertices_m");
     const struct node *node = ceduo_node_get(ceduo_node_get(v->root, "slope"), "csv");
     const char *path = ceduo_resolve_path(v->arena, node, "slopes");
     if (!path)
-        ceduo_complain(v, "slope.csv", "", _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
-                       node->text);
+        ceduo_reject(v, "slope.csv", "", _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
+                     node->text);
     bool good = read_table(v, path, p, v->problems);
     if (good && p->understood)
-        ceduo_understand(v, "slope.csv", p->understood);
+        ceduo_add_table_note(v, "slope.csv", p->understood);
     return good;
 }
 
-/* Rocks go along x, so x must rise and the profile fall; one that was drawn from below is known by its ends. */
+/* Check the profile: x must rise and z must fall. The end points show whether a profile was drawn uphill. */
 static bool check_vertices(struct validator *v, const struct points *p)
 {
     bool csv = !ceduo_is_given(v, "slope", "vertices_m"), reversed = v->draft.scene.slope.reversed, rising = true;
     const char *path = csv ? "slope.csv" : "slope.vertices_m";
     if (p->n < 2)
-        return ceduo_complain(v, path, "", _("a profile needs two points or more"));
+        return ceduo_reject(v, path, "", _("a profile needs two points or more"));
     for (size_t i = 1; i < p->n; i++)
         if (p->x[i] <= p->x[i - 1]) {
-            ceduo_complain(v, ceduo_format(v, "slope.vertices_m[%zu]", i), "",
-                           _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"),
-                           NUMERAL(p->x[i]), NUMERAL(p->x[i - 1]));
+            ceduo_reject(v, ceduo_asprintf(v, "slope.vertices_m[%zu]", i), "",
+                         _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"),
+                         NUMERAL(p->x[i]), NUMERAL(p->x[i - 1]));
             rising = false;
         }
-    if (!rising || (!csv && !ceduo_is_sound(v, "slope.vertices_m")))
+    if (!rising || (!csv && !ceduo_is_valid_below(v, "slope.vertices_m")))
         return false;
     double first = p->z[0], last = p->z[p->n - 1];
     if (last > first && !reversed)
-        ceduo_complain(v, path, "",
-                       _("the profile rises, from %s to %s m, and rocks go along x: if it was drawn upward, write "
-                         "'reversed: true' in slope, which mirrors it with its ground"),
-                       NUMERAL(first), NUMERAL(last));
+        ceduo_reject(v, path, "",
+                     _("the profile rises, from %s to %s m, and rocks go along x: if it was drawn upward, write "
+                       "'reversed: true' in slope, which mirrors it with its ground"),
+                     NUMERAL(first), NUMERAL(last));
     else if (last < first && reversed)
-        ceduo_complain(v, "slope.reversed", "", _("the profile falls already, from %s to %s m; leave 'reversed' out"),
-                       NUMERAL(first), NUMERAL(last));
+        ceduo_reject(v, "slope.reversed", "", _("the profile falls already, from %s to %s m; leave 'reversed' out"),
+                     NUMERAL(first), NUMERAL(last));
     return reversed ? last >= first : last <= first;
 }
 
-/* Vertices relative to the first, with room for so many more. */
+/* Set the vertices, relative to the first. Allocate capacity for `extra` more. */
 static bool make_vertices(struct validator *v, const struct points *p, size_t extra)
 {
     struct ceduo_slope *s = &v->draft.scene.slope;
     size_t last = p->n - 1;
-    s->x = ceduo_room(v, p->n + extra, sizeof(double));
-    s->z = ceduo_room(v, p->n + extra, sizeof(double));
+    s->x = ceduo_alloc(v, p->n + extra, sizeof(double));
+    s->z = ceduo_alloc(v, p->n + extra, sizeof(double));
     if (!s->x || !s->z)
         return false;
     s->vertices = s->points = p->n;
@@ -89,55 +89,54 @@ static bool make_vertices(struct validator *v, const struct points *p, size_t ex
         s->z[i] = p->z[s->reversed ? last - i : i] - s->origin_z;
     }
     v->origin = s->origin_x;
-    v->profile = true;
+    v->has_profile = true;
     return true;
 }
 
 /* ---- the ground ---- */
 
-/* `p`: the profile, as far as it is known */
+/* `p`: the profile; n = 0: unknown. */
 static void check_materials(struct validator *v, const struct points *p)
 {
     const struct material_belt *rows = v->draft.materials;
     size_t n = v->draft.materials_count, before = v->problems->met;
     if (n == 0)
-        ceduo_complain(v, "slope.materials", "", _("the list is empty"));
+        ceduo_reject(v, "slope.materials", "", _("the list is empty"));
     for (size_t i = 0; i < n; i++) {
-        double wanted = i > 0 ? rows[i - 1].to : p->n > 0 ? p->x[0] : NAN;
-        const char *path = ceduo_format(v, "slope.materials[%zu]", i);
-        if (ceduo_check_ends_behind(v, path, rows[i].from, rows[i].to) &&
-            (rows[i].from > wanted || (i > 0 && rows[i].from < wanted)))
-            ceduo_complain(v, path, "from_m", _("%s leaves a gap or overlaps; it must begin at %s"), NUMERAL(rows[i].from),
-                           NUMERAL(wanted));
+        double begin = i > 0 ? rows[i - 1].to : p->n > 0 ? p->x[0] : NAN;
+        const char *path = ceduo_asprintf(v, "slope.materials[%zu]", i);
+        if (ceduo_check_order(v, path, rows[i].from, rows[i].to) && (rows[i].from > begin || (i > 0 && rows[i].from < begin)))
+            ceduo_reject(v, path, "from_m", _("%s leaves a gap or overlaps; it must begin at %s"), NUMERAL(rows[i].from),
+                         NUMERAL(begin));
     }
     if (v->problems->met == before && p->n > 0 && rows[n - 1].to < p->x[p->n - 1])
-        ceduo_complain(v, ceduo_format(v, "slope.materials[%zu]", n - 1), "to_m", _("%s ends before the profile, at %s"),
-                       NUMERAL(rows[n - 1].to), NUMERAL(p->x[p->n - 1]));
+        ceduo_reject(v, ceduo_asprintf(v, "slope.materials[%zu]", n - 1), "to_m", _("%s ends before the profile, at %s"),
+                     NUMERAL(rows[n - 1].to), NUMERAL(p->x[p->n - 1]));
 }
 
-/* What no file says: only the law arm has a mu. */
+/* Add the assumption of mu, which no file gives. Only the law arm uses it. */
 static void assume_mu(struct validator *v, const char *path)
 {
     if (v->draft.scene.simulation.law == CEDUO_LAW_ARM)
-        ceduo_assume(v, path, ceduo_format(v, _("friction mu %g where a rock strikes"), ceduo_segment_default().mu));
+        ceduo_assume(v, path, ceduo_asprintf(v, _("friction mu %g where a rock strikes"), ceduo_segment_default().mu));
 }
 
-/* The first segment that does not say `key`; NULL: each says it. */
-static const char *lacking(struct validator *v, const char *key)
+/* Return the path of the first segment without `key`; NULL: none. */
+static const char *find_segment_without(struct validator *v, const char *key)
 {
     const struct node *nodes = ceduo_node_get(ceduo_node_get(v->root, "slope"), "segments");
     for (size_t i = 0; i < nodes->n; i++)
         if (!ceduo_node_get(nodes->items[i], key))
-            return ceduo_format(v, "slope.segments[%zu]", i);
+            return ceduo_asprintf(v, "slope.segments[%zu]", i);
     return NULL;
 }
 
 static void make_segments(struct validator *v)
 {
     struct ceduo_slope *s = &v->draft.scene.slope;
-    const char *friction = lacking(v, "friction"), *mu = lacking(v, "mu");
+    const char *friction = find_segment_without(v, "friction"), *mu = find_segment_without(v, "mu");
     if (friction)
-        ceduo_assume(v, friction, ceduo_format(v, _("friction %g of a rolling rock"), ceduo_segment_default().friction));
+        ceduo_assume(v, friction, ceduo_asprintf(v, _("friction %g of a rolling rock"), ceduo_segment_default().friction));
     if (mu)
         assume_mu(v, mu);
     for (size_t i = 0, k = s->segments_given - 1; s->reversed && i < k; i++, k--) {
@@ -148,13 +147,13 @@ static void make_segments(struct validator *v)
     if (s->segments_given != 1)
         return;
     const struct ceduo_segment all = s->segments[0];
-    s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);
+    s->segments = ceduo_alloc(v, s->vertices - 1, sizeof *s->segments);
     for (size_t i = 0; s->segments && i + 1 < s->vertices; i++)
         s->segments[i] = all;
 }
 
-/* Ground of the library, with the values of the belt that are given instead. */
-static struct ceduo_segment segment_of(const struct ceduo_material *row, const struct material_belt *belt)
+/* Make a segment from a ground of the library. Values of the belt replace those of the library. */
+static struct ceduo_segment make_segment(const struct ceduo_material *row, const struct material_belt *belt)
 {
     struct ceduo_segment segment = ceduo_segment_default();
     segment.rn = ceduo_number(isnan(belt->rn) ? row->rn : belt->rn);
@@ -166,7 +165,7 @@ static struct ceduo_segment segment_of(const struct ceduo_material *row, const s
     return segment;
 }
 
-/* A vertex where the ground changes within a segment; on the line, so that it changes nothing else. */
+/* Add a vertex where the ground changes within a segment. It lies on the line, so the shape is unchanged. */
 static void split_at(struct ceduo_slope *s, double x)
 {
     size_t j = ceduo_slope_segment(s, x);
@@ -186,16 +185,16 @@ static void make_materials(struct validator *v)
     size_t n = v->draft.materials_count, count;
     const struct ceduo_material *library = ceduo_materials(&count);
     struct material_belt *rows = v->draft.materials;
-    if (s->reversed && (rows = ceduo_room(v, n, sizeof *rows))) /* as they lie on a profile that was mirrored */
+    if (s->reversed && (rows = ceduo_alloc(v, n, sizeof *rows))) /* mirrored like the profile */
         for (size_t i = 0; i < n; i++) {
             const struct material_belt *row = &v->draft.materials[n - 1 - i];
             rows[i] = *row;
             rows[i].from = ceduo_slope_mirrored(s, row->to);
             rows[i].to = ceduo_slope_mirrored(s, row->from);
         }
-    if (n > 1) { /* the points of the file stay beside the borders of the grounds */
-        s->points_x = ceduo_room(v, s->points, sizeof(double));
-        s->points_z = ceduo_room(v, s->points, sizeof(double));
+    if (n > 1) { /* keep the points of the file apart from the borders between grounds */
+        s->points_x = ceduo_alloc(v, s->points, sizeof(double));
+        s->points_z = ceduo_alloc(v, s->points, sizeof(double));
         if (!s->points_x || !s->points_z)
             return;
         memcpy(s->points_x, s->x, s->points * sizeof(double));
@@ -203,7 +202,7 @@ static void make_materials(struct validator *v)
     }
     for (size_t i = 1; rows && i < n; i++)
         split_at(s, rows[i].from - v->origin);
-    s->segments = rows ? ceduo_room(v, s->vertices - 1, sizeof *s->segments) : NULL;
+    s->segments = rows ? ceduo_alloc(v, s->vertices - 1, sizeof *s->segments) : NULL;
     if (!s->segments)
         return;
     ceduo_assume(v, "slope.materials", _("roughness and friction of the library's grounds, and all of its rows -v4"));
@@ -211,22 +210,21 @@ static void make_materials(struct validator *v)
     for (size_t j = 0, row = 0; j + 1 < s->vertices; j++) {
         while (row + 1 < n && s->x[j] >= rows[row + 1].from - v->origin)
             row++;
-        s->segments[j] = segment_of(&library[rows[row].material], &rows[row]);
+        s->segments[j] = make_segment(&library[rows[row].material], &rows[row]);
     }
 }
 
-/* The slope as it was made before, where its part of the document is the same one: an edit elsewhere costs nothing,
- * however long the profile. */
+/* Reuse the last slope if its part of the document is unchanged: an edit elsewhere then costs nothing. */
 static bool reuse_slope(struct validator *v)
 {
     const struct scene_file *previous = v->previous;
     const struct node *node = ceduo_node_get(v->root, "slope");
-    bool same_law = previous->scene.simulation.law == v->draft.scene.simulation.law; /* which decides what is assumed */
+    bool same_law = previous->scene.simulation.law == v->draft.scene.simulation.law; /* the law decides about assumptions */
     if (!node || node != previous->slope_node || !same_law)
         return false;
     v->draft.scene.slope = previous->scene.slope;
     v->origin = previous->scene.slope.origin_x;
-    v->profile = true;
+    v->has_profile = true;
     v->file->ground_assumed = previous->ground_assumed;
     for (const struct source_note *n = previous->notes; n; n = n->before)
         if (strncmp(n->path, "slope", 5) != 0 || !n->made || strcmp(n->path, TOLERANCE) == 0)
@@ -234,7 +232,7 @@ static bool reuse_slope(struct validator *v)
         else if (strcmp(n->kind, "assumed") == 0)
             ceduo_assume(v, n->path, n->text);
         else if (strcmp(n->kind, CEDUO_NOTE_TABLE) == 0)
-            ceduo_understand(v, n->path, n->text);
+            ceduo_add_table_note(v, n->path, n->text);
     return true;
 }
 
@@ -244,7 +242,7 @@ double ceduo_validate_end(void *validator)
     const struct node *slope = ceduo_node_get(v->root, "slope"), *csv = ceduo_node_get(slope, "csv");
     const struct node *list = ceduo_node_get(slope, "vertices_m");
     const struct ceduo_slope *before = slope && v->previous->slope_node == slope ? &v->previous->scene.slope : NULL;
-    LOCAL_PROBLEMS(problems); /* they are reported when the slope is validated */
+    LOCAL_PROBLEMS(problems); /* ignored: ceduo_validate_slope() reports them */
     struct points p = {0};
     double end = NAN;
     if (before)
@@ -263,7 +261,7 @@ void ceduo_validate_slope(struct validator *v)
 {
     struct ceduo_slope *s = &v->draft.scene.slope;
     struct points p = {0};
-    if (reuse_slope(v) || !ceduo_is_known(v, "slope"))
+    if (reuse_slope(v) || !ceduo_is_valid(v, "slope"))
         return;
     bool profile = read_vertices(v, &p) && check_vertices(v, &p);
     bool segments = ceduo_is_given(v, "slope", "segments"), materials = ceduo_is_given(v, "slope", "materials");
@@ -271,19 +269,19 @@ void ceduo_validate_slope(struct validator *v)
         return;
     size_t before = v->problems->met;
     if (!segments && !materials && !ceduo_is_given(v, "slope", "csv"))
-        ceduo_complain(v, "slope", "", _("'segments' or 'materials' is missing: the ground"));
+        ceduo_reject(v, "slope", "", _("'segments' or 'materials' is missing: the ground"));
     const double smooth = ceduo_schema_default(ceduo_schema_field(ceduo_schema_segment(), "roughness_rad"));
-    bool known = segments && ceduo_is_known(v, "slope.segments");
+    bool known = segments && ceduo_is_valid(v, "slope.segments");
     if (known && p.n > 1 && s->segments_given != 1 && s->segments_given != p.n - 1)
-        ceduo_complain(v, "slope.segments", "",
-                       _("%zu segments for %zu stretches between vertices; give one for each, or one for all"),
-                       s->segments_given, p.n - 1);
+        ceduo_reject(v, "slope.segments", "",
+                     _("%zu segments for %zu stretches between vertices; give one for each, or one for all"), s->segments_given,
+                     p.n - 1);
     for (size_t i = 0; known && i < s->segments_given; i++)
         if (isnan(s->segments[i].roughness_m) && isnan(s->segments[i].roughness_rad))
             s->segments[i].roughness_rad = smooth;
-    if (materials && !segments && ceduo_is_known(v, "slope.materials"))
+    if (materials && !segments && ceduo_is_valid(v, "slope.materials"))
         check_materials(v, &p);
-    if (!v->profile || v->problems->met > before || !ceduo_is_sound(v, "slope"))
+    if (!v->has_profile || v->problems->met > before || !ceduo_is_valid_below(v, "slope"))
         return;
     if (segments)
         make_segments(v);
@@ -293,61 +291,60 @@ void ceduo_validate_slope(struct validator *v)
         v->file->ground_assumed = true;
         ceduo_assume(v, "slope", _("talus everywhere, its roughness and friction too"));
         assume_mu(v, "slope");
-        s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);
-        const struct material_belt all = {.rn = NAN, .rt = NAN, .roughness = NAN, .friction = NAN, .mu = NAN};
+        s->segments = ceduo_alloc(v, s->vertices - 1, sizeof *s->segments);
+        const struct material_belt none = {.rn = NAN, .rt = NAN, .roughness = NAN, .friction = NAN, .mu = NAN};
         for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
-            s->segments[j] = segment_of(ceduo_material_talus(), &all);
+            s->segments[j] = make_segment(ceduo_material_talus(), &none);
     }
     if (s->segments && ceduo_slope_check(s) != CEDUO_OK)
-        ceduo_complain(v, "slope", "", _("two vertices lie too close together for their distance from the first"));
+        ceduo_reject(v, "slope", "", _("two vertices lie too close together for their distance from the first"));
     bool given = ceduo_is_given(v, "slope", "tolerance_m");
     if (given && s->tolerance > 0 && s->segments_given > 1)
-        ceduo_complain(
-            v, TOLERANCE, "",
-            _("each stretch between two points has a ground of its own here; remove 'tolerance_m', or give one ground "
-              "for all, or 'materials'"));
+        ceduo_reject(v, TOLERANCE, "",
+                     _("each stretch between two points has a ground of its own here; remove 'tolerance_m', or give one ground "
+                       "for all, or 'materials'"));
     if (!given && segments)
         s->tolerance = 0;
 }
 
-/* Number of points that a tolerance leaves. */
-static size_t points_left(const struct ceduo_slope *slope, double tolerance, double release_x)
+/* Count the points after simplification with a tolerance, m. */
+static size_t count_points(const struct ceduo_slope *slope, double tolerance, double release_x)
 {
-    struct ceduo_slope other = *slope, to;
-    other.tolerance = tolerance;
-    if (ceduo_slope_simplify(&other, release_x, &to) != CEDUO_OK)
+    struct ceduo_slope copy = *slope, to;
+    copy.tolerance = tolerance;
+    if (ceduo_slope_simplify(&copy, release_x, &to) != CEDUO_OK)
         ceduo_no_memory();
     size_t n = to.x ? to.vertices : slope->vertices;
     ceduo_slope_simplified_free(&to);
     return n;
 }
 
-/* The tolerance is an assumption unless the file has it, or another one would leave the same points. A slope that was taken over as
- * it was simplified keeps the answer of the last time. */
+/* Add the tolerance as an assumption, unless the file gives it or both ends of its range keep equally many points. A reused slope
+ * keeps its last answer. */
 static void assume_tolerance(struct validator *v, double release_x)
 {
     const struct ceduo_slope *s = &v->draft.scene.slope;
     const struct range *range = ceduo_range_of(ceduo_schema_at(TOLERANCE));
     if (!(s->tolerance > 0) || ceduo_is_given(v, "slope", "tolerance_m"))
         return;
-    bool taken_over = s->simplified_to == s->tolerance && s->simplified_at == release_x;
-    if (taken_over ? ceduo_notes_say(v->previous->notes, "assumed", TOLERANCE)
-                   : points_left(s, range->lo, release_x) != points_left(s, range->hi, release_x))
-        ceduo_assume(v, TOLERANCE, ceduo_format(v, _("profile simplified to %g m"), s->tolerance));
+    bool reused = s->simplified_to == s->tolerance && s->simplified_at == release_x;
+    if (reused ? ceduo_notes_say(v->previous->notes, "assumed", TOLERANCE)
+               : count_points(s, range->lo, release_x) != count_points(s, range->hi, release_x))
+        ceduo_assume(v, TOLERANCE, ceduo_asprintf(v, _("profile simplified to %g m"), s->tolerance));
 }
 
 void ceduo_simplify_slope(struct validator *v)
 {
     struct ceduo_slope *s = &v->draft.scene.slope, to;
-    if (!v->profile || !s->segments || !ceduo_is_sound(v, "slope") || !ceduo_is_sound(v, "release.x_m"))
+    if (!v->has_profile || !s->segments || !ceduo_is_valid_below(v, "slope") || !ceduo_is_valid_below(v, "release.x_m"))
         return;
     assume_tolerance(v, v->draft.scene.release.x.mean);
     if (ceduo_slope_simplify(s, v->draft.scene.release.x.mean, &to) != CEDUO_OK)
         ceduo_no_memory();
     if (!to.x)
         return;
-    double *x = ceduo_room(v, to.vertices, sizeof *x), *z = ceduo_room(v, to.vertices, sizeof *z);
-    struct ceduo_segment *segments = ceduo_room(v, to.vertices - 1, sizeof *segments);
+    double *x = ceduo_alloc(v, to.vertices, sizeof *x), *z = ceduo_alloc(v, to.vertices, sizeof *z);
+    struct ceduo_segment *segments = ceduo_alloc(v, to.vertices - 1, sizeof *segments);
     if (x && z && segments) {
         memcpy(x, to.x, to.vertices * sizeof *x);
         memcpy(z, to.z, to.vertices * sizeof *z);

@@ -14,15 +14,15 @@ static void check_spreads(struct validator *v, const char *path, const char *lis
 {
     for (size_t i = 0; i < n; i++)
         if (stems[i].dbh_sd > stems[i].dbh) /* not where one of them could not be read: NaN, and 0 */
-            ceduo_complain(v, ceduo_format(v, "%s.%s[%zu]", path, list, i), "dbh_sd_m",
-                           _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
-                           NUMERAL(stems[i].dbh_sd), NUMERAL(stems[i].dbh));
+            ceduo_reject(v, ceduo_asprintf(v, "%s.%s[%zu]", path, list, i), "dbh_sd_m",
+                         _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
+                         NUMERAL(stems[i].dbh_sd), NUMERAL(stems[i].dbh));
 }
 
 /* Whether a value that is needed is not there; one that could not be read is reported already. */
 static bool lacks(struct validator *v, double value, const char *path, const char *key)
 {
-    return isnan(value) && ceduo_is_known(v, "%s%s", path, key);
+    return isnan(value) && ceduo_is_valid(v, "%s%s", path, key);
 }
 
 /* That all numbers of a mapping are given, of which no figure is assumed. */
@@ -31,14 +31,14 @@ static void check_given(struct validator *v, const char *path, const struct fiel
     const struct object *object = group->object;
     for (const struct field *f = object->fields; f < object->fields + object->n; f++)
         if (f->type == FIELD_NUMBER && lacks(v, *(const double *)(const void *)((const char *)item + f->offset), path,
-                                             ceduo_format(v, ".%s.%s", group->key, f->key)))
-            ceduo_complain(v, path, group->key, _("'%s' is missing: nothing is assumed here"), f->key);
+                                             ceduo_asprintf(v, ".%s.%s", group->key, f->key)))
+            ceduo_reject(v, path, group->key, _("'%s' is missing: nothing is assumed here"), f->key);
 }
 
 /* Whether something is written at a key of a mapping. */
 static bool is_written(struct validator *v, const char *path, const char *key)
 {
-    return ceduo_resolve_at(v->root, ceduo_format(v, "%s.%s", path, key)) != NULL;
+    return ceduo_resolve_at(v->root, ceduo_asprintf(v, "%s.%s", path, key)) != NULL;
 }
 
 /* Of what is in the way besides stems no figure is assumed. */
@@ -51,7 +51,7 @@ static void check_low(struct validator *v, const char *path, const struct ceduo_
         check_given(v, path, ceduo_schema_field(stand, "logs"), &s->logs);
     for (size_t i = 0; i < s->trees_count; i++)
         if (s->trees[i].group > 1)
-            check_given(v, ceduo_format(v, "%s.trees[%zu]", path, i), ceduo_schema_field(trees, "groups"), &s->trees[i]);
+            check_given(v, ceduo_asprintf(v, "%s.trees[%zu]", path, i), ceduo_schema_field(trees, "groups"), &s->trees[i]);
 }
 
 static void check_stand(struct validator *v, const char *path, struct ceduo_stand *s)
@@ -61,38 +61,38 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
         s->system = ceduo_stand_has_shoots(s)  ? CEDUO_SIMPLE_COPPICE
                     : ceduo_stand_has_stems(s) ? CEDUO_HIGH_FOREST
                                                : CEDUO_BARE;
-    if (!ceduo_is_known(v, "%s", path)) /* what it starts from is not there */
+    if (!ceduo_is_valid(v, "%s", path)) /* what it starts from is not there */
         return;
-    if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_known(v, "%s.growth.shoots_young", path))
-        ceduo_complain(v, path, "growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
-                       NUMERAL(s->growth.shoots_young), NUMERAL(s->growth.shoots_old));
+    if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_valid(v, "%s.growth.shoots_young", path))
+        ceduo_reject(v, path, "growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
+                     NUMERAL(s->growth.shoots_young), NUMERAL(s->growth.shoots_old));
     if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
-        ceduo_complain(v, path, "system", _("'bare', but there are stems; name the system or remove them"));
+        ceduo_reject(v, path, "system", _("'bare', but there are stems; name the system or remove them"));
     for (size_t i = 0; i < s->shoots_count; i++) { /* they are given per hectare or per stool */
-        const char *here = ceduo_format(v, "%s.shoots[%zu]", path, i);
+        const char *here = ceduo_asprintf(v, "%s.shoots[%zu]", path, i);
         bool each = is_written(v, here, "per_stool");
-        if (!each && lacks(v, s->shoots[i].per_ha, here, ".per_ha") && ceduo_is_known(v, "%s.per_stool", here))
-            ceduo_complain(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
-        else if (each && !is_written(v, path, "stools.per_ha") && ceduo_is_known(v, "%s.stools.per_ha", path))
-            ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
+        if (!each && lacks(v, s->shoots[i].per_ha, here, ".per_ha") && ceduo_is_valid(v, "%s.per_stool", here))
+            ceduo_reject(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
+        else if (each && !is_written(v, path, "stools.per_ha") && ceduo_is_valid(v, "%s.stools.per_ha", path))
+            ceduo_reject(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
     }
     check_spreads(v, path, "shoots", s->shoots, s->shoots_count);
     check_spreads(v, path, "trees", s->trees, s->trees_count);
     check_low(v, path, s);
-    if (!ceduo_is_known(v, "%s.stools.per_ha", path) || !ceduo_is_known(v, "%s.shoots", path))
+    if (!ceduo_is_valid(v, "%s.stools.per_ha", path) || !ceduo_is_valid(v, "%s.shoots", path))
         return;
     if (s->stools_per_ha > 0 && ceduo_stand_shoots(s) / s->stools_per_ha > SHOOTS_MAX)
-        ceduo_complain(v, path, "shoots", _("%s shoots on each stool are more than the %s that can be drawn"),
-                       NUMERAL(ceduo_stand_shoots(s) / s->stools_per_ha), NUMERAL(SHOOTS_MAX));
+        ceduo_reject(v, path, "shoots", _("%s shoots on each stool are more than the %s that can be drawn"),
+                     NUMERAL(ceduo_stand_shoots(s) / s->stools_per_ha), NUMERAL(SHOOTS_MAX));
     if (ceduo_stand_has_shoots(s) && !(s->stools_per_ha > 0))
-        ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
+        ceduo_reject(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
     else if (s->shoots_count == 0 && s->stools_per_ha > 0 && !ceduo_stand_sprouts(s))
-        ceduo_complain(v, path, "stools",
-                       _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the "
-                         "stools"));
+        ceduo_reject(v, path, "stools",
+                     _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the "
+                       "stools"));
     else if (ceduo_stand_has_shoots(s) && ceduo_stand_shoots(s) < s->stools_per_ha * (1 - 1e-12)) /* .4 and .6 per stool */
-        ceduo_complain(v, path, "stools.per_ha", _("%.6g shoots on %.6g stools: a stool has one shoot at least"),
-                       ceduo_stand_shoots(s), s->stools_per_ha);
+        ceduo_reject(v, path, "stools.per_ha", _("%.6g shoots on %.6g stools: a stool has one shoot at least"),
+                     ceduo_stand_shoots(s), s->stools_per_ha);
 }
 
 /* The stand that a name is about: that of today, without source, growth and cutting. */
@@ -124,11 +124,11 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
 {
     for (size_t i = 0; i < option->belts_count; i++) {
         struct ceduo_belt *belt = &option->belts[i];
-        const char *here = ceduo_format(v, "%s[%zu]", path, i), *stand = ceduo_format(v, "%s.stand", here);
+        const char *here = ceduo_asprintf(v, "%s[%zu]", path, i), *stand = ceduo_asprintf(v, "%s.stand", here);
         const double from = belt->from_given, to = belt->to_given, before = i > 0 ? belt[-1].to_given : -INFINITY;
         if (ceduo_check_stretch(v, here, from, to) && from < before)
-            ceduo_complain(v, here, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
-                           NUMERAL(from), NUMERAL(before));
+            ceduo_reject(v, here, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
+                         NUMERAL(from), NUMERAL(before));
         belt->from = belt->from_given - v->origin;
         belt->to = belt->to_given - v->origin;
         const struct node *node = ceduo_resolve_at(v->root, stand);
@@ -139,8 +139,8 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
         const char *shown = ceduo_in_language(name, ceduo_node_text(node, "name_it")), *plain = N_("stand");
         if (!name)
             shown = _(name = ceduo_stand_is_bare(&belt->stand) ? N_("bare") : plain);
-        belt->name_given = (char *)(uintptr_t)(belt->changed ? ceduo_format(v, "%s (changed)", name) : name);
-        belt->name = (char *)(uintptr_t)(belt->changed ? ceduo_format(v, _("%s (changed)"), shown) : shown);
+        belt->name_given = (char *)(uintptr_t)(belt->changed ? ceduo_asprintf(v, "%s (changed)", name) : name);
+        belt->name = (char *)(uintptr_t)(belt->changed ? ceduo_asprintf(v, _("%s (changed)"), shown) : shown);
         belt->assumed = ceduo_notes_say(*v->notes, "assumed", stand);
         check_stand(v, stand, &belt->stand);
     }
@@ -152,11 +152,11 @@ void ceduo_validate_options(struct validator *v)
     bool many = ceduo_node_get(v->root, "options") != NULL;
     size_t n = scene->options_count;
     scene->options_count = 0;
-    if (!ceduo_is_known(v, "options"))
+    if (!ceduo_is_valid(v, "options"))
         return;
     if (many && n == 0)
-        ceduo_complain(v, "options", "", _("the list is empty"));
-    if (!many && (scene->options = ceduo_room(v, 1, sizeof *scene->options))) { /* it has one, its forest */
+        ceduo_reject(v, "options", "", _("the list is empty"));
+    if (!many && (scene->options = ceduo_alloc(v, 1, sizeof *scene->options))) { /* it has one, its forest */
         scene->options[0] = (struct ceduo_option){
             .name_given = (char *)(uintptr_t)N_("current"), .belts_count = v->draft.belts_count, .belts = v->draft.belts};
         scene->options[0].name = (char *)(uintptr_t)_(scene->options[0].name_given);
@@ -170,7 +170,7 @@ void ceduo_validate_options(struct validator *v)
         for (size_t k = 0; k < i; k++)
             ceduo_check_name(v, "options", i, o->name_given, scene->options[k].name_given);
         o->name = (char *)(uintptr_t)ceduo_in_language(o->name_given, o->name);
-        make_belts(v, ceduo_format(v, "options[%zu].forest", i), &scene->options[i]);
+        make_belts(v, ceduo_asprintf(v, "options[%zu].forest", i), &scene->options[i]);
     }
     scene->options_count = n;
 }

@@ -6,19 +6,20 @@
 
 #include "base/language.h"
 
-bool ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
+bool ceduo_reject(struct validator *v, const char *path, const char *key, const char *format, ...)
 {
-    const char *within;
+    const char *file_path;
     size_t used;
-    const struct node *node = ceduo_resolve_walk(v->root, key[0] ? ceduo_format(v, "%s.%s", path, key) : path, &within, &used);
+    const struct node *node =
+        ceduo_resolve_walk(v->root, key[0] ? ceduo_asprintf(v, "%s.%s", path, key) : path, &file_path, &used);
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(v->problems, ceduo_node_place(node, within), format, args);
+    ceduo_problem_v(v->problems, ceduo_node_place(node, file_path), format, args);
     va_end(args);
     return false;
 }
 
-const char *ceduo_format(struct validator *v, const char *format, ...)
+const char *ceduo_asprintf(struct validator *v, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -27,123 +28,123 @@ const char *ceduo_format(struct validator *v, const char *format, ...)
     return text ? text : "";
 }
 
-const char *ceduo_words(struct validator *v, const struct choices *choices)
+const char *ceduo_list_choices(struct validator *v, const struct choices *choices)
 {
     LOCAL_TEXT(words);
     ceduo_text_words(&words, choices->names, choices->n, ", ");
-    return ceduo_format(v, "%s", ceduo_text_string(&words));
+    return ceduo_asprintf(v, "%s", ceduo_text_string(&words));
 }
 
-const char *ceduo_range(struct validator *v, const struct field *field)
+const char *ceduo_describe_range(struct validator *v, const struct field *field)
 {
     LOCAL_TEXT(range);
     ceduo_schema_range_text(field, &range);
-    return ceduo_format(v, "%s", ceduo_text_string(&range));
+    return ceduo_asprintf(v, "%s", ceduo_text_string(&range));
 }
 
-void *ceduo_room(struct validator *v, size_t n, size_t size)
+void *ceduo_alloc(struct validator *v, size_t n, size_t size)
 {
     return ceduo_arena_take(v->arena, (n + 1) * size);
 }
 
-bool ceduo_is_known(struct validator *v, const char *format, ...)
+bool ceduo_is_valid(struct validator *v, const char *format, ...)
 {
     LOCAL_TEXT(path);
     va_list args;
     va_start(args, format);
-    if (v->bad.n > 0)
+    if (v->invalid.n > 0)
         ceduo_text_vformat(&path, format, args);
     va_end(args);
     bool good = true;
-    for (size_t i = 0; good && i < v->bad.n; i++)
-        good = !ceduo_path_leads_to(v->bad.paths[i], ceduo_text_string(&path));
+    for (size_t i = 0; good && i < v->invalid.n; i++)
+        good = !ceduo_path_leads_to(v->invalid.paths[i], ceduo_text_string(&path));
     return good;
 }
 
-bool ceduo_is_sound(struct validator *v, const char *path)
+bool ceduo_is_valid_below(struct validator *v, const char *path)
 {
-    for (size_t i = 0; i < v->bad.n; i++)
-        if (ceduo_path_leads_to(path, v->bad.paths[i]))
+    for (size_t i = 0; i < v->invalid.n; i++)
+        if (ceduo_path_leads_to(path, v->invalid.paths[i]))
             return false;
-    return ceduo_is_known(v, "%s", path);
+    return ceduo_is_valid(v, "%s", path);
 }
 
 bool ceduo_is_given(struct validator *v, const char *path, const char *key)
 {
-    const char *whole = ceduo_format(v, "%s.%s", path, key);
-    return ceduo_resolve_at(v->root, whole) || !ceduo_is_known(v, "%s", whole);
+    const char *child = ceduo_asprintf(v, "%s.%s", path, key);
+    return ceduo_resolve_at(v->root, child) || !ceduo_is_valid(v, "%s", child);
 }
 
-static void note(struct validator *v, const char *path, const char *kind, const char *text)
+static void add_note(struct validator *v, const char *path, const char *kind, const char *text)
 {
-    struct source_note *made = ceduo_room(v, 0, sizeof *made);
-    if (!made)
+    struct source_note *added = ceduo_alloc(v, 0, sizeof *added);
+    if (!added)
         return;
-    *made = (struct source_note){.path = path, .kind = kind, .text = text, .before = *v->notes, .made = true};
-    *v->notes = made;
+    *added = (struct source_note){.path = path, .kind = kind, .text = text, .before = *v->notes, .made = true};
+    *v->notes = added;
 }
 
 void ceduo_assume(struct validator *v, const char *path, const char *text)
 {
-    note(v, path, "assumed", text);
+    add_note(v, path, "assumed", text);
 }
 
-void ceduo_understand(struct validator *v, const char *path, const char *line)
+void ceduo_add_table_note(struct validator *v, const char *path, const char *line)
 {
-    note(v, path, CEDUO_NOTE_TABLE, ceduo_format(v, "%s", line));
+    add_note(v, path, CEDUO_NOTE_TABLE, ceduo_asprintf(v, "%s", line));
 }
 
 bool ceduo_is_too_long(struct validator *v, const char *path, size_t n)
 {
     if (n > CEDUO_ITEMS_MOST)
-        ceduo_complain(v, path, "", _("%zu items; at most %d can be computed"), n, CEDUO_ITEMS_MOST);
+        ceduo_reject(v, path, "", _("%zu items; at most %d can be computed"), n, CEDUO_ITEMS_MOST);
     return n > CEDUO_ITEMS_MOST;
 }
 
-void ceduo_check_name(struct validator *v, const char *list, size_t i, const char *name, const char *other)
+void ceduo_check_name(struct validator *v, const char *list, size_t i, const char *name, const char *earlier)
 {
-    if (name && other && strcmp(name, other) == 0)
-        ceduo_complain(v, ceduo_format(v, "%s[%zu]", list, i), "name", _("'%s' is given twice"), name);
+    if (name && earlier && strcmp(name, earlier) == 0)
+        ceduo_reject(v, ceduo_asprintf(v, "%s[%zu]", list, i), "name", _("'%s' is given twice"), name);
 }
 
 bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key, double x)
 {
     const struct ceduo_slope *s = &v->draft.scene.slope;
-    double end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
-    return !v->profile || !(x < v->origin || x > end) ||
+    double end = v->has_profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
+    return !v->has_profile || !(x < v->origin || x > end) ||
            /* untaken: complaint */
-           ceduo_complain(v, path, key, _("%s lies beyond the slope, which goes from %s to %s m"), NUMERAL(x),
-                          NUMERAL(v->origin), NUMERAL(end));
+           ceduo_reject(v, path, key, _("%s lies beyond the slope, which goes from %s to %s m"), NUMERAL(x), NUMERAL(v->origin),
+                        NUMERAL(end));
 }
 
-bool ceduo_check_ends_behind(struct validator *v, const char *path, double from, double to)
+bool ceduo_check_order(struct validator *v, const char *path, double from, double to)
 {
     /* untaken: complaint */
-    return !(to <= from) || ceduo_complain(v, path, "to_m", _("%s does not lie beyond from_m, %s"), NUMERAL(to), NUMERAL(from));
+    return !(to <= from) || ceduo_reject(v, path, "to_m", _("%s does not lie beyond from_m, %s"), NUMERAL(to), NUMERAL(from));
 }
 
 bool ceduo_check_stretch(struct validator *v, const char *path, double from, double to)
 {
-    if (!ceduo_check_ends_behind(v, path, from, to))
+    if (!ceduo_check_order(v, path, from, to))
         return false;
     bool begins = ceduo_check_on_slope(v, path, "from_m", from), ends = ceduo_check_on_slope(v, path, "to_m", to);
-    return begins && ends; /* both are told */
+    return begins && ends; /* report both */
 }
 
-/* ---- the whole ---- */
+/* ---- the child ---- */
 
 static void check_rules(struct validator *v, const char *list, const struct ceduo_regulation_item *items, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
-        const char *path = ceduo_format(v, "rules.%s[%zu]", list, i);
-        if (!ceduo_is_sound(v, path))
+        const char *path = ceduo_asprintf(v, "rules.%s[%zu]", list, i);
+        if (!ceduo_is_valid_below(v, path))
             continue;
         if (items[i].most < items[i].least)
-            ceduo_complain(v, path, "", _("what is asked for at most is less than what is asked for at least"));
+            ceduo_reject(v, path, "", _("what is asked for at most is less than what is asked for at least"));
         for (size_t k = 0; k < items[i].species_count; k++)
             if (ceduo_species_find(items[i].species[k]) < 0)
-                ceduo_complain(v, ceduo_format(v, "%s.species[%zu]", path, k), "", _("'%s' is unknown; one of: %s"),
-                               items[i].species[k], ceduo_words(v, &ceduo_species_words));
+                ceduo_reject(v, ceduo_asprintf(v, "%s.species[%zu]", path, k), "", _("'%s' is unknown; one of: %s"),
+                             items[i].species[k], ceduo_list_choices(v, &ceduo_species_words));
     }
 }
 
@@ -153,9 +154,9 @@ bool ceduo_validate(struct validator *v)
     size_t before = v->problems->met;
     ceduo_schema_init(ceduo_schema_scene(), &v->draft);
     ceduo_arrange_observed(v);
-    const struct binding to = {v->arena, v->problems, v->unusual, v->notes, &v->bad, ceduo_validate_end, v};
+    const struct binding to = {v->arena, v->problems, v->unusual, v->notes, &v->invalid, ceduo_validate_end, v};
     ceduo_bind(&to, ceduo_schema_scene(), v->root, &v->draft);
-    if (v->bad.n > CEDUO_BAD_MOST || v->arena->failed)
+    if (v->invalid.n > CEDUO_INVALID_MAX || v->arena->failed)
         return false;
     ceduo_validate_rock(v, "rock", &scene->rock);
     ceduo_validate_blocks(v);
@@ -169,12 +170,12 @@ bool ceduo_validate(struct validator *v)
         forest |= scene->options[i].belts_count > 0;
     if (forest && !ceduo_node_get(ceduo_node_get(v->root, "simulation"), "contact_dbh_m"))
         ceduo_assume(v, "simulation.contact_dbh_m",
-                     ceduo_format(v, _("stems count from %g cm on, at which coppice is callipered"),
-                                  scene->simulation.contact_dbh * 100));
+                     ceduo_asprintf(v, _("stems count from %g cm on, at which coppice is callipered"),
+                                    scene->simulation.contact_dbh * 100));
     check_rules(v, "standards", scene->rules.standards, scene->rules.standards_count);
     check_rules(v, "turns", scene->rules.turns, scene->rules.turns_count);
     ceduo_validate_doubt(v);
-    if (v->problems->met == before && v->bad.n == 0)
+    if (v->problems->met == before && v->invalid.n == 0)
         ceduo_validate_ends(v);
     ceduo_validate_observed(v);
     return true;

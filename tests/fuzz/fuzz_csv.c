@@ -17,13 +17,13 @@ static void check_stand(struct arena *arena, const struct survey_file *survey, s
     struct text yaml = {0};
     if (ceduo_survey_stand(survey, &yaml, problems)) {
         struct ceduo_belt belt;
-        struct bad_values bad = {0};
+        struct invalid_values invalid = {0};
         const struct source_note *notes = NULL;
         const struct source source = {.name = "stand", .bytes = yaml.bytes, .length = yaml.length};
         const struct node *root = ceduo_yaml_read(arena, &source, problems);
         ceduo_schema_init(ceduo_schema_stand(), &belt.stand);
         if (root)
-            ceduo_bind(&(struct binding){.arena = arena, .problems = problems, .notes = &notes, .bad = &bad},
+            ceduo_bind(&(struct binding){.arena = arena, .problems = problems, .notes = &notes, .invalid = &invalid},
                        ceduo_schema_stand(), root, &belt.stand);
         if (!root || problems->count > 0) {
             fprintf(stderr, "%s%s", ceduo_text_string(&problems->text), yaml.bytes);
