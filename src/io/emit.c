@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes a tree as YAML: in brackets where that fits on a line, otherwise in blocks. A changed document is patched:
- * only the bytes of values that differ are replaced, and the result must read back as the tree; otherwise it is laid
- * out anew. */
+/* Writes a tree as YAML: in brackets if that fits on a line, otherwise in blocks. In a changed document only the bytes of changed
+ * values are replaced. If the result does not read back as the tree, the document is laid out again. */
 #include "node.h"
 
 #include <string.h>
@@ -9,11 +8,11 @@
 
 #include "base/utf8.h"
 
-#define FLOW_MOST 100 /* columns of a mapping or list on one line */
+#define FLOW_MAX 100 /* columns of a line with a mapping or list in brackets */
 
 /* ---- scalars ---- */
 
-/* Whether a text needs no quotes: no reader of YAML takes it for a number, a date, a truth value or nothing. */
+/* True if a text needs no quotes: no YAML reader parses it as a number, a date, a truth value or null. */
 static bool is_plain(const char *s)
 {
     static const char *const words[] = {"true", "false", "null", "yes", "no", "on", "off", "y", "n", ".nan", ".inf"};
@@ -47,7 +46,7 @@ static void print_quoted(struct text *text, const char *s)
         else if (c == '\n')
             ceduo_text_put(text, "\\n");
         /* untaken: table */
-        else if (known && (!ceduo_utf8_printable(c) || c == 0xfeff)) /* a mark of byte order, which no YAML holds */
+        else if (known && (!ceduo_utf8_printable(c) || c == 0xfeff)) /* YAML allows no byte order mark */
             ceduo_text_format(text, c < 0x100 ? "\\x%02x" : c <= 0xffff ? "\\u%04x" : "\\U%08x", c);
         else
             ceduo_text_add(text, s, length);
@@ -92,9 +91,9 @@ static void print_block(struct text *text, const struct node *node, size_t inden
         bool map = node->kind == NODE_MAP;
         bool flow = item->kind == NODE_SCALAR || item->n == 0;
         LOCAL_TEXT(line);
-        if (!flow) { /* on one line if it fits there */
+        if (!flow) { /* try one line */
             ceduo_emit_flow(&line, item);
-            flow = line.length + indent + (map ? 20 : 2) <= FLOW_MOST;
+            flow = line.length + indent + (map ? 20 : 2) <= FLOW_MAX;
         }
         if (map)
             ceduo_text_format(text, "%*s%s:%c", (int)indent, "", item->key, flow ? ' ' : '\n');
@@ -105,10 +104,10 @@ static void print_block(struct text *text, const struct node *node, size_t inden
             ceduo_text_char(text, '\n');
             continue;
         }
-        size_t at = text->length; /* the first line of an item of a list follows the dash */
+        size_t begin = text->length; /* the first line of a list item follows the dash */
         print_block(text, item, indent + 2);
         if (!map && !text->failed)
-            text->bytes[at + indent] = '-';
+            text->bytes[begin + indent] = '-';
     }
 }
 
@@ -119,7 +118,7 @@ void ceduo_emit(struct text *text, const struct node *root)
 
 /* ---- back to files ---- */
 
-/* The entries of `now` that differ from `base`, which nothing was taken from. NULL where one is gone. */
+/* Return the entries of `now` that differ from `base`; NULL if one was removed. */
 static const struct node *difference(struct arena *arena, const struct node *base, const struct node *now)
 {
     const struct node *out = ceduo_node_empty(arena, NODE_MAP, NULL);
@@ -130,7 +129,7 @@ static const struct node *difference(struct arena *arena, const struct node *bas
         const struct node *entry = now->items[i], *old = ceduo_node_get(base, entry->key);
         if (old && ceduo_node_equal(old, entry))
             continue;
-        if (old && old->kind == NODE_MAP) /* which it still is */
+        if (old && old->kind == NODE_MAP) /* then `entry` is a mapping, too */
             entry = difference(arena, old, entry);
         out = ceduo_node_with(arena, out, now->items[i]->key, entry);
     }
@@ -140,14 +139,14 @@ static const struct node *difference(struct arena *arena, const struct node *bas
 const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *node)
 {
     if (node->written) {
-        const struct node *was = node->followed;
-        bool same = was->n == node->n;
-        for (size_t i = 0; same && i < was->n; i++)
-            same = ceduo_node_equal(was->items[i], node->items[i]);
-        if (same)
+        const struct node *original = node->followed;
+        bool unchanged = original->n == node->n;
+        for (size_t i = 0; unchanged && i < original->n; i++)
+            unchanged = ceduo_node_equal(original->items[i], node->items[i]);
+        if (unchanged)
             return ceduo_node_renamed(arena, node->written, node->key);
-        /* a stand is its base and what differs, if that can say it */
-        const struct node *changes = strcmp(node->key, "stand") == 0 ? difference(arena, was, node) : NULL;
+        /* a stand becomes its base and its changes, unless a key was removed */
+        const struct node *changes = strcmp(node->key, "stand") == 0 ? difference(arena, original, node) : NULL;
         const struct node *start = node->written;
         if (changes && start->kind == NODE_SCALAR)
             start = ceduo_node_with(arena, ceduo_node_empty(arena, NODE_MAP, NULL), "base", start);
@@ -172,10 +171,10 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
 struct patcher {
     struct text *text;
     const struct source *source;
-    size_t done; /* bytes of the source that are written */
+    size_t done; /* bytes of the source that were copied or replaced */
 };
 
-/* Puts `now` in the place of what stands between the marks of `old`; where these are out of order it will not read back. */
+/* Replace the bytes between the marks of `old` by `now`. Return false if the marks are out of order. */
 static bool patch_span(struct patcher *p, const struct node *old, const struct node *now)
 {
     size_t from = ceduo_source_byte(p->source, old->line, old->column);
@@ -194,10 +193,10 @@ static bool patch(struct patcher *p, const struct node *old, const struct node *
         return true;
     if (old->kind == NODE_SCALAR)
         return patch_span(p, old, now);
-    bool same = old->kind == now->kind && old->n == now->n;
-    for (size_t i = 0; same && old->kind == NODE_MAP && i < old->n; i++)
-        same = strcmp(old->items[i]->key, now->items[i]->key) == 0;
-    if (!same)
+    bool unchanged = old->kind == now->kind && old->n == now->n;
+    for (size_t i = 0; unchanged && old->kind == NODE_MAP && i < old->n; i++)
+        unchanged = strcmp(old->items[i]->key, now->items[i]->key) == 0;
+    if (!unchanged)
         return old->flow && patch_span(p, old, now);
     for (size_t i = 0; i < old->n; i++)
         if (!patch(p, old->items[i], now->items[i]))
@@ -210,7 +209,7 @@ bool ceduo_emit_patched(struct text *text, const struct source *source, const st
     LOCAL_TEXT(out);
     struct patcher p = {&out, source, 0};
     bool good = patch(&p, old, root);
-    if (good) { /* and the text reads back as the tree */
+    if (good) { /* read the text back */
         struct arena arena = {0};
         struct problems problems = {0};
         ceduo_text_add(&out, source->bytes + p.done, source->length - p.done);

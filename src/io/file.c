@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads and writes whole files, and finds them. A file is written beside its target and then takes its place; what is no
- * regular file is written straight. What is read lies in the arena of the caller, which lists it. */
+/* Reads, writes and finds files. A file is written beside its target and then renamed; devices are written in place. The bytes read
+ * are in the caller's arena, which lists the file. */
 #include "file.h"
 
 #include <dirent.h>
@@ -19,18 +19,17 @@
 
 /* ---- reading ---- */
 
-#define ROOM_FIRST ((size_t)64 * 1024)
-#define BEGINNING  4096   /* bytes of a file in which it says what it is */
-#define NO_FILE    ENOSTR /* a reason of our own, by a number that no call here gives */
+#define CAPACITY_FIRST ((size_t)64 * 1024)
+#define BEGINNING      4096   /* bytes of a file that are searched for its kind */
+#define NO_FILE        ENOSTR /* private errno value: not a regular file */
 
 static bool is_standard(const char *path)
 {
     return strcmp(path, "-") == 0;
 }
 
-/* What a file holds, straight into the arena: a large one is in memory once. Standard input may be anything; what has a name must
- * be a regular file or a FIFO, for a device may have no end. A regular file that says that it is empty is not read, for some of the
- * system's never end. */
+/* Read a file into the arena without another copy. Standard input may be anything. Refuse devices: they may never end. Do not read
+ * regular files of size 0: some in /proc never end. */
 static bool read_file(struct arena *arena, const char *path, size_t max, struct source *into)
 {
     struct stat st = {0};
@@ -41,54 +40,54 @@ static bool read_file(struct arena *arena, const char *path, size_t max, struct 
         errno = S_ISDIR(st.st_mode) ? EISDIR : NO_FILE;
         return false;
     }
-    int fd = named ? open(path, O_RDONLY | O_NOCTTY | O_CLOEXEC) : STDIN_FILENO, why = 0;
+    int fd = named ? open(path, O_RDONLY | O_NOCTTY | O_CLOEXEC) : STDIN_FILENO, error = 0;
     if (fd < 0 || fstat(fd, &st) != 0)
-        why = errno;
+        error = errno;
     bool sized = S_ISREG(st.st_mode);
-    size_t room = sized ? (size_t)st.st_size + 1 : ROOM_FIRST, n = 0; /* one more, to see the end */
-    if (why == 0 && sized && (uintmax_t)st.st_size > max)
-        why = EFBIG;
-    char *bytes = why == 0 ? ceduo_arena_take(arena, room + 1) : NULL;
-    for (ssize_t got = sized ? st.st_size : 1; bytes && why == 0 && got > 0;) {
-        got = read(fd, bytes + n, room - n);
+    size_t capacity = sized ? (size_t)st.st_size + 1 : CAPACITY_FIRST, n = 0; /* + 1: to detect the end */
+    if (error == 0 && sized && (uintmax_t)st.st_size > max)
+        error = EFBIG;
+    char *bytes = error == 0 ? ceduo_arena_take(arena, capacity + 1) : NULL;
+    for (ssize_t got = sized ? st.st_size : 1; bytes && error == 0 && got > 0;) {
+        got = read(fd, bytes + n, capacity - n);
         if (got < 0)
-            why = errno == EINTR ? 0 : errno;
+            error = errno == EINTR ? 0 : errno;
         n += got > 0 ? (size_t)got : 0;
         got = got < 0 ? 1 : got;
         if (n > max)
-            why = EFBIG;
-        if (n < room || why != 0)
+            error = EFBIG;
+        if (n < capacity || error != 0)
             continue;
-        char *more = ceduo_arena_take(arena, 2 * room + 1);
-        if (more) /* untaken: memory */
-            memcpy(more, bytes, n);
-        bytes = more;
-        room *= 2;
+        char *larger = ceduo_arena_take(arena, 2 * capacity + 1);
+        if (larger) /* untaken: memory */
+            memcpy(larger, bytes, n);
+        bytes = larger;
+        capacity *= 2;
     }
     if (fd > STDIN_FILENO)
         close(fd);
     into->bytes = bytes;
     into->length = n;
-    errno = why != 0 ? why : ENOMEM;
-    return bytes && why == 0;
+    errno = error != 0 ? error : ENOMEM;
+    return bytes && error == 0;
 }
 
 const struct source *ceduo_source_keep(struct arena *arena, struct source source)
 {
-    struct source *kept = ceduo_arena_take(arena, sizeof *kept);
+    struct source *copied = ceduo_arena_take(arena, sizeof *copied);
     source.name = ceduo_arena_string(arena, source.name);
     source.length = strlen(source.bytes);
     source.bytes = ceduo_arena_copy(arena, source.bytes, source.length);
     const char *beside = source.beside ? ceduo_arena_string(arena, source.beside) : NULL;
-    if (!kept || !source.name || !source.bytes || (source.beside && !beside))
+    if (!copied || !source.name || !source.bytes || (source.beside && !beside))
         return NULL;
     source.beside = beside;
-    *kept = source;
-    return kept;
+    *copied = source;
+    return copied;
 }
 
-/* Whether the beginning of a file says what it is: ceduo, then a kind and its number, as in "ceduo": "scene/1". */
-static bool says_kind(const char *bytes, size_t length)
+/* True if the beginning of a file has the key ceduo with a kind and its number, as in "ceduo": "scene/1". */
+static bool has_kind(const char *bytes, size_t length)
 {
     const char *p = bytes, *end = bytes + (length < BEGINNING ? length : BEGINNING);
     while ((p = memmem(p, (size_t)(end - p), "ceduo", 5))) {
@@ -111,16 +110,16 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
     *source = (struct source){.name = name, .path = ceduo_arena_string(arena, path), .before = arena->sources};
     errno = ENOMEM;
     if (source->path && read_file(arena, path, max, source)) {
-        source->foreign = !says_kind(source->bytes, source->length);
+        source->foreign = !has_kind(source->bytes, source->length);
         arena->sources = source;
         return source;
     }
-    int why = errno;
-    if (why == EFBIG)
+    int error = errno;
+    if (error == EFBIG)
         ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), max >> 20);
-    else if (why != ENOMEM)
+    else if (error != ENOMEM)
         ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"),
-                      why == NO_FILE ? _("a device or a socket; name a file") : strerror(why));
+                      error == NO_FILE ? _("a device or a socket; name a file") : strerror(error));
     return NULL;
 }
 
@@ -150,25 +149,25 @@ const char *const *ceduo_file_folders(struct arena *arena)
         folders[n++] = ceduo_arena_format(arena, "%s/ceduo", data);
     else if (home && home[0])
         folders[n++] = ceduo_arena_format(arena, "%s/.local/share/ceduo", home);
-    char self[PATH_MAX] = ""; /* beside the program: where it was built and where it is installed */
+    char self[PATH_MAX] = ""; /* folders next to the program, built or installed */
     /* untaken: machine */
     const char *slash = readlink("/proc/self/exe", self, sizeof self - 1) > 0 ? strrchr(self, '/') : NULL;
     for (size_t i = 0; slash && i < sizeof near / sizeof near[0]; i++) /* untaken: machine */
         folders[n++] = ceduo_arena_format(arena, "%.*s/%s", (int)(slash - self), self, near[i]);
     folders[n++] = ceduo_arena_string(arena, CEDUO_DATADIR);
-    size_t kept = 0;
+    size_t count = 0;
     for (size_t i = 0; i < n; i++) {
         struct stat st;
         if (folders[i] && stat(folders[i], &st) == 0 && S_ISDIR(st.st_mode))
-            folders[kept++] = folders[i];
+            folders[count++] = folders[i];
     }
-    folders[kept] = NULL;
+    folders[count] = NULL;
     return folders;
 }
 
 static const char *find_in(struct arena *arena, const char *root, const char *name, const char *folder)
 {
-    const char *inside = name; /* what may stand in a folder of profiles: without the steps up at its start */
+    const char *inside = name; /* without leading ../ */
     while (strncmp(inside, "../", 3) == 0 || strncmp(inside, "./", 2) == 0)
         inside += inside[1] == '/' ? 2 : 3;
     const char *path = ceduo_arena_format(arena, "%s/%s", root, inside);
@@ -204,19 +203,19 @@ static int by_name(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *shelf, size_t *n)
+const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *subfolder, size_t *n)
 {
-    const char *path = ceduo_arena_format(arena, "%s/%s", folder, shelf);
+    const char *path = ceduo_arena_format(arena, "%s/%s", folder, subfolder);
     DIR *dir = path ? opendir(path) : NULL;
-    size_t room = 0, length;
+    size_t entries = 0, length;
     *n = 0;
     if (!dir)
         return NULL;
     while (readdir(dir))
-        room++;
+        entries++;
     rewinddir(dir);
-    const char **names = ceduo_arena_take(arena, room * sizeof *names);
-    for (struct dirent *e; names && *n < room && (e = readdir(dir));) { /* untaken: race */
+    const char **names = ceduo_arena_take(arena, entries * sizeof *names);
+    for (struct dirent *e; names && *n < entries && (e = readdir(dir));) { /* untaken: race */
         if (e->d_name[0] == '.' || (length = strlen(e->d_name)) <= 5 || strcmp(e->d_name + length - 5, ".yaml") != 0)
             continue;
         if (!(names[*n] = ceduo_arena_copy(arena, e->d_name, length - 5)))
@@ -245,18 +244,18 @@ bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *can
     return true;
 }
 
-/* Closes `fd`, too: some file systems say only then that there is no room. */
+/* Write the bytes and close `fd`: NFS reports ENOSPC only on close(). */
 static bool write_and_close(int fd, const struct pending_file *file)
 {
     bool good = ceduo_file_fill(fd, file->bytes, file->n, NULL) && (!file->wait || !file->target || fsync(fd) == 0);
-    int why = errno;
+    int error = errno;
     if (close(fd) != 0 && good)
         return false;
-    errno = why;
+    errno = error;
     return good;
 }
 
-/* Finds the file that is to be replaced, and the mode of the new one; no target: the path is written straight. */
+/* Find the file to replace and the mode of the new file. Target NULL: write in place (device, dangling link). */
 static bool find_target(struct pending_file *file, mode_t *mode)
 {
     struct stat st;
@@ -270,12 +269,11 @@ static bool find_target(struct pending_file *file, mode_t *mode)
     mode_t mask = umask(0);
     umask(mask);
     *mode = exists ? st.st_mode & 07777 : 0666 & ~mask;
-    file->target = exists ? realpath(file->path, NULL) : strdup(file->path); /* a link stays a link */
+    file->target = exists ? realpath(file->path, NULL) : strdup(file->path); /* do not replace a link */
     return file->target;
 }
 
-/* Create the temporary file beside the target, with a part of its name if that is too long. Returns its descriptor; -1 with errno
- * set. */
+/* Create the temporary file beside the target; a long name is shortened. Return its descriptor; -1 with errno set. */
 static int open_temporary(struct pending_file *file, mode_t mode)
 {
     static const char mark[] = ".ceduo-tmp-XXXXXX";
@@ -295,9 +293,9 @@ static int open_temporary(struct pending_file *file, mode_t mode)
     file->temporary = path.bytes;
     if (fchmod(fd, mode) == 0)
         return fd;
-    int why = errno;
+    int error = errno;
     close(fd);
-    errno = why;
+    errno = error;
     return -1;
 }
 
@@ -312,8 +310,8 @@ bool ceduo_file_prepare(struct pending_file *file)
     return fd >= 0 && write_and_close(fd, file);
 }
 
-/* Open what is no regular file, also through a link that leads to nothing yet. */
-static int open_straight(const char *path)
+/* Open a device or FIFO, or create the target of a dangling link. */
+static int open_in_place(const char *path)
 {
     int fd = open(path, O_WRONLY | O_CLOEXEC);
     return fd < 0 && errno == ENOENT ? open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666) : fd;
@@ -324,7 +322,7 @@ int ceduo_file_begin(struct pending_file *file)
     mode_t mode;
     if (!find_target(file, &mode))
         return -1;
-    return file->target ? open_temporary(file, mode) : open_straight(file->path);
+    return file->target ? open_temporary(file, mode) : open_in_place(file->path);
 }
 
 bool ceduo_file_finish(struct pending_file *file, int fd)
@@ -336,7 +334,7 @@ bool ceduo_file_finish(struct pending_file *file, int fd)
 bool ceduo_file_place(struct pending_file *file)
 {
     if (!file->target) {
-        int fd = open_straight(file->path);
+        int fd = open_in_place(file->path);
         return fd >= 0 && write_and_close(fd, file);
     }
     if (rename(file->temporary, file->target) != 0)
@@ -345,7 +343,7 @@ bool ceduo_file_place(struct pending_file *file)
     file->temporary = NULL;
     if (!file->wait)
         return true;
-    /* the rename itself must survive a power cut; where the folder cannot be synced, nothing is lost by going on */
+    /* the rename must survive a power cut, too; a folder that cannot be synced is no error */
     char *slash = strrchr(file->target, '/');
     if (slash)
         slash[1] = '\0';
@@ -359,12 +357,12 @@ bool ceduo_file_place(struct pending_file *file)
 
 void ceduo_file_drop(struct pending_file *file)
 {
-    int why = errno;
+    int error = errno;
     if (file->temporary)
         unlink(file->temporary);
     free(file->temporary);
     free(file->target);
-    errno = why;
+    errno = error;
 }
 
 bool ceduo_file_write(const char *path, const char *bytes, size_t n)
@@ -387,7 +385,7 @@ bool ceduo_file_can_write(const char *path)
     struct pending_file file = {.path = path};
     mode_t mode;
     bool good = find_target(&file, &mode);
-    if (good && file.target) { /* a file beside it is to take its place */
+    if (good && file.target) { /* the temporary file needs a writable folder */
         char *slash = strrchr(file.target, '/');
         if (slash)
             slash[slash == file.target] = '\0';

@@ -10,62 +10,60 @@
 #define YAML_BYTES_MOST ((size_t)16 * 1024 * 1024)
 #define CSV_BYTES_MAX   ((size_t)64 * 1024 * 1024)
 
-/* A copy of a source with its name and its string of bytes, for as long as the arena. NULL without memory. */
+/* Copy a source, with its name and its bytes, into the arena. NULL on failure. */
 const struct source *ceduo_source_keep(struct arena *arena, struct source source);
 
-/* Reads a whole file, at most `max` bytes; "-" is standard input. NULL where that fails, with the reason in
- * `problems`. Name and bytes live in the arena, which lists it among its `sources`. */
+/* Read a whole file of at most `max` bytes; "-": standard input. Return NULL on error. Name and bytes are in the arena, which lists
+ * the file among its `sources`. */
 const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t max, struct problems *problems);
 
-/* Where a file is looked for: as it is written, beside the file that names it, then in the user's data folder, the
- * installed one, the source tree; there also by its bare name within `folder` (scenes, slopes, stands) and with .yaml
- * added. A path in the arena; NULL where there is no such file. `beside` may be NULL. */
+/* Find a file. An absolute name is used as it is; another is relative to the file that names it (`beside`, may be NULL). Then the
+ * user's data folder, the installed folder and the source tree are searched, also in `folder` (scenes, slopes, stands) and with
+ * .yaml appended. Return a path in the arena; NULL: none. */
 const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder);
 
-/* The name of a file without its folder. */
+/* Return the name of a file without its folder. */
 const char *ceduo_file_name(const char *path);
 
-/* The folders of profiles, best first, ended by NULL. */
+/* Return the folders of profiles, in the order of search; NULL ends the list. */
 const char *const *ceduo_file_folders(struct arena *arena);
 
-/* Names of the .yaml files in `folder`/`shelf` without this ending, sorted; `*n` of them. */
-const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *shelf, size_t *n);
+/* Return the names of the .yaml files in `folder`/`subfolder`, without .yaml, sorted. Set *n to their number. */
+const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *subfolder, size_t *n);
 
-/* Writes all bytes to an open file; `cancel` (may be NULL) ends it at the next signal. False with errno set. */
+/* Write all bytes to an open file. `cancel` (may be NULL) stops it at the next signal. Return false with errno set. */
 bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *cancel);
 
-/* Writes a regular file whole or not at all (a temporary file beside it, then a rename); anything else, and through a link
- * that leads to nothing yet, straight.
- * False with errno set. */
+/* Write a regular file atomically: a temporary file beside it, then a rename. Devices, and the target of a dangling link, are
+ * written in place. Return false with errno set. */
 bool ceduo_file_write(const char *path, const char *bytes, size_t n);
 
-/* A file that is filled and not yet in its place, so that several can be filled before the first takes its. What is no regular
- * file is written when it is placed; until then `bytes` must stay. */
+/* A temporary file that is written but not renamed. Write several, then rename them all. A device or FIFO is written by
+ * ceduo_file_place(); `bytes` must stay valid until then. */
 struct pending_file {
     const char *path;
     const char *bytes;
     size_t n;
-    bool wait;       /* for the disk */
-    char *target;    /* NULL: no regular file */
-    char *temporary; /* TARGET.ceduo-tmp-…, until it takes its place */
+    bool wait;       /* until the disk has the bytes */
+    char *target;    /* NULL: write in place */
+    char *temporary; /* TARGET.ceduo-tmp-…; NULL: none, or renamed */
 };
 
-/* Fills it, whose first four members are given, under a name of its own beside its place. False with errno set; to be dropped even
- * then. */
+/* Write the temporary file. The first four members must be set. Return false with errno set. Call ceduo_file_drop() even then. */
 bool ceduo_file_prepare(struct pending_file *file);
-/* False with errno set. */
+/* Rename it to its target. Return false with errno set. */
 bool ceduo_file_place(struct pending_file *file);
-/* Begin a file that is written piece by piece to the descriptor that is returned; -1 with errno set. To be dropped even then. */
+/* Open a file to be written piece by piece. Return its descriptor; -1 with errno set. Call ceduo_file_drop() even then. */
 int ceduo_file_begin(struct pending_file *file);
-/* Close it, and put it in its place. False with errno set. */
+/* Close it and rename it to its target. Return false with errno set. */
 bool ceduo_file_finish(struct pending_file *file, int fd);
-/* Takes away what has not taken its place. */
+/* Remove the temporary file unless it was renamed, and free all. */
 void ceduo_file_drop(struct pending_file *file);
 
-/* Whether two paths lead to one regular file; `b` may be "-", standard input. */
+/* True if two paths lead to one regular file. `b` may be "-", standard input. */
 bool ceduo_file_same(const char *a, const char *b);
 
-/* Whether ceduo_file_write() could begin, as far as that can be told without writing. False with errno set. */
+/* True if ceduo_file_write() is expected to succeed; nothing is written. Return false with errno set. */
 bool ceduo_file_can_write(const char *path);
 
 #endif

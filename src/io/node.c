@@ -22,7 +22,7 @@ const char *ceduo_node_text(const struct node *node, const char *key)
     return entry && entry->kind == NODE_SCALAR ? entry->text : NULL;
 }
 
-static double number_of(const char *text)
+static double read_number(const char *text)
 {
     double value;
     return text && ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD ? value : NAN;
@@ -30,19 +30,20 @@ static double number_of(const char *text)
 
 double ceduo_node_number(const struct node *node, const char *key)
 {
-    return number_of(ceduo_node_text(node, key));
+    return read_number(ceduo_node_text(node, key));
 }
 
 double ceduo_node_item_number(const struct node *list, size_t i)
 {
-    return list->kind == NODE_LIST && i < list->n && list->items[i]->kind == NODE_SCALAR ? number_of(list->items[i]->text)
+    return list->kind == NODE_LIST && i < list->n && list->items[i]->kind == NODE_SCALAR ? read_number(list->items[i]->text)
                                                                                          : NAN;
 }
 
-/* A copy with `taken` of its items from i on replaced by `put`, or by nothing where that is NULL. */
-static const struct node *splice(struct arena *arena, const struct node *node, size_t i, size_t taken, const struct node *put)
+/* Copy a node, with `removed` items from i on replaced by `inserted` (may be NULL). */
+static const struct node *splice(struct arena *arena, const struct node *node, size_t i, size_t removed,
+                                 const struct node *inserted)
 {
-    size_t n = node->n - taken + (put != NULL), behind = node->n - i - taken;
+    size_t n = node->n - removed + (inserted != NULL), after = node->n - i - removed;
     struct node *copy = ceduo_arena_take(arena, sizeof *copy);
     const struct node **items = ceduo_arena_take(arena, (n + 1) * sizeof *items);
     if (!copy || !items)
@@ -53,16 +54,16 @@ static const struct node *splice(struct arena *arena, const struct node *node, s
     copy->written = copy->followed = NULL;
     if (i > 0)
         memcpy(items, node->items, i * sizeof *items);
-    if (put)
-        items[i] = put;
-    if (behind > 0)
-        memcpy(items + i + (put != NULL), node->items + i + taken, behind * sizeof *items);
+    if (inserted)
+        items[i] = inserted;
+    if (after > 0)
+        memcpy(items + i + (inserted != NULL), node->items + i + removed, after * sizeof *items);
     return copy;
 }
 
 void ceduo_node_keep_written(const struct node *made, const struct node *from)
 {
-    struct node *node = (struct node *)(uintptr_t)made; /* nobody else has seen it yet */
+    struct node *node = (struct node *)(uintptr_t)made; /* still private, safe to modify */
     node->written = from->written;
     node->followed = from->followed;
 }
@@ -142,7 +143,7 @@ bool ceduo_node_equal(const struct node *a, const struct node *b)
     if ((a->key != NULL) != (b->key != NULL) || (a->key && strcmp(a->key, b->key) != 0))
         return false;
     if (a->kind == NODE_SCALAR) {
-        double number; /* quotes matter only where they make a text of a number */
+        double number; /* quotes matter only around a number: they make it text */
         bool numeric = ceduo_number_read(a->text, &number) == CEDUO_NUMBER_GOOD;
         return strcmp(a->text, b->text) == 0 && (a->quoted == b->quoted || !numeric);
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Follows references: a reference is replaced by the tree of its file, which remembers what was written in its place;
- * a stand is merged over its base. Then paths: walking along one, and setting a value, which copies the nodes from
- * the root to it. All nodes lie in the arena of the caller; none is changed once it was handed out. */
+/* Resolves references: a reference is replaced by the tree of its file, which keeps the original node in `written`. A stand is
+ * merged over its base. Then paths: finding a node, and setting a value, which copies the nodes from the root to it. All nodes are
+ * in the caller's arena. A returned node never changes. */
 #include "bind.h"
 
 #include <stdint.h>
@@ -15,14 +15,14 @@
 #include "scene/choices.h"
 #include "scene/schema.h"
 
-#define FIRST      "-1e9" /* m: before any profile begins */
-#define BASES_MOST 8
-#define FILES_MOST 1000
+#define FIRST     "-1e9" /* m: before the begin of any profile */
+#define BASES_MAX 8
+#define FILES_MAX 1000
 
-/* A file that was read before. A stand that a thousand belts name is read once. */
+/* Cache of files already read: a thousand belts may name one stand. */
 struct known_file {
     const char *path;
-    const struct node *root; /* NULL: what is wrong with it was said */
+    const struct node *root; /* NULL: unreadable, already reported */
     const struct known_file *before;
 };
 
@@ -31,17 +31,17 @@ struct resolver {
     struct problems *problems;
     const struct known_file *files;
     size_t files_count;
-    /* of a change: */
-    const struct source *set;
-    size_t length; /* of its path */
+    /* only for a change: */
+    const struct source *set; /* PATH=VALUE */
+    size_t length;            /* of PATH */
     const struct node *value;
-    bool sourced; /* nothing is left to tell a source */
+    bool source_done; /* the source around the value is marked, or need not be */
 };
 
 /* ---- files ---- */
 
-/* A copy of `found` that stands where `place` stood. */
-static struct node *in_place_of(struct arena *arena, const struct node *found, const struct node *place)
+/* Copy `found` to the place of the reference `place`. */
+static struct node *replace_node(struct arena *arena, const struct node *found, const struct node *place)
 {
     struct node *copy = ceduo_arena_take(arena, sizeof *copy);
     if (!copy)
@@ -64,10 +64,10 @@ const char *ceduo_resolve_path(struct arena *arena, const struct node *node, con
     return path;
 }
 
-static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth);
+static const struct node *load_reference(struct resolver *r, const struct object *object, const struct node *node, int depth);
 
-/* A node whose reference leads nowhere, marked so that the rest is still read. NULL without memory. */
-static const struct node *broken(struct resolver *r, const struct node *node)
+/* Copy a node with an unreadable reference and mark it, so that the rest is still read. NULL on failure. */
+static const struct node *copy_broken(struct resolver *r, const struct node *node)
 {
     struct node *copy = ceduo_arena_take(r->arena, sizeof *copy);
     if (copy) {
@@ -77,8 +77,7 @@ static const struct node *broken(struct resolver *r, const struct node *node)
     return copy;
 }
 
-/* The mapping without the translation of a text that is replaced, unless `by` brings another one (NULL: it does not). NULL
- * without memory. */
+/* Remove the translation of a replaced text from a mapping, unless `by` (may be NULL) has a new one. NULL on failure. */
 static const struct node *without_translation(struct arena *arena, const struct node *map, const char *key,
                                               const struct node *by)
 {
@@ -87,18 +86,18 @@ static const struct node *without_translation(struct arena *arena, const struct 
     return ceduo_node_get(by, ceduo_text_string(&name)) ? map : ceduo_node_without(arena, map, ceduo_text_string(&name));
 }
 
-/* The entries of `over` put over those of `base`: mappings are merged, anything else replaced. */
-static const struct node *merge(struct arena *arena, const struct node *base, const struct node *over)
+/* Merge the entries of `changes` into `base`. Mappings are merged, other values replaced. */
+static const struct node *merge(struct arena *arena, const struct node *base, const struct node *changes)
 {
     const struct node *merged = base;
-    for (size_t i = 0; merged && i < over->n; i++) {
-        const struct node *entry = over->items[i], *old = ceduo_node_get(merged, entry->key);
+    for (size_t i = 0; merged && i < changes->n; i++) {
+        const struct node *entry = changes->items[i], *old = ceduo_node_get(merged, entry->key);
         if (strcmp(entry->key, "base") == 0)
             continue;
         if (old && old->kind == NODE_MAP && entry->kind == NODE_MAP)
             entry = merge(arena, old, entry);
         else if (old)
-            merged = without_translation(arena, merged, entry->key, over);
+            merged = without_translation(arena, merged, entry->key, changes);
         merged = entry ? ceduo_node_with(arena, merged, entry->key, entry) : NULL;
     }
     return merged;
@@ -111,16 +110,16 @@ static const struct node *merge_base(struct resolver *r, const struct object *ob
         return node;
     if (base->kind != NODE_SCALAR) {
         ceduo_problem_at(r->problems, ceduo_node_place(base, "base"), _("expected a path to a file"));
-        return broken(r, node);
+        return copy_broken(r, node);
     }
-    const struct node *below = follow(r, object, base, depth + 1);
+    const struct node *below = load_reference(r, object, base, depth + 1);
     if (!below)
-        return broken(r, node);
-    if (below->kind != NODE_MAP) /* which is told where it is bound */
-        return in_place_of(r->arena, below, node);
+        return copy_broken(r, node);
+    if (below->kind != NODE_MAP) /* ceduo_bind() reports it */
+        return replace_node(r->arena, below, node);
     const struct node *merged = merge(r->arena, below, node);
-    struct node *placed = merged ? in_place_of(r->arena, merged, node) : NULL;
-    if (placed) { /* what is wrong with it is wrong here, not in the file of the base */
+    struct node *placed = merged ? replace_node(r->arena, merged, node) : NULL;
+    if (placed) { /* report problems at the reference, not in the file of the base */
         placed->source = node->source;
         placed->line = node->line;
         placed->column = node->column;
@@ -128,7 +127,7 @@ static const struct node *merge_base(struct resolver *r, const struct object *ob
     return placed;
 }
 
-/* The document in a file, read once. */
+/* Read the document in a file, at most once. */
 static const struct node *read_file(struct resolver *r, const struct node *node, const char *path)
 {
     for (const struct known_file *f = r->files; f; f = f->before)
@@ -136,8 +135,8 @@ static const struct node *read_file(struct resolver *r, const struct node *node,
             r->problems->met += !f->root;
             return f->root;
         }
-    if (r->files_count == FILES_MOST) {
-        ceduo_problem_at(r->problems, ceduo_node_place(node, node->key), _("more than %d files in one scene"), FILES_MOST);
+    if (r->files_count == FILES_MAX) {
+        ceduo_problem_at(r->problems, ceduo_node_place(node, node->key), _("more than %d files in one scene"), FILES_MAX);
         return NULL;
     }
     struct known_file *file = ceduo_arena_take(r->arena, sizeof *file);
@@ -151,22 +150,23 @@ static const struct node *read_file(struct resolver *r, const struct node *node,
     return file->root;
 }
 
-static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth)
+static const struct node *load_reference(struct resolver *r, const struct object *object, const struct node *node, int depth)
 {
-    static const char *const tables[] = {".csv", ".gpx", ".kml", ".xml"}; /* what is no CSV is told what to do */
-    if (depth > BASES_MOST) {
+    static const char *const tables[] = {".csv", ".gpx", ".kml",
+                                         ".xml"}; /* the CSV reader explains how to convert the others */
+    if (depth > BASES_MAX) {
         ceduo_problem_at(r->problems, ceduo_node_place(node, node->key),
-                         _("more than %d files in a chain of 'base'; do they form a loop?"), BASES_MOST);
+                         _("more than %d files in a chain of 'base'; do they form a loop?"), BASES_MAX);
         return NULL;
     }
     if (node->kind != NODE_SCALAR)
         return merge_base(r, object, node, depth);
     const char *end = strrchr(node->text, '.');
     for (size_t i = 0; end && object == ceduo_schema_slope() && i < sizeof tables / sizeof tables[0]; i++)
-        if (strcasecmp(end, tables[i]) == 0) { /* a mapping that names it as its table */
+        if (strcasecmp(end, tables[i]) == 0) { /* becomes {csv: FILE} */
             const struct node map = {.kind = NODE_MAP, .line = node->line, .column = node->column, .source = node->source};
             const struct node *filled = ceduo_node_with(r->arena, &map, "csv", node);
-            return filled ? in_place_of(r->arena, filled, node) : NULL;
+            return filled ? replace_node(r->arena, filled, node) : NULL;
         }
     const char *path = ceduo_resolve_path(r->arena, node, object->folder);
     if (!path)
@@ -175,50 +175,49 @@ static const struct node *follow(struct resolver *r, const struct object *object
     const struct node *found = path ? read_file(r, node, path) : NULL;
     if (found && found->kind == NODE_MAP)
         found = merge_base(r, object, found, depth);
-    return found ? in_place_of(r->arena, found, node) : NULL;
+    return found ? replace_node(r->arena, found, node) : NULL;
 }
 
 static const struct node *resolve_map(struct resolver *r, const struct object *object, const struct node *map);
 
-/* All references at and below the items of a list. It is copied once, not for each of its items. */
+/* Resolve all references at and below the items of a list. The list is copied once, not for each item. */
 static const struct node *resolve_items(struct resolver *r, const struct object *object, const struct node *list)
 {
-    bool own = false; /* it was made here, and nobody else has seen it */
+    bool copied = false;
     for (size_t i = 0; list && i < list->n; i++) {
         const struct node *item = list->items[i]->kind == NODE_MAP ? resolve_map(r, object, list->items[i]) : list->items[i];
         if (item == list->items[i])
             continue;
-        if (own && item)
+        if (copied && item)
             ((const struct node **)(uintptr_t)list->items)[i] = item;
         else
             list = ceduo_node_replaced(r->arena, list, i, item);
-        own = true;
+        copied = true;
     }
     return list;
 }
 
-/* All references at and below a mapping that `object` describes. NULL without memory. */
+/* Resolve all references at and below a mapping that `object` describes. NULL on failure. */
 static const struct node *resolve_map(struct resolver *r, const struct object *object, const struct node *map)
 {
     for (size_t i = 0; map && i < map->n; i++) {
         const struct node *entry = map->items[i], *found = entry;
         const struct field *f = ceduo_schema_field(object, entry->key);
         if (f && f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS) {
-            found = follow(r, f->object, entry, 0);
-            found = found ? found : broken(r, entry);
+            found = load_reference(r, f->object, entry, 0);
+            found = found ? found : copy_broken(r, entry);
         } else if (f && f->type == FIELD_LIST && entry->kind == NODE_LIST) {
-            bool long_one =
-                strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST; /* before so many files are looked for */
-            if (long_one)
+            bool too_long = strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST; /* before all its files are read */
+            if (too_long)
                 ceduo_problem_at(r->problems, ceduo_node_place(entry, f->key), _("%zu items; at most %d can be computed"),
                                  entry->n, CEDUO_ITEMS_MOST);
-            found = long_one ? broken(r, entry) : resolve_items(r, f->object, entry);
+            found = too_long ? copy_broken(r, entry) : resolve_items(r, f->object, entry);
         }
         if (found == entry)
             continue;
         const struct node *replaced = ceduo_node_replaced(r->arena, map, i, found);
         if (replaced)
-            ceduo_node_keep_written(replaced, map); /* the same thing, only followed further */
+            ceduo_node_keep_written(replaced, map);
         map = replaced;
     }
     return map;
@@ -232,27 +231,27 @@ const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *r
 
 /* ---- paths ---- */
 
-/* The name of an item; a belt has its stand's, a stretch of ground that of the library. NULL: none. */
-static const char *name_of(const struct node *item)
+/* Return the name of an item. A belt has the name of its stand, a stretch of ground that of its material. NULL: none. */
+static const char *find_name(const struct node *item)
 {
     const char *name = ceduo_node_text(item, "name"), *ground = ceduo_node_text(item, "material");
     return name ? name : ground ? ground : ceduo_node_text(ceduo_node_get(item, "stand"), "name");
 }
 
-/* Number of a ground of the library by one of its names; -1: a step that is none. */
-static int ground_of(const struct path_step *step)
+/* Return the index of the ground of the library that a step names; -1: none. */
+static int find_ground(const struct path_step *step)
 {
     LOCAL_TEXT(name);
     ceduo_text_add(&name, step->p, step->n);
     return step->bracket ? ceduo_choice_find(&ceduo_material_words, ceduo_text_string(&name)) : -1;
 }
 
-/* True if a step means an item: each, or each of a ground. */
-static bool means(const struct path_step *step, const struct object *object, const struct node *item)
+/* True if a step selects an item: [*] selects all, [GROUND] all stretches of a ground. */
+static bool matches(const struct path_step *step, const struct object *object, const struct node *item)
 {
     const char *ground = object && ceduo_schema_field(object, "material") ? ceduo_node_text(item, "material") : NULL;
     int known = ground ? ceduo_choice_find(&ceduo_material_words, ground) : -1;
-    return ceduo_path_is(step, "*") || (known >= 0 && known == ground_of(step));
+    return ceduo_path_is(step, "*") || (known >= 0 && known == find_ground(step));
 }
 
 bool ceduo_resolve_item(const struct node *list, const struct path_step *step, size_t *index)
@@ -260,16 +259,16 @@ bool ceduo_resolve_item(const struct node *list, const struct path_step *step, s
     if (ceduo_path_index(step, index))
         return *index < list->n;
     for (*index = 0; *index < list->n; ++*index)
-        if (ceduo_path_is(step, name_of(list->items[*index])))
+        if (ceduo_path_is(step, find_name(list->items[*index])))
             return true;
     return false;
 }
 
-const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **within, size_t *used)
+const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **file_path, size_t *used)
 {
     size_t at = 0, length = strlen(path);
     struct path_step step;
-    *within = path;
+    *file_path = path;
     *used = 0;
     while (ceduo_path_next(path, length, &at, &step)) {
         const struct node *next = NULL;
@@ -284,16 +283,16 @@ const struct node *ceduo_resolve_walk(const struct node *root, const char *path,
         root = next;
         *used = at;
         if (root->kind == NODE_MAP && root->written && root->written->kind == NODE_SCALAR)
-            *within = path[at] == '.' ? path + at + 1 : path + at;
+            *file_path = path[at] == '.' ? path + at + 1 : path + at;
     }
     return root;
 }
 
 const struct node *ceduo_resolve_at(const struct node *root, const char *path)
 {
-    const char *within;
+    const char *file_path;
     size_t used = 0;
-    const struct node *node = root ? ceduo_resolve_walk(root, path, &within, &used) : NULL;
+    const struct node *node = root ? ceduo_resolve_walk(root, path, &file_path, &used) : NULL;
     return path[used] == '\0' ? node : NULL;
 }
 
@@ -310,18 +309,17 @@ static const struct node *fail_at(struct resolver *s, const struct path_step *st
     return NULL;
 }
 
-/* A value that was changed is no longer of the source around it: the innermost mapping that has one says so under `except`. From a
- * list on the path is left out, for items may move. */
-static const struct node *tell_source(struct resolver *s, const struct node *map, const struct path_step *step)
+/* Add the path of a changed value to `except` of the nearest `source`. Stop the path at a list index, because indices change. */
+static const struct node *mark_source(struct resolver *s, const struct node *map, const struct path_step *step)
 {
     const struct node *source = ceduo_node_get(map, "source"), *list = ceduo_node_get(source, "except");
-    if (s->sourced || !source)
+    if (s->source_done || !source)
         return map;
-    s->sourced = true;
+    s->source_done = true;
     if (source->kind != NODE_MAP || (list && list->kind != NODE_LIST))
         return map; /* checked later */
-    size_t n = 0, most = s->length - (size_t)(step->p - s->set->bytes);
-    while (n < most && step->p[n] != '[')
+    size_t n = 0, max = s->length - (size_t)(step->p - s->set->bytes);
+    while (n < max && step->p[n] != '[')
         n++;
     const struct path_step path = {step->p, n, false};
     for (size_t i = 0; list && i < list->n; i++)
@@ -335,9 +333,9 @@ static const struct node *tell_source(struct resolver *s, const struct node *map
     return source ? ceduo_node_with(s->arena, map, "source", source) : NULL;
 }
 
-/* Whether no source is of what was changed: it says the same as before, is only moved, is a name, a source or a setting
- * of the computing. */
-static bool needs_no_source(const struct resolver *s, const struct field *f, const char *key, const struct node *old)
+/* True if a change does not affect the source: the value is equal or only moved, or is a name, a source or a setting of the
+ * simulation. */
+static bool keeps_source(const struct resolver *s, const struct field *f, const char *key, const struct node *old)
 {
     struct node before = old ? *old : (struct node){0}, now = *s->value;
     before.key = now.key = NULL;
@@ -345,14 +343,13 @@ static bool needs_no_source(const struct resolver *s, const struct field *f, con
            !now.source->is_option || (old && ceduo_node_equal(&before, &now));
 }
 
-/* The ground that is assumed where a slope says none, as a list, if the next step of the path means it. NULL: it does not, or without
- * memory. */
-static const struct node *ground_assumed(struct resolver *s, size_t at)
+/* Return the assumed ground of a slope without ground as a list, if the next step of the path names it; NULL: no, or on failure. */
+static const struct node *make_assumed_ground(struct resolver *s, size_t at)
 {
     const struct ceduo_material *talus = ceduo_material_talus();
     struct path_step step;
-    if (!ceduo_path_next(s->set->bytes, s->length, &at, &step) || ground_of(&step) < 0 ||
-        strcmp(ceduo_material_words.names[ground_of(&step)], talus->name) != 0)
+    if (!ceduo_path_next(s->set->bytes, s->length, &at, &step) || find_ground(&step) < 0 ||
+        strcmp(ceduo_material_words.names[find_ground(&step)], talus->name) != 0)
         return NULL;
     const char *const entries[][2] = {{"from_m", FIRST}, {"to_m", "end"}, {"material", talus->name}};
     const struct node *row = ceduo_node_empty(s->arena, NODE_MAP, s->set),
@@ -374,24 +371,24 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
     key[step->n] = '\0';
     const struct field *f = object ? ceduo_schema_field(object, key) : NULL;
     bool free_form = !object || strcmp(key, "source") == 0;
-    const char *instead = object ? ceduo_gone(key) : NULL;
-    if (instead)
-        return fail_at(s, step, _(instead));
-    LOCAL_TEXT(said);
+    const char *removed = object ? ceduo_gone(key) : NULL;
+    if (removed)
+        return fail_at(s, step, _(removed));
+    LOCAL_TEXT(message);
     if (!f && !free_form) {
-        ceduo_bind_unknown_key(object, key, &said);
-        return fail_at(s, step, ceduo_text_string(&said));
+        ceduo_bind_unknown_key(object, key, &message);
+        return fail_at(s, step, ceduo_text_string(&message));
     }
     const struct node *child = ceduo_node_get(map, key);
     bool last = at >= s->length;
-    if (!last && f && f->flags & FIELD_FOLLOWS && child && !(child = follow(s, f->object, child, 0)))
+    if (!last && f && f->flags & FIELD_FOLLOWS && child && !(child = load_reference(s, f->object, child, 0)))
         return NULL;
     if (!last && f && f->type == FIELD_SPREAD && (!child || child->kind == NODE_SCALAR)) {
-        const struct node *parts = ceduo_node_empty(s->arena, NODE_MAP, s->set); /* {mean: number} where one of them is set */
+        const struct node *parts = ceduo_node_empty(s->arena, NODE_MAP, s->set); /* a number becomes {mean: number} */
         child = parts && child ? ceduo_node_with(s->arena, parts, "mean", child) : parts;
     } else if (!last && !child && f && f->object && ceduo_schema_field(f->object, "material") &&
                !ceduo_node_get(map, "segments"))
-        child = ground_assumed(s, at);
+        child = make_assumed_ground(s, at);
     else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = ceduo_node_empty(s->arena, NODE_MAP, s->set);
     else if (!last && !child) {
@@ -405,12 +402,12 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
     }
     if (!last && !child)
         return NULL;
-    s->sourced |= needs_no_source(s, f, key, last ? child : NULL);
+    s->source_done |= keeps_source(s, f, key, last ? child : NULL);
     child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, at);
-    map = child ? tell_source(s, map, step) : NULL;
-    const char *other = f && f->type == FIELD_NUMBER ? ceduo_schema_other(object, key) : NULL;
-    if (map && other)
-        map = ceduo_node_without(s->arena, map, other);
+    map = child ? mark_source(s, map, step) : NULL;
+    const char *rival = f && f->type == FIELD_NUMBER ? ceduo_schema_other(object, key) : NULL;
+    if (map && rival)
+        map = ceduo_node_without(s->arena, map, rival);
     map = map && last ? without_translation(s->arena, map, key, NULL) : map;
     return map ? ceduo_node_with(s->arena, map, key, child) : NULL;
 }
@@ -421,46 +418,46 @@ static const struct node *set_item(struct resolver *s, const struct field *f, co
                                    const struct path_step *step, size_t at)
 {
     const struct object *object = f && f->type == FIELD_LIST ? f->object : NULL;
-    size_t first, place, n = 0;
+    size_t first, index, n = 0;
     LOCAL_TEXT(items);
-    LOCAL_TEXT(what);
-    /* a belt may be named by its stand: follow it first */
+    LOCAL_TEXT(message);
+    /* a belt has the name of its stand: load it first */
     if (object && !(list = resolve_items(s, object, list)))
         return NULL;
-    while (n < list->n && !means(step, object, list->items[n]))
+    while (n < list->n && !matches(step, object, list->items[n]))
         n++;
-    if (n < list->n) { /* what is around is told unless every item has told its own source */
-        bool before = s->sourced, told = true;
+    if (n < list->n) { /* mark the source around the list unless each item has one */
+        bool before = s->source_done, all_marked = true;
         for (size_t i = n; list && i < list->n; i++) {
-            if (!means(step, object, list->items[i]))
+            if (!matches(step, object, list->items[i]))
                 continue;
-            s->sourced = before;
+            s->source_done = before;
             list = ceduo_node_replaced(s->arena, list, i, set_in(s, NULL, object, list->items[i], at));
-            told &= s->sourced;
+            all_marked &= s->source_done;
         }
-        s->sourced = told;
+        s->source_done = all_marked;
         return list;
     }
     n = 0;
     if (!ceduo_resolve_item(list, step, &first)) {
         for (size_t i = 0; i < list->n && i < ITEMS_SHOWN; i++) {
-            const char *name = name_of(list->items[i]);
+            const char *name = find_name(list->items[i]);
             ceduo_text_format(&items, "%s[%zu]%s%s", i > 0 ? ", " : "", i, name ? " " : "", name ? name : "");
         }
         ceduo_text_put(&items, list->n > ITEMS_SHOWN ? ", \xe2\x80\xa6" : "");
-        ceduo_text_format(&what, _("no such item; there are: %s"), ceduo_text_string(&items));
-        return fail_at(s, step, list->n > 0 ? ceduo_text_string(&what) : _("the list is empty"));
+        ceduo_text_format(&message, _("no such item; there are: %s"), ceduo_text_string(&items));
+        return fail_at(s, step, list->n > 0 ? ceduo_text_string(&message) : _("the list is empty"));
     }
-    for (size_t i = first; i < list->n && !ceduo_path_index(step, &place); i++)
-        if (ceduo_path_is(step, name_of(list->items[i])))
+    for (size_t i = first; i < list->n && !ceduo_path_index(step, &index); i++)
+        if (ceduo_path_is(step, find_name(list->items[i])))
             ceduo_text_format(&items, "%s[%zu]", n++ > 0 ? ", " : "", i);
-    ceduo_text_format(&what, _("several items have this name; use one of: %s"), ceduo_text_string(&items));
+    ceduo_text_format(&message, _("several items have this name; use one of: %s"), ceduo_text_string(&items));
     if (n > 1)
-        return fail_at(s, step, ceduo_text_string(&what));
+        return fail_at(s, step, ceduo_text_string(&message));
     return ceduo_node_replaced(s->arena, list, first, set_in(s, NULL, object, list->items[first], at));
 }
 
-/* The node with what lies from `at` on along the path replaced. A node that was followed stays marked as such. */
+/* Return a copy of the node with the value set along the path from byte `at` on. A resolved reference stays marked. */
 static const struct node *set_in(struct resolver *s, const struct field *f, const struct object *object,
                                  const struct node *node, size_t at)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a path to a scene: the file is found and read, changes are applied from left to right, references are
- * followed, and the tree is bound. The arena of the scene file owns all that comes of it. */
+/* Reads a scene: finds and reads the file, applies changes from left to right, resolves references and binds the tree. All memory
+ * belongs to the arena of the scene file. */
 #include "scene_file.h"
 
 #include <errno.h>
@@ -45,8 +45,8 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     return good;
 }
 
-/* The '=' that ends a path; one within brackets belongs to a name. */
-static const char *equals_of(const char *set)
+/* Find the '=' after the path. A '=' in brackets belongs to a name. */
+static const char *find_equals(const char *set)
 {
     bool inside = false;
     for (const char *p = set; *p; p++) {
@@ -54,11 +54,11 @@ static const char *equals_of(const char *set)
         if (*p == '=' && !inside)
             return p;
     }
-    return strchr(set, '='); /* a bracket that is never closed */
+    return strchr(set, '='); /* the bracket is not closed */
 }
 
-/* How messages call a change, and what it is. */
-static struct source source_of(const struct scene_sets *sets, size_t i)
+/* Return a change as a source, with its name in messages. */
+static struct source name_change(const struct scene_sets *sets, size_t i)
 {
     bool cell = i >= sets->n - sets->cells;
     return (struct source){.name = cell ? sets->row : "--set",
@@ -68,34 +68,34 @@ static struct source source_of(const struct scene_sets *sets, size_t i)
                            .is_cell = cell};
 }
 
-static bool set_one(struct scene_file *file, struct source set, struct problems *problems)
+static bool apply_change(struct scene_file *file, struct source set, struct problems *problems)
 {
     set.beside = file->path;
     const struct source *source = ceduo_source_keep(&file->arena, set);
     if (!source)
         return false;
-    const char *equals = equals_of(source->bytes);
+    const char *equals = find_equals(source->bytes);
     if (!equals || strspn(source->bytes, " ") == (size_t)(equals - source->bytes))
         return ceduo_problem(problems, source, 1, 1, _("expected %s"), "PATH=VALUE");
     size_t length = (size_t)(equals - source->bytes), value_at = length + 1;
     while (length > 0 && source->bytes[length - 1] == ' ')
         length--;
-    /* what a shell passes on without quotes, and YAML cuts or takes apart */
+    /* unquoted, '#' would begin a comment and ': ' a mapping */
     LOCAL_TEXT(path);
     ceduo_text_add(&path, source->bytes, length);
     const struct field *field = ceduo_schema_at(ceduo_text_string(&path));
-    const char *given = equals + 1 + strspn(equals + 1, " ");
-    bool all = *given == '#'; /* nothing is left of it */
+    const char *text = equals + 1 + strspn(equals + 1, " ");
+    bool all = *text == '#'; /* the whole value would be a comment */
     const struct node *value = all ? NULL : ceduo_yaml_read_value(&file->arena, source, value_at, problems);
     if (!value && !all)
         return false;
-    bool text = field ? field->type <= FIELD_FILE : all || value->kind == NODE_SCALAR;
-    bool cut = all || (value->kind == NODE_SCALAR && !value->quoted && strstr(given, " #"));
-    if (all || (text && (cut || (value->kind == NODE_MAP && !value->flow))))
+    bool takes_text = field ? field->type <= FIELD_FILE : all || value->kind == NODE_SCALAR;
+    bool cut = all || (value->kind == NODE_SCALAR && !value->quoted && strstr(text, " #"));
+    if (all || (takes_text && (cut || (value->kind == NODE_MAP && !value->flow))))
         return ceduo_problem(problems, source, 1, value_at + 1,
                              cut ? _("'#' begins a comment; between quotes it is text: %s=\"%s\"")
                                  : _("': ' makes a mapping; between quotes it is text: %s=\"%s\""),
-                             ceduo_text_string(&path), given);
+                             ceduo_text_string(&path), text);
     const struct node *root = ceduo_resolve_set(&file->arena, file->root, source, length, value, problems);
     if (root)
         file->root = root;
@@ -104,12 +104,12 @@ static bool set_one(struct scene_file *file, struct source set, struct problems 
 
 bool ceduo_scene_set(struct scene_file *file, const char *option, const char *set, struct problems *problems)
 {
-    return set_one(file, (struct source){.name = option, .bytes = set, .is_option = true}, problems);
+    return apply_change(file, (struct source){.name = option, .bytes = set, .is_option = true}, problems);
 }
 
-/* A name that is neither a file nor a scene among the profiles (`plain`: without its ending, NULL without memory): the nearest of
- * these, and where they were looked for. */
-static void complain_no_scene(struct scene_file *file, const char *path, const char *plain, struct problems *problems)
+/* Report a name that is neither a file nor a scene of the profiles, with the nearest scene and the folders searched. `plain`: the
+ * name without .yaml; NULL: no memory. */
+static void report_no_scene(struct scene_file *file, const char *path, const char *plain, struct problems *problems)
 {
     LOCAL_TEXT(names);
     LOCAL_TEXT(known);
@@ -134,7 +134,7 @@ static void complain_no_scene(struct scene_file *file, const char *path, const c
                   ceduo_text_string(&names));
 }
 
-/* From the text of a scene, and the first n changes, to the scene. */
+/* Make a scene from its text and the first n changes. */
 static bool make_scene(struct scene_file *file, const struct source *source, const struct scene_sets *sets, size_t n,
                        struct problems *problems)
 {
@@ -148,7 +148,7 @@ static bool make_scene(struct scene_file *file, const struct source *source, con
         return ceduo_problem_at(problems, ceduo_node_place(file->root, NULL),
                                 _("a scene is a mapping that begins with 'ceduo: scene/1'"));
     for (size_t i = 0; i < n; i++)
-        if (!set_one(file, source_of(sets, i), problems))
+        if (!apply_change(file, name_change(sets, i), problems))
             return false;
     const struct node *root = ceduo_resolve_scene(&file->arena, file->root, problems);
     if (!root)
@@ -157,8 +157,8 @@ static bool make_scene(struct scene_file *file, const struct source *source, con
     return ceduo_scene_bind(file, problems) && problems->count == before;
 }
 
-/* Whether the scene is good with the first n changes alone. */
-static bool is_good_with(const struct source *source, const struct scene_sets *sets, size_t n, struct problems *problems)
+/* True if the scene is valid with the first n changes. */
+static bool is_valid_with(const struct source *source, const struct scene_sets *sets, size_t n, struct problems *problems)
 {
     struct scene_file trial = {0};
     struct problems found = {0};
@@ -169,21 +169,21 @@ static bool is_good_with(const struct source *source, const struct scene_sets *s
     return good;
 }
 
-/* Reads a scene. A change that is right by itself may not fit the rest, and what is wrong is then found at a value of the file: the
- * change is named before that. It is the one after which the scene was never good again. */
+/* Read a scene. If a change that is valid on its own makes a value of the file invalid, name the change before that problem: the
+ * last --set before which the scene was valid. */
 static bool read_source(struct scene_file *file, const struct source *source, const struct scene_sets *sets,
                         struct problems *problems)
 {
     if (make_scene(file, source, sets, sets->n, problems))
         return true;
-    if (sets->n == 0 || problems->usage || !ceduo_problems_settle(problems) || !is_good_with(source, sets, 0, problems))
+    if (sets->n == 0 || problems->usage || !ceduo_problems_settle(problems) || !is_valid_with(source, sets, 0, problems))
         return false;
     size_t last = sets->n - 1;
-    while (last > 0 && !problems->memory && !is_good_with(source, sets, last, problems))
+    while (last > 0 && !problems->memory && !is_valid_with(source, sets, last, problems))
         last--;
-    const struct source set = source_of(sets, last);
+    const struct source set = name_change(sets, last);
     struct problems head = {0};
-    ceduo_problem(&head, &set, 1, (size_t)(equals_of(set.bytes) - set.bytes) + 2,
+    ceduo_problem(&head, &set, 1, (size_t)(find_equals(set.bytes) - set.bytes) + 2,
                   _("the scene is valid without this change, but not with it:"));
     ceduo_problems_follow(problems, &head);
     problems->usage = true;
@@ -199,13 +199,13 @@ bool ceduo_scene_load(struct scene_file *file, const char *path, const char *con
 bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struct scene_sets *sets, struct problems *problems)
 {
     *file = (struct scene_file){.path = path};
-    ceduo_memory_lost(); /* what was lost before is of others */
+    ceduo_memory_lost(); /* clear a stale flag */
     size_t length = strlen(path);
     length -= length > 5 && strcmp(path + length - 5, ".yaml") == 0 ? 5 : 0;
     const char *plain = ceduo_arena_copy(&file->arena, path, length);
     const char *found = strcmp(path, "-") == 0 ? path : ceduo_file_find(&file->arena, path, NULL, "scenes");
     if (!found && *path && !strchr(path, '/') && access(path, F_OK) != 0 && errno == ENOENT) {
-        complain_no_scene(file, path, plain, problems);
+        report_no_scene(file, path, plain, problems);
         return false;
     }
     const struct source *source = ceduo_file_read(&file->arena, found ? found : path, YAML_BYTES_MOST, problems);

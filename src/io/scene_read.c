@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The library's own call for reading a scene. */
+/* The public functions that read a scene. */
 #include "ceduo/read.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@ struct memory {
     struct problems problems;
 };
 
-/* `text`: NULL where the name is that of a file. */
+/* `text` may be NULL: then `name` is a file. */
 static enum ceduo_status read_scene(const char *name, const char *text, const char *const *sets, struct ceduo_reading *reading)
 {
     *reading = (struct ceduo_reading){.messages = ""};
@@ -23,7 +23,7 @@ static enum ceduo_status read_scene(const char *name, const char *text, const ch
     size_t n = 0;
     while (sets && sets[n])
         n++;
-    ceduo_language_of_data(true); /* the caller's domain of messages is not ours */
+    ceduo_language_of_data(true); /* the caller has its own message domain */
     bool good = text ? ceduo_scene_load_text(&m->file, name, text, &m->problems)
                      : ceduo_scene_load(&m->file, name, sets, n, &m->problems);
     struct scene_inputs inputs = {0};

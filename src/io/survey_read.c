@@ -623,7 +623,7 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
                        struct problems *problems)
 {
     struct survey_answers none = {0};
-    ceduo_memory_lost(); /* what was lost before is of others */
+    ceduo_memory_lost(); /* clear a stale flag */
     struct survey_reader *r = ceduo_arena_take(arena, sizeof *r);
     const char *name = ceduo_file_name(path);
     const bool standard = strcmp(name, "-") == 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads the events of libyaml into nodes, by recursion, and refuses what a scene does not need: aliases, tags, deep
- * nesting. The first problem stops. */
+/* Reads the events of libyaml into nodes, by recursion. Refuses aliases, tags and deep nesting, which no scene needs. Stops at the
+ * first problem. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,13 +11,13 @@
 #include "base/utf8.h"
 #include "node.h"
 
-#define DEPTH_MOST  16
-#define KEYS_MOST   64     /* of one mapping: several times what any has */
-#define VALUES_MOST 250000 /* of one file: 80000 vertices. Each takes some 160 bytes, whatever it says. */
-#define TEXT_MOST   65536  /* bytes of one value */
+#define DEPTH_MAX  16
+#define KEYS_MAX   64     /* of one mapping; several times the largest number in use */
+#define VALUES_MAX 250000 /* of one file: 80000 vertices. Each value needs some 160 bytes. */
+#define TEXT_MAX   65536  /* bytes of one value */
 
-/* An escape of two halves that became one of fewer characters: from this column of its line on, as libyaml counts, all stands
- * JOINED_SHORTER columns further in the file. */
+/* An escape of two halves that was joined. From this column of its line on, as libyaml counts, columns in the file are larger by
+ * JOINED_SHORTER. */
 struct joined {
     size_t line, column;
 };
@@ -28,24 +28,24 @@ struct reader {
     const struct source *source;
     struct problems *problems;
     yaml_parser_t parser;
-    const char *bytes; /* what libyaml sees: the part of the source behind `skip`, with halves joined */
+    const char *bytes; /* input of libyaml: the source after `skip` bytes, halves joined */
     size_t length;
-    size_t skip, skip_column; /* bytes before the part that libyaml sees; characters of them in its first line */
-    struct joined *joined;    /* in their order */
+    size_t skip, skip_column; /* bytes before the input of libyaml; their characters in its first line */
+    struct joined *joined;    /* sorted by position */
     size_t joined_count, joined_capacity;
     size_t values;
     bool stopped;
 };
 
-static size_t line_of(yaml_mark_t mark)
+static size_t find_line(yaml_mark_t mark)
 {
     return mark.line + 1;
 }
 
-static size_t column_of(const struct reader *r, yaml_mark_t mark)
+static size_t find_column(const struct reader *r, yaml_mark_t mark)
 {
     size_t column = mark.column + 1 + (mark.line == 0 ? r->skip_column : 0), lo = 0, hi = r->joined_count;
-    while (lo < hi) { /* the first of the line */
+    while (lo < hi) { /* find the first of the line */
         size_t mid = (lo + hi) / 2;
         if (r->joined[mid].line < mark.line)
             lo = mid + 1;
@@ -63,14 +63,14 @@ static void *stop(struct reader *r)
     return NULL;
 }
 
-/* Reports and stops; NULL. None of its values is a word of the file. */
+/* Report an error and stop; NULL. The message quotes nothing from the file. */
 #define STOP(r, mark, ...)                                                                                                     \
-    (ceduo_problem_at((r)->problems, (struct problem_place){(r)->source, line_of(mark), column_of(r, mark), NULL, true},       \
+    (ceduo_problem_at((r)->problems, (struct problem_place){(r)->source, find_line(mark), find_column(r, mark), NULL, true},   \
                       __VA_ARGS__),                                                                                            \
      stop(r))
 
-/* The place of byte `offset`: libyaml gives no mark for what is no UTF-8. */
-static yaml_mark_t mark_of_byte(const char *bytes, size_t offset)
+/* Find the place of byte `offset`. libyaml gives no mark for invalid UTF-8. */
+static yaml_mark_t find_mark(const char *bytes, size_t offset)
 {
     yaml_mark_t mark = {offset, 0, 0};
     for (size_t i = 0; i < offset; i++) {
@@ -84,10 +84,10 @@ static yaml_mark_t mark_of_byte(const char *bytes, size_t offset)
     return mark;
 }
 
-static void *syntax_problem(struct reader *r)
+static void *report_syntax(struct reader *r)
 {
     const yaml_parser_t *p = &r->parser;
-    const char *bytes = r->bytes, *what = p->problem;
+    const char *bytes = r->bytes, *message = p->problem;
     size_t length = r->length, from = 0, n;
     if (p->error == YAML_MEMORY_ERROR) {
         ceduo_no_memory();
@@ -97,29 +97,29 @@ static void *syntax_problem(struct reader *r)
         uint32_t code;
         while (from < p->problem_offset && (n = ceduo_utf8_decode(bytes + from, length - from, &code)) > 0)
             from += n; /* libyaml may name a byte within the character */
-        yaml_mark_t at = mark_of_byte(bytes, from);
-        if (p->problem_value >= 0 && strstr(what, "control"))
+        yaml_mark_t at = find_mark(bytes, from);
+        if (p->problem_value >= 0 && strstr(message, "control"))
             return STOP(r, at, _("a control character (\\x%02x); remove it"), (unsigned)p->problem_value);
         return STOP(r, at, _("not UTF-8; save the file as UTF-8"));
     }
     /* untaken: table */
     while (length > 0 && (bytes[length - 1] == '\n' || bytes[length - 1] == '\r' || bytes[length - 1] == ' '))
         length--;
-    yaml_mark_t at = p->problem_mark, end = mark_of_byte(bytes, length); /* of the last line that has something */
+    yaml_mark_t at = p->problem_mark, end = find_mark(bytes, length); /* end: of the last line that is not blank */
     at = at.line > end.line ? end : at;
-    size_t byte = ceduo_source_byte(r->source, line_of(at), column_of(r, at));
-    if (strstr(what, "tab") || (byte < r->source->length && r->source->bytes[byte] == '\t'))
+    size_t byte = ceduo_source_byte(r->source, find_line(at), find_column(r, at));
+    if (strstr(message, "tab") || (byte < r->source->length && r->source->bytes[byte] == '\t'))
         return STOP(r, at, _("a tab; indent with spaces"));
-    if (strstr(what, "cannot start any token"))
+    if (strstr(message, "cannot start any token"))
         return STOP(r, at, _("malformed YAML: no value can start with this character; put the text in quotes"));
     if (p->context)
-        return STOP(r, at, _("malformed YAML: %s %s"), what, p->context);
-    return STOP(r, at, _("malformed YAML: %s"), what);
+        return STOP(r, at, _("malformed YAML: %s %s"), message, p->context);
+    return STOP(r, at, _("malformed YAML: %s"), message);
 }
 
 static bool next_event(struct reader *r, yaml_event_t *event)
 {
-    return yaml_parser_parse(&r->parser, event) || syntax_problem(r); /* untaken: complaint */
+    return yaml_parser_parse(&r->parser, event) || report_syntax(r); /* untaken: complaint */
 }
 
 static struct node *new_node(struct reader *r, enum node_kind kind, yaml_mark_t mark)
@@ -128,15 +128,15 @@ static struct node *new_node(struct reader *r, enum node_kind kind, yaml_mark_t 
     if (!node)
         return stop(r);
     *node = (struct node){
-        .kind = kind, .source = r->source, .line = (uint32_t)line_of(mark), .column = (uint32_t)column_of(r, mark)};
+        .kind = kind, .source = r->source, .line = (uint32_t)find_line(mark), .column = (uint32_t)find_column(r, mark)};
     return node;
 }
 
-/* Where a value ends: so that it can be written anew without the rest of the file. */
+/* Record the end of a value, so that it can be replaced in the file. */
 static void note_end(const struct reader *r, struct node *node, const yaml_event_t *event)
 {
-    node->end_line = (uint32_t)line_of(event->end_mark);
-    node->end_column = (uint32_t)column_of(r, event->end_mark);
+    node->end_line = (uint32_t)find_line(event->end_mark);
+    node->end_column = (uint32_t)find_column(r, event->end_mark);
 }
 
 static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
@@ -148,8 +148,8 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
     size_t length = event->data.scalar.length;
     if (memchr(value, '\0', length))
         return STOP(r, event->start_mark, _("a control character (\\x%02x); remove it"), 0u);
-    if (length > TEXT_MOST)
-        return STOP(r, event->start_mark, _("a value of more than %d bytes; look for a missing quote"), TEXT_MOST);
+    if (length > TEXT_MAX)
+        return STOP(r, event->start_mark, _("a value of more than %d bytes; look for a missing quote"), TEXT_MAX);
     note_end(r, node, event);
     node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
     node->text = ceduo_arena_copy(r->arena, value, length);
@@ -158,18 +158,18 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
 
 static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth);
 
-/* One entry of a mapping whose key is `event`. `map`: the entries so far. */
+/* Read one entry of a mapping. `event`: its key; `map`: the entries before it. */
 static struct node *read_entry(struct reader *r, const yaml_event_t *event, const struct node *map, int depth)
 {
     const char *key = (const char *)event->data.scalar.value;
     yaml_event_t value;
     if (event->type != YAML_SCALAR_EVENT || strlen(key) != event->data.scalar.length)
         return STOP(r, event->start_mark, _("a key must be a plain word"));
-    if (map->n >= KEYS_MOST)
-        return STOP(r, event->start_mark, _("more than %d keys in one mapping"), KEYS_MOST);
+    if (map->n >= KEYS_MAX)
+        return STOP(r, event->start_mark, _("more than %d keys in one mapping"), KEYS_MAX);
     for (size_t i = 0; i < map->n; i++)
         if (strcmp(map->items[i]->key, key) == 0) {
-            ceduo_problem(r->problems, r->source, line_of(event->start_mark), column_of(r, event->start_mark),
+            ceduo_problem(r->problems, r->source, find_line(event->start_mark), find_column(r, event->start_mark),
                           _("%s: given twice, first on line %u; keep one"), key, (unsigned)map->items[i]->key_line);
             return stop(r);
         }
@@ -180,18 +180,18 @@ static struct node *read_entry(struct reader *r, const yaml_event_t *event, cons
     if (!node)
         return NULL;
     node->key = ceduo_arena_string(r->arena, key);
-    node->key_line = (uint32_t)line_of(event->start_mark);
-    node->key_column = (uint32_t)column_of(r, event->start_mark);
+    node->key_line = (uint32_t)find_line(event->start_mark);
+    node->key_column = (uint32_t)find_column(r, event->start_mark);
     return node->key ? node : stop(r);
 }
 
-/* A mapping or list. */
+/* Read a mapping or list. */
 static struct node *read_entries(struct reader *r, const yaml_event_t *start, int depth)
 {
     bool list = start->type == YAML_SEQUENCE_START_EVENT;
     yaml_event_type_t last = list ? YAML_SEQUENCE_END_EVENT : YAML_MAPPING_END_EVENT;
     struct node *node = new_node(r, list ? NODE_LIST : NODE_MAP, start->start_mark);
-    size_t room = 0;
+    size_t capacity = 0;
     const struct node **items = NULL;
     if (!node)
         return NULL;
@@ -208,7 +208,7 @@ static struct node *read_entries(struct reader *r, const yaml_event_t *start, in
         yaml_event_delete(&event);
         if (!item)
             continue;
-        node->items = items = ceduo_arena_more(r->arena, items, node->n, 1, &room, sizeof *items);
+        node->items = items = ceduo_arena_more(r->arena, items, node->n, 1, &capacity, sizeof *items);
         if (!items)
             return stop(r);
         items[node->n++] = item;
@@ -218,18 +218,19 @@ static struct node *read_entries(struct reader *r, const yaml_event_t *start, in
 
 static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth)
 {
-    if (depth >= DEPTH_MOST)
-        return STOP(r, event->start_mark, _("more than %d levels deep"), DEPTH_MOST);
-    if (++r->values > VALUES_MOST)
-        return STOP(r, event->start_mark, _("more than %d values in one file; write a long profile as CSV"), VALUES_MOST);
-    if (event->type == YAML_ALIAS_EVENT || event->data.scalar.anchor || event->data.scalar.tag) /* as all values begin */
+    if (depth >= DEPTH_MAX)
+        return STOP(r, event->start_mark, _("more than %d levels deep"), DEPTH_MAX);
+    if (++r->values > VALUES_MAX)
+        return STOP(r, event->start_mark, _("more than %d values in one file; write a long profile as CSV"), VALUES_MAX);
+    if (event->type == YAML_ALIAS_EVENT || event->data.scalar.anchor ||
+        event->data.scalar.tag) /* members of all value events */
         return STOP(r, event->start_mark, _("an alias, an anchor or a tag; write the value out without it"));
     return event->type == YAML_SCALAR_EVENT ? read_scalar(r, event) : read_entries(r, event, depth + 1);
 }
 
 /* ---- escapes of JSON ---- */
 
-/* The half of a character that a JSON escape at `p` stands for, if it lies from `lo` to `lo` + 0x3ff; otherwise 0. */
+/* Return the surrogate that a JSON escape at `p` encodes if it lies in `lo` to `lo` + 0x3ff; otherwise 0. */
 static unsigned half_at(const char *p, size_t n, unsigned lo)
 {
     char digits[5] = {0};
@@ -251,13 +252,13 @@ static void note_joined(struct reader *r, size_t line, size_t column)
     r->joined[r->joined_count++] = (struct joined){line, column};
 }
 
-/* JSON writes a character above U+FFFF as two escapes, the halves of UTF-16, which libyaml refuses: joins them to the escape that
- * YAML has. Only between double quotes, where an escape is one; a quote begins a value where a value may begin. */
+/* Join the two escapes of a character above U+FFFF to one escape of YAML. JSON writes UTF-16 surrogates, which libyaml refuses.
+ * Escapes exist in double quotes only; a quote opens a string only at the begin of a value. */
 static void join_halves(struct reader *r)
 {
     const char *from = r->bytes;
     size_t n = r->length, line = 0, column = 0, length = 0;
-    char quote = 0, before = 0; /* before: the last character that is no blank; 0 at the start of a line */
+    char quote = 0, before = 0; /* before: last character that is not a blank; 0: at the start of a line */
     char *to = NULL;
     for (size_t i = 0, used; i < n && !r->stopped; i += used) {
         unsigned high = quote == '"' ? half_at(from + i, n - i, 0xd800) : 0;
@@ -272,17 +273,17 @@ static void join_halves(struct reader *r)
             }
             memcpy(to, from, i);
         }
-        size_t put = used;
+        size_t written = used;
         if (low) {
-            put = (size_t)snprintf(escape, sizeof escape, "\\U%08x", 0x10000 + ((high - 0xd800) << 10) + (low - 0xdc00));
-            note_joined(r, line, column + put);
+            written = (size_t)snprintf(escape, sizeof escape, "\\U%08x", 0x10000 + ((high - 0xd800) << 10) + (low - 0xdc00));
+            note_joined(r, line, column + written);
         }
         if (to)
-            memcpy(to + length, low ? escape : from + i, put);
-        length += put;
+            memcpy(to + length, low ? escape : from + i, written);
+        length += written;
         for (size_t k = 0; k < (low ? 0 : used); k++)
             column += !ceduo_utf8_inside(from[i + k]);
-        column += low ? put : 0;
+        column += low ? written : 0;
         bool may_begin = !before || strchr("[{,:-?", before);
         if (used > 1)
             continue;
@@ -291,7 +292,7 @@ static void join_halves(struct reader *r)
         else if ((c == '"' || c == '\'') && may_begin)
             quote = c;
         else if (c == '#' && (i == 0 || strchr(" \t\n", from[i - 1])))
-            while (i + used < n && from[i + used] != '\n') { /* a comment; it has no marks */
+            while (i + used < n && from[i + used] != '\n') { /* a comment needs no columns */
                 if (to)
                     to[length] = from[i + used];
                 length++;
@@ -306,7 +307,7 @@ static void join_halves(struct reader *r)
         r->bytes = to, r->length = length;
 }
 
-/* The one document of the stream. */
+/* Read the only document of the stream. */
 static struct node *read_document(struct reader *r)
 {
     struct node *root = NULL;
@@ -333,7 +334,7 @@ const struct node *ceduo_yaml_read_value(struct arena *arena, const struct sourc
                                          struct problems *problems)
 {
     struct reader r = {.arena = arena, .source = source, .problems = problems, .skip = skip};
-    for (size_t i = source->is_option ? 0 : skip; i < skip; i++) /* a byte order mark takes no column */
+    for (size_t i = source->is_option ? 0 : skip; i < skip; i++) /* a byte order mark has no column */
         r.skip_column += !ceduo_utf8_inside(source->bytes[i]);
     if (!yaml_parser_initialize(&r.parser)) {
         ceduo_no_memory();
