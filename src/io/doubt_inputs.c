@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which values of a scene are in doubt. The table of keys and the scene's document are followed together; a value that is
- * marked as assumed and has a range becomes a place of an input. Places with the same origin are one input. */
+/* Finds the uncertain inputs of a scene. Walks the table of keys and the scene's document together. A value that is marked as
+ * assumed and has a range becomes a place of an input. Places with one origin are one input. */
 #include "scene_file.h"
 
 #include <math.h>
@@ -14,21 +14,21 @@
 #include "scene/value.h"
 #include "study/inputs.h"
 
-/* An input that is found; places with one origin are its places. */
+/* An input and its places, which have one origin. */
 struct found {
     const char *origin;
     struct ceduo_input input;
     const char **places;
-    size_t room;
+    size_t capacity;
 };
 
-struct finder {
+struct input_finder {
     struct scene_file *file;
     struct arena *arena;
     struct found *found;
-    size_t n, room;
+    size_t n, capacity;
     struct text path;
-    bool brauner; /* the energy law of the stand whose fields are walked is brauner, or may be */
+    bool brauner; /* the energy law of the current stand is, or may be, brauner */
 };
 
 bool ceduo_inputs_have(const struct ceduo_input *inputs, size_t n, const char *place)
@@ -57,10 +57,10 @@ const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *s, const cha
     return within && i < s->options_count && k < s->options[i].belts_count ? &s->options[i].belts[k] : NULL;
 }
 
-/* ---- putting together ---- */
+/* ---- inputs and their places ---- */
 
-/* An input for the places of one origin, of which `path` is the first. */
-static struct ceduo_input make_input(struct finder *f, const char *path, const struct range *range)
+/* Make an input for the places of one origin. `path`: of the first. */
+static struct ceduo_input make_input(struct input_finder *f, const char *path, const struct range *range)
 {
     struct ceduo_input input = {.kind = range->kind, .lo = range->lo, .hi = range->hi, .source = range->source};
     if (range->kind != CEDUO_INPUT_WORDS)
@@ -72,8 +72,8 @@ static struct ceduo_input make_input(struct finder *f, const char *path, const s
     return input;
 }
 
-/* Adds a place to the input of its origin, unless the scene names it itself. */
-static void add(struct finder *f, const char *path, const char *origin, struct range range)
+/* Add a place to the input of its origin, unless a row of `doubt` names it. */
+static void add_place(struct input_finder *f, const char *path, const char *origin, struct range range)
 {
     size_t i = 0;
     if (!path || !origin)
@@ -81,7 +81,7 @@ static void add(struct finder *f, const char *path, const char *origin, struct r
     while (i < f->n && strcmp(f->found[i].origin, origin) != 0)
         i++;
     if (i == f->n) {
-        struct found *all = ceduo_arena_more(f->arena, f->found, f->n, 1, &f->room, sizeof *all);
+        struct found *all = ceduo_arena_more(f->arena, f->found, f->n, 1, &f->capacity, sizeof *all);
         if (!all)
             return;
         f->found = all;
@@ -89,7 +89,7 @@ static void add(struct finder *f, const char *path, const char *origin, struct r
     }
     struct found *to = &f->found[i];
     size_t n = to->input.places_count;
-    const char **places = ceduo_arena_more(f->arena, to->places, n, 1, &to->room, sizeof *places);
+    const char **places = ceduo_arena_more(f->arena, to->places, n, 1, &to->capacity, sizeof *places);
     if (!places)
         return;
     to->input.places = to->places = places;
@@ -97,39 +97,39 @@ static void add(struct finder *f, const char *path, const char *origin, struct r
     to->input.places_count += !ceduo_inputs_have(f->file->inputs, f->file->inputs_count, path);
 }
 
-/* ---- what is marked as assumed ---- */
+/* ---- values marked as assumed ---- */
 
-/* Whether the scene's law of contacts knows a value of the ground. */
-static bool law_knows(const struct finder *f, const char *key)
+/* True if the scene's law of contacts uses a value of the ground. */
+static bool law_uses(const struct input_finder *f, const char *key)
 {
     bool arm = f->file->scene.simulation.law == CEDUO_LAW_ARM;
     return strcmp(key, "mu") == 0 ? arm : strcmp(key, "rt") != 0 || !arm;
 }
 
-/* Key of a value that belongs to a species on this slope, not to one stand: strength of wood, and growth. NULL if it is neither. */
-static const char *key_of_species(const struct field *field, const char *path)
+/* Return the key of a value that all stands of a species share: strength of wood, or growth. NULL if it is neither. */
+static const char *get_species_key(const struct field *field, const char *path)
 {
     const char *growth = strstr(path, ".growth.");
     bool strength = strcmp(field->key, "u_J_m3") == 0 || strcmp(field->key, "fracture_ratio") == 0;
     return growth ? growth + 1 : strength ? field->key : NULL;
 }
 
-/* The energy law is the same question for all stands, as is its offset, which brauner alone knows. Strength of wood and growth are
- * the same question for all stands of one species. Any other value is one with those from the same place of the same file. A factor
- * of 0 changes nothing. */
-static void consider(struct finder *f, const struct field *field, const struct node *node)
+/* Add a value if it is uncertain. All stands share one input for the energy law and one for its offset, which only brauner uses.
+ * Stands of one species share strength of wood and growth. Other values share an input if they come from one place of one file. A
+ * factor of 0 has no effect. */
+static void add_value(struct input_finder *f, const struct field *field, const struct node *node)
 {
     const char *key = field->key;
-    bool instead = !node && field->flags & FIELD_ONE_OF && !field->value; /* another key says it */
-    const struct range *range = instead ? NULL : ceduo_range_of(field);
+    bool replaced = !node && field->flags & FIELD_ONE_OF && !field->value; /* by another key */
+    const struct range *range = replaced ? NULL : ceduo_range_of(field);
     const char *path = range ? ceduo_arena_string(f->arena, ceduo_text_string(&f->path)) : NULL, *origin = path;
     struct value v;
-    if (!path || !law_knows(f, key) || !ceduo_value_find(&f->file->scene, path, &v) || isnan(ceduo_value_get(&v)))
+    if (!path || !law_uses(f, key) || !ceduo_value_find(&f->file->scene, path, &v) || isnan(ceduo_value_get(&v)))
         return;
     if (range->kind == CEDUO_INPUT_FACTOR && !(ceduo_value_get(&v) > 0))
         return;
     const struct ceduo_belt *belt = ceduo_input_belt(&f->file->scene, path);
-    bool law = !node && range->kind == CEDUO_INPUT_WORDS; /* nobody chose it */
+    bool law = !node && range->kind == CEDUO_INPUT_WORDS; /* a default */
     bool is_model = strcmp(key, "model") == 0, is_offset = strcmp(key, "offset") == 0;
     bool in_doubt = ceduo_scene_assumes_value(f->file, path) || (law && !ceduo_stand_is_bare(&belt->stand));
     if (is_model)
@@ -139,24 +139,24 @@ static void consider(struct finder *f, const struct field *field, const struct n
         return;
     if (is_model || is_offset)
         origin = key;
-    else if (belt && key_of_species(field, path))
-        origin = ceduo_arena_format(f->arena, "%s of %d", key_of_species(field, path), belt->stand.species);
+    else if (belt && get_species_key(field, path))
+        origin = ceduo_arena_format(f->arena, "%s of %d", get_species_key(field, path), belt->stand.species);
     else if (node)
         origin = ceduo_arena_format(f->arena, "%s:%u:%u", node->source->name, node->line, node->column);
-    struct range kept = *range;
-    if (strcmp(key, "per_stool") == 0) /* a stool has one shoot at least */
-        kept.lo = fmin(1, fmax(kept.lo, 1 / ceduo_value_get(&v)));
-    add(f, path, origin, kept);
+    struct range clipped = *range;
+    if (strcmp(key, "per_stool") == 0) /* a stool has at least one shoot */
+        clipped.lo = fmin(1, fmax(clipped.lo, 1 / ceduo_value_get(&v)));
+    add_place(f, path, origin, clipped);
 }
 
-/* `map` may be NULL: nothing of the object is written. */
-static void walk(struct finder *f, const struct object *object, const struct node *map)
+/* `map` may be NULL: the document does not have the object. */
+static void walk(struct input_finder *f, const struct object *object, const struct node *map)
 {
     for (size_t i = 0; i < object->n; i++) {
         const struct field *field = &object->fields[i];
-        const struct field *other = ceduo_schema_unit(object, field);
+        const struct field *alias = ceduo_schema_unit(object, field);
         const struct node *node = ceduo_node_get(map, field->key);
-        node = node || !other ? node : ceduo_node_get(map, other->key);
+        node = node || !alias ? node : ceduo_node_get(map, alias->key);
         bool list = field->type == FIELD_LIST, group = field->type == FIELD_GROUP;
         size_t before = f->path.length;
         if (field->flags & FIELD_OR_NONE)
@@ -164,7 +164,7 @@ static void walk(struct finder *f, const struct object *object, const struct nod
         ceduo_text_format(&f->path, "%s%s", before > 0 ? "." : "", field->key);
         size_t here = f->path.length;
         if (!list && !group)
-            consider(f, field, node);
+            add_value(f, field, node);
         else if (list ? field->flags & FIELD_OR_ONE && node && node->kind == NODE_MAP
                       : node || ceduo_schema_field(field->object, "model"))
             walk(f, field->object, node);
@@ -201,18 +201,18 @@ size_t ceduo_input_ground(struct arena *arena, const struct node *root, const st
     return n;
 }
 
-static void add_ground(struct finder *f, const struct ceduo_material *m)
+static void add_ground(struct input_finder *f, const struct ceduo_material *m)
 {
     static const char *const keys[] = {"rn", "rt", "roughness_m", "friction", "mu"};
     const struct scene_file *file = f->file;
     const char **places = ceduo_arena_take(f->arena, file->scene.slope.vertices * sizeof *places);
     for (size_t k = 0; places && k < sizeof keys / sizeof keys[0]; k++) {
-        size_t n = law_knows(f, keys[k]) ? ceduo_input_ground(f->arena, file->ground_assumed ? NULL : file->root, &file->scene,
-                                                              m->name, keys[k], true, places)
-                                         : 0;
+        size_t n = law_uses(f, keys[k]) ? ceduo_input_ground(f->arena, file->ground_assumed ? NULL : file->root, &file->scene,
+                                                             m->name, keys[k], true, places)
+                                        : 0;
         for (size_t i = 0; i < n; i++)
-            add(f, places[i], ceduo_arena_format(f->arena, "slope.materials[%s].%s", m->name, keys[k]),
-                ceduo_range_of_material(m, keys[k]));
+            add_place(f, places[i], ceduo_arena_format(f->arena, "slope.materials[%s].%s", m->name, keys[k]),
+                      ceduo_range_of_material(m, keys[k]));
     }
 }
 
@@ -226,24 +226,25 @@ const char *ceduo_input_path(struct scene_file *file, const char *place)
     return ceduo_arena_format(&file->arena, "options[%zu%s", file->kept[option], strchr(place, ']'));
 }
 
-/* What stands in bracket n of a path; NULL: it has fewer. */
-static const char *bracket_of(const char *path, size_t n)
+/* Return the text after bracket n of a path, from 0; NULL: it has fewer. */
+static const char *find_bracket(const char *path, size_t n)
 {
     for (path = strchr(path, '['); path && n > 0; n--)
         path = strchr(path + 1, '[');
     return path ? path + 1 : NULL;
 }
 
-/* The path of all places (at least one) of an input, with [*] for items that differ; that of the first place if such a path means others, too. */
-static const char *common_path(struct scene_file *file, const struct ceduo_input *input)
+/* Return a path for all places (at least one) of an input, with [*] for differing items. If it selects other places, too, return
+ * the path of the first place. */
+static const char *make_common_path(struct scene_file *file, const struct ceduo_input *input)
 {
     LOCAL_TEXT(path);
     const char *from = input->places[0];
-    for (size_t n = 0; bracket_of(input->places[0], n); n++) {
-        const char *item = bracket_of(input->places[0], n);
+    for (size_t n = 0; find_bracket(input->places[0], n); n++) {
+        const char *item = find_bracket(input->places[0], n);
         bool same = true;
         for (size_t k = 1; k < input->places_count; k++) {
-            const char *other = bracket_of(input->places[k], n);
+            const char *other = find_bracket(input->places[k], n);
             same &= other && strtoul(other, NULL, 10) == strtoul(item, NULL, 10);
         }
         ceduo_text_add(&path, from, (size_t)(item - from));
@@ -261,7 +262,7 @@ static const char *common_path(struct scene_file *file, const struct ceduo_input
 
 bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
 {
-    struct finder f = {.file = file, .arena = &file->arena};
+    struct input_finder f = {.file = file, .arena = &file->arena};
     size_t count;
     const struct ceduo_material *library = ceduo_materials(&count);
     *inputs = (struct scene_inputs){0};
@@ -273,14 +274,15 @@ bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
     ceduo_text_free(&f.path);
     inputs->items = ceduo_arena_take(f.arena, (file->inputs_count + f.n + 1) * sizeof *inputs->items);
     for (size_t i = 0; inputs->items && i < file->inputs_count; i++)
-        if (file->inputs[i].places_count > 0) /* otherwise it is of a stand, and the scene says otherwise */
+        if (file->inputs[i].places_count > 0) /* a row of the scene replaces a row without places */
             inputs->items[inputs->n++] = file->inputs[i];
-    for (size_t i = 0; inputs->items && i < 2 * f.n; i++) { /* first those of today, whose points growth must not change */
+    for (size_t i = 0; inputs->items && i < 2 * f.n;
+         i++) { /* today's inputs first, so that growth does not change their points */
         struct ceduo_input *input = &f.found[i % f.n].input;
         if (input->places_count == 0 || ceduo_input_is_of_years(input) != (i >= f.n))
             continue;
         const char *origin = f.found[i % f.n].origin;
-        input->path = strncmp(origin, "slope.materials", 15) == 0 ? origin : common_path(file, input);
+        input->path = strncmp(origin, "slope.materials", 15) == 0 ? origin : make_common_path(file, input);
         inputs->items[inputs->n++] = *input;
     }
     return !f.arena->failed;

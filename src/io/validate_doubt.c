@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene and its stands say is not known: each row becomes an input, with the places that it stands for. What a
- * calibration left open is one more, from a table with a column for each fitted value, whose head is its path, or several with
- * blanks between them. Each row is one draw; all values of a row belong together. */
+/* Uncertain inputs of a scene and its stands: each row of `doubt` becomes an input with its places. Calibration draws are one more
+ * input, from a table with a column for each fitted value. The head of a column is a path, or several separated by blanks. A row of
+ * the table is one joint draw of all values. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,16 +16,17 @@
 #include "study/inputs.h"
 #include "validator.h"
 
-/* A row, where it stands, and what its path begins at: "" or a stand and a dot. */
+/* A row of `doubt`. */
 struct row {
     struct doubt doubt;
-    const char *at, *within;
-    const struct node *list; /* of the stand of a belt, and which of its items */
-    size_t i;
+    const char *path;        /* of the row in the scene */
+    const char *prefix;      /* of the paths in the row: "", or the path of a stand and a dot */
+    const struct node *list; /* list of the stand; NULL: row of the scene */
+    size_t index;            /* in the list */
     bool done;
 };
 
-/* By the string that each begins with. */
+/* Compare structs by the string that is their first member. */
 static int by_name(const void *a, const void *b)
 {
     return strcmp(*(const char *const *)a, *(const char *const *)b);
@@ -36,44 +37,43 @@ static int by_name(const void *a, const void *b)
 struct places {
     struct validator *v;
     const char **items;
-    size_t n, room;
+    size_t n, capacity;
 };
 
-/* The list that a path before its [*] leads to; NULL: none. */
-static const struct node *list_at(const struct node *root, const char *path)
+/* Return the list at a path; NULL: none. */
+static const struct node *find_list(const struct node *root, const char *path)
 {
     const struct node *node = ceduo_resolve_at(root, path);
     return node && node->kind == NODE_LIST ? node : NULL;
 }
 
-/* The path with the number of an item in place of its name: paths of one place are alike. */
-static const char *with_numbers(struct validator *v, const char *path)
+/* Replace the names of items in a path by their indices, so that each place has one path. */
+static const char *replace_names(struct validator *v, const char *path)
 {
     struct path_step step;
-    size_t at = 0, place;
+    size_t at = 0, index;
     while (ceduo_path_next(path, strlen(path), &at, &step)) {
-        if (!step.bracket || ceduo_path_index(&step, &place))
+        if (!step.bracket || ceduo_path_index(&step, &index))
             continue;
         int before = (int)(step.p - path);
-        const struct node *list = list_at(v->root, ceduo_asprintf(v, "%.*s", before - 1, path));
-        if (list && ceduo_resolve_item(list, &step, &place))
-            return with_numbers(v, ceduo_asprintf(v, "%.*s%zu%s", before, path, place, step.p + step.n));
+        const struct node *list = find_list(v->root, ceduo_asprintf(v, "%.*s", before - 1, path));
+        if (list && ceduo_resolve_item(list, &step, &index))
+            return replace_names(v, ceduo_asprintf(v, "%.*s%zu%s", before, path, index, step.p + step.n));
     }
     return path;
 }
 
 static void add_place(struct places *p, const char *path)
 {
-    const char **items = ceduo_arena_more(p->v->arena, p->items, p->n, 1, &p->room, sizeof *items);
+    const char **items = ceduo_arena_more(p->v->arena, p->items, p->n, 1, &p->capacity, sizeof *items);
     if (!items)
         return;
     p->items = items;
-    p->items[p->n++] = ceduo_asprintf(p->v, "%s", with_numbers(p->v, path));
+    p->items[p->n++] = ceduo_asprintf(p->v, "%s", replace_names(p->v, path));
 }
 
-/* The path, with every [*] replaced by each item in turn; where there is no such list nothing is added. False if a list is missing or
- * empty. */
-static bool add_all(struct places *p, const char *path)
+/* Add the path with [*] replaced by each item in turn. Return false if a list is missing or empty. */
+static bool expand_path(struct places *p, const char *path)
 {
     const char *star = strstr(path, "[*]");
     if (!star) {
@@ -81,18 +81,18 @@ static bool add_all(struct places *p, const char *path)
         return true;
     }
     const char *before = ceduo_asprintf(p->v, "%.*s", (int)(star - path), path);
-    const struct node *list = list_at(p->v->root, before);
+    const struct node *list = find_list(p->v->root, before);
     bool all = list && list->n > 0;
     for (size_t i = 0; list && i < list->n; i++)
-        all &= add_all(p, ceduo_asprintf(p->v, "%s[%zu]%s", before, i, star + 3));
+        all &= expand_path(p, ceduo_asprintf(p->v, "%s[%zu]%s", before, i, star + 3));
     return all;
 }
 
 #define GROUND   "slope.materials["
 #define SEGMENTS "slope.segments[*]."
 
-/* The name and the key of slope.materials[NAME].KEY; NULL: the path is not of that form. */
-static const char *ground_of(struct validator *v, const char *path, const char **key)
+/* Return the name in slope.materials[NAME].KEY and set *key; NULL: the path has another form. */
+static const char *find_material(struct validator *v, const char *path, const char **key)
 {
     const size_t before = sizeof GROUND - 1;
     const char *end = strchr(path, ']');
@@ -104,8 +104,9 @@ static const char *ground_of(struct validator *v, const char *path, const char *
     return known < 0 ? name : ceduo_material_words.names[known];
 }
 
-/* The path of the file in the scene, which has only the options that --option kept; NULL: of an option that it left out. */
-static const char *kept_path(struct validator *v, const char *path)
+/* Translate the option of a path in the file to its index in the scene, which has only the options kept by --option. NULL: the
+ * option was not kept. */
+static const char *translate_option(struct validator *v, const char *path)
 {
     const struct scene_file *file = v->file;
     size_t option, k = 0;
@@ -116,33 +117,34 @@ static const char *kept_path(struct validator *v, const char *path)
     return k < file->kept_count ? ceduo_asprintf(v, "options[%zu%s", k, strchr(path, ']')) : NULL;
 }
 
-/* Adds all places of a path that the scene has. Ground that stands in no list of segments has one of them for each stretch. */
+/* Add all places of a path in the scene. Ground without a list of segments has one place for each stretch. */
 static void find_places(struct places *p, const char *path)
 {
     struct validator *v = p->v;
     struct ceduo_scene *scene = &v->draft.scene;
-    const char *key, *name = ground_of(v, path, &key);
+    const char *key, *name = find_material(v, path, &key);
     struct value value;
     size_t n = p->n, stretches = scene->slope.vertices - 1;
-    if (name && (p->items = ceduo_alloc(v, stretches, sizeof *p->items))) /* such a path has no other places */
+    if (name && (p->items = ceduo_alloc(v, stretches, sizeof *p->items))) /* the first places of the list */
         p->n = ceduo_input_ground(v->arena, v->file->ground_assumed ? NULL : v->root, scene, name, key, false, p->items);
     else if (!name && scene->slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
         for (size_t j = 0; j < stretches; j++)
             add_place(p, ceduo_asprintf(v, "slope.segments[%zu].%s", j, path + sizeof SEGMENTS - 1));
     else if (!name)
-        add_all(p, path);
+        expand_path(p, path);
     for (size_t i = n; i < p->n; i++)
         if (p->items[i] && ceduo_value_find(scene, p->items[i], &value)) /* NULL: memory ran out */
             p->items[n++] = p->items[i];
     p->n = n;
 }
 
-/* The row of the table of keys that a path means, whether the scene has such an item or not; NULL: it is of no number and no
- * word, or no answer is in doubt because of it. */
-static const struct field *field_of(struct validator *v, const char *path)
+/* Return the row of the table of keys for a path, even if the scene has no such item. NULL if the path is not a number or word
+ * that affects a result. */
+static const struct field *find_field(struct validator *v, const char *path)
 {
-    const char *key, *ground = ground_of(v, path, &key);
-    if (strcmp(path, "slope.tolerance_m") == 0 && v->draft.scene.slope.segments_given > 1) /* such a profile keeps all points */
+    const char *key, *ground = find_material(v, path, &key);
+    if (strcmp(path, "slope.tolerance_m") == 0 &&
+        v->draft.scene.slope.segments_given > 1) /* such a profile is not simplified */
         return NULL;
     bool known = !ground || ceduo_choice_find(&ceduo_material_words, ground) >= 0;
     const struct field *f = known ? ceduo_schema_fitted(path) : NULL;
@@ -161,16 +163,16 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
     input->mean = mean;
     input->sd = sd;
     if (gamma && sd > CEDUO_GAMMA_MOST * mean)
-        return ceduo_reject(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MOST);
+        return ceduo_reject(v, row->path, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MOST);
     input->lo = gamma ? ceduo_input_quantile(input, 0) : normal ? mean - 3 * sd : row->doubt.lo;
     input->hi = gamma ? ceduo_input_quantile(input, 1) : normal ? mean + 3 * sd : row->doubt.hi;
     if (!(input->lo < input->hi))
-        return ceduo_reject(v, row->at, normal ? "sd" : "hi", _("the range is empty; make it larger"));
+        return ceduo_reject(v, row->path, normal ? "sd" : "hi", _("the range is empty; make it larger"));
     const double ends[] = {input->lo, input->hi};
     const char *const keys[] = {normal ? "mean" : "lo", normal ? "sd" : "hi"};
     for (int i = 0; i < 2; i++)
         if (!ceduo_schema_in_range(field, ends[i]))
-            return ceduo_reject(v, row->at, keys[i], _("%s is outside the range of %s: %s"), NUMERAL(ends[i]), field->key,
+            return ceduo_reject(v, row->path, keys[i], _("%s is outside the range of %s: %s"), NUMERAL(ends[i]), field->key,
                                 ceduo_describe_range(v, field));
     return true;
 }
@@ -183,60 +185,60 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
     input->words = words;
     input->words_count = n;
     if (n < 2)
-        ceduo_reject(v, row->at, "one_of", _("name at least two words"));
+        ceduo_reject(v, row->path, "one_of", _("name at least two words"));
     for (size_t i = 0; words && i < n; i++) {
-        const char *word = row->doubt.one_of[i], *instead = ceduo_gone(word);
-        const char *at = ceduo_asprintf(v, "%s.one_of[%zu]", row->at, i);
+        const char *word = row->doubt.one_of[i], *removed = ceduo_gone(word);
+        const char *path = ceduo_asprintf(v, "%s.one_of[%zu]", row->path, i);
         words[i] = ceduo_choice_find(field->choices, word);
-        if (instead)
-            return ceduo_reject(v, at, "", "%s", _(instead));
+        if (removed)
+            return ceduo_reject(v, path, "", "%s", _(removed));
         if (words[i] < 0)
-            return ceduo_reject(v, at, "", _("'%s' is unknown; one of: %s"), word, ceduo_list_choices(v, field->choices));
+            return ceduo_reject(v, path, "", _("'%s' is unknown; one of: %s"), word, ceduo_list_choices(v, field->choices));
         for (size_t k = 0; k < i; k++)
             if (words[k] == words[i])
-                return ceduo_reject(v, at, "", _("'%s' is given twice"), word);
+                return ceduo_reject(v, path, "", _("'%s' is given twice"), word);
     }
     return words && n >= 2;
 }
 
-/* One input of a row, with its places. False if the scene has no such place, as of a stand that was exchanged, or the row is unusable,
- * which has been reported. */
+/* Make the input of a row, with its places. Return false on error, or if the scene has no such place, e.g. after the stand was
+ * exchanged. */
 static bool make_input(struct validator *v, const struct row *row, struct places *places, struct ceduo_input *input)
 {
     const struct doubt *d = &row->doubt;
-    bool of_stand = row->within[0] != '\0';
-    const char *path = of_stand ? ceduo_asprintf(v, "%s%s", row->within, d->path) : kept_path(v, d->path);
+    bool is_stand_row = row->prefix[0] != '\0';
+    const char *path = is_stand_row ? ceduo_asprintf(v, "%s%s", row->prefix, d->path) : translate_option(v, d->path);
     if (!path)
         return false;
-    const struct field *field = field_of(v, path);
-    const char *instead = ceduo_gone(path);
+    const struct field *field = find_field(v, path);
+    const char *removed = ceduo_gone(path);
     *places = (struct places){.v = v};
-    if (instead)
-        return ceduo_reject(v, row->at, "path", "%s", _(instead));
+    if (removed)
+        return ceduo_reject(v, row->path, "path", "%s", _(removed));
     if (!field)
-        return ceduo_reject(v, row->at, "path",
+        return ceduo_reject(v, row->path, "path",
                             _("no answer is in doubt because of '%s'; name a number or a word of the rock, its release, the "
                               "slope, a stand or the law"),
                             d->path);
     find_places(places, path);
     if (places->n == 0)
         return false;
-    /* exactly one of three forms */
+    /* exactly one of three forms is allowed */
     int range = !isnan(d->lo) + !isnan(d->hi), normal = !isnan(d->mean) + !isnan(d->sd);
     bool words = d->one_of != NULL, choice = field->type == FIELD_CHOICE;
     bool given = range == 2 ? normal == 0 && !words : normal == 2 ? range == 0 && !words : words && range + normal == 0;
     if (!given || words != choice)
-        return ceduo_reject(v, row->at, "",
+        return ceduo_reject(v, row->path, "",
                             choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
                             field->key);
-    *input = (struct ceduo_input){.path = of_stand ? ceduo_input_path(v->file, places->items[0]) : d->path,
+    *input = (struct ceduo_input){.path = is_stand_row ? ceduo_input_path(v->file, places->items[0]) : d->path,
                                   .places = places->items,
                                   .places_count = places->n,
-                                  .source = of_stand ? N_("doubt, in the stand") : N_("doubt, in the scene")};
+                                  .source = is_stand_row ? N_("doubt, in the stand") : N_("doubt, in the scene")};
     return choice ? read_words(v, row, field, input) : read_range(v, row, field, input);
 }
 
-static void add_input(struct validator *v, struct ceduo_input input, const char *at)
+static void add_input(struct validator *v, struct ceduo_input input, const char *path)
 {
     size_t n = v->file->inputs_count;
     struct ceduo_input *inputs = ceduo_arena_more(v->arena, v->file->inputs, n, 1, &v->inputs_capacity, sizeof *inputs);
@@ -245,68 +247,68 @@ static void add_input(struct validator *v, struct ceduo_input input, const char 
         return;
     v->file->inputs = inputs;
     v->rows = rows;
-    v->rows[n] = at;
+    v->rows[n] = path;
     v->file->inputs[v->file->inputs_count++] = input;
 }
 
-/* ---- of stands ---- */
+/* ---- stands ---- */
 
-/* All rows that nothing is wrong with, of all belts in turn. */
+/* List all valid rows of the stands of all belts. */
 static struct row *list_rows(struct validator *v, size_t *n)
 {
     struct row *all = NULL;
     const struct node *options = ceduo_node_get(v->root, "options");
-    size_t room = 0, several = options && options->kind == NODE_LIST ? options->n : 0;
+    size_t capacity = 0, several = options && options->kind == NODE_LIST ? options->n : 0;
     for (size_t o = 0; o < (several ? several : 1); o++) {
         const struct node *forest = ceduo_node_get(several ? options->items[o] : v->root, "forest");
         const char *option = several ? ceduo_asprintf(v, "options[%zu].", o) : "";
         for (size_t k = 0; forest && forest->kind == NODE_LIST && k < forest->n; k++) {
-            const char *within = ceduo_asprintf(v, "%sforest[%zu].stand.", option, k);
+            const char *prefix = ceduo_asprintf(v, "%sforest[%zu].stand.", option, k);
             const struct node *list = ceduo_node_get(ceduo_node_get(forest->items[k], "stand"), "doubt");
             for (size_t i = 0; list && list->kind == NODE_LIST && i < list->n; i++) {
-                const char *at = ceduo_asprintf(v, "%sdoubt[%zu]", within, i);
-                if (!ceduo_is_valid_below(v, at))
+                const char *path = ceduo_asprintf(v, "%sdoubt[%zu]", prefix, i);
+                if (!ceduo_is_valid_below(v, path))
                     continue;
-                struct row *rows = ceduo_arena_more(v->arena, all, *n, 1, &room, sizeof *all);
+                struct row *rows = ceduo_arena_more(v->arena, all, *n, 1, &capacity, sizeof *all);
                 if (!rows)
                     return NULL;
                 all = rows;
-                all[(*n)++] = (struct row){.at = at, .within = within, .list = list, .i = i};
+                all[(*n)++] = (struct row){.path = path, .prefix = prefix, .list = list, .index = i};
             }
         }
     }
     return all;
 }
 
-/* Many belts may have the stand of a row: then it stands for the places in all of them, but for what the scene itself names. */
-static void take_stands(struct validator *v)
+/* Add the rows of stands. A row has places in all belts with its stand, except places that rows of the scene name. */
+static void add_stand_rows(struct validator *v)
 {
     size_t n = 0;
     struct row *rows = list_rows(v, &n);
     const struct object *object = ceduo_schema_field(ceduo_schema_stand(), "doubt")->object;
     for (struct row *r = rows; rows && r < rows + n; r++) {
-        const struct node *node = r->list->items[r->i];
+        const struct node *node = r->list->items[r->index];
         const struct source_note *notes = NULL;
         struct places places;
         struct ceduo_input input;
-        bool twice = false;
+        bool duplicate = false;
         if (r->done)
             continue;
         ceduo_schema_init(object, &r->doubt);
         ceduo_bind(&(struct binding){.arena = v->arena, .problems = v->problems, .notes = &notes, .invalid = &v->invalid},
                    object, node, &r->doubt);
-        for (size_t before = 0; before < r->i; before++) {
-            const char *other = ceduo_node_text(r->list->items[before], "path");
-            twice |= other && ceduo_schema_same(other, r->doubt.path);
+        for (size_t before = 0; before < r->index; before++) {
+            const char *path = ceduo_node_text(r->list->items[before], "path");
+            duplicate |= path && ceduo_schema_same(path, r->doubt.path);
         }
-        if (twice)
-            ceduo_reject(v, r->at, "path", _("'%s' is given twice"), r->doubt.path);
-        bool good = !twice && make_input(v, r, &places, &input);
+        if (duplicate)
+            ceduo_reject(v, r->path, "path", _("'%s' is given twice"), r->doubt.path);
+        bool good = !duplicate && make_input(v, r, &places, &input);
         for (struct row *same = r + 1; same < rows + n; same++)
-            if (same->list->items[same->i] == node) {
+            if (same->list->items[same->index] == node) {
                 same->done = true;
                 if (good)
-                    find_places(&places, ceduo_asprintf(v, "%s%s", same->within, r->doubt.path));
+                    find_places(&places, ceduo_asprintf(v, "%s%s", same->prefix, r->doubt.path));
             }
         if (!good)
             continue;
@@ -315,14 +317,14 @@ static void take_stands(struct validator *v)
         for (size_t i = 0; i < places.n; i++)
             if (!ceduo_inputs_have(v->file->inputs, v->file->inputs_of_scene, places.items[i]))
                 places.items[input.places_count++] = places.items[i];
-        add_input(v, input, r->at);
+        add_input(v, input, r->path);
     }
 }
 
 /* ---- draws of a calibration ---- */
 
-/* A place, and the column of its draws. */
-struct drawn {
+/* A place and the column of its draws. */
+struct drawn_place {
     const char *place;
     const struct field *field;
     size_t column;
@@ -334,14 +336,14 @@ struct draws {
     size_t columns, rows;
     double **values; /* [column][row] */
     size_t places_count, places_capacity;
-    struct drawn *places; /* column by column, then sorted */
+    struct drawn_place *places; /* by column, later sorted by place */
 };
 
-/* All places of a path that is fitted, to input->places; NULL where it is no number of a scene. */
-static const struct field *find_fitted(struct validator *v, const char *path, struct ceduo_input *input)
+/* Set input->places to all places of a fitted path. Return its field; NULL if it is not a number of a scene. */
+static const struct field *find_fitted_places(struct validator *v, const char *path, struct ceduo_input *input)
 {
     struct places p = {.v = v};
-    const struct field *field = field_of(v, path);
+    const struct field *field = find_field(v, path);
     *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE};
     if (!field || field->type == FIELD_CHOICE)
         return NULL;
@@ -351,9 +353,8 @@ static const struct field *find_fitted(struct validator *v, const char *path, st
     return v->arena->failed ? NULL : field;
 }
 
-/* The places that the paths in the heads of the columns set; each must name one. Of a foreign table only the beginning is
- * shown. */
-static bool take_header(struct draws *t)
+/* Find the places of the paths in the heads; each head must have one. Messages show only the beginning of a foreign head. */
+static bool read_head(struct draws *t)
 {
     struct validator *v = t->v;
     struct ceduo_input found;
@@ -364,7 +365,7 @@ static bool take_header(struct draws *t)
             return false;
         path = path ? path : head;
         do {
-            const struct field *f = path[0] ? find_fitted(v, path, &found) : NULL;
+            const struct field *f = path[0] ? find_fitted_places(v, path, &found) : NULL;
             t->csv.source->foreign &= f == NULL;
             if (!f || found.places_count == 0) {
                 if (t->csv.source->foreign)
@@ -377,7 +378,7 @@ static bool take_header(struct draws *t)
             if (!t->places)
                 return false;
             for (size_t i = 0; i < found.places_count; i++)
-                t->places[t->places_count++] = (struct drawn){found.places[i], f, c};
+                t->places[t->places_count++] = (struct drawn_place){found.places[i], f, c};
         } while ((path = strtok_r(NULL, " ", &rest)));
     }
     return true;
@@ -398,14 +399,14 @@ static bool read_table(struct draws *t, const char *path)
     ceduo_csv_scan(csv);
     for (size_t c = 0; good && c < t->columns; c++)
         good = (t->values[c] = ceduo_alloc(t->v, csv->rows, sizeof **t->values)) != NULL;
-    if (!good || !take_header(t))
+    if (!good || !read_head(t))
         return false;
     for (; ceduo_csv_next_row(csv); t->rows++) {
         for (size_t c = 0, h = 0; c < t->columns && !csv->bad; c++) {
             struct csv_cell cell = ceduo_csv_cell(csv, c);
             double *to = &t->values[c][t->rows];
             bool number = ceduo_csv_number(csv, cell, -1e12, 1e12, "", to);
-            for (; h < t->places_count && t->places[h].column == c; h++) { /* one range is reported once */
+            for (; h < t->places_count && t->places[h].column == c; h++) {
                 const struct field *f = t->places[h].field;
                 if (number && !ceduo_schema_in_range(f, *to))
                     ceduo_csv_error(csv, cell, _("%s is outside the range of %s: %s"), NUMERAL(*to), f->key,
@@ -422,7 +423,7 @@ static bool read_table(struct draws *t, const char *path)
     return problems->met == before;
 }
 
-/* Adds what a calibration left open as one input. */
+/* Add the calibration draws as one input. */
 static void add_draws(struct validator *v)
 {
     struct draws t = {.v = v};
@@ -470,50 +471,51 @@ void ceduo_validate_doubt(struct validator *v)
     if (v->draws)
         add_draws(v);
     for (size_t i = 0; i < n; i++) {
-        const struct row row = {.doubt = v->draft.doubts[i], .at = ceduo_asprintf(v, "doubt[%zu]", i), .within = ""};
+        const struct row row = {.doubt = v->draft.doubts[i], .path = ceduo_asprintf(v, "doubt[%zu]", i), .prefix = ""};
         struct places places;
         struct ceduo_input input;
-        bool good = make_input(v, &row, &places, &input), twice = false;
-        /* of one path, by whatever name of an item, or draws of its places */
+        bool good = make_input(v, &row, &places, &input), duplicate = false;
+        /* a duplicate has the same path, with names or indices of items, or draws for one of its places */
         for (size_t k = 0; good && k < v->file->inputs_count; k++) {
             const struct ceduo_input *b = &v->file->inputs[k];
             for (size_t p = 0; p < input.places_count && b->kind == CEDUO_INPUT_DRAWS; p++)
-                twice |= bsearch(&input.places[p], b->places, b->places_count, sizeof *b->places, by_name) != NULL;
-            twice |= b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(with_numbers(v, b->path), with_numbers(v, input.path));
+                duplicate |= bsearch(&input.places[p], b->places, b->places_count, sizeof *b->places, by_name) != NULL;
+            duplicate |=
+                b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(replace_names(v, b->path), replace_names(v, input.path));
         }
-        if (twice)
-            ceduo_reject(v, row.at, "path", _("'%s' is given twice"), row.doubt.path);
+        if (duplicate)
+            ceduo_reject(v, row.path, "path", _("'%s' is given twice"), row.doubt.path);
         else if (good)
-            add_input(v, input, row.at);
+            add_input(v, input, row.path);
     }
     v->file->inputs_of_scene = v->file->inputs_count;
-    take_stands(v);
+    add_stand_rows(v);
 }
 
 /* ---- ends of ranges ---- */
 
-#define BORDERS_MOST 30 /* inputs that are places along the slope: of more no two are tried together */
+#define BORDERS_MAX 30 /* places along the slope; with more of them, pairs are not checked */
 
-/* The scene with single inputs at an end of their ranges. */
+/* A copy of the scene, with inputs set to the ends of their ranges. */
 struct ends {
     struct validator *v;
     struct input_scene copy;
-    double *u; /* of each input; NaN: as the scene has it */
+    double *u; /* quantile of each input, 0…1; NaN: value of the scene */
 };
 
-/* The place of value k of n in a range, 0…1: one of its two ends, or a word. */
-static double place_of(size_t k, size_t n)
+/* Return the quantile, 0…1, of value k of n: one of the two ends of a range, or a word. */
+static double get_quantile(size_t k, size_t n)
 {
-    return n == 2 ? (double)k : ((double)k + 0.5) / (double)n; /* of two words u = 1 is the second */
+    return n == 2 ? (double)k : ((double)k + 0.5) / (double)n; /* u = 1 is the second of two words */
 }
 
-/* Number of values of an input that are tried: its two ends, or all its words. */
-static size_t tries_of(const struct ceduo_input *input)
+/* Count the values of an input to check: its two ends, or all its words. */
+static size_t count_tries(const struct ceduo_input *input)
 {
     return input->kind == CEDUO_INPUT_WORDS ? input->words_count : input->kind == CEDUO_INPUT_DRAWS ? 0 : 2;
 }
 
-/* Value k of input i in words. */
+/* Return value k of input i as text. */
 static const char *value_text(struct validator *v, size_t i, size_t k)
 {
     const struct ceduo_input *input = &v->file->inputs[i];
@@ -524,7 +526,7 @@ static const char *value_text(struct validator *v, size_t i, size_t k)
     return ceduo_asprintf(v, "%s%s%s%s", NUMERAL(k == 0 ? input->lo : input->hi), f->unit[0] ? " " : "", f->unit, sign);
 }
 
-static const char *reason(enum ceduo_status status)
+static const char *describe_status(enum ceduo_status status)
 {
     switch (status) {
     case CEDUO_RELEASE_OFF_SLOPE:
@@ -544,13 +546,13 @@ static const char *reason(enum ceduo_status status)
     }
 }
 
-/* Reports value k of input i if the scene cannot be computed with it and, unless j is i, with value m of input j. */
+/* Report value k of input i if the scene cannot be computed with it. If j is not i, value m of input j is set, too. */
 static void check_end(struct ends *e, size_t i, size_t k, size_t j, size_t m)
 {
     struct validator *v = e->v;
     const struct ceduo_input *input = &v->file->inputs[i];
-    e->u[j] = place_of(m, tries_of(&v->file->inputs[j]));
-    e->u[i] = place_of(k, tries_of(input));
+    e->u[j] = get_quantile(m, count_tries(&v->file->inputs[j]));
+    e->u[i] = get_quantile(k, count_tries(input));
     ceduo_inputs_set(&e->copy, e->u);
     e->u[i] = e->u[j] = NAN;
     enum ceduo_status status = ceduo_scene_check(&e->copy.scene, NULL);
@@ -562,15 +564,17 @@ static void check_end(struct ends *e, size_t i, size_t k, size_t j, size_t m)
                                                          : "hi";
     if (i != j)
         ceduo_reject(v, v->rows[i], key, _("%s and %s of %s cannot be computed together: %s; make one of the ranges smaller"),
-                     value_text(v, i, k), value_text(v, j, m), v->file->inputs[j].path, reason(status));
+                     value_text(v, i, k), value_text(v, j, m), v->file->inputs[j].path, describe_status(status));
     else if (input->kind == CEDUO_INPUT_WORDS)
-        ceduo_reject(v, v->rows[i], key, _("%s cannot be computed: %s; leave it out"), value_text(v, i, k), reason(status));
+        ceduo_reject(v, v->rows[i], key, _("%s cannot be computed: %s; leave it out"), value_text(v, i, k),
+                     describe_status(status));
     else
         ceduo_reject(v, v->rows[i], key, _("%s cannot be computed: %s; make the range smaller"), value_text(v, i, k),
-                     reason(status));
+                     describe_status(status));
 }
 
-/* Refuses ranges with an end where the scene cannot be computed: of each input by itself, then of any two places along the slope. */
+/* Report ranges with an end at which the scene cannot be computed: first of each input alone, then of each pair of places along the
+ * slope. */
 void ceduo_validate_ends(struct validator *v)
 {
     size_t n = v->file->inputs_count, places_count = 0, before = v->problems->met;
@@ -586,9 +590,9 @@ void ceduo_validate_ends(struct validator *v)
             places[places_count++] = i;
     }
     for (size_t i = 0; good && i < n; i++)
-        for (size_t k = 0; v->file->inputs[i].places_count > 0 && k < tries_of(&v->file->inputs[i]); k++)
+        for (size_t k = 0; v->file->inputs[i].places_count > 0 && k < count_tries(&v->file->inputs[i]); k++)
             check_end(&e, i, k, i, k);
-    good = good && v->problems->met == before && places_count <= BORDERS_MOST;
+    good = good && v->problems->met == before && places_count <= BORDERS_MAX;
     for (size_t a = 1; good && a < places_count; a++)
         for (size_t b = 0; b < a; b++)
             for (size_t k = 0; k < 4; k++)
@@ -596,7 +600,7 @@ void ceduo_validate_ends(struct validator *v)
     ceduo_inputs_release(&e.copy);
 }
 
-static struct validator validator_of(struct scene_file *file, struct problems *problems)
+static struct validator make_validator(struct scene_file *file, struct problems *problems)
 {
     struct validator v = {.file = file, .arena = &file->arena, .root = file->root, .problems = problems};
     v.draft.scene = file->scene;
@@ -606,17 +610,17 @@ static struct validator validator_of(struct scene_file *file, struct problems *p
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input)
 {
     struct problems problems = {0};
-    struct validator v = validator_of(file, &problems);
-    return find_fitted(&v, path, input);
+    struct validator v = make_validator(file, &problems);
+    return find_fitted_places(&v, path, input);
 }
 
 size_t ceduo_input_count_places(struct scene_file *file, const char *path)
 {
     struct problems problems = {0};
-    struct validator v = validator_of(file, &problems);
+    struct validator v = make_validator(file, &problems);
     struct places p = {.v = &v};
     struct value value;
-    bool all = add_all(&p, path);
+    bool all = expand_path(&p, path);
     for (size_t i = 0; i < p.n && all; i++)
         all = p.items[i] && ceduo_value_find(&file->scene, p.items[i], &value);
     return all ? p.n : 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What was observed of real rocks. It may be written as a list of rows or as a mapping from kinds to rows, lists inline or as
- * tables: ceduo_arrange_observed() brings all into the one form that the table of keys has, before it is read. Then each row
- * becomes one or several observations; what is particular to a kind stands in ceduo/observe.h. */
+/* Observations of real rocks. They are a list of rows or a mapping from kinds to rows; values are inline or in tables.
+ * ceduo_arrange_observed() converts all forms to the form of the table of keys before it is read. Then each row becomes one or
+ * several observations. ceduo/observe.h describes the kinds. */
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <string.h>
@@ -14,8 +14,8 @@
 
 /* ---- one form ---- */
 
-/* What may stand beside a kind or within it. */
-static bool is_beside(const char *key)
+/* True if a key belongs to the row; it may be written next to the kind or in it. */
+static bool is_row_key(const char *key)
 {
     static const char *const keys[] = {"name", "name_it", "use", "option", "rock", "release", "source"};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
@@ -24,8 +24,8 @@ static bool is_beside(const char *key)
     return false;
 }
 
-/* Takes out of a kind what belongs beside it; a path in place of its values is a table. */
-static const struct node *lift(struct arena *arena, const struct node *row, const char *key)
+/* Move the row keys from a kind to its row. A path instead of values becomes the table, csv. */
+static const struct node *move_row_keys(struct arena *arena, const struct node *row, const char *key)
 {
     static const char *const lists[] = {"x_m", "values", "height_m"};
     const struct node *kind = ceduo_node_get(row, key);
@@ -33,13 +33,13 @@ static const struct node *lift(struct arena *arena, const struct node *row, cons
         return row;
     for (size_t i = kind->n; row && kind && i-- > 0;) {
         const struct node *entry = kind->items[i];
-        if (!is_beside(entry->key) || ceduo_node_get(row, entry->key))
+        if (!is_row_key(entry->key) || ceduo_node_get(row, entry->key))
             continue;
         kind = ceduo_node_without(arena, kind, entry->key);
         row = ceduo_node_with(arena, row, entry->key, entry);
     }
-    bool place = ceduo_node_get(kind, "values") || ceduo_node_get(kind, "mean"); /* then x_m is a number */
-    for (size_t i = place; kind && i < 3; i++) {
+    bool at_place = ceduo_node_get(kind, "values") || ceduo_node_get(kind, "mean"); /* x_m is a number, not a list */
+    for (size_t i = at_place; kind && i < 3; i++) {
         double value;
         const struct node *list = ceduo_node_get(kind, lists[i]);
         bool scalar = list && list->kind == NODE_SCALAR;
@@ -50,15 +50,15 @@ static const struct node *lift(struct arena *arena, const struct node *row, cons
     return ceduo_node_with(arena, row, key, kind);
 }
 
-/* A row whose kinds have nothing in them that belongs beside them, and whose release says all that the scene's says. */
+/* Return a row with its keys moved out of the kinds, and with missing keys of its release copied from the scene's. */
 static const struct node *arrange_row(struct validator *v, const struct node *row)
 {
     const struct node *arranged = row, *scene = ceduo_node_get(v->root, "release");
     if (row->kind != NODE_MAP)
         return row;
     for (size_t i = 0; arranged && i < row->n; i++)
-        if (!is_beside(row->items[i]->key))
-            arranged = lift(v->arena, arranged, row->items[i]->key);
+        if (!is_row_key(row->items[i]->key))
+            arranged = move_row_keys(v->arena, arranged, row->items[i]->key);
     const struct node *own = ceduo_node_get(arranged, "release");
     for (size_t i = 0; own && own->kind == NODE_MAP && scene && scene->kind == NODE_MAP && i < scene->n; i++)
         if (!ceduo_node_get(own, scene->items[i]->key) && strcmp(scene->items[i]->key, "source") != 0)
@@ -66,7 +66,7 @@ static const struct node *arrange_row(struct validator *v, const struct node *ro
     return own ? ceduo_node_with(v->arena, arranged, "release", own) : arranged;
 }
 
-/* A mapping of kinds, each with its row or a list of such, as a list of rows that have one kind each. NULL without memory. */
+/* Convert a mapping of kinds, each with a row or a list of rows, to a list of rows with one kind each. NULL on failure. */
 static const struct node *list_kinds(struct arena *arena, const struct node *kinds)
 {
     const struct node *list = ceduo_node_empty(arena, NODE_LIST, kinds->source);
@@ -92,7 +92,7 @@ void ceduo_arrange_observed(struct validator *v)
 {
     const struct node *doubt = ceduo_node_get(v->root, "doubt"), *rows = ceduo_node_get(doubt, "rows"), *root = v->root;
     v->draws = ceduo_node_get(doubt, "draws");
-    if (v->draws) { /* doubt: {draws: FILE, rows: […]}: the rows are the list that may stand there alone */
+    if (v->draws) { /* doubt: {draws: FILE, rows: […]} becomes doubt: […] */
         for (size_t i = 0; i < doubt->n; i++)
             if (strcmp(doubt->items[i]->key, "draws") != 0 && strcmp(doubt->items[i]->key, "rows") != 0)
                 ceduo_problem_at(v->problems, ceduo_node_place(doubt->items[i], "doubt"),
@@ -113,16 +113,16 @@ void ceduo_arrange_observed(struct validator *v)
 
 /* ---- values ---- */
 
-/* What is checked: a row, and one of its kinds. */
-struct place {
+/* A kind of a row, which is checked. */
+struct entry {
     struct validator *v;
     struct observed *row;
     const char *row_path;                /* observed[0] */
     const struct ceduo_release *release; /* of the row */
     enum ceduo_observed_kind kind;
-    const struct ceduo_observed_row *is;
+    const struct ceduo_observed_row *kind_row;
     struct observed_values *values;
-    const char *at; /* observed[0].stops */
+    const char *path; /* observed[0].stops */
     const struct node *node;
 };
 
@@ -135,41 +135,41 @@ struct table {
     const char *only_name, *only_word; /* rows that are used: this column has this word; NULL: all rows */
 };
 
-/* Set the column and the word of `only`, COLUMN=WORD. */
-static bool split_only(const struct place *p, struct table *t)
+/* Split `only`, COLUMN=WORD. Return false on error. */
+static bool split_only(const struct entry *e, struct table *t)
 {
-    const char *only = p->values->only, *equals = only ? strchr(only, '=') : NULL;
+    const char *only = e->values->only, *equals = only ? strchr(only, '=') : NULL;
     if (!only)
         return true;
     size_t n = equals ? (size_t)(equals - only) : 0;
     while (n > 0 && only[n - 1] == ' ')
         n--;
     if (n == 0)
-        return ceduo_reject(p->v, p->at, "only", _("'%s' is not COLUMN=WORD, such as block=1"), only);
-    t->only_name = ceduo_asprintf(p->v, "%.*s", (int)n, only);
+        return ceduo_reject(e->v, e->path, "only", _("'%s' is not COLUMN=WORD, such as block=1"), only);
+    t->only_name = ceduo_asprintf(e->v, "%.*s", (int)n, only);
     t->only_word = equals + 1 + strspn(equals + 1, " ");
     return true;
 }
 
-/* Find the head and the columns. Returns false if the column of the values or of `only` is not known, which is reported. */
-static bool find_columns(const struct place *p, struct table *t)
+/* Find the head and the columns. Reports an unknown column of the values or of `only` and returns false. */
+static bool find_columns(const struct entry *e, struct table *t)
 {
-    const struct ceduo_quantity_row *quantity = ceduo_observed_quantity(p->kind);
+    const struct ceduo_quantity_row *quantity = ceduo_observed_quantity(e->kind);
     struct csv *csv = &t->csv;
     const struct csv_head heads[COLUMNS] = {[VALUES] = {quantity->column, quantity->also, quantity->unit},
                                             [MAP] = {"y_m", "y|northing|north|nord", "m"},
-                                            [NAMED] = {p->values->column, NULL, ""},
+                                            [NAMED] = {e->values->column, NULL, ""},
                                             [ONLY] = {t->only_name, NULL, ""}};
     const struct csv_place begin = csv->next;
     LOCAL_TEXT(all);
     double number;
     ceduo_csv_find_head(csv, heads, COLUMNS, t->columns);
-    csv->source->foreign = t->columns[VALUES] == CEDUO_CSV_NOT_FOUND; /* any file has some column that a scene may name */
-    size_t *column = &t->columns[p->values->column ? NAMED : VALUES];
-    bool place = p->is->where == CEDUO_WHERE_AT_REST && csv->heads_count > 0 && *column < CEDUO_CSV_DUPLICATE;
-    bool map = place && !p->values->column && t->columns[MAP] != CEDUO_CSV_NOT_FOUND &&
+    csv->source->foreign = t->columns[VALUES] == CEDUO_CSV_NOT_FOUND; /* a column that the scene names proves nothing */
+    size_t *column = &t->columns[e->values->column ? NAMED : VALUES];
+    bool stops = e->kind_row->where == CEDUO_WHERE_AT_REST && csv->heads_count > 0 && *column < CEDUO_CSV_DUPLICATE;
+    bool map = stops && !e->values->column && t->columns[MAP] != CEDUO_CSV_NOT_FOUND &&
                ceduo_csv_matches(csv->heads[*column].p, csv->heads[*column].n, "x|x_m");
-    if (*column == CEDUO_CSV_NOT_FOUND && !p->values->column && csv->heads_count == 1) {
+    if (*column == CEDUO_CSV_NOT_FOUND && !e->values->column && csv->heads_count == 1) {
         *column = 0;
         if (ceduo_csv_value(csv, csv->heads[0], &number)) {
             csv->next = begin;
@@ -177,44 +177,44 @@ static bool find_columns(const struct place *p, struct table *t)
         }
     }
     ceduo_csv_append_heads(csv, &all);
-    const char *key = ceduo_node_get(p->node, "column") ? "column" : "csv", *names = ceduo_text_string(&all);
+    const char *key = ceduo_node_get(e->node, "column") ? "column" : "csv", *names = ceduo_text_string(&all);
     if (map)
-        return ceduo_reject(p->v, p->at, key,
+        return ceduo_reject(e->v, e->path, key,
                             _("the table has x and y, which are places on a map; name the column that holds the distance "
                               "along the slope (column); it has: %s"),
                             names);
     if (*column == CEDUO_CSV_DUPLICATE)
-        return ceduo_reject(p->v, p->at, key, _("the table has this column twice; rename one: %s"), names);
-    if (*column == CEDUO_CSV_NOT_FOUND && p->values->column)
-        return ceduo_reject(p->v, p->at, key, _("the table has no column '%s'; it has: %s"), p->values->column, names);
+        return ceduo_reject(e->v, e->path, key, _("the table has this column twice; rename one: %s"), names);
+    if (*column == CEDUO_CSV_NOT_FOUND && e->values->column)
+        return ceduo_reject(e->v, e->path, key, _("the table has no column '%s'; it has: %s"), e->values->column, names);
     if (*column == CEDUO_CSV_NOT_FOUND)
-        return ceduo_reject(p->v, p->at, key, _("name the column that holds the values (column); the table has: %s"), names);
+        return ceduo_reject(e->v, e->path, key, _("name the column that holds the values (column); the table has: %s"), names);
     if (t->only_name && t->columns[ONLY] >= CEDUO_CSV_DUPLICATE)
-        return ceduo_reject(p->v, p->at, "only", _("the table has no column '%s'; it has: %s"), t->only_name, names);
+        return ceduo_reject(e->v, e->path, "only", _("the table has no column '%s'; it has: %s"), t->only_name, names);
     t->columns[VALUES] = *column;
     return true;
 }
 
-/* True if the cell of the column of `only` has its word, or is the same number. Reports a stray quote. */
-static bool is_wanted(const struct table *t)
+/* True if the cell in the column of `only` is its word, or an equal number. Reports a stray quote. */
+static bool is_selected(const struct table *t)
 {
-    double number, wanted;
+    double number, word;
     if (!t->only_name)
         return true;
     struct csv_cell cell = ceduo_csv_cell(&t->csv, t->columns[ONLY]);
     if (ceduo_csv_has_stray_quote(cell))
         return ceduo_csv_error(&t->csv, cell, _("a quote within a cell; remove it, or put the cell in quotes"));
-    return ceduo_csv_equals(cell, t->only_word) || (ceduo_number_read(t->only_word, &wanted) == CEDUO_NUMBER_GOOD &&
-                                                    ceduo_csv_value(&t->csv, cell, &number) && number == wanted);
+    return ceduo_csv_equals(cell, t->only_word) || (ceduo_number_read(t->only_word, &word) == CEDUO_NUMBER_GOOD &&
+                                                    ceduo_csv_value(&t->csv, cell, &number) && number == word);
 }
 
-/* Note what was read from a table, for the user. */
-static void understand(const struct place *p, const struct table *t, const char *path)
+/* Add a note on how the table was read. */
+static void describe_table(const struct entry *e, const struct table *t, const char *path)
 {
     LOCAL_TEXT(line);
     const struct csv_cell *head = t->csv.headless ? NULL : &t->csv.heads[t->columns[VALUES]];
     ceduo_text_safe(&line, ceduo_file_name(path));
-    ceduo_text_format(&line, ngettext(": %zu value", ": %zu values", p->values->values_count), p->values->values_count);
+    ceduo_text_format(&line, ngettext(": %zu value", ": %zu values", e->values->values_count), e->values->values_count);
     if (head)
         ceduo_text_format(&line, _(" in the column %.*s"), head->n < 100 ? (int)head->n : 100, head->p);
     else
@@ -222,16 +222,16 @@ static void understand(const struct place *p, const struct table *t, const char 
     if (t->only_name)
         ceduo_text_format(&line, _("; rows with %s = %s"), t->only_name, t->only_word);
     ceduo_csv_describe(&t->csv, t->columns, COLUMNS, "", &line);
-    ceduo_add_table_note(p->v, p->at, ceduo_text_string(&line));
+    ceduo_add_table_note(e->v, e->path, ceduo_text_string(&line));
 }
 
-static bool read_table(const struct place *p, const char *path)
+static bool read_table(const struct entry *e, const char *path)
 {
-    struct validator *v = p->v;
-    struct observed_values *to = p->values;
+    struct validator *v = e->v;
+    struct observed_values *to = e->values;
     struct table t = {0};
     struct csv *csv = &t.csv;
-    if (!split_only(p, &t) || !ceduo_csv_open(csv, v->arena, path, v->problems) || !find_columns(p, &t))
+    if (!split_only(e, &t) || !ceduo_csv_open(csv, v->arena, path, v->problems) || !find_columns(e, &t))
         return false;
     ceduo_csv_mark_numeric(csv, t.columns[VALUES]);
     ceduo_csv_scan(csv);
@@ -239,58 +239,58 @@ static bool read_table(const struct place *p, const char *path)
     if (!to->values)
         return false;
     while (ceduo_csv_next_row(csv))
-        if (!csv->bad && is_wanted(&t) &&
-            ceduo_csv_number(csv, ceduo_csv_cell(csv, t.columns[VALUES]), -1e9, 1e9, ceduo_observed_quantity(p->kind)->unit,
+        if (!csv->bad && is_selected(&t) &&
+            ceduo_csv_number(csv, ceduo_csv_cell(csv, t.columns[VALUES]), -1e9, 1e9, ceduo_observed_quantity(e->kind)->unit,
                              &to->values[to->values_count]))
             to->values_count++;
     if (to->values_count > 0)
-        understand(p, &t, path);
-    return to->values_count > 0 || ceduo_reject(v, p->at, "csv", _("the table has no such row")); /* untaken: complaint */
+        describe_table(e, &t, path);
+    return to->values_count > 0 || ceduo_reject(v, e->path, "csv", _("the table has no such row")); /* untaken: complaint */
 }
 
-/* Values from a table, if they are not listed. False if there is a problem. */
-static bool take_values(const struct place *p)
+/* Load the values from a table, unless they are listed. Return false on error. */
+static bool load_values(const struct entry *e)
 {
-    struct validator *v = p->v;
-    const struct observed_values *values = p->values;
+    struct validator *v = e->v;
+    const struct observed_values *values = e->values;
     size_t before = v->problems->met;
-    const struct node *csv = ceduo_node_get(p->node, "csv"), *list = ceduo_node_get(p->node, p->is->list);
+    const struct node *csv = ceduo_node_get(e->node, "csv"), *list = ceduo_node_get(e->node, e->kind_row->list);
     if (csv && list)
-        return ceduo_reject(v, p->at, "csv", _("%s already says this; keep one of the two"), p->is->list);
+        return ceduo_reject(v, e->path, "csv", _("%s already says this; keep one of the two"), e->kind_row->list);
     const char *path = csv ? ceduo_resolve_path(v->arena, csv, "scenes") : NULL;
     if (path)
-        return read_table(p, path) && v->problems->met == before;
+        return read_table(e, path) && v->problems->met == before;
     if (csv)
-        return ceduo_reject(v, p->at, "csv",
+        return ceduo_reject(v, e->path, "csv",
                             _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), csv->text);
     if (list && values->values_count == 0)
-        return ceduo_reject(v, p->at, p->is->list, _("the list is empty"));
-    const char *of_table = values->column ? "column" : values->only ? "only" : NULL;
+        return ceduo_reject(v, e->path, e->kind_row->list, _("the list is empty"));
+    const char *table_key = values->column ? "column" : values->only ? "only" : NULL;
     /* untaken: complaint */
-    return !of_table || ceduo_reject(v, p->at, of_table, _("names something of a table; name the table, csv"));
+    return !table_key || ceduo_reject(v, e->path, table_key, _("names something of a table; name the table, csv"));
 }
 
-/* Either values, or their mean, sd and number. */
-static bool check_form(const struct place *p)
+/* Check that either values are given, or their mean, sd and number. */
+static bool check_form(const struct entry *e)
 {
-    const struct observed_values *values = p->values;
+    const struct observed_values *values = e->values;
     int means = !isnan(values->mean) + !isnan(values->sd) + (values->n > 0);
     return means == (values->values_count > 0 ? 0 : 3) ||
-           ceduo_reject(p->v, p->at, "", _("give values, or their mean, sd and n")); /* untaken: complaint */
+           ceduo_reject(e->v, e->path, "", _("give values, or their mean, sd and n")); /* untaken: complaint */
 }
 
-/* Whether every value lies on the slope beyond seen_from_m, where rocks stopped there, or is not negative; the first that does
- * not is reported. */
-static bool check_each(const struct place *p)
+/* Check each value; report the first wrong one. Places of stopped rocks must lie on the slope after seen_from_m. Other values must
+ * not be negative. */
+static bool check_each(const struct entry *e)
 {
-    struct validator *v = p->v;
-    const struct observed_values *values = p->values;
-    bool stops = p->is->where == CEDUO_WHERE_AT_REST;
+    struct validator *v = e->v;
+    const struct observed_values *values = e->values;
+    bool stops = e->kind_row->where == CEDUO_WHERE_AT_REST;
     for (size_t i = 0; i < values->values_count; i++) {
         double x = values->values[i];
-        const char *path = ceduo_node_get(p->node, "csv") ? ceduo_asprintf(v, "%s.csv", p->at)
-                                                          : ceduo_asprintf(v, "%s.%s[%zu]", p->at, p->is->list, i);
-        if (stops && !ceduo_check_on_slope(p->v, path, "", x))
+        const char *path = ceduo_node_get(e->node, "csv") ? ceduo_asprintf(v, "%s.csv", e->path)
+                                                          : ceduo_asprintf(v, "%s.%s[%zu]", e->path, e->kind_row->list, i);
+        if (stops && !ceduo_check_on_slope(e->v, path, "", x))
             return false;
         if (stops && x < values->seen_from)
             return ceduo_reject(v, path, "", _("%s lies before seen_from_m, %s"), NUMERAL(x), NUMERAL(values->seen_from));
@@ -300,56 +300,56 @@ static bool check_each(const struct place *p)
     return true;
 }
 
-/* No more than were released. */
-static bool check_released(const struct place *p)
+/* Check that at most the number of released rocks was observed. */
+static bool check_released(const struct entry *e)
 {
-    const struct observed_values *values = p->values;
-    unsigned long long observed = p->is->list ? values->values_count : values->count, of = values->of;
+    const struct observed_values *values = e->values;
+    unsigned long long observed = e->kind_row->list ? values->values_count : values->count, of = values->of;
     /* untaken: complaint */
-    return of == 0 || observed <= of || ceduo_reject(p->v, p->at, "of", _("%llu were seen of %llu released"), observed, of);
+    return of == 0 || observed <= of || ceduo_reject(e->v, e->path, "of", _("%llu were seen of %llu released"), observed, of);
 }
 
-static bool check_values(const struct place *p)
+static bool check_values(const struct entry *e)
 {
-    const struct observed_values *values = p->values;
-    double last = ceduo_number_highest(p->release->x) + p->v->origin;
-    switch (p->is->where) { /* untaken: table */
+    const struct observed_values *values = e->values;
+    double last = ceduo_number_highest(e->release->x) + e->v->origin;
+    switch (e->kind_row->where) { /* untaken: table */
     case CEDUO_WHERE_AT_REST:
-        return ceduo_check_on_slope(p->v, p->at, "seen_from_m", values->seen_from) && check_each(p) && check_released(p);
+        return ceduo_check_on_slope(e->v, e->path, "seen_from_m", values->seen_from) && check_each(e) && check_released(e);
     case CEDUO_WHERE_AT_PLACE:
-        return (!p->is->list || check_form(p)) && ceduo_check_on_slope(p->v, p->at, "x_m", values->x) &&
+        return (!e->kind_row->list || check_form(e)) && ceduo_check_on_slope(e->v, e->path, "x_m", values->x) &&
                /* untaken: complaint */
-               (values->x > last || ceduo_reject(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"),
+               (values->x > last || ceduo_reject(e->v, e->path, "x_m", _("%s does not lie beyond the release, %s m"),
                                                  NUMERAL(values->x), NUMERAL(last))) &&
-               (p->is->list ? check_each(p) : check_released(p));
-    case CEDUO_WHERE_ON_STEMS: /* of which a rock may strike several */
-        return ceduo_check_stretch(p->v, p->at, values->from, values->to) && check_each(p);
+               (e->kind_row->list ? check_each(e) : check_released(e));
+    case CEDUO_WHERE_ON_STEMS: /* a rock may hit several stems, so no check of the number released */
+        return ceduo_check_stretch(e->v, e->path, values->from, values->to) && check_each(e);
     case CEDUO_WHERE_LARGEST:
-        return check_form(p) && check_each(p);
+        return check_form(e) && check_each(e);
     case CEDUO_WHERE_ALONG:
-        return check_form(p) && check_each(p) &&
-               ceduo_check_stretch(p->v, ceduo_asprintf(p->v, "%s.on_the_way", p->row_path), p->row->way_from, p->row->way_to);
+        return check_form(e) && check_each(e) &&
+               ceduo_check_stretch(e->v, ceduo_asprintf(e->v, "%s.on_the_way", e->row_path), e->row->way_from, e->row->way_to);
     }
     return false;
 }
 
 /* ---- rows ---- */
 
-/* A row's name; of one that has none, what it is of and where. */
-static void set_name(const struct place *p, struct ceduo_observation *o)
+/* Set the name of an observation; without one, its quantity and place. */
+static void set_name(const struct entry *e, struct ceduo_observation *o)
 {
-    const struct field *field = ceduo_schema_row(p->at); /* NULL without memory */
-    const char *path = p->is->path, *what = field ? _(field->shown.label) : path;
-    double x = p->values->x, from = p->row->way_from, to = p->row->way_to;
-    if (p->row->name) {
-        o->name_given = p->row->name;
-        o->name = ceduo_in_language(p->row->name, p->row->name_it);
-    } else if (p->is->where == CEDUO_WHERE_AT_PLACE) {
-        o->name_given = ceduo_asprintf(p->v, "%s at %s m", path, NUMERAL(x));
-        o->name = ceduo_asprintf(p->v, _("%s at %s m"), what, ceduo_number_spoken(NUMERAL(x)));
-    } else if (p->is->where == CEDUO_WHERE_ALONG) {
-        o->name_given = ceduo_asprintf(p->v, "%s %s-%s m", path, NUMERAL(from), NUMERAL(to));
-        o->name = ceduo_asprintf(p->v, "%s %s\xe2\x80\x93%s m", what, ceduo_number_spoken(NUMERAL(from)),
+    const struct field *field = ceduo_schema_row(e->path); /* NULL without memory */
+    const char *path = e->kind_row->path, *what = field ? _(field->shown.label) : path;
+    double x = e->values->x, from = e->row->way_from, to = e->row->way_to;
+    if (e->row->name) {
+        o->name_given = e->row->name;
+        o->name = ceduo_in_language(e->row->name, e->row->name_it);
+    } else if (e->kind_row->where == CEDUO_WHERE_AT_PLACE) {
+        o->name_given = ceduo_asprintf(e->v, "%s at %s m", path, NUMERAL(x));
+        o->name = ceduo_asprintf(e->v, _("%s at %s m"), what, ceduo_number_spoken(NUMERAL(x)));
+    } else if (e->kind_row->where == CEDUO_WHERE_ALONG) {
+        o->name_given = ceduo_asprintf(e->v, "%s %s-%s m", path, NUMERAL(from), NUMERAL(to));
+        o->name = ceduo_asprintf(e->v, "%s %s\xe2\x80\x93%s m", what, ceduo_number_spoken(NUMERAL(from)),
                                  ceduo_number_spoken(NUMERAL(to)));
     } else {
         o->name_given = path;
@@ -357,20 +357,20 @@ static void set_name(const struct place *p, struct ceduo_observation *o)
     }
 }
 
-/* `o`: what the kinds of a row share. */
-static void set_observation(const struct place *p, struct ceduo_observation *o)
+/* Set the members of one kind. `o` has those that all kinds of the row share. */
+static void set_observation(const struct entry *e, struct ceduo_observation *o)
 {
-    struct observed_values *values = p->values;
-    bool along = p->is->where == CEDUO_WHERE_ALONG, at_rest = p->is->where == CEDUO_WHERE_AT_REST;
-    double scale = ceduo_observed_quantity(p->kind)->scale, origin = p->v->origin;
+    struct observed_values *values = e->values;
+    bool along = e->kind_row->where == CEDUO_WHERE_ALONG, at_rest = e->kind_row->where == CEDUO_WHERE_AT_REST;
+    double scale = ceduo_observed_quantity(e->kind)->scale, origin = e->v->origin;
     for (size_t i = 0; i < values->values_count; i++)
         values->values[i] = values->values[i] * scale - (at_rest ? origin : 0);
     gsl_sort(values->values, 1, values->values_count);
-    o->kind = p->kind;
-    set_name(p, o);
+    o->kind = e->kind;
+    set_name(e, o);
     o->x = values->x - origin;
-    o->from = (along ? p->row->way_from : at_rest ? values->seen_from : values->from) - origin;
-    o->to = (along ? p->row->way_to : values->to) - origin;
+    o->from = (along ? e->row->way_from : at_rest ? values->seen_from : values->from) - origin;
+    o->to = (along ? e->row->way_to : values->to) - origin;
     o->values = values->values_count > 0 ? values->values : NULL;
     o->n = values->values_count > 0 ? values->values_count : (size_t)values->n;
     o->mean = values->mean * scale;
@@ -413,27 +413,27 @@ static void validate_row(struct validator *v, const char *path, struct observed 
     }
     bool good = find_option(v, path, row, &shared.option) && v->problems->met == before;
     for (int kind = 0; kind < CEDUO_OBSERVED_KINDS; kind++) {
-        const struct ceduo_observed_row *is = ceduo_observed_row((enum ceduo_observed_kind)kind);
-        const char *at = ceduo_asprintf(v, "%s.%s", path, is->path);
-        const struct place p = {.v = v,
+        const struct ceduo_observed_row *kind_row = ceduo_observed_row((enum ceduo_observed_kind)kind);
+        const char *kind_path = ceduo_asprintf(v, "%s.%s", path, kind_row->path);
+        const struct entry e = {.v = v,
                                 .row = row,
                                 .row_path = path,
                                 .release = shared.release ? shared.release : &v->draft.scene.release,
                                 .kind = (enum ceduo_observed_kind)kind,
-                                .is = is,
+                                .kind_row = kind_row,
                                 .values = &row->values[kind],
-                                .at = at,
-                                .node = ceduo_resolve_at(v->root, at)};
-        any |= p.node != NULL;
-        if (p.node && (!is->list || take_values(&p)) && check_values(&p) && good) {
+                                .path = kind_path,
+                                .node = ceduo_resolve_at(v->root, kind_path)};
+        any |= e.node != NULL;
+        if (e.node && (!kind_row->list || load_values(&e)) && check_values(&e) && good) {
             struct ceduo_observation *o = &v->file->observations[v->file->observations_count++];
             *o = shared;
-            set_observation(&p, o);
+            set_observation(&e, o);
         }
     }
     if (any)
         return;
-    LOCAL_TEXT(keys); /* of all kinds; several may be within one */
+    LOCAL_TEXT(keys); /* of all kinds; kinds may share the first key */
     const char *key = "";
     for (int kind = 0; kind < CEDUO_OBSERVED_KINDS; kind++) {
         const char *last = key;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Options, their belts and the stands of these: whether they fit together and lie on the slope. */
+/* Options, their belts and stands: checks that they fit together and lie on the slope. */
 #include <math.h>
 #include <string.h>
 
@@ -9,39 +9,39 @@
 
 #define SHOOTS_MAX 10000 /* on a stool */
 
-/* Wider spreads are no diameters of one cohort or class: nearly all of its stems would be hair, and few very thick. */
+/* Check that no spread exceeds its diameter: a wider spread is not one size class. */
 static void check_spreads(struct validator *v, const char *path, const char *list, const struct ceduo_stems *stems, size_t n)
 {
     for (size_t i = 0; i < n; i++)
-        if (stems[i].dbh_sd > stems[i].dbh) /* not where one of them could not be read: NaN, and 0 */
+        if (stems[i].dbh_sd > stems[i].dbh) /* false for unreadable values: NaN and 0 */
             ceduo_reject(v, ceduo_asprintf(v, "%s.%s[%zu]", path, list, i), "dbh_sd_m",
                          _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
                          NUMERAL(stems[i].dbh_sd), NUMERAL(stems[i].dbh));
 }
 
-/* Whether a value that is needed is not there; one that could not be read is reported already. */
-static bool lacks(struct validator *v, double value, const char *path, const char *key)
+/* True if a required value is missing. An unreadable value is already reported. */
+static bool is_missing(struct validator *v, double value, const char *path, const char *key)
 {
     return isnan(value) && ceduo_is_valid(v, "%s%s", path, key);
 }
 
-/* That all numbers of a mapping are given, of which no figure is assumed. */
+/* Require every number of a mapping; there are no defaults. */
 static void check_given(struct validator *v, const char *path, const struct field *group, const void *item)
 {
     const struct object *object = group->object;
     for (const struct field *f = object->fields; f < object->fields + object->n; f++)
-        if (f->type == FIELD_NUMBER && lacks(v, *(const double *)(const void *)((const char *)item + f->offset), path,
-                                             ceduo_asprintf(v, ".%s.%s", group->key, f->key)))
+        if (f->type == FIELD_NUMBER && is_missing(v, *(const double *)(const void *)((const char *)item + f->offset), path,
+                                                  ceduo_asprintf(v, ".%s.%s", group->key, f->key)))
             ceduo_reject(v, path, group->key, _("'%s' is missing: nothing is assumed here"), f->key);
 }
 
-/* Whether something is written at a key of a mapping. */
+/* True if a mapping has a key. */
 static bool is_written(struct validator *v, const char *path, const char *key)
 {
     return ceduo_resolve_at(v->root, ceduo_asprintf(v, "%s.%s", path, key)) != NULL;
 }
 
-/* Of what is in the way besides stems no figure is assumed. */
+/* Check stumps, logs and groups of trees, which have no defaults. */
 static void check_low(struct validator *v, const char *path, const struct ceduo_stand *s)
 {
     const struct object *stand = ceduo_schema_stand(), *trees = ceduo_schema_field(stand, "trees")->object;
@@ -61,17 +61,17 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
         s->system = ceduo_stand_has_shoots(s)  ? CEDUO_SIMPLE_COPPICE
                     : ceduo_stand_has_stems(s) ? CEDUO_HIGH_FOREST
                                                : CEDUO_BARE;
-    if (!ceduo_is_valid(v, "%s", path)) /* what it starts from is not there */
+    if (!ceduo_is_valid(v, "%s", path)) /* its base is unreadable */
         return;
     if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_valid(v, "%s.growth.shoots_young", path))
         ceduo_reject(v, path, "growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
                      NUMERAL(s->growth.shoots_young), NUMERAL(s->growth.shoots_old));
     if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
         ceduo_reject(v, path, "system", _("'bare', but there are stems; name the system or remove them"));
-    for (size_t i = 0; i < s->shoots_count; i++) { /* they are given per hectare or per stool */
+    for (size_t i = 0; i < s->shoots_count; i++) { /* per_ha or per_stool is required */
         const char *here = ceduo_asprintf(v, "%s.shoots[%zu]", path, i);
         bool each = is_written(v, here, "per_stool");
-        if (!each && lacks(v, s->shoots[i].per_ha, here, ".per_ha") && ceduo_is_valid(v, "%s.per_stool", here))
+        if (!each && is_missing(v, s->shoots[i].per_ha, here, ".per_ha") && ceduo_is_valid(v, "%s.per_stool", here))
             ceduo_reject(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
         else if (each && !is_written(v, path, "stools.per_ha") && ceduo_is_valid(v, "%s.stools.per_ha", path))
             ceduo_reject(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
@@ -95,28 +95,28 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
                      ceduo_stand_shoots(s), s->stools_per_ha);
 }
 
-/* The stand that a name is about: that of today, without source, growth and cutting. */
-static const struct node *named_part(struct validator *v, const struct node *stand)
+/* Copy the part of a stand that its name describes: today's stems, without name, source, growth and cutting. */
+static const struct node *copy_stems(struct validator *v, const struct node *stand)
 {
-    static const char *const others[] = {"name", "source", "growth", "cutting"};
-    for (size_t i = 0; stand && i < sizeof others / sizeof others[0]; i++)
-        stand = ceduo_node_without(v->arena, stand, others[i]);
+    static const char *const ignored[] = {"name", "source", "growth", "cutting"};
+    for (size_t i = 0; stand && i < sizeof ignored / sizeof ignored[0]; i++)
+        stand = ceduo_node_without(v->arena, stand, ignored[i]);
     return stand;
 }
 
-/* True if a stand with the name of the file that it was read from is the stand of that file. */
-static bool is_as_named(struct validator *v, const struct node *stand)
+/* True unless a stand has the name of its file but other stems than the stand of that file. */
+static bool has_named_stand(struct validator *v, const struct node *stand)
 {
-    const struct node *written = stand->written, *followed = stand->followed; /* there or not together */
+    const struct node *written = stand->written, *followed = stand->followed; /* both NULL or both set */
     if (!written || stand->kind != NODE_MAP)
         return true;
     const char *name = ceduo_node_text(stand, "name"), *before = ceduo_node_text(followed, "name");
-    if (!name || !before || strcmp(name, before) != 0 || ceduo_node_text(written, "name")) /* it has a name of its own */
+    if (!name || !before || strcmp(name, before) != 0 || ceduo_node_text(written, "name"))
         return true;
-    const struct node *own = written->kind == NODE_MAP ? named_part(v, written) : NULL;
+    const struct node *own = written->kind == NODE_MAP ? copy_stems(v, written) : NULL;
     if (own && own->n > (ceduo_node_get(own, "base") ? 1 : 0))
         return false;
-    const struct node *a = named_part(v, stand), *b = named_part(v, followed);
+    const struct node *a = copy_stems(v, stand), *b = copy_stems(v, followed);
     return !a || !b || ceduo_node_equal(a, b);
 }
 
@@ -132,10 +132,10 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
         belt->from = belt->from_given - v->origin;
         belt->to = belt->to_given - v->origin;
         const struct node *node = ceduo_resolve_at(v->root, stand);
-        const char *name = ceduo_node_text(node, "name"); /* what the stand calls itself, or else its file */
+        const char *name = ceduo_node_text(node, "name"); /* otherwise the name of the file */
         if (!name && node && node->written && node->written->kind == NODE_SCALAR)
             name = node->written->text;
-        belt->changed = name && !is_as_named(v, node);
+        belt->changed = name && !has_named_stand(v, node);
         const char *shown = ceduo_in_language(name, ceduo_node_text(node, "name_it")), *plain = N_("stand");
         if (!name)
             shown = _(name = ceduo_stand_is_bare(&belt->stand) ? N_("bare") : plain);
@@ -156,7 +156,7 @@ void ceduo_validate_options(struct validator *v)
         return;
     if (many && n == 0)
         ceduo_reject(v, "options", "", _("the list is empty"));
-    if (!many && (scene->options = ceduo_alloc(v, 1, sizeof *scene->options))) { /* it has one, its forest */
+    if (!many && (scene->options = ceduo_alloc(v, 1, sizeof *scene->options))) { /* the forest becomes the only option */
         scene->options[0] = (struct ceduo_option){
             .name_given = (char *)(uintptr_t)N_("current"), .belts_count = v->draft.belts_count, .belts = v->draft.belts};
         scene->options[0].name = (char *)(uintptr_t)_(scene->options[0].name_given);
