@@ -154,7 +154,8 @@ static const char *make_change(struct each *e, size_t column)
     ceduo_text_format(&change, "%s=", head->name);
     if (head->sets == PATH_TEXT || (head->sets == PATH_FILE && !is_yaml(cell)))
         append_quoted(&change, e->cells[column]);
-    else if (head->sets == PATH_NUMBER && !is_yaml(cell) && ceduo_csv_normalize_number(&e->table, cell, number) == CSV_NUMERAL_GOOD)
+    else if (head->sets == PATH_NUMBER && !is_yaml(cell) &&
+             ceduo_csv_normalize_number(&e->table, cell, number) == CSV_NUMERAL_GOOD)
         ceduo_text_put(&change, number);
     else
         ceduo_text_put(&change, e->cells[column]);

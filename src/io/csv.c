@@ -10,10 +10,10 @@
 #include "base/utf8.h"
 
 #define FOLDED_MAX 128  /* bytes of a head that are compared */
-#define HEAD_MAX   500  /* bytes of a head that is known */
-#define TITLE_MAX  20   /* lines among which the head is */
-#define HEADS_MAX  1000 /* heads of a table whose heads are known */
-#define NAMES_MAX  10   /* names that a list shows */
+#define HEAD_MAX   500  /* bytes of a known head */
+#define TITLE_MAX  20   /* lines that may contain the head */
+#define HEADS_MAX  1000 /* heads of a table with known heads */
+#define NAMES_MAX  10   /* names in a list of a message */
 
 #define BLANKS " \t"
 
@@ -46,11 +46,11 @@ static bool is_separator(const struct csv *csv, const char *p)
 static void mark_bad(struct csv *csv, const char *at, const char *why)
 {
     if (!csv->bad)
-        ceduo_csv_error(csv, (struct csv_cell){.at = at}, "%s", why);
+        ceduo_csv_error(csv, (struct csv_cell){.begin = at}, "%s", why);
     csv->bad = true;
 }
 
-/* A quoted cell: from its first quote to the byte after its last. */
+/* Read a quoted cell. Return the byte after its closing quote. */
 static const char *read_quoted(struct csv *csv, const char *p, const char *end, struct csv_cell *cell)
 {
     size_t doubled = 0, lines = 0, inside = 0; /* inside: separators */
@@ -61,10 +61,10 @@ static const char *read_quoted(struct csv *csv, const char *p, const char *end, 
         inside += is_separator(csv, to);
         to += *to == '"' ? 2 : 1;
     }
-    *cell = (struct csv_cell){.p = from, .n = (size_t)(to - from), .at = p, .quoted = true};
+    *cell = (struct csv_cell){.p = from, .n = (size_t)(to - from), .begin = p, .quoted = true};
     if (to == end)
         mark_bad(csv, p, _("this quote is not closed; close it, or remove it"));
-    else if (lines > 0 && csv->heads_count > 1 && inside + 1 >= csv->heads_count) /* it may have swallowed a row */
+    else if (lines > 0 && csv->heads_count > 1 && inside + 1 >= csv->heads_count) /* a row may be inside */
         mark_bad(csv, p,
                  _("from this quote to the next one lie a line break and as many separators as a row has; remove the quote, or "
                    "the line breaks"));
@@ -90,7 +90,7 @@ static const char *read_cell(struct csv *csv, const char *p, const char *end, st
         if (!is_end_of_line(p, end) && !is_separator(csv, p))
             mark_bad(csv, p, _("text after a closing quote; double the quotes within a cell"));
     } else {
-        *cell = (struct csv_cell){.p = p, .at = p};
+        *cell = (struct csv_cell){.p = p, .begin = p};
     }
     const char *from = p;
     while (!is_end_of_line(p, end) && !is_separator(csv, p))
@@ -104,9 +104,9 @@ static const char *read_cell(struct csv *csv, const char *p, const char *end, st
 /* Read the record at csv->next. */
 static bool read_record(struct csv *csv)
 {
-    const char *bytes = csv->source->bytes, *end = bytes + csv->source->length, *p = bytes + csv->next.at;
+    const char *bytes = csv->source->bytes, *end = bytes + csv->source->length, *p = bytes + csv->next.offset;
     bool more = true, blanks = csv->separator == ' ';
-    if (csv->next.at >= csv->source->length)
+    if (csv->next.offset >= csv->source->length)
         return false;
     csv->place = csv->next;
     csv->cells_count = 0;
@@ -124,13 +124,13 @@ static bool read_record(struct csv *csv)
     }
     p += p < end && *p == '\r';
     p += p < end;
-    for (const char *q = bytes + csv->place.at; q < p; q++)
+    for (const char *q = bytes + csv->place.offset; q < p; q++)
         csv->next.line += *q == '\n';
-    csv->next.at = (size_t)(p - bytes);
+    csv->next.offset = (size_t)(p - bytes);
     return true;
 }
 
-/* True if a record holds nothing but blanks and separators, of whatever kind. */
+/* True if a record has only blanks and separators of any kind. */
 static bool is_blank_record(const struct csv *csv)
 {
     bool blank = true;
@@ -164,8 +164,8 @@ bool ceduo_csv_matches(const char *p, size_t n, const char *words)
     return false;
 }
 
-/* True if a head may begin with the letter of a folded name. Most heads do not, which saves the folding. */
-static bool may_begin(struct csv_cell head, char letter)
+/* False if a head cannot begin with the first letter of a folded name. Saves the folding of most heads. */
+static bool can_begin(struct csv_cell head, char letter)
 {
     size_t i = 0;
     while (i < head.n && (unsigned char)head.p[i] < 0x80 && !isalnum((unsigned char)head.p[i]) && head.p[i] != '%')
@@ -179,7 +179,7 @@ static bool is_head(struct csv_cell head, const char *name, size_t length, const
 {
     char given[FOLDED_MAX];
     size_t before = 0;
-    if (head.n > HEAD_MAX || !may_begin(head, wanted[0]))
+    if (head.n > HEAD_MAX || !can_begin(head, wanted[0]))
         return false;
     while (before < head.n && head.p[before] != '(' && head.p[before] != '[')
         before++;
@@ -194,7 +194,7 @@ static bool is_head(struct csv_cell head, const char *name, size_t length, const
     return !given[n] || (units && ceduo_csv_matches(given + n, strlen(given + n), units));
 }
 
-/* Column with a name of n bytes, as ceduo_csv_column(). */
+/* Find the column with a name of n bytes, like ceduo_csv_column(). */
 static size_t find_name(const struct csv *csv, const char *name, size_t n, const char *units)
 {
     char wanted[FOLDED_MAX];
@@ -217,8 +217,8 @@ size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, cons
     return found;
 }
 
-/* Make the present record the head. */
-static void take_heads(struct csv *csv)
+/* Use the present record as the head. */
+static void set_heads(struct csv *csv)
 {
     csv->head_place = csv->place;
     csv->heads_count = csv->cells_count;
@@ -229,7 +229,7 @@ static void take_heads(struct csv *csv)
         csv->heads_count = 0;
 }
 
-/* A reader at the same place that reports nothing and leaves the present record as it is. */
+/* Copy the reader. The copy reports nothing and does not change the present record. */
 static struct csv try_separator(const struct csv *csv, char separator)
 {
     struct csv trial = *csv;
@@ -248,8 +248,8 @@ static size_t count_known(const struct csv *csv, const struct csv_head *heads, s
     return known;
 }
 
-/* How well a line with a separator serves as the head: known heads count most, then whether the next record is as long. 0: it
- * does not. Blanks separate heads only if half of the words are heads. */
+/* Rate a line and a separator as the head by the number of known heads, then by equal length of the next record. 0: not a head.
+ * With blanks as separators at least half of the words must be known heads. */
 static size_t rate_head(struct csv *trial, struct csv_place line, const struct csv_head *heads, size_t n)
 {
     trial->next = line;
@@ -263,42 +263,41 @@ static size_t rate_head(struct csv *trial, struct csv_place line, const struct c
     return 2 * known + (read_filled(trial) && trial->cells_count == cells);
 }
 
-/* Go to the line, and take the separator, that serve best. */
+/* Set the line and the separator with the best rate. */
 static void find_head(struct csv *csv, const struct csv_head *heads, size_t n)
 {
     const char given[] = {csv->separator, '\0'}, *all = csv->separator ? given : csv->blanks ? ";\t,| " : ";\t,|";
     struct csv trial = try_separator(csv, 0);
     struct csv_place line = csv->next, best_line = csv->next;
-    size_t most = 0, from, to;
+    size_t max = 0, from, to;
     char best = csv->separator ? csv->separator : ',';
-    for (size_t k = 0; k < TITLE_MAX && line.at < csv->source->length; k++) {
-        const bool comment = csv->comments && csv->source->bytes[line.at] == '#'; /* may hold the heads */
-        const struct csv_place head = {line.at + comment, line.line};
+    for (size_t k = 0; k < TITLE_MAX && line.offset < csv->source->length; k++) {
+        const bool comment = csv->comments && csv->source->bytes[line.offset] == '#'; /* may contain the heads */
+        const struct csv_place head = {line.offset + comment, line.line};
         for (const char *s = all; *s; s++) {
             trial.separator = *s;
             size_t rate = rate_head(&trial, head, heads, n);
-            if (rate > most) {
-                most = rate;
+            if (rate > max) {
+                max = rate;
                 best = *s;
                 best_line = head;
             }
         }
-        size_t at = line.at;
-        if (!ceduo_source_next(csv->source, &at, &from, &to))
+        if (!ceduo_source_next(csv->source, &line.offset, &from, &to))
             break;
-        line = (struct csv_place){at, line.line + 1};
+        line.line++;
     }
     csv->next = best_line;
     csv->separator = best;
-    csv->cells = trial.cells; /* the list that has grown serves the table, too */
+    csv->cells = trial.cells; /* reuse the grown list */
     csv->cells_capacity = trial.cells_capacity;
 }
 
-/* Units that may stand in a row of their own. */
+/* Units in a row below the head. */
 #define UNITS "m|m2|m\xc2\xb2|mq|cm|mm|km|ft|in|kj|\xc2\xb0|deg|degrees|gradi|grad|%|n|nr|cod|m slm|m asl|m \xc3\xbcm"
 
 /* Append the units of a row below the head to the heads. */
-static void take_units(struct csv *csv)
+static void append_units(struct csv *csv)
 {
     struct csv row = try_separator(csv, csv->separator);
     size_t found = 0;
@@ -319,7 +318,7 @@ static void take_units(struct csv *csv)
         const char *whole = ceduo_arena_format(csv->arena, "%.*s %s%.*s%s", (int)head->n, head->p, bare ? "(" : "", (int)unit.n,
                                                unit.p, bare ? ")" : "");
         if (whole)
-            *head = (struct csv_cell){.p = whole, .n = strlen(whole), .at = head->at, .quoted = head->quoted};
+            *head = (struct csv_cell){.p = whole, .n = strlen(whole), .begin = head->begin, .quoted = head->quoted};
     }
 }
 
@@ -327,8 +326,8 @@ void ceduo_csv_find_head(struct csv *csv, const struct csv_head *heads, size_t n
 {
     find_head(csv, heads, n);
     if (read_record(csv))
-        take_heads(csv);
-    take_units(csv);
+        set_heads(csv);
+    append_units(csv);
     for (size_t i = 0; i < n; i++) {
         columns[i] = ceduo_csv_column(csv, &heads[i], heads[i].units);
         csv->source->foreign &= columns[i] == CEDUO_CSV_NOT_FOUND;
@@ -341,19 +340,19 @@ void ceduo_csv_find_head(struct csv *csv, const struct csv_head *heads, size_t n
 
 bool ceduo_csv_read_head(struct csv *csv)
 {
-    size_t most = 1;
+    size_t max = 1;
     char best = csv->separator ? csv->separator : ',';
-    for (const char *s = csv->separator ? "" : ";\t|,"; *s; s++) { /* the one with most cells, ; first */
+    for (const char *s = csv->separator ? "" : ";\t|,"; *s; s++) { /* the most cells win, then the first */
         struct csv trial = try_separator(csv, *s);
-        if (read_filled(&trial) && !trial.bad && trial.cells_count > most) {
-            most = trial.cells_count;
+        if (read_filled(&trial) && !trial.bad && trial.cells_count > max) {
+            max = trial.cells_count;
             best = *s;
         }
     }
     csv->separator = best;
     if (!read_filled(csv))
         return ceduo_problem(csv->problems, csv->source, 0, 0, _("the file is empty"));
-    take_heads(csv);
+    set_heads(csv);
     return !csv->bad;
 }
 
@@ -425,20 +424,20 @@ void ceduo_csv_scan(struct csv *csv)
 {
     struct csv_place begin = csv->next;
     struct problems *problems = csv->problems;
-    size_t filled = csv->heads_count, most = 0, of_head = csv->heads_count;
+    size_t filled = csv->heads_count, max = 0, head_width = csv->heads_count;
     while (filled > 0 && !csv->headless && csv->heads[filled - 1].n == 0)
         filled--;
     csv->problems = NULL;
     csv->rows = 0;
     while (read_filled(csv)) {
         csv->rows++;
-        most = csv->cells_count > most ? csv->cells_count : most;
+        max = csv->cells_count > max ? csv->cells_count : max;
         ceduo_csv_note_decimal(csv);
     }
-    csv->width = most > filled ? of_head : filled;
+    csv->width = max > filled ? head_width : filled;
     csv->longer = csv->longer_by_one = 0;
     csv->next = begin;
-    while (most > csv->width && read_filled(csv)) {
+    while (max > csv->width && read_filled(csv)) {
         csv->longer += csv->cells_count > csv->width;
         csv->longer_by_one += csv->cells_count == csv->width + 1;
     }
@@ -446,8 +445,7 @@ void ceduo_csv_scan(struct csv *csv)
     csv->problems = problems;
 }
 
-/* True if an empty cell beyond the head may be due to a cell that was doubled, or to a head that was removed: a single record is
- * one cell longer, or all are. */
+/* True if an empty cell beyond the head may result from a doubled cell or a removed head: one record, or each, has one cell more. */
 static bool is_doubtful(const struct csv *csv)
 {
     bool one = csv->cells_count == csv->width + 1 && csv->longer_by_one == csv->longer;
@@ -465,16 +463,16 @@ static void check_width(struct csv *csv)
     if (csv->bad || n == width || ignored)
         return;
     csv->bad = true;
-    struct csv_cell at = csv->cells[n > width ? width : n - 1];
+    struct csv_cell cell = csv->cells[n > width ? width : n - 1];
     if (n < width)
-        ceduo_csv_error(csv, at, _("too few columns: %zu, the head has %zu"), n, width);
+        ceduo_csv_error(csv, cell, _("too few columns: %zu, the head has %zu"), n, width);
     else if (csv->separator == ',')
-        ceduo_csv_error(csv, at,
+        ceduo_csv_error(csv, cell,
                         _("more columns than the first line has: %zu instead of %zu; if commas stand for decimals, separate "
                           "the columns by semicolons"),
                         n, width);
     else
-        ceduo_csv_error(csv, at, _("more columns than the first line has: %zu instead of %zu"), n, width);
+        ceduo_csv_error(csv, cell, _("more columns than the first line has: %zu instead of %zu"), n, width);
 }
 
 bool ceduo_csv_next_row(struct csv *csv)
@@ -497,8 +495,8 @@ struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column)
 {
     if (column < csv->cells_count)
         return csv->cells[column];
-    const char *at = csv->cells_count > 0 ? csv->cells[csv->cells_count - 1].at : csv->source->bytes + csv->place.at;
-    return (struct csv_cell){.p = "", .at = at};
+    const char *row = csv->source->bytes + csv->place.offset;
+    return (struct csv_cell){.p = "", .begin = csv->cells_count > 0 ? csv->cells[csv->cells_count - 1].begin : row};
 }
 
 bool ceduo_csv_equals(struct csv_cell cell, const char *word)
@@ -532,8 +530,8 @@ bool ceduo_csv_has_stray_quote(struct csv_cell cell)
 size_t ceduo_csv_line(const struct csv *csv, struct csv_cell cell)
 {
     const char *bytes = csv->source->bytes;
-    struct csv_place from = cell.at < bytes + csv->place.at ? csv->head_place : csv->place;
-    for (const char *p = bytes + from.at; p < cell.at; p++)
+    struct csv_place from = cell.begin < bytes + csv->place.offset ? csv->head_place : csv->place;
+    for (const char *p = bytes + from.offset; p < cell.begin; p++)
         from.line += *p == '\n';
     return from.line;
 }
@@ -545,7 +543,7 @@ bool ceduo_csv_error(const struct csv *csv, struct csv_cell cell, const char *fo
     va_list args;
     size_t column = 1;
     const char *begin = csv->source->bytes + ceduo_source_mark(csv->source);
-    for (const char *p = cell.at; p > begin && p[-1] != '\n'; p--)
+    for (const char *p = cell.begin; p > begin && p[-1] != '\n'; p--)
         column += !ceduo_utf8_inside(p[-1]);
     va_start(args, format);
     ceduo_problem_v(csv->problems, (struct problem_place){csv->source, ceduo_csv_line(csv, cell), column, NULL, false}, format,

@@ -6,53 +6,53 @@
 #include "base/text.h"
 #include "problem.h"
 
-/* Tables as offices write them: RFC 4180, and what spreadsheets, GIS and forms make of it. Cells are separated by ; tab , | or,
- * if the caller permits it, blanks. Text is UTF-8, or UTF-16 or Windows-1252, which are recognized. A table is read right or
- * refused by line. */
+/* Tables as offices write them: RFC 4180 and its variants in spreadsheets, GIS and forms. Cells are separated by ; tab , | or, if
+ * the caller permits it, blanks. UTF-8, UTF-16 and Windows-1252 are recognized. A table is read completely or refused, with line
+ * numbers. */
 
 /* A cell of the present record. */
 struct csv_cell {
-    const char *p;  /* value without quotes and without blanks around it; valid as long as the arena */
-    size_t n;       /* bytes */
-    const char *at; /* first byte in the file */
+    const char *p;     /* value, without quotes and blanks around it; valid as long as the arena */
+    size_t n;          /* bytes */
+    const char *begin; /* in the file */
     bool quoted;
-    bool numeric; /* of a head: its column holds numbers */
+    bool numeric; /* only heads: the column holds numbers */
 };
 
-/* A record as a place to return to. */
+/* Place of a record in the file. */
 struct csv_place {
-    size_t at, line;
+    size_t offset, line;
 };
 
 struct csv {
     struct source *source;
     struct arena *arena;
-    struct problems *problems; /* NULL: nothing is reported */
+    struct problems *problems; /* NULL: report nothing */
     char separator;            /* ' ': blanks */
     bool blanks;               /* blanks may separate */
-    bool comments;             /* records that begin with # or > are skipped */
+    bool comments;             /* skip records that begin with # or > */
 
     struct csv_place place, next; /* present record, next one */
     struct csv_cell *cells;       /* of the present record */
     size_t cells_count, cells_capacity;
-    bool bad; /* the present record is broken or has the wrong number of cells, which is reported */
+    bool bad; /* the present record is broken or has the wrong number of cells; already reported */
 
     struct csv_place head_place;
-    struct csv_cell *heads; /* with the unit below a head in brackets after it */
+    struct csv_cell *heads; /* a unit below a head is appended in brackets */
     size_t heads_count;
     bool headless;
 
-    /* Properties of the whole table: ceduo_csv_scan(). */
-    size_t width;  /* cells that a record must have */
-    size_t rows;   /* records below the head that are not blank */
-    size_t longer; /* records with more cells than `width` */
-    size_t longer_by_one;
-    char decimal;        /* ',' or '.'; '\0': no number shows it */
-    size_t decimal_line; /* that shows it */
-    bool grouped;        /* at least one number has a decimal sign and a thousands separator */
+    /* Properties of the whole table, set by ceduo_csv_scan(). */
+    size_t width;         /* required number of cells of a record */
+    size_t rows;          /* records below the head, without blank ones */
+    size_t longer;        /* records with more cells than `width` */
+    size_t longer_by_one; /* records with width + 1 cells */
+    char decimal;         /* ',' or '.'; '\0': undecided */
+    size_t decimal_line;  /* line that decided it */
+    bool grouped;         /* at least one number has a thousands separator */
 };
 
-/* Read a file. Report an error and return false if it cannot be read, if its encoding is broken, or if it is no text. */
+/* Read a file. Report an error and return false if it is unreadable, has a broken encoding or is not text. */
 bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems);
 
 #define CEDUO_CSV_NOT_FOUND SIZE_MAX
@@ -60,79 +60,78 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
 
 enum csv_unit {
     CSV_UNIT_NONE,
-    CSV_UNIT_USUAL, /* the unit in the name of the manual: cm, m2, degrees */
+    CSV_UNIT_USUAL, /* unit of the manual: cm, m2, degrees */
     CSV_UNIT_OTHER  /* mm, percent */
 };
 
-/* Names and units of a column. Those of `also` and the units are separated by |. */
+/* Names and units of a column. Names in `also` and units are separated by |. */
 struct csv_head {
-    const char *name;  /* the best; NULL: no column is meant */
-    const char *also;  /* other names, the best first; NULL: none */
-    const char *units; /* NULL: any unit in brackets is ignored */
-    const char *other; /* among them: those of another scale; NULL: none */
-    const char *unit;  /* for messages; its translation is marked */
+    const char *name;  /* preferred name; NULL: no column */
+    const char *also;  /* other names, preferred first; NULL: none */
+    const char *units; /* NULL: ignore a unit in brackets */
+    const char *other; /* units of another scale, contained in `units`; NULL: none */
+    const char *unit;  /* for messages, marked for translation */
     double lo, hi;     /* range of its numbers, in the usual unit */
 };
 
-/* Column with one of n known heads; CEDUO_CSV_NOT_FOUND; CEDUO_CSV_DUPLICATE. Case, blanks and punctuation do not matter. A unit may
- * follow the name, in brackets or without. Earlier names win. */
+/* Return the column with a head; CEDUO_CSV_NOT_FOUND; CEDUO_CSV_DUPLICATE. Ignores case, blanks and punctuation. A unit may follow
+ * the name, with or without brackets. Earlier names win. */
 size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, const char *units);
 
-/* Find the head of a table: the line among the first 20, and the separator, with most of n known heads. Reads a row of units
- * below it. Sets columns[i] for each head. Reports columns that occur twice. The file is foreign until a head is known. */
+/* Find the head of a table: the line among the first 20, and the separator, with the most of n known heads. Read a row of units
+ * below it. Set columns[i] for each head. Report duplicate columns. The file stays foreign unless a head is found. */
 void ceduo_csv_find_head(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns);
 
-/* Take the first line that is not blank as the head. Reports an empty file and returns false. */
+/* Read the first line that is not blank as the head. Report an empty file and return false. */
 bool ceduo_csv_read_head(struct csv *csv);
 
-/* Take a table without a head: the first record that is not blank is its first row. */
+/* Begin a table without a head: its first row is the first record that is not blank. */
 void ceduo_csv_begin_headless(struct csv *csv, char separator);
 
-/* Mark a column as one of numbers, if there is such a column. */
+/* Mark a column, if it exists, as numeric. */
 static inline void ceduo_csv_mark_numeric(struct csv *csv, size_t column)
 {
     if (column < csv->heads_count)
         csv->heads[column].numeric = true;
 }
 
-/* Read the whole table once: number of cells a record has, rows, decimal sign of the columns that are marked as numeric. Call it
- * before the first ceduo_csv_next_row(). */
+/* Read the whole table once to find its width, its number of rows and the decimal sign of its numeric columns. Call it before the
+ * first ceduo_csv_next_row(). */
 void ceduo_csv_scan(struct csv *csv);
 
-/* Read the next record that is not blank; false at the end. A broken record is reported and marked bad. */
+/* Read the next record that is not blank; false at the end. Report a broken record and mark it bad. */
 bool ceduo_csv_next_row(struct csv *csv);
 
 /* Read a record again. */
 void ceduo_csv_reread(struct csv *csv, struct csv_place place);
 
-/* Cell of the present record; an empty cell at its end if it has fewer. */
+/* Return a cell of the present record; an empty cell at its end if it has fewer. */
 struct csv_cell ceduo_csv_cell(const struct csv *csv, size_t column);
 
-/* True if a text is one of the words, separated by |. Case, blanks and punctuation do not matter. */
+/* True if a text is one of the words, separated by |. Ignores case, blanks and punctuation. */
 bool ceduo_csv_matches(const char *p, size_t n, const char *words);
 
-/* Order of two cells as of memcmp(); 0: they have the same bytes. */
+/* Compare two cells like memcmp(); 0: equal bytes. */
 int ceduo_csv_compare(struct csv_cell a, struct csv_cell b);
 
-/* True if a cell is a word; case does not matter. */
+/* True if a cell is a word. Ignores case. */
 bool ceduo_csv_equals(struct csv_cell cell, const char *word);
 
 /* True if a cell has no value: empty, -, ., NA, NaN, NULL, n.d., n.r., #N/A, #N/D. */
 bool ceduo_csv_is_empty(struct csv_cell cell);
 
-/* True if a quote stands within a cell that is not in quotes itself. */
+/* True if a cell contains a quote but does not begin with one. */
 bool ceduo_csv_has_stray_quote(struct csv_cell cell);
 
-/* Append the end of the line that says how a table was read: decimal commas, `notes`, and the heads that are not among the n columns
- * used. */
+/* Append the end of the line on how a table was read: decimal commas, `notes` and the heads of columns that are not used. */
 void ceduo_csv_describe(const struct csv *csv, const size_t *used, size_t n, const char *notes, struct text *line);
 
-/* Append name number *n, from 0, of a list that shows ten, and count it. */
+/* Append name *n (from 0) to a list that shows ten, and increase *n. */
 void ceduo_csv_append_name(struct text *names, size_t *n, const char *name, size_t length);
-/* Append how many of n names the list does not show. */
+/* Append the number of names that the list does not show. `n`: of all names. */
 void ceduo_csv_append_rest(struct text *names, size_t n);
 
-/* Append all heads, separated by commas; of a foreign file the beginning only. */
+/* Append all heads, separated by commas; only the beginning if the file is foreign. */
 void ceduo_csv_append_heads(const struct csv *csv, struct text *names);
 
 enum csv_numeral { CSV_NUMERAL_GOOD, CSV_NUMERAL_NONE, CSV_NUMERAL_TWO_WAYS, CSV_NUMERAL_TWO_NUMBERS, CSV_NUMERAL_OTHER_SIGN };
@@ -141,41 +140,40 @@ enum csv_numeral { CSV_NUMERAL_GOOD, CSV_NUMERAL_NONE, CSV_NUMERAL_TWO_WAYS, CSV
 #define CSV_NUMERAL_CAPACITY 128
 enum csv_numeral ceduo_csv_normalize_number(const struct csv *csv, struct csv_cell cell, char to[CSV_NUMERAL_CAPACITY]);
 
-/* Remove the unit that follows the number in a cell, one of `units` (may be NULL), separated by |. False if there is none. */
+/* Remove one of `units` (may be NULL), separated by |, after the number in a cell. False if there is none. */
 bool ceduo_csv_split_unit(struct csv_cell *cell, const char *units);
 
 /* Set *value if a cell is a number; false if it is not. Reports nothing. */
 bool ceduo_csv_value(const struct csv *csv, struct csv_cell cell, double *value);
 
-/* Number in a cell, lo <= number <= hi, in `unit`, which may follow it. Reports an error and returns false otherwise. */
+/* Read a number from a cell, lo <= number <= hi, in `unit`, which may follow it. Report an error and return false otherwise. */
 bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, double hi, const char *unit, double *value);
 
-/* Note the decimal sign of the present record, if it shows one. */
+/* Set the decimal sign of the table if the present record has one. */
 void ceduo_csv_note_decimal(struct csv *csv);
 
-/* Report why a cell is not the number that ceduo_csv_normalize_number() looks for; returns false. */
+/* Report the reason why ceduo_csv_normalize_number() failed. Return false. */
 bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral why);
 
-/* Report a problem at a cell of the present record; returns false. */
+/* Report an error at a cell of the present record. Return false. */
 bool ceduo_csv_error(const struct csv *csv, struct csv_cell cell, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Line of a cell of the present record. */
+/* Return the line of a cell of the present record. */
 size_t ceduo_csv_line(const struct csv *csv, struct csv_cell cell);
 
 /* ---- profiles (csv_slope.c) ---- */
 
-/* A profile as its file gives it. */
+/* Points of a profile in a file. */
 struct points {
     double *x, *z; /* m */
     size_t n;
-    const char *understood; /* one line for the user, in the arena; NULL: from no table */
-    const char *lines;      /* names of the lines, if the file is refused because it holds several; else NULL */
+    const char *understood; /* one line for the user, in the arena; NULL: not from a table */
+    const char *lines;      /* names of the lines if the file was refused because it has several; else NULL */
 };
 
 /* Read a profile: distance and elevation, x, y and elevation of a line on the map, WKT, or the output of GRASS or GMT.
- * `layer`: which line of a file that holds several; NULL: the only one. Returns false if the file is refused, which is
- * reported. */
+ * `layer`: name of the line in a file with several; NULL: the only line. Report an error and return false if the file is refused. */
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *layer, struct points *points,
                           struct problems *problems);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers of a table: decimal comma or dot, thousands separators, units. The whole table has one decimal sign. */
+/* Numbers of a table: decimal comma or dot, thousands separators, units. A table has one decimal sign. */
 #include <stdio.h>
 #include <string.h>
 #include <unictype.h>
@@ -8,12 +8,12 @@
 #include "base/utf8.h"
 #include "csv.h"
 
-/* Signs of a number: how its dots and commas can be read. */
+/* Meaning of the dots and commas of a number. */
 enum signs {
     SIGNS_NONE,          /* digits only */
-    SIGNS_DECIMAL,       /* one sign, which can only be for decimals */
+    SIGNS_DECIMAL,       /* one decimal sign */
     SIGNS_TWO_WAYS,      /* one sign before three digits: decimals or thousands */
-    SIGNS_GROUPS,        /* several equal ones: thousands */
+    SIGNS_GROUPS,        /* several equal signs: thousands */
     SIGNS_GROUPS_DECIMAL /* thousands, then decimals */
 };
 
@@ -23,8 +23,8 @@ struct numeral {
     char sign; /* the only sign, or the last */
 };
 
-/* Length of a thousands separator that is neither a dot nor a comma; 0: there is none. */
-static size_t spacer(const char *p, const char *end)
+/* Return the bytes of a thousands separator that is neither a dot nor a comma; 0: none. */
+static size_t measure_spacer(const char *p, const char *end)
 {
     if (p < end && *p == '\'')
         return 1;
@@ -73,7 +73,7 @@ static void read_signs(struct numeral *numeral)
 }
 
 /* Split a cell into sign, digits, decimal signs and thousands separators. */
-static enum csv_numeral take_apart(struct csv_cell cell, struct numeral *numeral)
+static enum csv_numeral split_number(struct csv_cell cell, struct numeral *numeral)
 {
     const char *p = cell.p, *end = p + cell.n;
     size_t n = 0, group = 0; /* digits since the last spacer */
@@ -83,7 +83,7 @@ static enum csv_numeral take_apart(struct csv_cell cell, struct numeral *numeral
         p += 3;
     }
     for (; p < end; p++) {
-        size_t gap = n > 0 && is_digit(numeral->text[n - 1]) && mantissa ? spacer(p, end) : 0;
+        size_t gap = n > 0 && is_digit(numeral->text[n - 1]) && mantissa ? measure_spacer(p, end) : 0;
         if (gap > 0 && p + gap < end && is_digit(p[gap])) {
             wrong_group |= spaced ? group != 3 : group > 3;
             spaced = true;
@@ -110,8 +110,8 @@ static enum csv_numeral take_apart(struct csv_cell cell, struct numeral *numeral
     return n > 0 ? CSV_NUMERAL_GOOD : CSV_NUMERAL_NONE;
 }
 
-/* The decimal sign that a number shows; '\0': none. */
-static char shown_decimal(const struct numeral *numeral)
+/* Return the decimal sign of a number; '\0': undecided. */
+static char get_decimal(const struct numeral *numeral)
 {
     switch (numeral->signs) {
     case SIGNS_DECIMAL:
@@ -130,14 +130,15 @@ enum csv_numeral ceduo_csv_normalize_number(const struct csv *csv, struct csv_ce
 {
     struct numeral numeral;
     double value;
-    enum csv_numeral good = take_apart(cell, &numeral);
+    enum csv_numeral good = split_number(cell, &numeral);
     if (good != CSV_NUMERAL_GOOD)
         return good;
-    char shown = shown_decimal(&numeral), decimal = csv->decimal;
+    char shown = get_decimal(&numeral), decimal = csv->decimal;
     if (shown && decimal && shown != decimal)
         return CSV_NUMERAL_OTHER_SIGN;
     decimal = decimal ? decimal : shown;
-    bool usual = (numeral.sign == ',') == (csv->separator == ';'); /* decimal commas go with semicolons, dots with the others */
+    bool usual =
+        (numeral.sign == ',') == (csv->separator == ';'); /* decimal comma with semicolons, dot with other separators */
     if (numeral.signs == SIGNS_TWO_WAYS && !decimal && usual)
         decimal = numeral.sign;
     if (numeral.signs == SIGNS_TWO_WAYS && (!decimal || (numeral.sign != decimal && !csv->grouped)))
@@ -168,8 +169,8 @@ bool ceduo_csv_split_unit(struct csv_cell *cell, const char *units)
     return false;
 }
 
-/* The first character of a cell that cannot be meant in a number: it shows as nothing or turns text. 0: there is none. */
-static uint32_t hidden_character(struct csv_cell cell)
+/* Find the first invisible character, or control of writing direction, in a cell. 0: none. */
+static uint32_t find_hidden(struct csv_cell cell)
 {
     uint32_t code;
     for (size_t i = 0, n; i < cell.n; i += n) {
@@ -186,14 +187,14 @@ bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum c
 {
     struct numeral n;
     char word[CSV_NUMERAL_CAPACITY];
-    uint32_t hidden = hidden_character(cell);
+    uint32_t hidden = find_hidden(cell);
     bool fits = cell.n < sizeof word;
     snprintf(word, sizeof word, "%.*s", fits ? (int)cell.n : 0, cell.p);
     if (!fits)
         ceduo_csv_error(csv, cell, _("'%s' is not a number"), "\xe2\x80\xa6");
     else if (hidden && why != CSV_NUMERAL_TWO_WAYS && why != CSV_NUMERAL_OTHER_SIGN)
         ceduo_csv_error(csv, cell, _("the character U+%04X cannot be meant in a number; remove it"), (unsigned)hidden);
-    else if (why == CSV_NUMERAL_TWO_WAYS && take_apart(cell, &n) == CSV_NUMERAL_GOOD)
+    else if (why == CSV_NUMERAL_TWO_WAYS && split_number(cell, &n) == CSV_NUMERAL_GOOD)
         ceduo_csv_error(csv, cell, _("'%s' can be read in two ways: write '%.*s%s' or '%.*s%c%s'"), word,
                         (int)strcspn(n.text, ".,"), n.text, strpbrk(n.text, ".,") + 1, (int)strcspn(n.text, ".,"), n.text,
                         csv->decimal    ? csv->decimal
@@ -239,9 +240,9 @@ void ceduo_csv_note_decimal(struct csv *csv)
 {
     for (size_t i = 0; i < csv->cells_count && i < csv->heads_count; i++) {
         struct numeral numeral;
-        if (!csv->heads[i].numeric || take_apart(csv->cells[i], &numeral) != CSV_NUMERAL_GOOD)
+        if (!csv->heads[i].numeric || split_number(csv->cells[i], &numeral) != CSV_NUMERAL_GOOD)
             continue;
-        char shown = shown_decimal(&numeral);
+        char shown = get_decimal(&numeral);
         csv->grouped |= numeral.signs >= SIGNS_GROUPS;
         if (shown && !csv->decimal) {
             csv->decimal = shown;

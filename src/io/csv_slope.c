@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A profile from a table: distance and elevation, or a line on the map with elevations, as columns, WKT or the output of GRASS
- * and GMT. First the points are read as they stand, then one line is chosen and checked, then walls and overhangs are made
- * so that x rises. */
+/* A profile from a table: distance and elevation, or a line on the map with elevations, as columns, WKT or the output of GRASS and
+ * GMT. Reads the points, then chooses and checks one line, then converts walls and overhangs so that x rises. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,22 +13,22 @@
 #include "csv.h"
 #include "file.h"
 
-#define BEGINNING    4096 /* bytes of a file that can hold the mark of its format */
+#define BEGINNING    4096 /* bytes that are searched for the mark of a format */
 #define LAYERS_MAX   1000
-#define LINE_MIN     1    /* m: a shorter line on the map is in degrees */
+#define LINE_MIN     1    /* m; a shorter line on the map is in degrees */
 #define LENGTH_MIN   0.1  /* m of a profile */
 #define WALL_RUN     0.01 /* m between the edge and the foot of a vertical step */
-#define OVERHANG_MAX 10   /* m: farther back the line turns round (assumed) */
-#define SPIKE_RISE   200  /* m from both neighbours, */
-#define SPIKE_RUN    50   /* m: that is an error of the terrain model (assumed) */
+#define OVERHANG_MAX 10   /* m; a line that goes back farther turns round (assumed) */
+#define SPIKE_RISE   200  /* m to both neighbours, */
+#define SPIKE_RUN    50   /* within m: an error of the terrain model (assumed) */
 #define JUMP_RISE    50   /* m to 0 or 9999, */
-#define JUMP_SLOPE   6    /* times the run: no data (assumed) */
-#define TURN_STEP    0.1  /* m: shorter steps have no direction */
-#define CROSSINGS    2000 /* points between which crossings are looked for */
+#define JUMP_SLOPE   6    /* and times the run: no data (assumed) */
+#define TURN_STEP    0.1  /* m; shorter steps have no direction */
+#define CROSSINGS    2000 /* points that are checked for crossings */
 
 enum column { DISTANCE, ELEVATION, EAST, NORTH, LAYER, WKT, LABEL, COLUMNS };
 
-/* Names of a column, the best first. */
+/* Names of a column, preferred first. */
 #define METRES "m|mt|metri|metro|metres|meters|meter|m slm|m sm|m asl|m amsl|m \xc3\xbcm|m \xc3\xbc nn|m nn|m nhn"
 static const struct csv_head heads[COLUMNS] = {
     [DISTANCE] = {"distance",
@@ -43,9 +42,9 @@ static const struct csv_head heads[COLUMNS] = {
     [LABEL] = {"name", "nome|id|fid"},
 };
 
-/* A point as its file has it. */
+/* A point in the file. */
 struct raw {
-    double along, x, y, z; /* m: distance, place on the map, height */
+    double along, x, y, z; /* m: distance, coordinates on the map, height */
     size_t layer, line;
 };
 
@@ -54,24 +53,24 @@ struct reader {
     struct arena *arena;
     struct problems *problems;
     size_t columns[COLUMNS];
-    bool map; /* x and y are places on a map */
+    bool map; /* x and y are coordinates; there is no distance */
     struct raw *raw;
     size_t n, capacity;
     const char *layers[LAYERS_MAX];
     size_t layers_count;
-    struct text notes;   /* what was changed */
-    const char *several; /* names of the lines, if one must be chosen */
+    struct text notes;   /* changes to the points */
+    const char *several; /* names of the lines if the user must choose one; else NULL */
 };
 
-static bool refuse_at(struct reader *r, const struct raw *raw, const char *why)
+static bool reject_at(struct reader *r, const struct raw *raw, const char *why)
 {
     return ceduo_problem(r->problems, r->csv.source, raw->line, 1, "%s", why);
 }
 
 /* ---- points ---- */
 
-/* Number of a layer, which is added if it is new. One without a name is called by its number. */
-static size_t layer_of(struct reader *r, const char *name, size_t n)
+/* Return the index of a layer; add it if it is new. A layer without a name gets its number as name. */
+static size_t get_layer(struct reader *r, const char *name, size_t n)
 {
     char number[32];
     if (n == 0) {
@@ -96,7 +95,7 @@ static void add_point(struct reader *r, struct raw raw)
         r->n = r->capacity = 0;
 }
 
-/* True if a height stands for a cell of a terrain model without data. */
+/* True if a height is a no-data value of terrain models. */
 static bool is_no_data(double z)
 {
     static const double values[] = {-9999, -32768, -32767, -99999, -10000};
@@ -122,8 +121,8 @@ static bool read_coordinate(struct reader *r, enum column c, double *value)
     return ceduo_csv_number(&r->csv, cell, vertex->lo, vertex->hi, "m", value);
 }
 
-/* True if rows hold places on the map, beside distances or instead of them. */
-static bool has_places(const struct reader *r)
+/* True if rows have coordinates on the map, with or without distances. */
+static bool has_coordinates(const struct reader *r)
 {
     return r->map || (r->csv.headless && r->columns[EAST] != CEDUO_CSV_NOT_FOUND);
 }
@@ -133,7 +132,7 @@ static void read_row(struct reader *r, size_t layer)
     struct csv *csv = &r->csv;
     struct raw raw = {.layer = layer};
     bool good = r->map || read_coordinate(r, DISTANCE, &raw.along);
-    if (has_places(r)) {
+    if (has_coordinates(r)) {
         good = read_coordinate(r, EAST, &raw.x) && good;
         good = read_coordinate(r, NORTH, &raw.y) && good;
     }
@@ -154,7 +153,7 @@ static bool is_wkt(const char *p, size_t n)
     return false;
 }
 
-/* Read one tuple of WKT, up to a comma or bracket. Number of values read; 0: it is none. */
+/* Read one tuple of WKT, up to a comma or bracket. Return the number of values; 0: not a tuple. */
 static size_t read_tuple(const char **p, const char *end, double values[4])
 {
     size_t n = 0;
@@ -176,7 +175,7 @@ static size_t read_tuple(const char **p, const char *end, double values[4])
     return n;
 }
 
-/* Read the lines of a WKT text: each pair of innermost brackets is one. */
+/* Read the lines of a WKT text; each innermost pair of brackets is a line. */
 static bool read_wkt(struct reader *r, const char *p, const char *end, size_t line, struct csv_cell name)
 {
     struct raw raw = {.line = line};
@@ -185,25 +184,25 @@ static bool read_wkt(struct reader *r, const char *p, const char *end, size_t li
     const char *open = memchr(p, '(', (size_t)(end - p)), *tag = open ? open : end;
     while (tag > p && tag[-1] == ' ')
         tag--;
-    bool within = false,
+    bool inside = false,
          measured = tag > p + 1 && toupper((unsigned char)tag[-1]) == 'M' && toupper((unsigned char)tag[-2]) != 'Z';
     for (p = open ? open : end; p < end;) {
         double values[4];
         if (strchr("() ,\r\n\t", *p)) {
-            within &= *p++ != ')';
+            inside &= *p++ != ')';
             continue;
         }
-        raw.layer = within ? raw.layer : layer_of(r, name.p, name.n);
-        within = true;
+        raw.layer = inside ? raw.layer : get_layer(r, name.p, name.n);
+        inside = true;
         size_t n = read_tuple(&p, end, values);
         if (n < 2)
-            return refuse_at(r, &raw, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
+            return reject_at(r, &raw, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
         if (n < 3 || (measured && n == 3))
-            return refuse_at(r, &raw,
+            return reject_at(r, &raw,
                              _("the line has no heights: drape it over the terrain model (in QGIS: Drape), so that it is a "
                                "LINESTRING Z"));
         if (is_no_data(values[2]))
-            return refuse_at(r, &raw, _("a height of the line stands for no data; fill the gap in the terrain model"));
+            return reject_at(r, &raw, _("a height of the line stands for no data; fill the gap in the terrain model"));
         raw.x = values[0];
         raw.y = values[1];
         raw.z = values[2];
@@ -214,7 +213,7 @@ static bool read_wkt(struct reader *r, const char *p, const char *end, size_t li
 
 /* ---- tables ---- */
 
-/* Refuse formats that are no tables, by their first bytes. */
+/* Refuse other formats, recognized by their first bytes. */
 static bool check_table(const struct csv *csv, struct problems *problems)
 {
     static const struct {
@@ -234,7 +233,7 @@ static bool check_table(const struct csv *csv, struct problems *problems)
     return s->bytes[mark] != '<';
 }
 
-/* True if all cells of the present record are numbers, although it may be open how to read them. */
+/* True if all cells of the present record are numbers, possibly ambiguous ones. */
 static bool are_numbers(const struct csv *csv)
 {
     char text[CSV_NUMERAL_CAPACITY];
@@ -247,8 +246,8 @@ static bool are_numbers(const struct csv *csv)
     return good;
 }
 
-/* Take a table without a head if its first record holds numbers only. GMT begins comments with # and lines with >. */
-static bool take_headless(struct reader *r, struct csv_place begin)
+/* Begin a table without a head if its first record has numbers only. GMT begins comments with # and lines with >. */
+static bool find_headless(struct reader *r, struct csv_place begin)
 {
     struct csv *csv = &r->csv;
     for (const char *s = ";\t| ,"; *s; s++) {
@@ -279,7 +278,7 @@ static bool take_headless(struct reader *r, struct csv_place begin)
     return ceduo_problem(r->problems, csv->source, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
 }
 
-/* Report a head with a unit that is not metres. */
+/* Report a head with a unit other than metres. */
 static bool check_units(struct reader *r)
 {
     bool good = true;
@@ -313,8 +312,8 @@ static bool find_columns(struct reader *r)
     if (!check_units(r))
         return false;
     if (none)
-        return take_headless(r, begin);
-    if (columns[DISTANCE] == CEDUO_CSV_NOT_FOUND && !r->map) /* x may be along the slope */
+        return find_headless(r, begin);
+    if (columns[DISTANCE] == CEDUO_CSV_NOT_FOUND && !r->map) /* x may be the distance */
         columns[DISTANCE] = columns[EAST];
     if ((!r->map && columns[DISTANCE] == CEDUO_CSV_NOT_FOUND) || columns[ELEVATION] == CEDUO_CSV_NOT_FOUND)
         return ceduo_problem(r->problems, csv->source, csv->head_place.line, 1,
@@ -322,10 +321,10 @@ static bool find_columns(struct reader *r)
     return true;
 }
 
-/* Name of a line of GMT, which begins after '>', between two records; NULL: none begins there. */
-static const char *gmt_line(const struct csv *csv, size_t from, size_t *n)
+/* Find the name, after '>', of a line of GMT that begins between two records; NULL: none begins. */
+static const char *find_gmt_line(const struct csv *csv, size_t from, size_t *n)
 {
-    const char *bytes = csv->source->bytes, *p = bytes + from, *end = bytes + csv->place.at, *name = NULL;
+    const char *bytes = csv->source->bytes, *p = bytes + from, *end = bytes + csv->place.offset, *name = NULL;
     for (; p < end; p += strcspn(p, "\n") + 1)
         name = *p == '>' ? p + 1 : name;
     if (!name)
@@ -337,7 +336,7 @@ static const char *gmt_line(const struct csv *csv, size_t from, size_t *n)
     return name;
 }
 
-/* True if the distance of the present record is that of the first point, although distances rose: another line begins. */
+/* True if a new line begins: the distance of the present record equals that of the first point after distances have risen. */
 static bool begins_again(const struct reader *r)
 {
     double x;
@@ -350,12 +349,12 @@ static bool read_rows(struct reader *r)
     struct csv *csv = &r->csv;
     size_t before = r->problems->met, layer = 0, length = 0;
     for (enum column c = DISTANCE; c <= NORTH; c++)
-        if (c == ELEVATION || (c == DISTANCE ? !r->map : has_places(r)))
+        if (c == ELEVATION || (c == DISTANCE ? !r->map : has_coordinates(r)))
             ceduo_csv_mark_numeric(csv, r->columns[c]);
     ceduo_csv_scan(csv);
-    for (size_t from = csv->next.at; ceduo_csv_next_row(csv); from = csv->next.at) {
+    for (size_t from = csv->next.offset; ceduo_csv_next_row(csv); from = csv->next.offset) {
         const struct csv_cell name = ceduo_csv_cell(csv, r->columns[LAYER]);
-        const char *gmt = gmt_line(csv, from, &length);
+        const char *gmt = find_gmt_line(csv, from, &length);
         if (csv->bad)
             continue;
         if (r->columns[WKT] != CEDUO_CSV_NOT_FOUND) {
@@ -368,9 +367,9 @@ static bool read_rows(struct reader *r)
             continue;
         }
         if (r->columns[LAYER] != CEDUO_CSV_NOT_FOUND)
-            layer = layer_of(r, name.p, name.n);
+            layer = get_layer(r, name.p, name.n);
         else if (gmt || begins_again(r) || r->layers_count == 0)
-            layer = layer_of(r, gmt, gmt ? length : 0);
+            layer = get_layer(r, gmt, gmt ? length : 0);
         read_row(r, layer);
     }
     return r->problems->met == before;
@@ -405,27 +404,27 @@ static bool choose_layer(struct reader *r, const char *wanted)
     return true;
 }
 
-/* Distance on the map between two points. */
+/* Return the distance on the map between two points. */
 static double step_between(const struct raw *a, const struct raw *b)
 {
     return hypot(b->x - a->x, b->y - a->y);
 }
 
-/* Check that the distances of a table of four columns, r.profile -g of GRASS, are along the line of its places. */
-static bool check_four(struct reader *r)
+/* Check that the distances in a table of four columns (r.profile -g of GRASS) match its coordinates. */
+static bool check_distances(struct reader *r)
 {
     double along = 0;
     for (size_t i = 0; i < r->n; i++) {
         along += i > 0 ? step_between(&r->raw[i - 1], &r->raw[i]) : 0;
         if (fabs(r->raw[i].along - r->raw[0].along - along) > 0.01 * along + 0.5)
-            return refuse_at(
+            return reject_at(
                 r, &r->raw[i],
                 _("four columns without a head: write a first line that names them, such as x,y,distance,elevation"));
     }
     return true;
 }
 
-/* Refuse coordinates in degrees and in Web Mercator. `length`: of the line. */
+/* Refuse coordinates in degrees and in Web Mercator. `length`: of the line on the map. */
 static bool check_coordinates(struct reader *r, double length)
 {
     double west = INFINITY, south = INFINITY, east = -INFINITY, north = -INFINITY;
@@ -441,7 +440,7 @@ static bool check_coordinates(struct reader *r, double length)
             _("the line is %.2g m long on the map: x and y must be in metres, not in degrees; export it in the "
               "coordinates of a map, such as UTM"),
             length);
-    /* Web Mercator between Spain and Romania, but none of the grids there: UTM, Gauss-Boaga, Lambert-93 */
+    /* Web Mercator from Spain to Romania, but outside the grids used there: UTM, Gauss-Boaga, Lambert-93 */
     bool mercator = west > 840e3 && east < 2.3e6 && south > 4.16e6 && north < 6.3e6;
     bool boaga = west > 1.3e6 && east < 1.85e6 && north < 5.23e6;
     bool lambert = east < 1.3e6 && south > 6e6;
@@ -462,31 +461,31 @@ static bool check_turns(struct reader *r)
         double one = step_between(a, b), two = step_between(b, c);
         double cosine = ((b->x - a->x) * (c->x - b->x) + (b->y - a->y) * (c->y - b->y)) / (one * two);
         if (one > TURN_STEP && two > TURN_STEP && cosine < -M_SQRT1_2)
-            return refuse_at(r, b, _("the line turns back here; sort its points as numbers, or draw it again along the fall"));
+            return reject_at(r, b, _("the line turns back here; sort its points as numbers, or draw it again along the fall"));
     }
     return true;
 }
 
-/* Twice the area of a triangle on the map; its sign is the side of the line from a to b that c lies on. */
-static double side_of(const struct raw *a, const struct raw *b, const struct raw *c)
+/* Return twice the area of a triangle on the map. Its sign shows on which side of the line from a to b point c lies. */
+static double cross_product(const struct raw *a, const struct raw *b, const struct raw *c)
 {
     return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
 }
 
-/* Refuse a line that crosses itself. Of many points some are left out. */
+/* Refuse a line that crosses itself. Skips points if there are many. */
 static bool check_crossings(struct reader *r)
 {
     size_t step = r->n / CROSSINGS + 1;
     for (size_t i = step; i < r->n; i += step)
         for (size_t k = i + 2 * step; k < r->n; k += step) {
             const struct raw *a = &r->raw[i - step], *b = &r->raw[i], *c = &r->raw[k - step], *d = &r->raw[k];
-            if (side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0)
-                return refuse_at(r, d, _("the line crosses itself here; draw it again along the fall"));
+            if (cross_product(a, b, c) * cross_product(a, b, d) < 0 && cross_product(c, d, a) * cross_product(c, d, b) < 0)
+                return reject_at(r, d, _("the line crosses itself here; draw it again along the fall"));
         }
     return true;
 }
 
-/* Distances along a line on the map. */
+/* Compute distances along a line on the map. */
 static bool measure_line(struct reader *r)
 {
     for (size_t i = 1; i < r->n; i++)
@@ -502,18 +501,18 @@ static bool is_jump(const struct raw *a, const struct raw *b)
     return b->along != a->along && rise > JUMP_RISE && rise > JUMP_SLOPE * fabs(b->along - a->along);
 }
 
-/* Refuse heights that can only be errors: 0 or 9999 among others, spikes. */
+/* Refuse impossible heights: single values of 0 or 9999, spikes. */
 static bool check_heights(struct reader *r)
 {
     size_t before = r->problems->met;
     for (size_t i = 0, last; i < r->n; i = last + 1) { /* a run of equal heights */
         for (last = i; last + 1 < r->n && r->raw[last + 1].z == r->raw[i].z;)
             last++;
-        bool stands_for = (r->raw[i].z == 0 || r->raw[i].z == 9999) && !(i == 0 && last + 1 == r->n);
-        bool jumps = stands_for && (i == 0 || is_jump(&r->raw[i - 1], &r->raw[i])) &&
+        bool suspicious = (r->raw[i].z == 0 || r->raw[i].z == 9999) && !(i == 0 && last + 1 == r->n);
+        bool jumps = suspicious && (i == 0 || is_jump(&r->raw[i - 1], &r->raw[i])) &&
                      (last + 1 == r->n || is_jump(&r->raw[last], &r->raw[last + 1]));
         for (size_t k = i; jumps && k <= last; k++)
-            refuse_at(r, &r->raw[k],
+            reject_at(r, &r->raw[k],
                       _("a height of 0 or 9999 among others stands for no data; remove the row, or fill the gap in the terrain "
                         "model"));
         if (i == 0 || last != i || i + 1 == r->n)
@@ -522,7 +521,7 @@ static bool check_heights(struct reader *r)
         bool near = fabs(r->raw[i].along - r->raw[i - 1].along) <= SPIKE_RUN &&
                     fabs(r->raw[i + 1].along - r->raw[i].along) <= SPIKE_RUN;
         if (near && fmin(fabs(up), fabs(down)) > SPIKE_RISE && up * down > 0 && !jumps)
-            refuse_at(r, &r->raw[i],
+            reject_at(r, &r->raw[i],
                       _("this height is more than 200 m from both neighbours; remove the row, or mend the terrain model"));
     }
     return r->problems->met == before;
@@ -530,7 +529,7 @@ static bool check_heights(struct reader *r)
 
 /* ---- x that rises ---- */
 
-/* True if the distances rise once they are sorted, and stand in the order of their text. */
+/* True if the distances are sorted as text instead of numbers. */
 static bool is_text_order(const struct reader *r)
 {
     size_t i = 1;
@@ -543,7 +542,7 @@ static bool is_text_order(const struct reader *r)
 static bool refuse_order(struct reader *r, const struct raw *raw, double before)
 {
     if (is_text_order(r))
-        return refuse_at(r, raw, _("the rows stand in the order of their text; sort them by distance, as numbers"));
+        return reject_at(r, raw, _("the rows stand in the order of their text; sort them by distance, as numbers"));
     return ceduo_problem(r->problems, r->csv.source, raw->line, 1,
                          _("distance %s does not lie beyond %s; distances must rise: sort the rows by distance"),
                          NUMERAL(raw->along), NUMERAL(before));
@@ -555,18 +554,18 @@ static void add_vertex(struct points *p, double x, double z)
     p->z[p->n++] = z;
 }
 
-/* Make points whose x rises, from the top down: repeated points go, a vertical step becomes a wall, an overhang its outer
- * envelope. `sign`: of x in the file. */
+/* Make points with rising x, from the top down. Drops repeated points; a vertical step becomes a wall, an overhang its outer
+ * envelope. `sign`: 1, or -1 for a profile drawn uphill. */
 static bool make_rising(struct reader *r, struct points *p, double sign)
 {
     size_t repeated = 0, walls = 0, overhangs = 0, n = r->n;
-    double wall = NAN, overhang = NAN, edge = -INFINITY; /* edge: the farthest x so far */
+    double wall = NAN, overhang = NAN, edge = -INFINITY; /* edge: largest x so far */
     for (size_t i = 0; i < n; i++) {
         const struct raw *now = &r->raw[sign > 0 ? i : n - 1 - i], *last = i > 0 ? &r->raw[sign > 0 ? i - 1 : n - i] : now;
         double x = sign * now->along, z = now->z, x_last = sign * last->along;
         if (i > 0 && x == x_last && z == last->z) {
             repeated++;
-        } else if (x > edge && x_last < edge && i > 0) { /* out of an overhang */
+        } else if (x > edge && x_last < edge && i > 0) { /* end of an overhang */
             double t = (edge - x_last) / (x - x_last);
             add_vertex(p, edge + WALL_RUN, last->z + t * (z - last->z));
             add_vertex(p, x, z);
@@ -615,7 +614,7 @@ static bool make_points(struct reader *r, struct points *p)
     if (!make_rising(r, p, upward ? -1 : 1))
         return false;
     if (p->n > 1 && fabs(p->x[p->n - 1] - p->x[0]) < LENGTH_MIN)
-        return refuse_at(r, &r->raw[r->n - 1], _("all points lie at the same distance; a profile must have a length"));
+        return reject_at(r, &r->raw[r->n - 1], _("all points lie at the same distance; a profile must have a length"));
     for (size_t i = 0; upward && i < (p->n + 1) / 2; i++) {
         size_t k = p->n - 1 - i;
         double x = p->x[i], z = p->z[i];
@@ -627,9 +626,9 @@ static bool make_points(struct reader *r, struct points *p)
     return true;
 }
 
-/* ---- the whole ---- */
+/* ---- reading ---- */
 
-static void understand(struct reader *r, struct points *p, const char *path)
+static void describe_table(struct reader *r, struct points *p, const char *path)
 {
     LOCAL_TEXT(line);
     const struct csv *csv = &r->csv;
@@ -659,11 +658,11 @@ static void understand(struct reader *r, struct points *p, const char *path)
     p->understood = ceduo_arena_string(r->arena, ceduo_text_string(&line));
 }
 
-/* Read the points as they stand. */
+/* Read the points of all lines. */
 static bool read_points(struct reader *r)
 {
     const struct source *s = r->csv.source;
-    const char *begin = s->bytes + r->csv.next.at, *end = s->bytes + s->length;
+    const char *begin = s->bytes + r->csv.next.offset, *end = s->bytes + s->length;
     while (begin < end && isspace((unsigned char)*begin))
         begin++;
     if (!is_wkt(begin, (size_t)(end - begin)))
@@ -685,12 +684,12 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *lay
         return false;
     *r = (struct reader){.arena = arena, .problems = problems};
     bool good = ceduo_csv_open(&r->csv, arena, path, problems) && check_table(&r->csv, problems) && read_points(r) &&
-                (r->n == 0 || (choose_layer(r, layer) && (r->map ? measure_line(r) : !has_places(r) || check_four(r)) &&
-                               check_heights(r))) &&
+                (r->n == 0 || (choose_layer(r, layer) &&
+                               (r->map ? measure_line(r) : !has_coordinates(r) || check_distances(r)) && check_heights(r))) &&
                 make_points(r, points) && problems->met == before;
     points->lines = r->several;
     if (good && points->n > 0)
-        understand(r, points, path);
+        describe_table(r, points, path);
     ceduo_text_free(&r->notes);
     return good;
 }

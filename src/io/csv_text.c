@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads the file of a table and makes its text UTF-8 with lines that end in LF. */
+/* Reads the file of a table and converts it to UTF-8 with lines ending in LF. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ static bool refuse(struct csv *csv, const char *why)
     return ceduo_problem_at(csv->problems, (struct problem_place){.source = csv->source, .own = true}, "%s", why);
 }
 
-/* Kinds of files that are no text, by their first bytes. */
+/* Return the advice for a binary file, recognized by its first bytes; NULL: not binary. */
 static const char *name_binary(const struct source *s)
 {
     static const struct {
@@ -36,7 +36,7 @@ static const char *name_binary(const struct source *s)
     return NULL;
 }
 
-/* Replace the text of the source by UTF-8, which is freed. False without memory. */
+/* Replace the text of the source by `bytes`, which are freed. False on failure. */
 static bool replace(struct csv *csv, uint8_t *bytes, size_t length)
 {
     csv->source->bytes = bytes ? ceduo_arena_copy(csv->arena, (const char *)bytes, length) : NULL;
@@ -45,7 +45,7 @@ static bool replace(struct csv *csv, uint8_t *bytes, size_t length)
     return csv->source->bytes != NULL;
 }
 
-/* True if a text is in UTF-16, by its byte order mark or by the zeros of the first two characters. */
+/* True if a text is UTF-16, by its byte order mark or by alternating zero bytes in the first two characters. */
 static bool is_utf16(const unsigned char *p, size_t n)
 {
     bool marked = n >= 2 && ((p[0] == 0xff && p[1] == 0xfe) || (p[0] == 0xfe && p[1] == 0xff));
@@ -70,7 +70,7 @@ static bool decode_utf16(struct csv *csv)
     return replace(csv, bytes, length);
 }
 
-/* True if some bytes beyond ASCII are valid UTF-8 although others are not. */
+/* True if a text that is not valid UTF-8 has at least one valid character beyond ASCII. */
 static bool is_broken_utf8(const struct source *s)
 {
     size_t valid = 0;
@@ -83,7 +83,7 @@ static bool is_broken_utf8(const struct source *s)
     return valid > 0;
 }
 
-/* Make the text of the source UTF-8. */
+/* Convert the text of the source to UTF-8. */
 static bool decode(struct csv *csv)
 {
     struct source *s = csv->source;
@@ -109,7 +109,7 @@ static bool decode(struct csv *csv)
                                     _("a NUL byte (U+0000) on line %zu cannot be meant; save it again as CSV in UTF-8"), line);
 }
 
-/* Old Macintosh files end lines with CR alone. */
+/* Replace CR by LF in files of old Macintosh, whose lines end in CR alone. */
 static bool end_lines(struct csv *csv)
 {
     struct source *s = csv->source;

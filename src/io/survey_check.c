@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks of a whole survey: values that can only be in another unit. Then the line for the user. */
+/* Checks a whole survey for values in a wrong unit. Then makes the line for the user. */
 #include <math.h>
 #include <string.h>
 #include <strings.h>
@@ -9,16 +9,16 @@
 
 /* Limits beyond which a column needs a unit (assumed). */
 #define BASAL_BARE      80   /* m2/ha */
-#define BASAL_MOST      300  /* m2/ha: more is refused whatever the heads say */
+#define BASAL_MAX       300  /* m2/ha: an error even if the heads give units */
 #define DBH_BARE        0.40 /* m, mean diameter, */
 #define SLENDERNESS_MIN 25   /* if the mean height is less than 25 diameters */
 #define HEIGHT_BARE     45   /* m, mean height */
 
-/* Mean of what stems measure. */
+/* Sizes of stems. */
 struct sizes {
-    double lo, hi, dbh;           /* m, of all stems but stumps */
-    double height, height_of_dbh; /* m, of stems with a height, and the mean of their diameters */
-    size_t n, heights;
+    double lo, hi, dbh;           /* m, diameters of stems without stumps; dbh: mean */
+    double height, height_of_dbh; /* m, mean height of stems with a height, mean diameter of these stems */
+    size_t n, heights;            /* stems without stumps; of these, stems with a height */
 };
 
 static struct sizes measure_sizes(const struct ceduo_survey *survey)
@@ -44,7 +44,7 @@ static struct sizes measure_sizes(const struct ceduo_survey *survey)
     return s;
 }
 
-/* Mean basal area over the plots, m2/ha. */
+/* Return the mean basal area over the plots, m2/ha. */
 static double mean_basal_area(const struct ceduo_survey *survey)
 {
     return ceduo_survey_basal(survey, CEDUO_SURVEY_ALL) * (M_PI / 4) * 10000 / (double)survey->plots_count;
@@ -55,16 +55,16 @@ static bool has_column(const struct survey_reader *r, enum column c)
     return r->columns[c] < CEDUO_CSV_DUPLICATE;
 }
 
-/* True if the heads of these columns name their units, as far as they are there. */
+/* True if the heads of two columns, if present, have units. */
 static bool have_units(const struct survey_reader *r, enum column a, enum column b)
 {
     return (!has_column(r, a) || r->units[a]) && (!has_column(r, b) || r->units[b]);
 }
 
-/* Head of a column, as the place of a problem. */
-static struct csv_cell head_of(const struct survey_reader *r, enum column c)
+/* Return the head of a column as the place of an error. */
+static struct csv_cell get_head(const struct survey_reader *r, enum column c)
 {
-    return (struct csv_cell){.at = r->csv.heads[r->columns[c]].at};
+    return (struct csv_cell){.begin = r->csv.heads[r->columns[c]].begin};
 }
 
 static enum column size_column(const struct survey_reader *r)
@@ -78,7 +78,7 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
     const double basal = mean_basal_area(survey);
     const enum column size = size_column(r), area = has_column(r, AREA) ? AREA : RADIUS;
     const bool sized = have_units(r, DBH, CIRCUMFERENCE), laid = have_units(r, AREA, RADIUS);
-    const struct csv_cell head = head_of(r, size);
+    const struct csv_cell head = get_head(r, size);
     const struct csv_cell height = has_column(r, HEIGHT) ? r->csv.heads[r->columns[HEIGHT]] : (struct csv_cell){.p = ""};
     const bool may_be_altitude =
         has_column(r, HEIGHT) && (!r->units[HEIGHT] || ceduo_csv_matches(height.p, height.n, "alt|alt m|alt mt|alt metri"));
@@ -86,7 +86,7 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
     if (may_be_altitude && s.height > HEIGHT_BARE && !r->answers->given[SURVEY_HEIGHTS]) {
         asked[SURVEY_HEIGHTS] = true;
         return ceduo_csv_error(
-            &r->csv, head_of(r, HEIGHT),
+            &r->csv, get_head(r, HEIGHT),
             _("a mean height of %.0f m: name the column 'height_m' if it holds heights in metres, 'altitude' if it holds "
               "altitudes"),
             s.height);
@@ -101,16 +101,16 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
                             "'circumference_mm' if it is in millimetres, 'circumference_cm' if it is in centimetres"),
             s.dbh * 100, s.height);
     }
-    if (basal > BASAL_MOST)
+    if (basal > BASAL_MAX)
         return ceduo_csv_error(
-            &r->csv, head_of(r, area),
+            &r->csv, get_head(r, area),
             _("a basal area of %.0f m2/ha is more than any forest has; are the areas in m2 and the diameters in cm?"), basal);
     if (basal <= BASAL_BARE || (sized && laid))
         return true;
     asked[SURVEY_AREAS] = !laid;
     asked[SURVEY_DIAMETERS] = !sized;
     return ceduo_csv_error(
-        &r->csv, sized ? head_of(r, area) : head,
+        &r->csv, sized ? get_head(r, area) : head,
         size == DBH ? _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'dbh_cm' if it is right, "
                         "'dbh_mm' if the diameters are in millimetres")
                     : _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'circumference_cm' if it "
@@ -118,7 +118,7 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
         basal, HEAD(area));
 }
 
-/* True if two plots have the same name and the same sites, ignoring case. */
+/* True if two plots have equal names and sites, ignoring case. */
 static bool differ_in_case(const struct survey_plot *a, const struct survey_plot *b)
 {
     bool same = a->name.n == b->name.n && strncasecmp(a->name.p, b->name.p, a->name.n) == 0;
@@ -127,7 +127,7 @@ static bool differ_in_case(const struct survey_plot *a, const struct survey_plot
     return same;
 }
 
-/* Check two plots of the same number at several sites. Their rows must not alternate: then the column is no site. */
+/* Check two plots with one number at different sites. Rows that alternate between sites suggest that the column is not a site. */
 static bool check_sites(const struct survey_reader *r, const struct survey_plot *a, const struct survey_plot *b)
 {
     size_t line = a->returned ? a->returned : b->returned, site = 0;
@@ -145,7 +145,7 @@ static bool check_sites(const struct survey_reader *r, const struct survey_plot 
         a->name.n < 100 ? (int)a->name.n : 100, a->name.p, ceduo_text_string(&name));
 }
 
-/* Check the names of plots against one another. Stops at the first problem. */
+/* Compare the names of plots. Stops at the first error. */
 static bool check_plots(struct survey_reader *r)
 {
     bool good = true;
@@ -273,7 +273,7 @@ static void describe_rows(const struct survey_reader *r, struct text *line)
                           r->filled);
 }
 
-/* Columns whose heads can have several meanings, with the meaning that they got. */
+/* List the ambiguous heads, with the meaning that the reader chose. */
 static void describe_heads(const struct survey_reader *r, struct text *line)
 {
     static const enum column columns[] = {RADIUS, DBH, HEIGHT, COUNT};
@@ -289,7 +289,7 @@ static void describe_heads(const struct survey_reader *r, struct text *line)
     }
 }
 
-const char *ceduo_survey_understand(const struct survey_reader *r, const struct ceduo_survey *survey, const char *name)
+const char *ceduo_survey_describe(const struct survey_reader *r, const struct ceduo_survey *survey, const char *name)
 {
     LOCAL_TEXT(line);
     LOCAL_TEXT(read_as);

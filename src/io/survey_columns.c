@@ -17,10 +17,10 @@
 #define DEGREES    "deg|degrees|°|gradi|gradi sessagesimali|grad"
 #define PERCENT    "%|percent|percento|perc|percentuale|prozent|proz"
 
-/* Words of other units. A head that ends with one of them has a unit that the column cannot have. */
+/* Units that no column accepts at the end of its head. */
 #define FOREIGN_UNITS "mm|cm|dm|m|km|in|inch|inches|ft|feet|ha|ar|are|acre|acres|J|MJ|gon|zoll"
 
-/* Heads that can have several meanings. */
+/* Ambiguous heads. */
 #define VAGUE "h|d|n|nr|num|numero|alt|r"
 
 const struct csv_head ceduo_survey_heads[COLUMNS] = {
@@ -117,7 +117,7 @@ int ceduo_survey_find_word(const struct choices *words, struct csv_cell cell)
     return ceduo_choice_find(words, word);
 }
 
-/* Species of a genus that begins with n letters, and of an epithet; -1: none, or several. */
+/* Find the species with the first n letters of a genus, and an epithet; -1: none, or several. */
 static int find_abbreviated(const char *genus, size_t n, const char *epithet)
 {
     int found = -1, count = 0;
@@ -131,7 +131,7 @@ static int find_abbreviated(const char *genus, size_t n, const char *epithet)
     return count == 1 ? found : -1;
 }
 
-/* Index of a genus that the program does not divide into species; -1: none. */
+/* Find a genus that the program does not divide into species; -1: none. */
 static int find_genus(const char *word)
 {
     for (size_t i = 0; i < ceduo_species_words.n; i++)
@@ -140,7 +140,7 @@ static int find_genus(const char *word)
     return -1;
 }
 
-/* Species by a name in latin, with an author, or with another name in brackets. */
+/* Find a species by its Latin name, with an author, or with another name in brackets. */
 static int find_latin(char *word)
 {
     char *bracket = strchr(word, '('), *first = word, *second, *third, *rest;
@@ -207,7 +207,7 @@ bool ceduo_survey_is_vague(const struct csv *csv, size_t column)
 }
 
 /* Refuse a column with a known name and an unknown unit. */
-static bool check_foreign_unit(const struct csv *csv, enum column c)
+static bool check_unit(const struct csv *csv, enum column c)
 {
     const struct csv_head *head = &ceduo_survey_heads[c];
     size_t found = ceduo_csv_column(csv, head, NULL);
@@ -226,7 +226,7 @@ static bool check_foreign_unit(const struct csv *csv, enum column c)
                            ceduo_text_string(&name), _(head->unit), _(head->name));
 }
 
-/* Refuse a table without a column, with the names of the columns that it has unless it is foreign. */
+/* Report a missing column, and the columns of the table unless it is foreign. */
 static bool refuse_head(const struct csv *csv, const char *missing)
 {
     const struct problem_place place = {csv->source, csv->head_place.line, 1, NULL, true};
@@ -251,7 +251,7 @@ bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum cs
         units[c] = CSV_UNIT_NONE;
         bool needed = c == DBH || c == CIRCUMFERENCE ? !sized : c == AREA || c == RADIUS ? !laid : true;
         if (usual && none[c] && needed)
-            check_foreign_unit(csv, (enum column)c);
+            check_unit(csv, (enum column)c);
         if (!usual || columns[c] >= CEDUO_CSV_DUPLICATE)
             continue;
         const struct csv_cell head = csv->heads[columns[c]];

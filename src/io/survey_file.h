@@ -7,14 +7,14 @@
 #include "ceduo/survey.h"
 #include "problem.h"
 
-/* A survey from a table: a row for each stem, or for several of one size, with the plot that it stands on. */
+/* A survey from a table with a row for each stem, or for several stems of one size, and its plot. */
 struct survey_file {
     const char *name;       /* of the file, without its folder and .csv */
     const char *understood; /* one line for the user: how the table was read */
     struct ceduo_survey survey;
 };
 
-/* Questions that a table may leave open, and their answers. */
+/* Questions that an ambiguous table raises, and their answers. */
 enum survey_question {
     SURVEY_SLOPES,    /* degrees, percent */
     SURVEY_DIAMETERS, /* of stems: cm, mm */
@@ -23,23 +23,20 @@ enum survey_question {
     SURVEY_QUESTIONS
 };
 
-/* Which answer, from 1, the user gave to each question; 0: none. The reader sets asked[q] if it refuses the table without the
- * answer. */
 struct survey_answers {
-    int given[SURVEY_QUESTIONS];
-    bool asked[SURVEY_QUESTIONS];
+    int given[SURVEY_QUESTIONS];  /* answer of the user, from 1; 0: none */
+    bool asked[SURVEY_QUESTIONS]; /* set by the reader: it refused the table without this answer */
 };
 
-/* Read and check a survey. Its memory is the arena's. Report what is wrong and return false.
- * `answers` may be NULL: the heads alone settle what is asked. */
+/* Read and check a survey. Its memory is in the arena. Report errors and return false. `answers` may be NULL. */
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct survey_answers *answers,
                        struct problems *problems);
 
-/* Adds the stand as a YAML file: what the survey says, with its standard errors as `doubt`, and what had to be assumed. False
- * where there is none: densities that no forest has, which is reported, or no memory. */
+/* Append the stand of a survey as a YAML file, with standard errors as `doubt`, and with assumptions. Report impossible densities
+ * and return false; return false on failure, too. */
 bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struct problems *problems);
 
-/* Adds an empty sheet as a CSV file in the user's language, with two rows as examples. */
+/* Append an empty sheet as CSV in the user's language, with two example rows. */
 void ceduo_survey_template(struct text *sheet);
 
 #endif

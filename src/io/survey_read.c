@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads the rows of a survey. The values of a plot may stand in its first row only. A row of a plot without a stem
- * stands for a plot without stems. A row may hold one stem, or several of one size. */
+/* Reads the rows of a survey. The values of a plot may be in its first row only. A row without a stem is a plot without stems.
+ * Another row has one stem, or several of one size. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,31 +12,31 @@
 #include "file.h"
 #include "survey_reader.h"
 
-#define PLOTS_MOST      1000
-#define SLOPE_MOST      85   /* degrees */
-#define SLOPE_BARE_MOST 1e4  /* more is no slope in any unit */
-#define SLOPE_BARE      45   /* degrees or percent: a steeper slope needs a unit (assumed) */
-#define AREA_BARE       10   /* m2: a smaller plot needs a unit (assumed) */
-#define STUMP_MOST      20   /* m of height, as in a stand */
-#define DBH_MOST        300  /* cm: a larger diameter is in mm (assumed) */
-#define SAME_DBH        1.05 /* ratio of a diameter to that of the circumference that still is the same (assumed) */
+#define PLOTS_MAX      1000
+#define SLOPE_MAX      85   /* degrees */
+#define SLOPE_BARE_MAX 1e4  /* degrees or percent: a steeper slope is an error in any unit */
+#define SLOPE_BARE     45   /* degrees or percent: a steeper slope needs a unit (assumed) */
+#define AREA_BARE      10   /* m2: a smaller plot needs a unit (assumed) */
+#define STUMP_MAX      20   /* m of height, as in a stand */
+#define DBH_MAX        300  /* cm: a larger diameter is in mm (assumed) */
+#define SAME_DBH       1.05 /* largest ratio of two equal diameters, one measured, one from the circumference (assumed) */
 
-/* Words for species without a name, and labels of a row of totals or means. */
+/* Words for unnamed species; labels of a row of totals or means. */
 #define OTHER_SPECIES "other|others|altro|altra|altri|altre|altre latifoglie|altra specie|altre specie|sonstige"
 #define TOTALS        "total|totals|totale|totali|tot|sum|somma|mean|average|media|medie|summe|gesamt|mittel|mittelwert"
 
-/* Bytes of a cell that a message shows, for "%.*s". */
+/* A cell in a message, shortened, for "%.*s". */
 #define SHOWN(cell) ((cell).n < 100 ? (int)(cell).n : 100), (cell).p
 
 /* ---- numbers ---- */
 
-/* Slope in degrees of a cell. `own`: the unit that stood in the cell. */
+/* Read a slope in degrees. `own`: the unit in the cell. */
 static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum csv_unit own, double *value)
 {
     const enum csv_unit unit = own ? own : r->units[SLOPE];
     bool percent = unit == CSV_UNIT_OTHER;
-    double hi = percent ? 100 * tan(SLOPE_MOST * M_PI / 180) : SLOPE_MOST;
-    if (!ceduo_csv_number(&r->csv, cell, 0, unit ? hi : SLOPE_BARE_MOST, percent ? "%" : _("degrees"), value))
+    double hi = percent ? 100 * tan(SLOPE_MAX * M_PI / 180) : SLOPE_MAX;
+    if (!ceduo_csv_number(&r->csv, cell, 0, unit ? hi : SLOPE_BARE_MAX, percent ? "%" : _("degrees"), value))
         return false;
     if (!unit && *value > SLOPE_BARE) {
         r->answers->asked[SURVEY_SLOPES] = true;
@@ -54,8 +54,8 @@ static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum csv_u
     return true;
 }
 
-/* Read a number in the unit of the manual; NaN: not given. Its unit may stand in the head or in the cell. Report a wrong one and
- * return false. */
+/* Read a number and convert it to the unit of the manual; NaN: not given. The unit may be in the head or in the cell. Report a wrong
+ * unit and return false. */
 static bool read_number(struct survey_reader *r, enum column c, double *value)
 {
     struct csv_cell cell = r->fields[c];
@@ -92,7 +92,7 @@ static bool read_count(struct survey_reader *r, enum column c, size_t *count)
     return true;
 }
 
-/* Read a diameter. A class such as 10-15 is refused with its middle. */
+/* Read a diameter. Refuse a class such as 10-15 and suggest its middle. */
 static bool read_diameter(struct survey_reader *r, enum column c, double *value)
 {
     const struct csv_cell cell = r->fields[c];
@@ -115,7 +115,7 @@ static bool are_same_sites(const struct csv_cell *a, const struct csv_cell *b)
     return true;
 }
 
-/* Find the plot of a row, or add it. Joined cells: a name may stand in the first of its rows only. */
+/* Find the plot of a row, or add it. With merged cells, only the first row has the name. */
 static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
 {
     const bool first = r->plots_count == 0;
@@ -132,9 +132,9 @@ static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
         return ceduo_csv_error(&r->csv, *name, _("'%s' is missing: give it in each row"), HEAD(PLOT));
     size_t i = r->plots_count;
     while (i > 0 && !(ceduo_csv_compare(r->plots[i - 1].name, *name) == 0 && are_same_sites(r->plots[i - 1].sites, sites)))
-        i--; /* mostly the last */
-    if (i == 0 && r->plots_count == PLOTS_MOST)
-        return ceduo_csv_error(&r->csv, *name, _("more than %d plots"), PLOTS_MOST);
+        i--; /* usually the last plot */
+    if (i == 0 && r->plots_count == PLOTS_MAX)
+        return ceduo_csv_error(&r->csv, *name, _("more than %d plots"), PLOTS_MAX);
     if (i == 0) {
         r->plots[r->plots_count] = (struct survey_plot){
             .name = *name, .line = r->csv.place.line, .values = {[AREA] = NAN, [RADIUS] = NAN, [SLOPE] = NAN, [STOOLS] = NAN}};
@@ -147,7 +147,7 @@ static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
     return true;
 }
 
-/* Refuse a small plot unless the head says that it is in m2. */
+/* Refuse a small plot unless the head has a unit. */
 static bool check_area(struct survey_reader *r, enum column c, double value)
 {
     double area = c == RADIUS ? M_PI * value * value : value;
@@ -158,7 +158,7 @@ static bool check_area(struct survey_reader *r, enum column c, double value)
                            area, HEAD(c));
 }
 
-/* Read the values of a plot. A value that is given again must be the same. */
+/* Read the values of a plot. A value must be equal in all rows. */
 static bool read_plot(struct survey_reader *r, struct survey_plot *plot)
 {
     bool good = true;
@@ -198,7 +198,7 @@ static bool read_plot(struct survey_reader *r, struct survey_plot *plot)
 
 /* ---- stems of a row ---- */
 
-/* Species of a row; -1: not given. */
+/* Read the species of a row; -1: not given. */
 static bool read_species(struct survey_reader *r, int *found)
 {
     const struct csv_cell species = r->fields[SPECIES], genus = r->fields[GENUS], cell = species.n > 0 ? species : genus;
@@ -212,7 +212,7 @@ static bool read_species(struct survey_reader *r, int *found)
                            ceduo_text_string(&all));
 }
 
-/* Numbers of stems of each kind in a row: of the kind that the row names, or by columns of their own. */
+/* Read the number of stems of each kind: of the kind that the row names, or from a column for each kind. */
 static bool read_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KINDS_COUNT])
 {
     const struct csv_cell kind = r->fields[KIND], count = r->fields[COUNT];
@@ -245,7 +245,7 @@ static bool read_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
     return true;
 }
 
-/* Number of stems of a row that are live; the others are counted. Stumps need no status. */
+/* Remove dead and cut stems from the numbers of a row and count them. Stumps need no status. */
 static bool read_status(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KINDS_COUNT])
 {
     const struct csv_cell status = r->fields[STATUS];
@@ -265,7 +265,7 @@ static bool read_status(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
     return true;
 }
 
-/* Diameter of a stem in m, measured or from its circumference. */
+/* Read the diameter of a stem, m, measured or from its circumference. */
 static bool read_dbh(struct survey_reader *r, double *dbh)
 {
     const struct csv *csv = &r->csv;
@@ -275,7 +275,7 @@ static bool read_dbh(struct survey_reader *r, double *dbh)
     bool good = read_diameter(r, DBH, dbh);
     if (!read_number(r, CIRCUMFERENCE, &girth) || !good)
         return false;
-    double ratio = *dbh / (girth / M_PI); /* NaN: one of the two */
+    double ratio = *dbh / (girth / M_PI); /* NaN: one of them is missing */
     if (ratio > SAME_DBH || ratio < 1 / SAME_DBH)
         return ceduo_csv_error(csv, fields[CIRCUMFERENCE],
                                _("a circumference of %g cm is a diameter of %.3g cm, not %g; leave one empty"), girth,
@@ -284,19 +284,19 @@ static bool read_dbh(struct survey_reader *r, double *dbh)
     const enum column missing = r->columns[DBH] == CEDUO_CSV_NOT_FOUND ? CIRCUMFERENCE : DBH;
     if (isnan(*dbh))
         return ceduo_csv_error(csv, fields[missing], _("'%s' is missing: give it in each row"), HEAD(missing));
-    if (*dbh > DBH_MOST && r->units[c] == CSV_UNIT_OTHER)
-        return ceduo_csv_error(csv, fields[c], _("%g cm: more than %d cm; correct it"), *dbh, DBH_MOST);
-    if (*dbh > DBH_MOST)
+    if (*dbh > DBH_MAX && r->units[c] == CSV_UNIT_OTHER)
+        return ceduo_csv_error(csv, fields[c], _("%g cm: more than %d cm; correct it"), *dbh, DBH_MAX);
+    if (*dbh > DBH_MAX)
         return ceduo_csv_error(csv, fields[c],
                                c == DBH ? _("%g cm: more than %d cm; is it in mm? Then name the column 'dbh_mm'")
                                         : _("a diameter of %g cm: more than %d cm; is the circumference in mm? Then name the "
                                             "column 'circumference_mm'"),
-                               *dbh, DBH_MOST);
+                               *dbh, DBH_MAX);
     *dbh /= 100;
     return true;
 }
 
-/* Sizes of the stems of a row. */
+/* Read the sizes of the stems of a row. */
 static bool read_sizes(struct survey_reader *r, struct ceduo_survey_stem *stem)
 {
     const struct csv *csv = &r->csv;
@@ -307,18 +307,18 @@ static bool read_sizes(struct survey_reader *r, struct ceduo_survey_stem *stem)
     good = read_number(r, ENERGY, &stem->energy) && good;
     if (!good)
         return false;
-    double lo = stump ? 0 : CEDUO_BREAST_HEIGHT, hi = stump ? STUMP_MOST : ceduo_survey_heads[HEIGHT].hi;
+    double lo = stump ? 0 : CEDUO_BREAST_HEIGHT, hi = stump ? STUMP_MAX : ceduo_survey_heads[HEIGHT].hi;
     if (stem->height <= lo || stem->height > hi)
         return ceduo_csv_error(
             csv, fields[HEIGHT],
             _("%g m is no height of a stem of this kind: it must be above %g and at most %g m; leave it empty if "
               "it was not measured"),
             stem->height, lo, hi);
-    enum column other = stem->kind != CEDUO_SURVEY_SHOOT && !isnan(stem->spacing) ? SPACING
+    enum column extra = stem->kind != CEDUO_SURVEY_SHOOT && !isnan(stem->spacing) ? SPACING
                         : !stump && !isnan(stem->energy)                          ? ENERGY
                                                                                   : PLOT;
-    if (other != PLOT)
-        return ceduo_csv_error(csv, fields[other], _("a stem of this kind has no '%s'; leave it empty here"), HEAD(other));
+    if (extra != PLOT)
+        return ceduo_csv_error(csv, fields[extra], _("a stem of this kind has no '%s'; leave it empty here"), HEAD(extra));
     if (!isnan(stem->spacing) && fields[STOOL].n == 0)
         return ceduo_csv_error(csv, fields[SPACING], _("a shoot without a stool has no '%s'; leave it empty here"),
                                HEAD(SPACING));
@@ -365,7 +365,7 @@ static void add_id(struct survey_reader *r, const struct ceduo_survey_stem *stem
         (struct survey_id){stem->plot, r->csv.place.line, (int)stem->kind, r->fields[STOOL], r->fields[ID]};
 }
 
-/* Take the cells of a row. Returns false if a name has a quote or a line break, which only a slip puts there. */
+/* Read the cells of a row. Return false if a name has a quote or a line break, which is an error. */
 static bool read_fields(struct survey_reader *r)
 {
     bool good = true;
@@ -389,19 +389,19 @@ static bool is_total(struct csv_cell cell)
     return cell.n > 0 && ceduo_csv_matches(cell.p, cell.n, TOTALS);
 }
 
-/* True if a row holds totals: its first word says so, or the cell of a kind, species, stool or size. */
+/* True if a row holds totals: its first word, or its kind, species, stool or size is a label of totals. */
 static bool is_total_row(const struct survey_reader *r)
 {
     static const enum column columns[] = {KIND, SPECIES, STOOL, DBH, CIRCUMFERENCE};
     const bool sized = r->fields[DBH].n > 0 || r->fields[CIRCUMFERENCE].n > 0;
-    size_t at = 0;
-    while (at + 1 < r->csv.cells_count && ceduo_csv_cell(&r->csv, at).n == 0)
-        at++;
-    struct csv_cell first = ceduo_csv_cell(&r->csv, at), word = first; /* "Totale fusti" */
+    size_t column = 0;
+    while (column + 1 < r->csv.cells_count && ceduo_csv_cell(&r->csv, column).n == 0)
+        column++;
+    struct csv_cell first = ceduo_csv_cell(&r->csv, column), word = first; /* "Totale fusti" */
     for (size_t n = first.n; n > 0; n--)
         word.n = strchr(" :", first.p[n - 1]) ? n - 1 : word.n;
     bool begins = r->columns[KIND] == CEDUO_CSV_NOT_FOUND ? !sized : r->fields[KIND].n == 0;
-    if (at != r->columns[STATUS] && (is_total(first) || (begins && is_total(word))))
+    if (column != r->columns[STATUS] && (is_total(first) || (begins && is_total(word))))
         return true;
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
         if (is_total(r->fields[columns[i]]))
@@ -417,7 +417,7 @@ static bool has_stem(const struct survey_reader *r)
     return false;
 }
 
-/* Read a row. Returns false if no more rows are read. */
+/* Read a row. Return false to stop reading. */
 static bool read_row(struct survey_reader *r)
 {
     struct ceduo_survey_stem stem = {0};
@@ -481,18 +481,18 @@ static int compare_counts(size_t a, size_t b)
 
 static int compare_shoots(const void *a, const void *b)
 {
-    const struct survey_shoot *one = a, *other = b;
-    int plots = compare_counts(one->plot, other->plot);
-    return plots != 0 ? plots : ceduo_csv_compare(one->stool, other->stool);
+    const struct survey_shoot *x = a, *y = b;
+    int plots = compare_counts(x->plot, y->plot);
+    return plots != 0 ? plots : ceduo_csv_compare(x->stool, y->stool);
 }
 
 static int compare_ids(const void *a, const void *b)
 {
-    const struct survey_id *one = a, *other = b;
-    int order = compare_counts(one->plot, other->plot);
-    order = order != 0 ? order : one->kind - other->kind;
-    order = order != 0 ? order : ceduo_csv_compare(one->stool, other->stool);
-    return order != 0 ? order : ceduo_csv_compare(one->id, other->id);
+    const struct survey_id *x = a, *y = b;
+    int order = compare_counts(x->plot, y->plot);
+    order = order != 0 ? order : x->kind - y->kind;
+    order = order != 0 ? order : ceduo_csv_compare(x->stool, y->stool);
+    return order != 0 ? order : ceduo_csv_compare(x->id, y->id);
 }
 
 static void count_repeated(struct survey_reader *r)
@@ -507,15 +507,15 @@ static void count_repeated(struct survey_reader *r)
     }
 }
 
-/* Report a problem at the stool of the first shoot of a plot that has none. */
-static bool refuse_loose(struct survey_reader *r, const struct survey_plot *plot, const char *why)
+/* Report an error at the first shoot without a stool. Return false. */
+static bool refuse_loose(struct survey_reader *r, const struct survey_plot *plot, const char *message)
 {
     ceduo_csv_reread(&r->csv, plot->loose);
-    return ceduo_csv_error(&r->csv, ceduo_csv_cell(&r->csv, r->columns[STOOL]), "%s", why);
+    return ceduo_csv_error(&r->csv, ceduo_csv_cell(&r->csv, r->columns[STOOL]), "%s", message);
 }
 
-/* Number the stools of a plot, whose n shoots begin at `shoots` and are sorted by stool. Shoots without a stool are spread evenly
- * over the number of stools of the plot. */
+/* Number the stools of a plot. Its n shoots are sorted by stool. Shoots without a stool are distributed evenly over the given number
+ * of stools. */
 static bool number_stools(struct survey_reader *r, const struct survey_plot *plot, const struct survey_shoot *shoots, size_t n)
 {
     const double given = plot->values[STOOLS];
@@ -568,7 +568,7 @@ double ceduo_survey_area(const struct survey_plot *plot)
     return isnan(area) ? M_PI * radius * radius : area;
 }
 
-/* Areas of the plots on the map. */
+/* Compute the areas of the plots on the map. */
 static void measure_plots(struct survey_reader *r, double *areas)
 {
     for (size_t i = 0; i < r->plots_count; i++) {
@@ -580,7 +580,7 @@ static void measure_plots(struct survey_reader *r, double *areas)
     }
 }
 
-/* ---- the whole ---- */
+/* ---- reading ---- */
 
 static void scan_numbers(struct survey_reader *r)
 {
@@ -604,8 +604,8 @@ static void read_rows(struct survey_reader *r)
         ceduo_problem(r->problems, r->csv.source, 0, 0, _("there is no plot: no row under the first"));
 }
 
-/* Take the answers of the user in place of the units that the heads may name. */
-static void take_answers(struct survey_reader *r)
+/* Set the units, or ignore the heights, as the user answered. */
+static void apply_answers(struct survey_reader *r)
 {
     const int *given = r->answers->given;
     memset(r->answers->asked, 0, sizeof r->answers->asked);
@@ -635,11 +635,11 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
     *r = (struct survey_reader){.arena = arena, .problems = problems, .answers = answers ? answers : &none};
     if (!ceduo_csv_open(&r->csv, arena, path, problems))
         return false;
-    r->plots = ceduo_arena_take(arena, PLOTS_MOST * sizeof *r->plots);
-    double *areas = ceduo_arena_take(arena, PLOTS_MOST * sizeof *areas);
+    r->plots = ceduo_arena_take(arena, PLOTS_MAX * sizeof *r->plots);
+    double *areas = ceduo_arena_take(arena, PLOTS_MAX * sizeof *areas);
     if (!r->plots || !areas || !ceduo_survey_find_columns(&r->csv, r->columns, r->units))
         return false;
-    take_answers(r);
+    apply_answers(r);
     scan_numbers(r);
     if (!check_numbering(r))
         return false;
@@ -656,7 +656,7 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
                                          .stems = r->stems};
     if (problems->met > before || !ceduo_survey_check(r, &file->survey))
         return false;
-    file->understood = ceduo_survey_understand(r, &file->survey, standard ? file->name : name);
+    file->understood = ceduo_survey_describe(r, &file->survey, standard ? file->name : name);
     return ceduo_problems_settle(problems);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The stand of a survey as YAML. What was found stands first, in comments; then the stand. Comments and the texts of sources, which
- * pages print, are in the user's language; all else has the same bytes in every one. */
+/* Prints the stand of a survey as YAML: first the findings in comments, then the stand. Comments and texts of sources are in the
+ * user's language. The rest is equal in all languages. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,24 +16,24 @@ struct writer {
     const struct survey_file *file;
     const struct ceduo_survey_answer *answer;
     struct text *out;
-    double area;   /* m2 of the map */
-    bool one_plot; /* which has no standard error */
-    bool stumps;   /* the stand has them: all of them is known */
+    double area;   /* of all plots, m2 on the map */
+    bool one_plot; /* there are no standard errors */
+    bool stumps;   /* height and energy of stumps are known, so the stand has them */
 };
 
 static const char *const kinds[] = {N_("shoots"), N_("standards"), N_("trees"), N_("stumps")};
 
-/* Six digits are more than a survey knows. */
+/* Round to six digits; no survey is more precise. */
 static double rounded(double value)
 {
-    char room[32];
-    ceduo_decimal_format(room, sizeof room, "%.6g", value);
-    return ceduo_decimal_read(room);
+    char buffer[32];
+    ceduo_decimal_format(buffer, sizeof buffer, "%.6g", value);
+    return ceduo_decimal_read(buffer);
 }
 
 #define ROUNDED(value) NUMERAL(rounded(value))
 
-/* `end`: what follows the source. */
+/* `end`: text after the source. */
 static void print_source(struct text *out, bool assumed, const char *what, const char *end)
 {
     ceduo_text_format(out, "source: {kind: %s, text: ", assumed ? "assumed" : "measured");
@@ -41,9 +41,9 @@ static void print_source(struct text *out, bool assumed, const char *what, const
     ceduo_text_format(out, "}%s", end);
 }
 
-/* ---- what was found ---- */
+/* ---- comments ---- */
 
-static void remark_estimate(struct text *out, const char *name, const struct ceduo_estimate *e)
+static void print_estimate_comment(struct text *out, const char *name, const struct ceduo_estimate *e)
 {
     if (!(e->mean > 0))
         return;
@@ -53,7 +53,7 @@ static void remark_estimate(struct text *out, const char *name, const struct ced
     ceduo_text_char(out, '\n');
 }
 
-static void remark_heights(struct text *out, const char *name, const struct ceduo_survey_heights *h)
+static void print_heights_comment(struct text *out, const char *name, const struct ceduo_survey_heights *h)
 {
     if (h->missing == 0)
         return;
@@ -76,22 +76,22 @@ static void remark_heights(struct text *out, const char *name, const struct cedu
     ceduo_text_char(out, '\n');
 }
 
-static void remark(const struct writer *w)
+static void print_comments(const struct writer *w)
 {
     const struct ceduo_survey_answer *a = w->answer;
     struct text *out = w->out;
     ceduo_text_format(out, "# %s\n", w->file->understood ? w->file->understood : w->file->name);
     ceduo_text_format(out, "# %-10s %8s %8s    %s\n", "", _("per ha"), w->one_plot ? "" : _("s.e."),
                       w->one_plot ? "" : _("95 % interval"));
-    remark_estimate(out, _("stools"), &a->stools);
+    print_estimate_comment(out, _("stools"), &a->stools);
     for (int k = 0; k < CEDUO_SURVEY_KINDS_COUNT; k++)
-        remark_estimate(out, _(kinds[k]), &a->per_ha[k]);
+        print_estimate_comment(out, _(kinds[k]), &a->per_ha[k]);
     if (a->stools.mean > 0)
         ceduo_text_format(out, _("# shoots on a stool: %.2f\n"), a->per_ha[CEDUO_SURVEY_SHOOT].mean / a->stools.mean);
     if (w->one_plot)
         ceduo_text_put(out, _("# One plot has no standard error: the densities are marked as assumed.\n"));
-    remark_heights(out, _("shoots"), &a->shoots);
-    remark_heights(out, _("standards and trees"), &a->trees);
+    print_heights_comment(out, _("shoots"), &a->shoots);
+    print_heights_comment(out, _("standards and trees"), &a->trees);
     for (size_t i = 0; i < a->classes_count; i++) {
         const struct ceduo_survey_class *c = &a->classes[i];
         if (c->form_factor > 0)
@@ -101,18 +101,18 @@ static void remark(const struct writer *w)
                               c->form_factor, c->stems, _(kinds[c->kind]), c->from * 100, (c->from + CEDUO_SURVEY_CLASS) * 100,
                               CEDUO_FORM_FACTOR);
     }
-    const struct ceduo_survey *s = &w->file->survey; /* the share of each species of the basal area */
-    size_t n, said = 0;
+    const struct ceduo_survey *s = &w->file->survey;
+    size_t n, printed = 0;
     const struct ceduo_species *list = ceduo_species_list(&n);
     double all = ceduo_survey_basal(s, CEDUO_SURVEY_ALL), own;
     for (int k = -1; k < (int)n; k++)
         if ((own = ceduo_survey_basal(s, k)) > 0)
-            ceduo_text_format(out, "%s%s %.0f %%", said++ ? ", " : _("# basal area: "),
+            ceduo_text_format(out, "%s%s %.0f %%", printed++ ? ", " : _("# basal area: "),
                               k < 0 ? _("not said") : _(list[k].common), 100 * own / all);
-    ceduo_text_put(out, said ? "\n" : "");
+    ceduo_text_put(out, printed ? "\n" : "");
     if (!(a->per_ha[CEDUO_SURVEY_STUMP].mean > 0) || w->stumps)
         return;
-    ceduo_text_put(out, /* what a stump takes from a rock has no default: it is asked for, not made up */
+    ceduo_text_put(out, /* the energy of a stump has no default: the user must give it */
                    _("# The stumps are not in the stand: they need a height_m, and the energy_kJ that one takes from a rock,\n"
                      "# in at least one row of the survey, or here:\n"));
     ceduo_text_format(out, "# stumps: {per_ha: %s, diameter_m: %s, height_m: %s, energy_kJ: ?}\n",
@@ -122,9 +122,9 @@ static void remark(const struct writer *w)
 
 /* ---- the stand ---- */
 
-/* Whether a class gives its volume. It need not if all that lies outside its equation is of the main species and the form factor
- * is what the program takes anyway for such a class: then it says so itself. */
-static bool is_given_volume(const struct writer *w, const struct ceduo_survey_class *c)
+/* True if the volume of a class must be written, because the program would not compute the same volume. The program computes it if
+ * all stems outside the equation are of the main species and the form factor is the usual one. */
+static bool needs_volume(const struct writer *w, const struct ceduo_survey_class *c)
 {
     enum ceduo_volume_from from;
     const struct ceduo_stand stand = {.species = w->answer->species};
@@ -147,9 +147,9 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
         if (trees ? !is_tree(c->kind) : c->kind != CEDUO_SURVEY_SHOOT)
             continue;
         LOCAL_TEXT(what);
-        bool given = is_given_volume(w, c);
+        bool given = needs_volume(w, c);
         ceduo_text_format(w->out, "%s  - {per_ha: %s, dbh_m: %s", n++ ? "" : key, ROUNDED(c->per_ha.mean), ROUNDED(c->dbh));
-        if (c->dbh_sd > 0) /* a stand takes none above dbh_m, which two thin stems may have */
+        if (c->dbh_sd > 0) /* a stand accepts at most dbh_m; two thin stems may have more */
             ceduo_text_format(w->out, ", dbh_sd_m: %s", ROUNDED(fmin(c->dbh_sd, c->dbh)));
         ceduo_text_format(w->out, ", height_m: %s", ROUNDED(c->height));
         if (given)
@@ -158,7 +158,7 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
                           (c->from + CEDUO_SURVEY_CLASS) * 100, c->stems);
         if (w->one_plot)
             ceduo_text_put(&what, _("; one plot, no standard error"));
-        if (h->missing > 0) /* how these are known stands above */
+        if (h->missing > 0) /* the comments above describe the estimated heights */
             ceduo_text_format(&what, _("; heights measured: %zu of %zu"), h->given, h->given + h->missing);
         if (c->form_factor > 0)
             ceduo_text_format(&what, _("; volume of %zu by form factor"), c->form_factor);
@@ -168,8 +168,8 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
     }
 }
 
-/* Every stool has a shoot, also after rounding. */
-static double stools_of(const struct writer *w)
+/* Return the stools per hectare, at most as many as shoots, also after rounding. */
+static double count_stools(const struct writer *w)
 {
     double shoots = 0;
     for (size_t i = 0; i < w->answer->classes_count; i++)
@@ -179,15 +179,15 @@ static double stools_of(const struct writer *w)
     return stools <= shoots ? stools : rounded(stools * (1 - 1e-5)); /* untaken: rounding */
 }
 
-/* ---- the years to come ---- */
+/* ---- future years ---- */
 
-/* From these on the standards of a hectare make a coppice with standards, or large reserves if they have this basal area, which is
- * between those of the shipped stands; fewer are the reserves of a simple coppice (assumed). A selection coppice is not recognized:
- * diameters do not tell the ages of shoots. */
-#define STANDARDS_LEAST 90  /* 1/ha */
-#define RESERVES_AREA   9.3 /* m2/ha */
+/* With fewer standards the stand is a simple coppice, with less basal area of standards a coppice with standards, otherwise large
+ * reserves (assumed; the limits lie between the shipped stands). A selection coppice is not recognized, because diameters do not show
+ * the age of shoots. */
+#define STANDARDS_MIN     90  /* 1/ha */
+#define RESERVES_AREA_MIN 9.3 /* m2/ha */
 
-/* Species of the shipped stands, and how the names of their files begin. */
+/* Species of the shipped stands, and the prefix of their file names. */
 static const struct {
     const char *species, *prefix;
 } shipped[] = {{"ostrya-carpinifolia", ""},      {"fagus-sylvatica", "beech-"},       {"castanea-sativa", "chestnut-"},
@@ -210,15 +210,14 @@ static struct standards count_standards(const struct ceduo_survey_answer *a)
     return sum;
 }
 
-static const char *system_of(struct standards standards)
+static const char *choose_system(struct standards standards)
 {
-    return standards.per_ha < STANDARDS_LEAST ? "simple-coppice"
-           : standards.area < RESERVES_AREA   ? "coppice-with-standards"
-                                              : "large-reserves";
+    return standards.per_ha < STANDARDS_MIN     ? "simple-coppice"
+           : standards.area < RESERVES_AREA_MIN ? "coppice-with-standards"
+                                                : "large-reserves";
 }
 
-/* The stand that comes with the program for this species and system, resolved in the arena; NULL if there is none. Its name goes to
- * `name`. */
+/* Return the shipped stand for the species and system, resolved in the arena; NULL: none. Append its name to `name`. */
 static const struct node *find_shipped(struct arena *arena, const struct ceduo_survey_answer *a, struct text *name)
 {
     LOCAL_PROBLEMS(problems);
@@ -226,7 +225,7 @@ static const struct node *find_shipped(struct arena *arena, const struct ceduo_s
     const char *species = a->species >= 0 ? ceduo_species_words.names[a->species] : "";
     for (size_t i = 0; i < sizeof shipped / sizeof shipped[0]; i++)
         if (strcmp(shipped[i].species, species) == 0)
-            ceduo_text_format(name, "%s%s", shipped[i].prefix, system_of(count_standards(a)));
+            ceduo_text_format(name, "%s%s", shipped[i].prefix, choose_system(count_standards(a)));
     ceduo_text_format(&yaml, "{forest: [{stand: %s}]}", ceduo_text_string(name));
     const struct source source = {.name = "", .bytes = ceduo_text_string(&yaml), .length = yaml.length};
     const struct node *root = name->length > 0 ? ceduo_yaml_read(arena, &source, &problems) : NULL;
@@ -234,7 +233,7 @@ static const struct node *find_shipped(struct arena *arena, const struct ceduo_s
     return ceduo_resolve_at(root, "forest[0].stand");
 }
 
-/* The numbers of a list, scaled to this sum and rounded; the list as it is if the sum is 0. */
+/* Print the numbers of a list, scaled to `sum` and rounded; unchanged if `sum` is 0. */
 static void print_scaled(struct text *out, const struct node *list, double sum)
 {
     double all = 0;
@@ -247,7 +246,7 @@ static void print_scaled(struct text *out, const struct node *list, double sum)
     ceduo_text_put(out, "]\n");
 }
 
-/* A mapping with a source of its own. A cut leaves as many standards as were counted. */
+/* Print a mapping with a source of its own. A cut retains the counted number of standards. */
 static void print_assumed(const struct writer *w, const char *key, const struct node *map, const char *what)
 {
     ceduo_text_format(w->out, "%s:\n", key);
@@ -267,7 +266,7 @@ static void print_assumed(const struct writer *w, const char *key, const struct 
     print_source(w->out, true, what, "\n");
 }
 
-/* Growth and cutting, which no survey of one day shows. */
+/* Print growth and cutting, which a single survey cannot show. */
 static void print_future(const struct writer *w)
 {
     LOCAL_ARENA(arena);
@@ -293,7 +292,7 @@ static void print_future(const struct writer *w)
 
 /* ---- doubt ---- */
 
-/* Two numbers of what may be true. */
+/* Print a row: a path and two numbers, lo and hi, or mean and sd. */
 static void print_row(const struct writer *w, size_t *n, const char *path, const char *keys[2], double a, double b)
 {
     ceduo_text_put(w->out, (*n)++ == 0 ? "doubt:\n  - {path: " : "  - {path: ");
@@ -301,7 +300,7 @@ static void print_row(const struct writer *w, size_t *n, const char *path, const
     ceduo_text_format(w->out, ", %s: %s, %s: %s}\n", keys[0], ROUNDED(a), keys[1], ROUNDED(b));
 }
 
-/* A mean and its standard error. */
+/* Print a row with a mean and its standard error, unless that is 0. */
 static void print_doubt(const struct writer *w, size_t *n, const char *path, const struct ceduo_estimate *e, double mean)
 {
     if (e->se > 0)
@@ -312,7 +311,7 @@ static void print_doubts(const struct writer *w)
 {
     const struct ceduo_survey_answer *a = w->answer;
     size_t n = 0, at[2] = {0};
-    print_doubt(w, &n, "stools.per_ha", &a->stools, stools_of(w));
+    print_doubt(w, &n, "stools.per_ha", &a->stools, count_stools(w));
     print_doubt(w, &n, "stools.spacing_m", &a->spacing, a->spacing.mean);
     if (w->stumps)
         print_doubt(w, &n, "stumps.per_ha", &a->per_ha[CEDUO_SURVEY_STUMP], a->per_ha[CEDUO_SURVEY_STUMP].mean);
@@ -327,20 +326,20 @@ static void print_doubts(const struct writer *w)
         print_doubt(w, &n, path, &c->per_ha, c->per_ha.mean);
         if ((tree ? a->trees : a->shoots).from < CEDUO_HEIGHTS_SHOOTS)
             continue;
-        bool given = is_given_volume(w, c); /* otherwise the volume follows from the height */
+        bool given = needs_volume(w, c); /* otherwise the program computes the volume from the height */
         double size = given ? c->volume : c->height, range = CEDUO_SURVEY_HEIGHT_DOUBT * size;
         snprintf(path, sizeof path, "%s[%zu].%s", list, at[tree] - 1, given ? "volume_m3" : "height_m");
         print_row(w, &n, path, (const char *[]){"lo", "hi"}, size - range, size + range);
     }
 }
 
-/* ---- the whole ---- */
+/* ---- stand ---- */
 
 static void print_stand(const struct writer *w)
 {
     const struct ceduo_survey_answer *a = w->answer;
     LOCAL_TEXT(what);
-    remark(w);
+    print_comments(w);
     bool stems = a->stools.mean > 0 || a->per_ha[CEDUO_SURVEY_STANDARD].mean + a->per_ha[CEDUO_SURVEY_TREE].mean > 0;
     ceduo_text_put(w->out, "ceduo: stand/1\nname: ");
     ceduo_emit_scalar(w->out, w->file->name, true);
@@ -349,17 +348,17 @@ static void print_stand(const struct writer *w)
         ceduo_text_format(w->out, "species: %s\n", ceduo_species_words.names[a->species]);
     if (a->stools.mean > 0) {
         bool measured = !isnan(a->spacing.mean);
-        LOCAL_TEXT(of_stools);
-        ceduo_text_format(w->out, "stools: {per_ha: %s, spacing_m: %s,\n  ", ROUNDED(stools_of(w)),
+        LOCAL_TEXT(stools_text);
+        ceduo_text_format(w->out, "stools: {per_ha: %s, spacing_m: %s,\n  ", ROUNDED(count_stools(w)),
                           ROUNDED(measured ? a->spacing.mean : CEDUO_SURVEY_SPACING));
-        ceduo_text_format(&of_stools, "n = %zu", w->file->survey.stools_count);
+        ceduo_text_format(&stools_text, "n = %zu", w->file->survey.stools_count);
         if (measured)
-            ceduo_text_format(&of_stools, _("; spacing on %zu of them"), a->stools_measured);
+            ceduo_text_format(&stools_text, _("; spacing on %zu of them"), a->stools_measured);
         else
-            ceduo_text_put(&of_stools, _("; the spacing of the shoots was not measured"));
+            ceduo_text_put(&stools_text, _("; the spacing of the shoots was not measured"));
         if (w->one_plot)
-            ceduo_text_put(&of_stools, _("; one plot, no standard error"));
-        print_source(w->out, w->one_plot || !measured, ceduo_text_string(&of_stools), "}\n");
+            ceduo_text_put(&stools_text, _("; one plot, no standard error"));
+        print_source(w->out, w->one_plot || !measured, ceduo_text_string(&stools_text), "}\n");
     }
     print_classes(w, "shoots:\n", false);
     print_classes(w, "trees:\n", true);
@@ -376,8 +375,7 @@ static void print_stand(const struct writer *w)
     print_doubts(w);
 }
 
-/* A density that no stand may have comes of a wrong area. A curve that still rises steeply where the measured heights end goes to
- * the sky beyond. */
+/* Report a density beyond the range of a stand, which means a wrong area, and an implausible extrapolation of the height curve. */
 static bool check(const struct writer *w, struct problems *problems)
 {
     const struct ceduo_survey_answer *a = w->answer;
