@@ -134,7 +134,7 @@ $(BUILD)/%.o: %.c Makefile
 # The program looks for installed profiles here, after those beside itself.
 c_string = "$(subst ?,\?,$(subst ",\",$(subst \,\\,$(1))))"
 $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,$(DATADIR)))
-$(BUILD)/src/cli/say.o: DEFINES = -DCEDUO_LOCALEDIR=$(call quoted,$(call c_string,$(LOCALEDIR)))
+$(BUILD)/src/cli/messages.o: DEFINES = -DCEDUO_LOCALEDIR=$(call quoted,$(call c_string,$(LOCALEDIR)))
 
 # Those of this variant alone: another may be being built.
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

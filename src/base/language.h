@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mark text for translation: whole sentences, with ngettext() if a number decides on the form. N_ only marks: scene, core and study
- * know no language; the caller that shows their text translates it with _(). Text in files, JSON and CSV is never translated. cli/say.c sets
+ * know no language; the caller that shows their text translates it with _(). Text in files, JSON and CSV is never translated. cli/messages.c sets
  * the language; `make po` brings marked text into src/po. */
 #ifndef CEDUO_LANGUAGE_H
 #define CEDUO_LANGUAGE_H

@@ -58,58 +58,57 @@ struct arguments {
     uint64_t rocks;   /* 0: the scene's */
     double tolerance; /* 0: none */
     uint64_t threads;
-    struct word_list sets; /* PATH=VALUE, in their order, --seed among them */
-    size_t cells;          /* number of sets from a row of --each: the last ones */
+    struct word_list sets; /* PATH=VALUE, in order, with --seed */
+    size_t cells;          /* number of sets from a row of --each; they are the last */
     struct word_list options;
     size_t calibrates_count;
     struct path_range calibrates[CEDUO_CALIBRATION_MOST];
     char **scenes;
     size_t scenes_count;
-    const char *called; /* name of the present scene in messages; NULL: there is one scene */
+    const char *called; /* name of the current scene in messages; NULL: there is only one scene */
     const char *label;  /* of its row of --each in tables; NULL: no row */
     uint64_t seed;
     char seed_set[64];          /* the seed as PATH=VALUE */
-    bool years;                 /* every option year by year */
+    bool years;                 /* compute every option year by year */
     struct ceduo_window window; /* step 0: one whole rotation of each option */
     struct path_range find;
     enum ceduo_goal goal;
-    double goal_value;               /* NaN: the light's own limit */
-    double sure;                     /* share of plausible cases in which the goal is reached; 0: not asked */
+    double goal_value;               /* NaN: limit of the light */
+    double sure;                     /* share of plausible cases that reach the goal; 0: not given */
     uint64_t points;                 /* of --sensitivity */
     const char *survey;              /* a CSV file of plots; NULL: none */
     const char *each;                /* a CSV file whose rows change the scenes; NULL: none */
-    const char *columns;             /* heads of CSV with commas between them; NULL: all */
+    const char *columns;             /* heads of CSV, separated by commas; NULL: all */
     int schema;                      /* a word of the option's row */
-    bool resume;                     /* keep what the output holds */
-    struct ceduo_profiles *profiles; /* of several scenes, for the table before their pages */
-    struct text *title;              /* of a report: title of the first scene */
+    bool resume;                     /* keep the lines of the output */
+    struct ceduo_profiles *profiles; /* of several scenes, for the table before the pages */
+    struct text *title;              /* of the first scene of a report */
 };
 
-/* Options that another option needs. */
-enum option_needs { NEEDS_NOTHING, NEEDS_GOAL, NEEDS_FIND, NEEDS_PLOT, NEEDS_PICTURE, NEEDS_CSV, NEEDS_FILE };
+/* What an option requires. */
+enum option_requirement { NEEDS_NOTHING, NEEDS_GOAL, NEEDS_FIND, NEEDS_PLOT, NEEDS_PICTURE, NEEDS_CSV, NEEDS_FILE };
 
 /* An option of the command line. Parser, help, checks, completion and the synopsis of ceduo(1) read this row. */
 struct option_row {
     const char *name;
-    char letter; /* 0: none */
-    const char
-        *value; /* as the help shows it: "a|b" if it is one of these words, "[N]" if it may be left out; NULL: takes none */
+    char letter;       /* 0: none */
+    const char *value; /* in the help: "a|b": one of these words, "[N]": optional; NULL: takes no value */
     enum exit_status (*set)(struct arguments *arguments, const struct option_row *row, char *value); /* may be NULL */
-    size_t at;        /* of the member that a shared setter sets */
-    enum mode mode;   /* that it asks for; MODE_TERMINAL: none */
-    unsigned without; /* modes that refuse it: a bit for each */
-    enum option_needs needs;
+    size_t offset;      /* of the member that a shared setter sets */
+    enum mode mode;     /* mode that it selects; MODE_TERMINAL: none */
+    unsigned conflicts; /* modes that refuse it, a bit for each */
+    enum option_requirement needs;
     const char *help;
-    double lo, hi; /* of a number */
+    double lo, hi; /* range of a number */
 };
 
 const struct option_row *ceduo_option_rows(size_t *n);
 
-/* Read the command line. Another status than EXIT_DONE is reported. Free the arguments in any case. */
+/* Read the command line. Reports errors. Always call ceduo_arguments_free(). */
 enum exit_status ceduo_arguments_read(struct arguments *arguments, int argc, char **argv);
 void ceduo_arguments_free(struct arguments *arguments);
 
-/* True if this option stands on the command line. */
+/* True if this option is on the command line. */
 bool ceduo_arguments_given(const struct arguments *arguments, const char *name);
 
 /* Append the page of --help. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scene by scene: --batch, --plot, --find, --sensitivity, --report and --check; with --each once for each row of a table. */
+/* Computes scenes one by one: --batch, --plot, --find, --sensitivity, --report and --check; with --each, once for each row. */
 #include "batch.h"
 
 #include <stdlib.h>
@@ -9,33 +9,33 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "each.h"
+#include "messages.h"
 #include "resume.h"
-#include "say.h"
 #include "view/figures.h"
 #include "view/page.h"
 #include "view/svg.h"
 
-/* All scenes, and what is printed of them. */
+/* All scenes and their output. */
 struct batch {
     struct arguments arguments;
     struct each each;
     struct columns columns;
     struct resume resume;
     struct output output;
-    struct text header;  /* of the result in CSV */
-    struct text printed; /* head of the output in CSV */
-    struct text out;     /* not written yet */
-    bool first;          /* nothing was printed */
+    struct text header; /* of the result in CSV */
+    struct text head;   /* head of the output in CSV */
+    struct text out;    /* not written yet */
+    bool first;         /* no answer was printed yet */
 };
 
-/* Add what is printed of the present scene. */
-static void add_answer(struct batch *b, const struct text *answer)
+/* Append the answer of the current scene. */
+static void append_answer(struct batch *b, const struct text *answer)
 {
     const struct arguments *a = &b->arguments;
     bool row = b->each.rows;
     if (a->format == CEDUO_CSV) {
         if (b->first && !a->resume)
-            ceduo_text_add(&b->out, b->printed.bytes, b->printed.length);
+            ceduo_text_add(&b->out, b->head.bytes, b->head.length);
         ceduo_columns_lines(&b->columns, answer, &b->out);
     } else if (a->format == CEDUO_JSON && row) {
         struct json json = {.text = &b->out};
@@ -58,9 +58,9 @@ static enum exit_status worse(enum exit_status a, enum exit_status b)
     return a > b ? a : b;
 }
 
-/* Pages of several scenes come behind a table of their verdicts, in its order: the worst first. `starts`: where each begins, and
- * the end. A report has a table of several only, and the head and end of HTML. */
-static void put_verdicts(struct text *text, const struct arguments *a, const size_t *starts)
+/* Put a table of verdicts before the pages of several scenes, and sort the pages, the worst first. `starts`: begin of each page,
+ * and the end of the last. A report gets head and end of HTML, too. */
+static void add_verdicts(struct text *text, const struct arguments *a, const size_t *starts)
 {
     struct text pages = *text;
     bool html = a->mode == MODE_REPORT;
@@ -77,8 +77,8 @@ static void put_verdicts(struct text *text, const struct arguments *a, const siz
     if (html && n > 1) {
         ceduo_page_html(&to, &verdicts, n + 1);
     } else if (!html) {
-        ceduo_page_print(text, &verdicts, !ceduo_say_utf8());
-        ceduo_say_plainly(text);
+        ceduo_page_print(text, &verdicts, !ceduo_is_utf8());
+        ceduo_fit_charset(text);
     }
     for (size_t i = 0; i < n; i++) {
         if (!html)
@@ -96,7 +96,7 @@ static void add_line(void *out, const char *line)
     ceduo_text_format(out, "%s\n", line);
 }
 
-static enum exit_status check(const struct arguments *a, struct scene_file *file, struct text *out)
+static enum exit_status check_scene(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     if (!a->quiet)
         ceduo_notes_each(file->notes, CEDUO_NOTE_TABLE, add_line, out);
@@ -111,7 +111,7 @@ static const struct ceduo_csv *choose_csv(const struct arguments *a)
                                          : ceduo_result_csv(a->stands, a->years);
 }
 
-/* Read the table of --each, and what --resume finds in the output. */
+/* Read the table of --each and, with --resume, the output. */
 static enum exit_status open_batch(struct batch *b, const struct arguments *given)
 {
     const struct arguments *a = &b->arguments;
@@ -121,11 +121,11 @@ static enum exit_status open_batch(struct batch *b, const struct arguments *give
     if (status == EXIT_DONE)
         status = ceduo_columns_open(&b->columns, &b->each, &b->header);
     if (status == EXIT_DONE && a->format == CEDUO_CSV)
-        ceduo_columns_head(&b->columns, &b->header, &b->printed);
-    return status == EXIT_DONE && a->resume ? ceduo_resume_open(&b->resume, &b->each, &b->printed) : status;
+        ceduo_columns_head(&b->columns, &b->header, &b->head);
+    return status == EXIT_DONE && a->resume ? ceduo_resume_open(&b->resume, &b->each, &b->head) : status;
 }
 
-/* Write what was computed of a scene; with --resume its lines, which belong to its key. */
+/* Write the answer of a scene; with --resume, its lines and its key. */
 static enum exit_status write_next(struct batch *b, uint64_t key, enum exit_status result)
 {
     if (!b->arguments.resume)
@@ -135,49 +135,51 @@ static enum exit_status write_next(struct batch *b, uint64_t key, enum exit_stat
     return status;
 }
 
-/* Compute the present scene unless the output holds it. `*written`: status of the output. */
-static enum exit_status compute(struct batch *b, ceduo_batch_answer *answer, enum exit_status *written)
+/* Compute the current scene unless the output has it. */
+static enum exit_status compute(struct batch *b, ceduo_batch_answer *answer, enum exit_status *output_status)
 {
     struct each *each = &b->each;
     struct scene_file file;
     bool resume = b->arguments.resume;
     uint64_t key = ceduo_each_hash(each);
     enum exit_status result;
-    LOCAL_TEXT(one);
+    LOCAL_TEXT(answer_text);
     if (resume && !each->names_files && ceduo_resume_has(&b->resume, key, &result))
         return result;
     result = ceduo_batch_read(&each->arguments, each->path, &file);
     if (each->names_files)
         hash_count(&key, ceduo_resume_files(&file));
-    bool known = resume && result == EXIT_DONE && each->names_files && ceduo_resume_has(&b->resume, key, &result);
-    if (result == EXIT_DONE && !known) {
+    bool done = resume && result == EXIT_DONE && each->names_files && ceduo_resume_has(&b->resume, key, &result);
+    if (result == EXIT_DONE && !done) {
         ceduo_interrupt_catch();
-        result = answer(&each->arguments, &file, &one);
+        result = answer(&each->arguments, &file, &answer_text);
     }
     ceduo_scene_release(&file);
-    if (known)
+    if (done)
         return result;
-    if (result > EXIT_RUN || (result == EXIT_RUN && !one.bytes)) /* what is printed has not failed, unfinished as it may be */
+    if (result > EXIT_RUN ||
+        (result == EXIT_RUN && !answer_text.bytes)) /* an unfinished answer is printed and does not count as failed */
         ceduo_each_note_failed(each);
-    if (result > EXIT_RUN || !one.bytes || atomic_load(ceduo_interrupt_flag()))
+    if (result > EXIT_RUN || !answer_text.bytes || atomic_load(ceduo_interrupt_flag()))
         return result;
-    add_answer(b, &one);
-    *written = write_next(b, key, result);
+    append_answer(b, &answer_text);
+    *output_status = write_next(b, key, result);
     return result;
 }
 
-/* Compute all scenes. starts[i]: where page i begins, and after the last page its end. */
+/* Compute all scenes. starts[i]: begin of page i; after the last page, its end. */
 static enum exit_status compute_all(struct batch *b, ceduo_batch_answer *answer, size_t *starts)
 {
     struct progress progress = ceduo_progress_begin(&b->arguments);
-    enum exit_status status = EXIT_DONE, written = EXIT_DONE, result = EXIT_DONE;
+    enum exit_status status = EXIT_DONE, output_status = EXIT_DONE, result = EXIT_DONE;
     size_t computed = 0;
-    while (written == EXIT_DONE && result != EXIT_OUTPUT && ceduo_each_next(&b->each)) { /* nothing is written over its input */
-        ceduo_progress_scenes(&progress, computed++, b->each.at - 1, b->each.count);
-        result = compute(b, answer, &written);
-        status = worse(status, worse(result, written));
+    while (output_status == EXIT_DONE && result != EXIT_OUTPUT &&
+           ceduo_each_next(&b->each)) { /* EXIT_OUTPUT: the output is an input */
+        ceduo_progress_scenes(&progress, computed++, b->each.current - 1, b->each.count);
+        result = compute(b, answer, &output_status);
+        status = worse(status, worse(result, output_status));
         starts[b->arguments.profiles->count] = b->out.length;
-        if (written == EXIT_DONE && !b->output.begun)
+        if (output_status == EXIT_DONE && !b->output.begun)
             ceduo_interrupt_release();
         if (atomic_load(ceduo_interrupt_flag()))
             break;
@@ -185,14 +187,14 @@ static enum exit_status compute_all(struct batch *b, ceduo_batch_answer *answer,
     return status;
 }
 
-/* Prints the answer of each scene, under one head of CSV. */
+/* Print the answer of each scene; CSV has one head. */
 enum exit_status ceduo_batch_run(const struct arguments *given)
 {
     static ceduo_batch_answer *const answers[] = {[MODE_BATCH] = ceduo_print_report,
                                                   [MODE_FIND] = ceduo_print_find,
                                                   [MODE_SENSITIVITY] = ceduo_print_doubt,
                                                   [MODE_REPORT] = ceduo_print_chapter,
-                                                  [MODE_CHECK] = check};
+                                                  [MODE_CHECK] = check_scene};
     LOCAL_TEXT(title);
     struct ceduo_profiles profiles = {0};
     struct batch b = {.arguments = *given, .resume = {.file = -1, .side = -1}, .first = true};
@@ -205,7 +207,7 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
     if (opened)
         status = compute_all(&b, given->plot != CEDUO_PLOT_NONE ? ceduo_print_plots : answers[given->mode], starts);
     if (profiles.count > (a->mode == MODE_REPORT ? 0u : 1u))
-        put_verdicts(&b.out, a, starts);
+        add_verdicts(&b.out, a, starts);
     free(starts);
     if (profiles.count > 0 && !a->output)
         status = worse(status, ceduo_output_write(a, &b.out));
@@ -218,7 +220,7 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
     ceduo_each_close(&b.each);
     ceduo_profiles_free(&profiles);
     ceduo_text_free(&b.header);
-    ceduo_text_free(&b.printed);
+    ceduo_text_free(&b.head);
     ceduo_text_free(&b.out);
     return status;
 }

@@ -23,18 +23,18 @@ ceduo_batch_answer ceduo_print_report, ceduo_print_plots, ceduo_print_find, cedu
 
 /* ---- reading ---- */
 
-/* Read a scene with the changes of the command line and its chosen options, with --find all options. Reports errors on standard
- * error. EXIT_OUTPUT if --output is one of its files. */
+/* Read a scene with the changes of the command line and the options of --option; with --find, all options. Reports errors. Return
+ * EXIT_OUTPUT if --output is one of its files. */
 enum exit_status ceduo_batch_read(const struct arguments *arguments, const char *path, struct scene_file *file);
 
-/* Find an option by its name. EXIT_USAGE if there is none, which is reported. */
-enum exit_status ceduo_batch_option(const struct scene_file *file, const char *name, size_t *index);
+/* Find an option by its name. Otherwise report it and return EXIT_USAGE. */
+enum exit_status ceduo_find_option(const struct scene_file *file, const char *name, size_t *index);
 
-/* Print a warning to standard error if hardly a rock arrives even without forest, so that the scene has no answer. Simulates at
- * most LOOK_ROCKS rocks. `stands`: warn of unusual stands, too. */
+/* Warn if the scene has no answer because too few rocks arrive even without forest. Simulates at most CHECK_ROCKS rocks. `stands`:
+ * warn of unusual stands, too. */
 void ceduo_batch_warn(const struct arguments *arguments, const struct scene_file *file, bool stands);
 
-/* Report the reason for no answer, unless it is an interruption. Returns EXIT_RUN. */
+/* Report a failed simulation, unless it was interrupted. Return EXIT_RUN. */
 enum exit_status ceduo_batch_failed(const struct scene_file *file, enum ceduo_status status);
 
 /* ---- progress: on standard error, after a second ---- */
@@ -44,45 +44,45 @@ struct progress {
     bool wanted;
 };
 struct progress ceduo_progress_begin(const struct arguments *arguments);
-/* True if it is time to show progress. Sets *seconds since the start. */
+/* True if it is time to show progress. Sets *seconds to the time since the start. */
 bool ceduo_progress_due(struct progress *progress, double *seconds);
-/* Show the number of scenes that are done and the time for the rest. `computed`: scenes of this run. */
+/* Show the number of finished scenes and the time for the rest. `computed`: scenes computed in this run. */
 void ceduo_progress_scenes(struct progress *progress, size_t computed, size_t done, size_t all);
 
-/* ---- asking ---- */
+/* ---- queries ---- */
 
-/* A question about one scene, and the answer. */
-struct asked {
+/* A request to simulate one scene, and its results. */
+struct query {
     struct ceduo_question question;
-    bool pictures, envelopes; /* keep data of pictures, and of envelopes along the slope */
+    bool pictures, envelopes; /* keep the data of pictures; of envelopes along the slope */
     size_t trajectories;      /* number of trajectories to keep */
     struct progress progress;
     struct ceduo_answer answer;
     double seconds; /* of the runs */
     struct ceduo_snapshot *snapshot;
     struct ceduo_verdict verdict;
-    struct scene_inputs inputs; /* that are uncertain */
+    struct scene_inputs inputs; /* uncertain inputs */
     struct ceduo_doubt_answer doubt_answer;
-    struct ceduo_doubt_report doubt; /* answer NULL: nothing is uncertain; file NULL: not asked */
+    struct ceduo_doubt_report doubt; /* answer NULL: nothing is uncertain; file NULL: not computed */
 };
 
-/* Set the question of the command line: rocks by -n, -e or the scene; threads, years. */
-void ceduo_ask_begin(struct asked *asked, const struct arguments *arguments, const struct scene_file *file);
+/* Set the question from the command line: rocks by -n, -e or the scene; threads, years. */
+void ceduo_query_begin(struct query *query, const struct arguments *arguments, const struct scene_file *file);
 
-/* Ask for one rotation of each option as well, with few rocks, if --years is not given. */
-void ceduo_ask_years(struct ceduo_question *question);
+/* Add one rotation of each option, with few rocks, if --years is not given. */
+void ceduo_query_add_years(struct ceduo_question *question);
 
 /* Simulate the runs of the question. */
-enum ceduo_status ceduo_ask_runs(struct asked *asked);
+enum ceduo_status ceduo_query_run(struct query *query);
 
 /* Compute the uncertainty of the scene, with the points and rocks of the command line. */
-enum ceduo_status ceduo_ask_doubt(struct asked *asked, const struct arguments *arguments, struct scene_file *file);
+enum ceduo_status ceduo_query_doubt(struct query *query, const struct arguments *arguments, struct scene_file *file);
 
-/* The same in addition to the answer, with at most its rocks, and over the rotation of each option if there is one. Nothing is
- * computed if rocks among stems are not simulated, if there is no answer, or if it would take far longer than for most scenes. */
-enum ceduo_status ceduo_ask_doubt_beside(struct asked *asked, const struct arguments *arguments, struct scene_file *file);
+/* Compute the uncertainty in addition to the answer, with at most its rocks, and over the rotation of each option if there is one.
+ * Computes nothing if rocks among stems are not simulated, if there is no answer, or if the work is far above that of most scenes. */
+enum ceduo_status ceduo_query_add_doubt(struct query *query, const struct arguments *arguments, struct scene_file *file);
 
-/* Release all, and report a failure. Otherwise EXIT_DONE, or EXIT_RUN if more than one rock of 1000 is unfinished. */
-enum exit_status ceduo_ask_end(struct asked *asked, const struct scene_file *file, enum ceduo_status status);
+/* Free all, and report a failure. Return EXIT_RUN on failure, or if more than 1 of 1000 rocks is unfinished; otherwise EXIT_DONE. */
+enum exit_status ceduo_query_end(struct query *query, const struct scene_file *file, enum ceduo_status status);
 
 #endif

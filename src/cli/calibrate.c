@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* --calibrate: values of one or several scenes, fitted to what was seen there. */
+/* --calibrate: fits values of one or several scenes to their observations. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -9,14 +9,14 @@
 #include "base/must.h"
 #include "batch.h"
 #include "io/file.h"
+#include "messages.h"
 #include "model/fit.h"
-#include "say.h"
 #include "view/figures.h"
 
 #define NO_VALUE _("'%s' is no number of these scenes that can be fitted; ceduo --list-parameters shows all")
 
-/* All scenes, and the fitted values in each. */
-struct job {
+/* All scenes, and the places of the fitted values in each. */
+struct fit_job {
     const struct arguments *arguments;
     size_t scenes_count, parameters_count;
     struct scene_file *files;
@@ -26,65 +26,66 @@ struct job {
 
 /* ---- the values ---- */
 
-/* The places of a value in every scene. */
-static enum exit_status find_value(struct job *j, size_t i)
+/* Find the places of a fitted value in all scenes. */
+static enum exit_status find_parameter(struct fit_job *j, size_t i)
 {
-    const struct path_range *given = &j->arguments->calibrates[i];
-    const char *path = given->path;
+    const struct path_range *range_given = &j->arguments->calibrates[i];
+    const char *path = range_given->path;
     const struct field *field = NULL;
     size_t places = 0, arms = 0;
     for (size_t s = 0; s < j->scenes_count; s++) {
         struct ceduo_input *input = &j->inputs[s * j->parameters_count + i];
         field = ceduo_input_find(&j->files[s], path, input);
-        const char *instead = ceduo_gone(path);
-        if (instead)
-            return ceduo_usage("calibrate", "'%s': %s", path, _(instead));
+        const char *removed = ceduo_gone(path);
+        if (removed)
+            return ceduo_usage_error("calibrate", "'%s': %s", path, _(removed));
         if (!field)
-            return ceduo_usage("calibrate", NO_VALUE, path);
-        input->lo = given->lo;
-        input->hi = given->hi;
+            return ceduo_usage_error("calibrate", NO_VALUE, path);
+        input->lo = range_given->lo;
+        input->hi = range_given->hi;
         places += input->places_count;
         arms += j->files[s].scene.simulation.law == CEDUO_LAW_ARM;
         for (size_t k = 0; k < i; k++)
             if (ceduo_input_shares(input, &j->inputs[s * j->parameters_count + k]))
-                return ceduo_usage("calibrate", _("'%s' and '%s' are the same value"), j->inputs[k].path, path);
+                return ceduo_usage_error("calibrate", _("'%s' and '%s' are the same value"), j->inputs[k].path, path);
     }
     if (places == 0)
-        return ceduo_usage("calibrate", NO_VALUE, path);
-    double bad = !ceduo_schema_in_range(field, given->lo) ? given->lo : given->hi;
+        return ceduo_usage_error("calibrate", NO_VALUE, path);
+    double bad = !ceduo_schema_in_range(field, range_given->lo) ? range_given->lo : range_given->hi;
     if (!ceduo_schema_in_range(field, bad)) {
         LOCAL_TEXT(range);
         ceduo_schema_range_text(field, &range);
-        return ceduo_usage("calibrate", _("%s is outside the range of %s: %s"), SHORTEST(bad), path, ceduo_text_string(&range));
+        return ceduo_usage_error("calibrate", _("%s is outside the range of %s: %s"), SHORTEST(bad), path,
+                                 ceduo_text_string(&range));
     }
-    bool mu = strcmp(field->key, "mu") == 0; /* acts through the shape of the rock, in one law */
+    bool mu = strcmp(field->key, "mu") == 0; /* depends on the shape of the rock; only the law arm uses it */
     if (mu && arms == 0)
-        return ceduo_usage("calibrate", _("'%s' has no part in this law; only arm knows it"), path);
+        return ceduo_usage_error("calibrate", _("'%s' has no part in this law; only arm knows it"), path);
     if (mu && !ceduo_calibration_tells_mu(j->scenes, j->scenes_count))
-        return ceduo_usage("calibrate",
-                           _("'%s' cannot be told from rocks of one shape; observe rocks of two, or leave it as it is"), path);
+        return ceduo_usage_error(
+            "calibrate", _("'%s' cannot be told from rocks of one shape; observe rocks of two, or leave it as it is"), path);
     return EXIT_DONE;
 }
 
-static enum exit_status open_job(struct job *j)
+static enum exit_status open_job(struct fit_job *j)
 {
     const struct arguments *a = j->arguments;
     enum exit_status status = EXIT_DONE;
-    bool seen = false; /* something that is to be fitted */
+    bool observed = false; /* at least one observation is to be fitted */
     for (size_t s = 0; s < j->scenes_count; s++) {
         enum exit_status read = ceduo_batch_read(a, a->scenes[s], &j->files[s]);
         status = read > status ? read : status;
-        seen |= ceduo_fit_has_observations(&j->files[s]);
+        observed |= ceduo_fit_has_observations(&j->files[s]);
         j->scenes[s] = (struct ceduo_calibration_scene){.scene = &j->files[s].scene,
                                                         .inputs = j->inputs + s * j->parameters_count,
                                                         .observations_count = j->files[s].observations_count,
                                                         .observations = j->files[s].observations};
     }
     for (size_t i = 0; i < j->parameters_count && status == EXIT_DONE; i++)
-        status = find_value(j, i);
-    if (status == EXIT_DONE && !seen)
-        return ceduo_usage("calibrate", _("no scene says what was seen there, to be fitted; write it under 'observed' "
-                                          "(man ceduo-scene)"));
+        status = find_parameter(j, i);
+    if (status == EXIT_DONE && !observed)
+        return ceduo_usage_error("calibrate", _("no scene says what was seen there, to be fitted; write it under 'observed' "
+                                                "(man ceduo-scene)"));
     return status;
 }
 
@@ -96,10 +97,9 @@ static bool writes_scene(const struct arguments *a)
     return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
 }
 
-/* The text of the first scene with the best values. It is made while the table of draws lies under a name of its own, and names
- * it as it will be called. */
-static bool fill_scene(const struct job *j, const struct ceduo_calibration_report *r, const struct pending_file *draws,
-                       struct text *scene)
+/* Print the first scene with the best values. The draws still have a temporary name; the scene names their final file. */
+static bool print_scene(const struct fit_job *j, const struct ceduo_calibration_report *r, const struct pending_file *draws,
+                        struct text *scene)
 {
     const struct arguments *a = j->arguments;
     struct document document = {0};
@@ -108,7 +108,7 @@ static bool fill_scene(const struct job *j, const struct ceduo_calibration_repor
     ceduo_calibration_sources(&source, r);
     const struct fit_values fit = {r->answer, r->inputs, ceduo_text_string(&source), draws->temporary};
     bool good = ceduo_document_open(&document, a->scenes[0], (const char *const *)a->sets.items, a->sets.n, &problems);
-    ceduo_recovery_end(&document.recovery); /* a batch run keeps no copy of unsaved work */
+    ceduo_recovery_end(&document.recovery); /* no recovery copy in batch runs */
     good = good && ceduo_keep_fit(&document, &fit, &problems);
     if (good) {
         const char *mark = draws->temporary + strlen(draws->target);
@@ -119,14 +119,14 @@ static bool fill_scene(const struct job *j, const struct ceduo_calibration_repor
             memmove(at, at + strlen(mark), strlen(at + strlen(mark)) + 1);
         }
     }
-    ceduo_say_problems(&problems);
+    ceduo_print_problems(&problems);
     ceduo_document_close(&document);
     return good;
 }
 
-/* The first scene with the best values, and the draws beside it. Both are filled before either takes its place: a full disk
- * must not leave the draws of this fit beside the scene of another. */
-static enum exit_status write_scene(const struct job *j, const struct ceduo_calibration_report *r)
+/* Write the first scene with the best values, and the draws next to it. Rename both files only when both are written: a full disk
+ * must not leave draws of this fit with the scene of another. */
+static enum exit_status write_scene(const struct fit_job *j, const struct ceduo_calibration_report *r)
 {
     const char *output = j->arguments->output;
     LOCAL_TEXT(path);
@@ -137,19 +137,20 @@ static enum exit_status write_scene(const struct job *j, const struct ceduo_cali
     struct pending_file draws = {.path = path.bytes, .bytes = table.bytes, .n = table.length, .wait = true};
     struct pending_file file = {.path = output, .wait = true};
     enum exit_status status = EXIT_OUTPUT;
-    const char *failed = path.bytes; /* with the reason in errno; NULL: the reason has been told, or nothing has failed */
+    const char *failed = path.bytes; /* file with an error in errno; NULL: already reported, or no error */
     bool filled = ceduo_file_prepare(&draws);
-    if (filled && !draws.target) { /* a device, a pipe */
+    if (filled && !draws.target) { /* a device or a pipe */
         errno = EINVAL;
-    } else if (filled && strncmp(draws.temporary, draws.target, strlen(draws.target)) != 0) { /* of a long name only a part */
+    } else if (filled &&
+               strncmp(draws.temporary, draws.target, strlen(draws.target)) != 0) { /* the temporary name was shortened */
         errno = ENAMETOOLONG;
-    } else if (filled && !fill_scene(j, r, &draws, &scene)) {
+    } else if (filled && !print_scene(j, r, &draws, &scene)) {
         failed = NULL;
         status = EXIT_RUN;
     } else if (filled) {
         file.bytes = scene.bytes;
         file.n = scene.length;
-        draws.wait = false; /* for their folder: the scene waits for it, and nothing comes between the two */
+        draws.wait = false; /* the scene waits for the disk, right after */
         if (!ceduo_file_prepare(&file)) {
             failed = output;
         } else if (ceduo_file_place(&draws)) {
@@ -158,7 +159,7 @@ static enum exit_status write_scene(const struct job *j, const struct ceduo_cali
         }
     }
     if (failed)
-        ceduo_say_why(failed, strerror(errno));
+        ceduo_print_message(failed, strerror(errno));
     ceduo_file_drop(&draws);
     ceduo_file_drop(&file);
     return status;
@@ -172,16 +173,16 @@ static void show(void *context, const struct ceduo_calibration_state *state)
     if (!ceduo_progress_due(context, &seconds))
         return;
     if (state->stage == CEDUO_CHAINS && isfinite(state->rhat))
-        ceduo_say_progress(_("%llu scenes; R-hat %.3f (1.05), effective size %.0f (200); %.0f s"),
-                           (unsigned long long)state->evaluations, state->rhat, state->effective_size, seconds);
+        ceduo_show_progress(_("%llu scenes; R-hat %.3f (1.05), effective size %.0f (200); %.0f s"),
+                            (unsigned long long)state->evaluations, state->rhat, state->effective_size, seconds);
     else
-        ceduo_say_progress(_("%llu scenes; log-likelihood %.2f; %.0f s"), (unsigned long long)state->evaluations,
-                           state->log_likelihood, seconds);
+        ceduo_show_progress(_("%llu scenes; log-likelihood %.2f; %.0f s"), (unsigned long long)state->evaluations,
+                            state->log_likelihood, seconds);
 }
 
-static enum exit_status compute(struct job *j)
+static enum exit_status compute(struct fit_job *j)
 {
-    struct arguments print = *j->arguments; /* where the scene is the output, what is found is printed */
+    struct arguments print = *j->arguments; /* the answer goes to standard output if --output is the scene */
     struct ceduo_calibration answer;
     LOCAL_TEXT(out);
     struct progress progress = ceduo_progress_begin(&print);
@@ -206,10 +207,10 @@ static enum exit_status compute(struct job *j)
         ceduo_csv_head(&out, &ceduo_calibration_csv);
         ceduo_csv_rows(&out, &ceduo_calibration_csv, &place);
     } else {
-        ceduo_calibration_page(&out, &report, !ceduo_say_utf8());
+        ceduo_calibration_page(&out, &report, !ceduo_is_utf8());
     }
-    ceduo_say_plainly(&out);
-    bool scene = writes_scene(&print), ended = atomic_load(ceduo_interrupt_flag()); /* from here on all is written */
+    ceduo_fit_charset(&out);
+    bool scene = writes_scene(&print), ended = atomic_load(ceduo_interrupt_flag()); /* later signals do not prevent writing */
     print.output = scene ? NULL : print.output;
     enum exit_status written = ended ? EXIT_RUN : ceduo_output_write(&print, &out);
     if (written == EXIT_DONE && scene)
@@ -220,7 +221,7 @@ static enum exit_status compute(struct job *j)
 
 enum exit_status ceduo_batch_calibrate(const struct arguments *a)
 {
-    struct job j = {.arguments = a, .scenes_count = a->scenes_count, .parameters_count = a->calibrates_count};
+    struct fit_job j = {.arguments = a, .scenes_count = a->scenes_count, .parameters_count = a->calibrates_count};
     j.files = ceduo_must(calloc(j.scenes_count, sizeof *j.files));
     j.scenes = ceduo_must(calloc(j.scenes_count, sizeof *j.scenes));
     j.inputs = ceduo_must(calloc(j.scenes_count * j.parameters_count, sizeof *j.inputs));

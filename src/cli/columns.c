@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines of CSV: the cells that --each copies, then those of the result; with --columns some of both. */
+/* Lines of CSV: the copied cells of --each, then the cells of the result; with --columns, only chosen ones. */
 #include "each.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
-#include "say.h"
+#include "messages.h"
 
 struct named_column {
     const char *name;
@@ -18,12 +18,12 @@ static int compare_names(const void *a, const void *b)
     return strcmp(((const struct named_column *)a)->name, ((const struct named_column *)b)->name);
 }
 
-/* Split a line of CSV that the program wrote into at most `most` cells. */
-static size_t split_line(const char *line, size_t length, struct csv_span *cells, size_t most)
+/* Split a line of the program's CSV into at most `max` cells. */
+static size_t split_line(const char *line, size_t length, struct csv_span *cells, size_t max)
 {
     const char *p = line, *end = line + length;
     size_t n = 0;
-    for (bool more = true; more && n < most; p++) {
+    for (bool more = true; more && n < max; p++) {
         const char *from = p;
         bool quoted = false;
         for (; p < end && (quoted || *p != ','); p++)
@@ -34,7 +34,7 @@ static size_t split_line(const char *line, size_t length, struct csv_span *cells
     return n;
 }
 
-/* Append the copied cells of the present row, or their heads, with a comma after each. */
+/* Append the copied cells of the current row, or their heads, each with a comma. */
 static void append_copied(const struct each *e, bool heads, struct text *line)
 {
     for (size_t i = 0; i < e->heads_count; i++)
@@ -44,7 +44,7 @@ static void append_copied(const struct each *e, bool heads, struct text *line)
         }
 }
 
-/* Append the columns of a whole line that are chosen. */
+/* Append the chosen columns of a line. */
 static void append_line(const struct columns *c, const struct text *line, struct text *out)
 {
     if (!c->chosen) {
@@ -61,7 +61,7 @@ static void append_line(const struct columns *c, const struct text *line, struct
 }
 
 /* Find the columns of --columns among n sorted names. */
-static enum exit_status choose(struct columns *c, const struct named_column *names, size_t n)
+static enum exit_status choose_columns(struct columns *c, const struct named_column *names, size_t n)
 {
     const char *list = c->each->given->columns;
     size_t length;
@@ -78,8 +78,8 @@ static enum exit_status choose(struct columns *c, const struct named_column *nam
         for (size_t i = 0; i < n; i++)
             all[i] = names[i].name;
         const char *near = ceduo_text_nearest(wanted.name, all, n);
-        return near ? ceduo_usage("columns", _("no column '%s'; did you mean '%s'?"), wanted.name, near)
-                    : ceduo_usage("columns", _("no column '%s'; --list-columns names all"), wanted.name);
+        return near ? ceduo_usage_error("columns", _("no column '%s'; did you mean '%s'?"), wanted.name, near)
+                    : ceduo_usage_error("columns", _("no column '%s'; --list-columns names all"), wanted.name);
     }
     return EXIT_DONE;
 }
@@ -87,11 +87,11 @@ static enum exit_status choose(struct columns *c, const struct named_column *nam
 enum exit_status ceduo_columns_open(struct columns *c, struct each *e, const struct text *header)
 {
     *c = (struct columns){.each = e};
-    size_t most = 1, length = header->length > 0 ? header->length - 1 : 0; /* without its end */
+    size_t max = 1, length = header->length > 0 ? header->length - 1 : 0; /* without the line end */
     for (size_t i = 0; i < length; i++)
-        most += header->bytes[i] == ',';
-    struct csv_span *own = ceduo_arena_take(&e->arena, most * sizeof *own);
-    size_t own_count = length > 0 ? split_line(header->bytes, length, own, most) : 0, n = 0;
+        max += header->bytes[i] == ',';
+    struct csv_span *own = ceduo_arena_take(&e->arena, max * sizeof *own);
+    size_t own_count = length > 0 ? split_line(header->bytes, length, own, max) : 0, n = 0;
     struct named_column *names = ceduo_arena_take(&e->arena, (own_count + e->heads_count + 1) * sizeof *names);
     for (size_t i = 0; i < own_count; i++)
         names[i] = (struct named_column){ceduo_arena_copy(&e->arena, own[i].p, own[i].n), i};
@@ -110,7 +110,7 @@ enum exit_status ceduo_columns_open(struct columns *c, struct each *e, const str
     c->count = own_count + n;
     qsort(names, c->count, sizeof *names, compare_names);
     c->cells = ceduo_arena_take(&e->arena, (c->count + 1) * sizeof *c->cells);
-    return e->given->columns ? choose(c, names, c->count) : EXIT_DONE;
+    return e->given->columns ? choose_columns(c, names, c->count) : EXIT_DONE;
 }
 
 void ceduo_columns_head(const struct columns *c, const struct text *header, struct text *out)

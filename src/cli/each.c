@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rows of --each: a column whose head is a path of --set changes the scene, all others are copied in front of the output. The table
- * is read twice. The first pass finds the rows and reports all that is wrong with them; their cells are read when it is their turn. */
+/* Rows of --each. A column whose head is a path of --set changes the scene; other columns are copied to the output. The table is read
+ * twice: the first pass finds the rows and reports their errors, the second reads their cells. */
 #include "each.h"
 
 #include <string.h>
@@ -8,9 +8,9 @@
 #include "base/hash.h"
 #include "base/language.h"
 #include "io/file.h"
-#include "say.h"
+#include "messages.h"
 
-#define NAMES_MAX 10 /* scenes that failed and are named */
+#define NAMES_MAX 10 /* failed scenes in a message */
 #define LABEL_MAX 20 /* bytes */
 
 /* ---- the table ---- */
@@ -32,8 +32,8 @@ static void append_names(const struct each *e, bool set, struct text *text)
         ceduo_text_put(text, _("none"));
 }
 
-/* Print which columns are set and which are copied. */
-static void announce(const struct each *e)
+/* Print the names of the columns that are set, and of those that are copied. */
+static void print_columns(const struct each *e)
 {
     LOCAL_TEXT(set);
     LOCAL_TEXT(copied);
@@ -42,7 +42,7 @@ static void announce(const struct each *e)
     append_names(e, false, &copied);
     ceduo_text_format(&line, _("columns that are set: %s; copied: %s"), ceduo_text_string(&set), ceduo_text_string(&copied));
     if (!e->given->quiet)
-        ceduo_say_why(e->table.source->name, ceduo_text_string(&line));
+        ceduo_print_message(e->table.source->name, ceduo_text_string(&line));
 }
 
 static bool read_heads(struct each *e)
@@ -62,14 +62,13 @@ static bool read_heads(struct each *e)
                                     _("no column changes the scene: none of the heads is a path of --set"));
 }
 
-/* True if a cell of a number is YAML that is no number: {mean: 1, spread: 0.2}. */
+/* True if a cell is a YAML mapping or list: {mean: 1, spread: 0.2}. */
 static bool is_yaml(struct csv_cell cell)
 {
     return cell.n > 0 && (cell.p[0] == '{' || cell.p[0] == '[');
 }
 
-/* Report cells of the present record that can be read in two ways. What is no number at all is for the scene to judge: a place may be
- * end-10. */
+/* Report ambiguous numbers in the present record. The scene checks other text, because a place may be end-10. */
 static bool check_numbers(const struct each *e)
 {
     bool good = true;
@@ -85,7 +84,7 @@ static bool check_numbers(const struct each *e)
     return good;
 }
 
-/* Find the rows, and report those that are bad. */
+/* Find the rows and report errors in them. */
 static bool read_rows(struct each *e)
 {
     struct csv *t = &e->table;
@@ -95,7 +94,7 @@ static bool read_rows(struct each *e)
     if (t->rows == 0)
         return ceduo_problem(t->problems, t->source, 0, 0, _("no row below the head"));
     e->rows = ceduo_arena_take(&e->arena, t->rows * sizeof *e->rows);
-    t->arena = &e->row_arena; /* the scan has made the list of cells long enough */
+    t->arena = &e->row_arena; /* the list of cells has its final size after the scan */
     while (ceduo_csv_next_row(t)) {
         bool bad = t->bad || !check_numbers(e);
         e->bad_rows |= bad;
@@ -110,13 +109,13 @@ static enum exit_status read_table(struct each *e)
     struct problems problems = {0};
     bool good = ceduo_csv_open(&e->table, &e->arena, e->given->each, &problems);
     if (good) {
-        e->table.source->foreign = false; /* its name was given for this */
+        e->table.source->foreign = false; /* the user named it as a table */
         good = ceduo_csv_read_head(&e->table) && read_heads(e);
     }
     if (good)
-        announce(e);
+        print_columns(e);
     good = good && read_rows(e);
-    ceduo_say_problems(&problems);
+    ceduo_print_problems(&problems);
     e->table.problems = NULL;
     return good ? EXIT_DONE : EXIT_INPUT;
 }
@@ -133,7 +132,7 @@ enum exit_status ceduo_each_open(struct each *e, const struct arguments *a)
 
 /* ---- scene by scene ---- */
 
-/* Append a text as YAML in quotes. */
+/* Append a text as a quoted YAML scalar. */
 static void append_quoted(struct text *change, const char *cell)
 {
     ceduo_text_char(change, '\'');
@@ -142,7 +141,7 @@ static void append_quoted(struct text *change, const char *cell)
     ceduo_text_char(change, '\'');
 }
 
-/* Change that a cell of the present record asks for, PATH=VALUE; NULL: none. */
+/* Return the change of a cell of the present record, PATH=VALUE; NULL: none. */
 static const char *make_change(struct each *e, size_t column)
 {
     const struct each_head *head = &e->heads[column];
@@ -162,7 +161,7 @@ static const char *make_change(struct each *e, size_t column)
     return ceduo_arena_string(&e->row_arena, ceduo_text_string(&change));
 }
 
-/* Read the cells of a row, and the changes that they ask for. */
+/* Read the cells of a row and its changes. */
 static void read_row(struct each *e, const struct each_row *row)
 {
     struct word_list *sets = &e->arguments.sets;
@@ -171,7 +170,8 @@ static void read_row(struct each *e, const struct each_row *row)
     for (size_t i = e->heads_count; i-- > 0;) {
         struct csv_cell cell = ceduo_csv_cell(&e->table, i);
         e->cells[i] = ceduo_arena_copy(&e->row_arena, cell.p, cell.n);
-        if (ceduo_each_is_copied(&e->heads[i]) && cell.n > 0 && cell.n <= LABEL_MAX) /* the first short one: no geometry */
+        if (ceduo_each_is_copied(&e->heads[i]) && cell.n > 0 &&
+            cell.n <= LABEL_MAX) /* the first short cell, because a geometry is long */
             e->arguments.label = e->cells[i];
     }
     for (size_t i = 0; i < e->heads_count && !row->bad; i++) {
@@ -186,12 +186,12 @@ bool ceduo_each_next(struct each *e)
     const struct arguments *given = e->given;
     const struct each_row *row = NULL;
     do {
-        if (e->at == e->count)
+        if (e->current == e->count)
             return false;
         size_t scenes = given->scenes_count;
         ceduo_arena_free(&e->row_arena);
-        row = e->rows ? &e->rows[e->at / scenes] : NULL;
-        e->path = given->scenes[e->at++ % scenes];
+        row = e->rows ? &e->rows[e->current / scenes] : NULL;
+        e->path = given->scenes[e->current++ % scenes];
         e->name = row ? ceduo_arena_format(&e->row_arena, "%s:%zu", given->each, row->place.line) : e->path;
         e->arguments.label = NULL;
         e->arguments.called = row || e->count > 1 ? e->name : NULL;
@@ -261,7 +261,7 @@ void ceduo_each_close(struct each *e)
         LOCAL_TEXT(line);
         ceduo_text_format(&line, ngettext("%zu of %zu failed: %s", "%zu of %zu failed: %s", e->failures), e->failures, e->count,
                           ceduo_text_string(&e->failed));
-        ceduo_say_why("ceduo", ceduo_text_string(&line));
+        ceduo_print_message("ceduo", ceduo_text_string(&line));
     }
     ceduo_text_free(&e->failed);
     ceduo_arena_free(&e->row_arena);

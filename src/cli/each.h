@@ -13,7 +13,7 @@
 struct each_head {
     const char *name;     /* "": the column is ignored */
     const char *printed;  /* name of a copied column in CSV */
-    enum path_value sets; /* kind of the value that it sets; PATH_UNKNOWN: it is copied */
+    enum path_value sets; /* kind of the value that it sets; PATH_UNKNOWN: copied */
 };
 
 static inline bool ceduo_each_is_copied(const struct each_head *head)
@@ -21,8 +21,8 @@ static inline bool ceduo_each_is_copied(const struct each_head *head)
     return head->sets == PATH_UNKNOWN && head->name[0];
 }
 
-/* Decide which columns are set and which are copied. Reports heads that occur twice or look like a wrong path, and returns false if
- * there is one. `heads` has an element for each head of the table. */
+/* Decide for each head of the table if its column is set or copied. Report duplicate heads and heads that look like a wrong path, and
+ * return false. */
 bool ceduo_each_heads(const struct csv *table, struct arena *arena, struct each_head *heads);
 
 struct each_row {
@@ -30,44 +30,44 @@ struct each_row {
     bool bad;
 };
 
-/* The scenes that are computed one after the other: all of the command line, with --each once for each row of a table. */
+/* The scenes to compute: all on the command line; with --each, once for each row of a table. */
 struct each {
     const struct arguments *given;
     struct arguments arguments; /* of the present scene, with the changes of its row */
     const char *path;           /* of the present scene */
     const char *name;           /* of the present scene in messages: its path, or "slopes.csv:17" */
-    size_t at, count;           /* number of the present scene, from 1; number of all scenes */
+    size_t current, count;      /* number of the present scene, from 1; of all scenes */
     struct arena arena, row_arena;
     struct csv table;
     size_t heads_count, rows_count;
     struct each_head *heads;
     struct each_row *rows; /* NULL: no --each */
-    const char **cells;    /* of the present row, one for each head */
+    const char **cells;    /* of the current row, one for each head */
     bool names_files;      /* cells may name files that the scene reads */
     bool bad_rows;         /* at least one row cannot be read */
     struct text failed;    /* names of the scenes that failed */
     size_t failures;
 };
 
-/* Read the table if there is one. Returns another status than EXIT_DONE if nothing can be computed, which is reported. */
+/* Read the table if there is one. Report an error and return its status if nothing can be computed. */
 enum exit_status ceduo_each_open(struct each *each, const struct arguments *arguments);
 
-/* Go to the next scene; false after the last. Scenes of bad rows are skipped and noted as failed. */
+/* Go to the next scene; false after the last. Skips scenes of bad rows and counts them as failed. */
 bool ceduo_each_next(struct each *each);
 
-/* Note that the present scene failed. */
+/* Count the current scene as failed. */
 void ceduo_each_note_failed(struct each *each);
 
-/* Add the object "row": the copied cells. A cell is a number only if the number prints as the same text. */
+/* Append the object "row" with the copied cells. A cell becomes a number only if that prints as the text of the cell. */
 void ceduo_each_json(const struct each *each, struct json *json);
 
-/* Add a line that names the present row in front of its page. */
+/* Append a line with the name of the current row, before its page. */
 void ceduo_each_page(const struct each *each, struct text *page);
 
-/* Hash of the present scene's path and the cells of its row. */
+/* Return the hash of the path of the current scene and the cells of its row. */
 uint64_t ceduo_each_hash(const struct each *each);
 
-/* Report how many scenes failed, and which, and free all. */
+/* Report the failed scenes and their number, and free all. */
 void ceduo_each_close(struct each *each);
 
 /* ---- columns.c ---- */
@@ -81,20 +81,20 @@ struct csv_span {
 /* Columns of CSV: the copied cells of --each, then the cells of the result. --columns chooses among both. */
 struct columns {
     struct each *each;
-    size_t count;   /* copied columns and those of the result */
-    size_t *chosen; /* numbers of columns; NULL: all */
+    size_t count;   /* of copied columns and columns of the result */
+    size_t *chosen; /* indices of columns; NULL: all */
     size_t chosen_count;
-    struct csv_span *cells; /* of the present line */
+    struct csv_span *cells; /* of the current line */
 };
 
-/* Choose the columns. `header`: head of the result, empty if the output is not CSV. Sets the printed names of the copied columns: row.
- * precedes a name that the result has, too. Returns EXIT_USAGE if --columns names an unknown one, which is reported. */
+/* Choose the columns. `header`: head of the result; empty if the output is not CSV. Sets the printed names of copied columns, with
+ * the prefix row. if the result has such a name, too. Report an unknown name in --columns and return EXIT_USAGE. */
 enum exit_status ceduo_columns_open(struct columns *columns, struct each *each, const struct text *header);
 
 /* Append the head of the output. */
 void ceduo_columns_head(const struct columns *columns, const struct text *header, struct text *out);
 
-/* Append lines of the result with the copied cells of the present row. */
+/* Append lines of the result, with the copied cells of the current row. */
 void ceduo_columns_lines(const struct columns *columns, const struct text *lines, struct text *out);
 
 #endif

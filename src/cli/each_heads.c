@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Heads of --each: a path of --set, the name of a copied column, or a slip. */
+/* Heads of --each: a path of --set, the name of a copied column, or a typing error. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -8,12 +8,12 @@
 #include "base/must.h"
 #include "each.h"
 
-/* ---- paths that a head may have meant ---- */
+/* ---- intended paths ---- */
 
 struct meant {
-    const char *pattern; /* path with [] for each place in a list */
+    const char *pattern; /* path with [] for each index */
     const char *key;     /* last key */
-    bool everyday;       /* the key is a word for columns of any table, too */
+    bool everyday;       /* the key is a common head of other tables, too */
 };
 
 struct meants {
@@ -58,12 +58,12 @@ static void add_meant(struct meants *m, const char *pattern, size_t length, enum
             return;
     const char *dot = strrchr(copy, '.'), *key = dot ? dot + 1 : copy;
     m->items = ceduo_arena_more(&m->arena, m->items, m->n, 1, &m->capacity, sizeof *m->items);
-    /* a mapping has no last key that a head could be: energy and height are columns of many tables */
+    /* the key of a mapping is never a typing error: energy and height are columns of many tables */
     bool everyday = kind == PATH_OTHER || is_everyday(copy, key, kind);
     m->items[m->n++] = (struct meant){copy, key, everyday};
 }
 
-/* Add a value, what it is a part of if that may be a file, and the part of the scene that holds it. */
+/* Add a value, each part of its path that may be a file, and its top-level key. */
 static void add_path(void *meants, const char *path, const struct field *f)
 {
     struct meants *m = meants;
@@ -74,7 +74,7 @@ static void add_path(void *meants, const char *path, const struct field *f)
             const char *around = ceduo_arena_copy(&m->arena, path, n);
             bool file = ceduo_schema_value(fill_brackets(&m->arena, around, NULL)) == PATH_FILE;
             if (file)
-                add_meant(m, path, n, PATH_WORD); /* a head such as stand or slope means the file */
+                add_meant(m, path, n, PATH_WORD); /* heads such as stand or slope name the file */
         }
     size_t top = strcspn(path, ".[");
     const char *part = ceduo_arena_copy(&m->arena, path, top);
@@ -84,23 +84,23 @@ static void add_path(void *meants, const char *path, const struct field *f)
     add_meant(m, path, strlen(path), kind == PATH_OTHER ? PATH_NUMBER : kind);
 }
 
-/* ---- slips ---- */
+/* ---- typing errors ---- */
 
 static char lower(char c)
 {
     return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
-/* True if one letter added, left out or replaced, or two letters exchanged, make one word the other, in whatever case. */
+/* True if two words differ by one added, missing or replaced letter, or by two exchanged letters. Ignores case. */
 static bool is_one_edit(const char *a, const char *b)
 {
     size_t n = strlen(a), m = strlen(b), begin = 0, end = 0;
     if (n > m + 1 || m > n + 1)
         return false;
-    size_t less = n < m ? n : m;
-    while (begin < less && lower(a[begin]) == lower(b[begin]))
+    size_t shorter = n < m ? n : m;
+    while (begin < shorter && lower(a[begin]) == lower(b[begin]))
         begin++;
-    while (end < less - begin && lower(a[n - 1 - end]) == lower(b[m - 1 - end]))
+    while (end < shorter - begin && lower(a[n - 1 - end]) == lower(b[m - 1 - end]))
         end++;
     size_t left = n - begin - end, right = m - begin - end;
     bool exchanged =
@@ -108,7 +108,7 @@ static bool is_one_edit(const char *a, const char *b)
     return exchanged || (left <= 1 && right <= 1);
 }
 
-/* The path that a copied column may have meant; NULL: none. */
+/* Return the path that the head of a copied column probably means; NULL: none. */
 static const char *find_meant(const struct meants *m, struct arena *arena, const char *head)
 {
     for (size_t i = 0; i < m->n; i++)
@@ -123,7 +123,7 @@ static const char *find_meant(const struct meants *m, struct arena *arena, const
     return NULL;
 }
 
-/* The path nearest to one that is none; NULL: none is near. */
+/* Return the path nearest to an invalid path; NULL: none. */
 static const char *find_nearest(const struct meants *m, struct arena *arena, const char *head)
 {
     LOCAL_TEXT(pattern);
@@ -139,13 +139,13 @@ static const char *find_nearest(const struct meants *m, struct arena *arena, con
     return near ? fill_brackets(arena, near, head) : NULL;
 }
 
-/* Report a head that is copied although it looks like a path; true if it does not. */
+/* Report the head of a copied column if it looks like a path. Return true if it does not. */
 static bool check_copied(const struct csv *table, size_t column, const struct meants *m, struct arena *arena, const char *head)
 {
     bool path = strpbrk(head, ".[");
-    const char *instead = path ? ceduo_gone(head) : NULL;
-    if (instead)
-        return ceduo_csv_error(table, table->heads[column], "'%s': %s", head, _(instead));
+    const char *removed = path ? ceduo_gone(head) : NULL;
+    if (removed)
+        return ceduo_csv_error(table, table->heads[column], "'%s': %s", head, _(removed));
     const char *meant = path ? find_nearest(m, arena, head) : find_meant(m, arena, head);
     if (meant)
         return ceduo_csv_error(table, table->heads[column],
@@ -160,7 +160,7 @@ static bool check_copied(const struct csv *table, size_t column, const struct me
 /* ---- all heads ---- */
 
 struct printed_head {
-    const char *text; /* as CSV has it */
+    const char *text; /* in CSV */
     size_t column;
 };
 
@@ -171,10 +171,10 @@ static int compare_printed(const void *a, const void *b)
     return order != 0 ? order : (x->column > y->column) - (x->column < y->column);
 }
 
-static bool check_twice(const struct csv *table, struct arena *arena, const struct each_head *heads, size_t n)
+static bool check_duplicates(const struct csv *table, struct arena *arena, const struct each_head *heads, size_t n)
 {
     struct printed_head *sorted = ceduo_arena_take(arena, (n + 1) * sizeof *sorted);
-    size_t named = 0, twice = 0;
+    size_t named = 0, duplicates = 0;
     for (size_t i = 0; i < n; i++) {
         LOCAL_TEXT(text);
         ceduo_text_csv(&text, heads[i].name);
@@ -182,12 +182,12 @@ static bool check_twice(const struct csv *table, struct arena *arena, const stru
             sorted[named++] = (struct printed_head){ceduo_arena_string(arena, ceduo_text_string(&text)), i};
     }
     qsort(sorted, named, sizeof *sorted, compare_printed);
-    for (size_t i = 1; i < named && twice < CEDUO_PROBLEMS_MOST; i++)
+    for (size_t i = 1; i < named && duplicates < CEDUO_PROBLEMS_MOST; i++)
         if (strcmp(sorted[i - 1].text, sorted[i].text) == 0) {
-            twice++;
+            duplicates++;
             ceduo_csv_error(table, table->heads[sorted[i].column], _("'%s' is given twice"), heads[sorted[i].column].name);
         }
-    return twice == 0;
+    return duplicates == 0;
 }
 
 bool ceduo_each_heads(const struct csv *table, struct arena *arena, struct each_head *heads)
@@ -204,5 +204,5 @@ bool ceduo_each_heads(const struct csv *table, struct arena *arena, struct each_
             bad += !check_copied(table, i, &m, &scratch, name);
     }
     ceduo_arena_free(&m.arena);
-    return check_twice(table, &scratch, heads, n) && bad == 0;
+    return check_duplicates(table, &scratch, heads, n) && bad == 0;
 }

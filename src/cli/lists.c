@@ -8,26 +8,26 @@
 #include "io/file.h"
 #include "io/node.h"
 #include "io/survey_file.h"
-#include "say.h"
+#include "messages.h"
 #include "scene/schema.h"
 #include "view/figures.h"
 
 /* ---- tables ---- */
 
-#define WIDTH_MOST 44 /* of a column; what is wider sticks out */
+#define WIDTH_MAX 44 /* of a column; wider cells shift the rest of the line */
 
-/* Columns of a tab-separated table set below one another; the last is left as it is. */
+/* Align the columns of a tab-separated table, except the last. */
 static void align(struct text *to, const char *rows)
 {
     size_t widths[8] = {0}, column = 0, n;
-    for (int puts = 0; puts < 2; puts++)
+    for (int pass = 0; pass < 2; pass++)
         for (const char *p = rows; *p; p += n + 1) {
             n = strcspn(p, "\t\n");
             size_t width = ceduo_utf8_width_of(p, n);
             bool last = p[n] == '\n';
-            if (!puts && !last && width > widths[column])
-                widths[column] = width > WIDTH_MOST ? WIDTH_MOST : width;
-            if (puts) {
+            if (!pass && !last && width > widths[column])
+                widths[column] = width > WIDTH_MAX ? WIDTH_MAX : width;
+            if (pass) {
                 ceduo_text_add(to, p, n);
                 ceduo_text_format(to, "%*s", last ? 0 : width > widths[column] ? 1 : (int)(widths[column] + 2 - width), "");
                 ceduo_text_put(to, last ? "\n" : "");
@@ -36,13 +36,13 @@ static void align(struct text *to, const char *rows)
         }
 }
 
-/* Prints rows as a table, with what stands below it. */
+/* Print rows as a table, with a text below it. */
 static enum exit_status print_table(const struct arguments *a, struct text *rows, const char *below)
 {
     LOCAL_TEXT(table);
     align(&table, ceduo_text_string(rows));
     ceduo_text_put(&table, below);
-    ceduo_say_plainly(&table);
+    ceduo_fit_charset(&table);
     ceduo_text_free(rows);
     return ceduo_output_write(a, &table);
 }
@@ -54,12 +54,12 @@ static const char *const type_names[] = {
     [FIELD_SPREADS] = "3 numbers~", [FIELD_COUNT] = "count", [FIELD_CHOICE] = "word",   [FIELD_FLAG] = "flag",
     [FIELD_NUMBERS] = "numbers",    [FIELD_WORDS] = "words", [FIELD_POINTS] = "points"};
 
-static void put_parameter(void *context, const char *path, const struct field *f)
+static void print_parameter(void *context, const char *path, const struct field *f)
 {
     struct text *text = context;
     LOCAL_TEXT(words);
     if (f->type == FIELD_TAG || strncmp(path, "options[].forest[].", 19) == 0)
-        return; /* as forest[] */
+        return; /* equal to forest[] */
     if (f->choices)
         ceduo_text_words(&words, f->choices->names, f->choices->n, "|");
     else if (!ceduo_schema_range_text(f, &words))
@@ -73,7 +73,7 @@ enum exit_status ceduo_batch_parameters(const struct arguments *a)
     struct text rows = {0};
     ceduo_text_format(&rows, "%s\t%s\t%s\t%s\t%s\t%s\n", _("path"), _("type"), _("unit"), _("range"), _("default"),
                       _("meaning"));
-    ceduo_schema_visit(ceduo_schema_scene(), "", put_parameter, &rows);
+    ceduo_schema_visit(ceduo_schema_scene(), "", print_parameter, &rows);
     return print_table(a, &rows,
                        _("\nnumber~: also {mean: ..., spread: ..., kind: normal|uniform}, drawn for each rock\n"
                          "options[].forest[] holds what forest[] holds; any mapping may hold source: {kind, text}\n"));
@@ -95,7 +95,7 @@ enum exit_status ceduo_batch_schema(const struct arguments *a)
         const char *format;
         const struct ceduo_figure *figures;
         bool row;
-    } outputs[] = {{"ceduo-result-1", ceduo_result_figures, true}, /* as the words of the option's row */
+    } outputs[] = {{"ceduo-result-1", ceduo_result_figures, true}, /* in the order of the option's words */
                    {"ceduo-find-1", ceduo_find_figures, true},
                    {"ceduo-sensitivity-1", ceduo_doubt_figures, true},
                    {"ceduo-calibration-1", ceduo_calibration_figures, false}};
@@ -106,7 +106,7 @@ enum exit_status ceduo_batch_schema(const struct arguments *a)
 
 /* ---- profiles ---- */
 
-static const char *title_of(struct arena *arena, const char *path)
+static const char *read_title(struct arena *arena, const char *path)
 {
     LOCAL_PROBLEMS(problems);
     const struct source *source = ceduo_file_read(arena, path, YAML_BYTES_MOST, &problems);
@@ -127,11 +127,11 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
         for (size_t f = 0, n; folders[f]; f++) {
             const char *const *names = ceduo_file_list(&arena, folders[f], kinds[k][0], &n);
-            for (size_t i = 0; i < n; i++) { /* what is typed comes first: the file's name without its ending */
+            for (size_t i = 0; i < n; i++) { /* first the name to type: the file's name without .yaml */
                 const char *path = ceduo_arena_format(&arena, "%s/%s/%s.yaml", folders[f], kinds[k][0], names[i]);
                 ceduo_text_safe(&rows, names[i]);
                 ceduo_text_format(&rows, "\t%s\t", kinds[k][1]);
-                ceduo_text_safe(&rows, title_of(&arena, path));
+                ceduo_text_safe(&rows, read_title(&arena, path));
                 ceduo_text_char(&rows, '\t');
                 ceduo_text_safe(&rows, path);
                 ceduo_text_char(&rows, '\n');
@@ -142,7 +142,7 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
 
 /* ---- surveys ---- */
 
-/* The stand of a CSV file of sample plots; or an empty one. */
+/* Print the stand of a survey, or an empty sheet. */
 enum exit_status ceduo_batch_survey(const struct arguments *a)
 {
     LOCAL_ARENA(arena);
@@ -150,16 +150,16 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
     struct survey_file file;
     LOCAL_TEXT(yaml);
     LOCAL_TEXT(line);
-    bool sheet = strcmp(a->survey, "--template") == 0, standard = strcmp(a->survey, "-") == 0;
-    const char *found = standard || sheet ? NULL : ceduo_file_find(&arena, a->survey, NULL, "surveys");
-    if (sheet)
+    bool template = strcmp(a->survey, "--template") == 0, standard = strcmp(a->survey, "-") == 0;
+    const char *found = standard || template ? NULL : ceduo_file_find(&arena, a->survey, NULL, "surveys");
+    if (template)
         ceduo_survey_template(&yaml);
-    bool good = sheet || (ceduo_survey_read(&file, &arena, found ? found : a->survey, NULL, &problems) &&
-                          ceduo_survey_stand(&file, &yaml, &problems));
-    ceduo_say_problems(&problems);
-    if (good && !sheet && !a->quiet) {
+    bool good = template || (ceduo_survey_read(&file, &arena, found ? found : a->survey, NULL, &problems) &&
+                             ceduo_survey_stand(&file, &yaml, &problems));
+    ceduo_print_problems(&problems);
+    if (good && !template && !a->quiet) {
         ceduo_text_format(&line, "%s\n", file.understood);
-        ceduo_say(&line);
+        ceduo_print_error(&line);
     }
     return good ? ceduo_output_write(a, &yaml) : EXIT_INPUT;
 }

@@ -10,15 +10,15 @@
 #include "base/must.h"
 #include "batch.h"
 #include "ceduo/status.h"
-#include "say.h"
+#include "messages.h"
 #include "tui/program.h"
 
-/* Ends the program without memory, from any thread; nothing here allocates. What a person has edited is in the recovery
- * copy already, which each edit writes; a file is put in its place whole or not at all. */
+/* End the program without memory, from any thread, without allocating. Edits are already in the recovery copy, which each edit
+ * writes. Files are replaced atomically. */
 static void end_without_memory(void)
 {
     static atomic_flag ends = ATOMIC_FLAG_INIT;
-    while (atomic_flag_test_and_set(&ends)) /* another thread does it */
+    while (atomic_flag_test_and_set(&ends)) /* another thread ends the program */
         pause();
     fprintf(stderr, "ceduo: %s\n",
             ceduo_terminal_restore() ? _("out of memory; unsaved work was kept and is offered at the next start")
@@ -26,7 +26,7 @@ static void end_without_memory(void)
     _exit(EXIT_RUN);
 }
 
-/* GSL's own handler would abort. Some of its functions go on with what they could not allocate. */
+/* Replace GSL's handler, which aborts. Some functions of GSL use memory that they failed to allocate. */
 static void on_gsl_error(const char *reason, const char *file, int line, int error)
 {
     (void)reason, (void)file, (void)line;
@@ -34,37 +34,37 @@ static void on_gsl_error(const char *reason, const char *file, int line, int err
         end_without_memory();
 }
 
-static enum exit_status print(const struct arguments *a)
+static enum exit_status print_info(const struct arguments *a)
 {
     LOCAL_TEXT(text);
     if (a->mode == MODE_HELP)
         ceduo_arguments_help(&text);
     else
         ceduo_text_format(&text, "ceduo %s\n", CEDUO_VERSION);
-    ceduo_say_plainly(&text);
+    ceduo_fit_charset(&text);
     return ceduo_output_write(a, &text);
 }
 
-static enum exit_status no_terminal(const char *why)
+static enum exit_status report_no_terminal(const char *reason)
 {
     LOCAL_TEXT(text);
-    ceduo_text_format(&text, _("ceduo: %s; use 'ceduo --batch SCENE.yaml', or try 'ceduo --help'\n"), why);
-    ceduo_say(&text);
+    ceduo_text_format(&text, _("ceduo: %s; use 'ceduo --batch SCENE.yaml', or try 'ceduo --help'\n"), reason);
+    ceduo_print_error(&text);
     return EXIT_USAGE;
 }
 
-/* Opens the terminal program, or feeds it the script that was given. */
+/* Open the terminal program, or run a script in it. */
 static enum exit_status interact(const struct arguments *a)
 {
     static const enum exit_status statuses[] = {EXIT_DONE, EXIT_USAGE, EXIT_INPUT, EXIT_OUTPUT}; /* of a script */
-    const char *why = a->script ? NULL : ceduo_terminal_missing();
-    if (why)
-        return no_terminal(why);
+    const char *reason = a->script ? NULL : ceduo_terminal_missing();
+    if (reason)
+        return report_no_terminal(reason);
     struct app app;
     struct problems problems = {0};
     bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, a->charset, (unsigned)a->threads,
                                      a->script != NULL, &problems);
-    ceduo_say_problems(&problems);
+    ceduo_print_problems(&problems);
     if (!good)
         return EXIT_INPUT;
     enum exit_status status;
@@ -74,7 +74,7 @@ static enum exit_status interact(const struct arguments *a)
         enum terminal_end end = ceduo_terminal_run(&app);
         status = end == TERMINAL_DONE ? EXIT_DONE : EXIT_RUN;
         if (end == TERMINAL_NONE)
-            status = no_terminal(_("this terminal cannot be used"));
+            status = report_no_terminal(_("this terminal cannot be used"));
     }
     ceduo_program_free(&app);
     return status;
@@ -83,13 +83,13 @@ static enum exit_status interact(const struct arguments *a)
 int main(int argc, char **argv)
 {
     ceduo_memory_hook = end_without_memory;
-    /* A file opened later must not become standard output by chance. Reading from or writing to a closed one then fails as
-     * it should: /dev/null is opened the wrong way round. */
+    /* If a standard stream is closed, open /dev/null in its place, so that no other file gets its number. The mode is inverted:
+     * reading and writing must still fail. */
     for (int fd = 0; fd <= 2; fd++)
         if (fcntl(fd, F_GETFD) < 0)
             open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
     ceduo_language_start();
-    signal(SIGXFSZ, SIG_IGN); /* a file that is too large for its limit is an error like a full disk */
+    signal(SIGXFSZ, SIG_IGN); /* a file size limit becomes an error like a full disk */
     gsl_set_error_handler(on_gsl_error);
     static enum exit_status (*const commands[])(const struct arguments *arguments) = {
         [MODE_TERMINAL] = interact,
@@ -104,14 +104,14 @@ int main(int argc, char **argv)
         [MODE_COLUMNS] = ceduo_batch_columns,
         [MODE_SCHEMA] = ceduo_batch_schema,
         [MODE_SURVEY] = ceduo_batch_survey,
-        [MODE_HELP] = print,
-        [MODE_VERSION] = print,
+        [MODE_HELP] = print_info,
+        [MODE_VERSION] = print_info,
     };
     struct arguments arguments;
     enum exit_status status = ceduo_arguments_read(&arguments, argc, argv);
-    if (status == EXIT_DONE) /* whether it can be written is told before anything is computed */
+    if (status == EXIT_DONE) /* report an unwritable output before computing */
         status = ceduo_output_check(&arguments) ? commands[arguments.mode](&arguments) : EXIT_OUTPUT;
-    ceduo_say_no_progress();
+    ceduo_clear_progress();
     ceduo_arguments_free(&arguments);
     return (int)status;
 }

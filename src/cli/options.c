@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options of the command line in one table: parsing, help and the checks of what goes together read it. A new option is a
- * row, and a setter where its value is like no other's. The lists of changes and options are the arguments' own; their strings
- * are those of main(). */
+/* The options of the command line in one table, which the parser, the help and the checks read. A new option is a row, and a setter
+ * if no other fits. The lists of changes and options belong to the arguments; their strings are those of main(). */
 #include <getopt.h>
 #include <math.h>
 #include <sched.h>
@@ -17,22 +16,22 @@
 #include "base/utf8.h"
 #include "ceduo/doubt.h"
 #include "ceduo/years.h"
-#include "say.h"
+#include "messages.h"
 #include "scene/choices.h"
 
-#define WIDTH_LEAST  20
-#define HEIGHT_LEAST 6
-#define THREADS_MOST 1024
+#define WIDTH_MIN   20
+#define HEIGHT_MIN  6
+#define THREADS_MAX 1024
 
-/* ---- setters that several options share ---- */
+/* ---- shared setters ---- */
 
 static enum exit_status set_text(struct arguments *a, const struct option_row *row, char *value)
 {
-    memcpy((char *)a + row->at, &value, sizeof value);
+    memcpy((char *)a + row->offset, &value, sizeof value);
     return EXIT_DONE;
 }
 
-/* One of the words of row->value, to an enum or a count. */
+/* Set an enum or a count to the index of a word of row->value. */
 static enum exit_status set_word(struct arguments *a, const struct option_row *row, char *value)
 {
     int i = 0;
@@ -41,16 +40,16 @@ static enum exit_status set_word(struct arguments *a, const struct option_row *r
     for (const char *word = row->value; *word; i++) {
         size_t n = strcspn(word, "|");
         if (n == length && strncmp(word, value, n) == 0) {
-            memcpy((char *)a + row->at, &i, sizeof i);
+            memcpy((char *)a + row->offset, &i, sizeof i);
             return EXIT_DONE;
         }
         ceduo_text_format(&all, "%s%.*s", i > 0 ? ", " : "", (int)n, word);
         word += n + (word[n] == '|');
     }
-    return ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, all.bytes);
+    return ceduo_usage_error(row->name, _("'%s' is unknown; one of: %s"), value, all.bytes);
 }
 
-/* At once: what is wrong with a later option is said in this language. */
+/* Set the language immediately, for messages about later options. */
 static enum exit_status set_language(struct arguments *a, const struct option_row *row, char *value)
 {
     enum exit_status status = set_word(a, row, value);
@@ -61,7 +60,7 @@ static enum exit_status set_language(struct arguments *a, const struct option_ro
 
 static enum exit_status add_word(struct arguments *a, const struct option_row *row, char *value)
 {
-    struct word_list *words = (void *)((char *)a + row->at);
+    struct word_list *words = (void *)((char *)a + row->offset);
     words->items[words->n++] = value;
     return EXIT_DONE;
 }
@@ -71,20 +70,21 @@ static enum exit_status add_word(struct arguments *a, const struct option_row *r
 static enum exit_status set_flag(struct arguments *a, const struct option_row *row, char *value)
 {
     (void)value;
-    *(bool *)((char *)a + row->at) = true;
+    *(bool *)((char *)a + row->offset) = true;
     return EXIT_DONE;
 }
 
-/* A whole number from row->lo to row->hi; without one the member stays as it is. */
+/* Set a whole number from row->lo to row->hi. Without a value the member keeps its default. */
 static enum exit_status set_count(struct arguments *a, const struct option_row *row, char *value)
 {
-    switch (value ? ceduo_count_read(value, row->lo, row->hi, (uint64_t *)(void *)((char *)a + row->at)) : CEDUO_NUMBER_GOOD) {
+    switch (value ? ceduo_count_read(value, row->lo, row->hi, (uint64_t *)(void *)((char *)a + row->offset))
+                  : CEDUO_NUMBER_GOOD) {
     case CEDUO_NUMBER_GOOD:
         return EXIT_DONE;
     case CEDUO_NUMBER_TOO_LARGE:
-        return ceduo_usage(row->name, _("%s is outside %s to %s"), value, NUMERAL(row->lo), NUMERAL(row->hi));
+        return ceduo_usage_error(row->name, _("%s is outside %s to %s"), value, NUMERAL(row->lo), NUMERAL(row->hi));
     default:
-        return ceduo_usage(row->name, _("'%s' is not a whole number"), value);
+        return ceduo_usage_error(row->name, _("'%s' is not a whole number"), value);
     }
 }
 
@@ -96,30 +96,31 @@ static enum exit_status set_seed(struct arguments *a, const struct option_row *r
     return status;
 }
 
-/* What is no number may be a share in percent. */
-static enum exit_status no_number(const struct option_row *row, const char *value)
+/* Report text that is not a number; if it is a percentage, suggest the share. */
+static enum exit_status report_no_number(const struct option_row *row, const char *value)
 {
     char part[64];
     double number;
     size_t length = strlen(value);
     snprintf(part, sizeof part, "%.*s", (int)(length < sizeof part ? length - (length > 0) : 0), value);
     if (length > 0 && value[length - 1] == '%' && ceduo_number_read(part, &number) == CEDUO_NUMBER_GOOD)
-        return ceduo_usage(row->name, _("'%s' is not a number; write %s"), value, ceduo_number_shortest(number / 100, part));
-    return ceduo_usage(row->name, _("'%s' is not a number"), value);
+        return ceduo_usage_error(row->name, _("'%s' is not a number; write %s"), value,
+                                 ceduo_number_shortest(number / 100, part));
+    return ceduo_usage_error(row->name, _("'%s' is not a number"), value);
 }
 
-static enum exit_status no_share(const struct option_row *row, const char *value)
+static enum exit_status report_no_share(const struct option_row *row, const char *value)
 {
-    return ceduo_usage(row->name, _("%s is not a share; write a number between 0 and 1, such as 0.05 for 5 %%"), value);
+    return ceduo_usage_error(row->name, _("%s is not a share; write a number between 0 and 1, such as 0.05 for 5 %%"), value);
 }
 
-/* A share above 0, at most row->hi. */
+/* Set a share above 0, at most row->hi. */
 static enum exit_status set_share(struct arguments *a, const struct option_row *row, char *value)
 {
-    double *share = (double *)(void *)((char *)a + row->at);
+    double *share = (double *)(void *)((char *)a + row->offset);
     if (ceduo_number_read(value, share) != CEDUO_NUMBER_GOOD)
-        return no_number(row, value);
-    return *share > 0 && *share <= row->hi ? EXIT_DONE : no_share(row, value);
+        return report_no_number(row, value);
+    return *share > 0 && *share <= row->hi ? EXIT_DONE : report_no_share(row, value);
 }
 
 static enum exit_status set_plot(struct arguments *a, const struct option_row *row, char *value)
@@ -128,21 +129,21 @@ static enum exit_status set_plot(struct arguments *a, const struct option_row *r
     if (a->plot != CEDUO_PLOT_NONE)
         return EXIT_DONE;
     const char *remedy = ceduo_gone(value);
-    return remedy ? ceduo_usage(row->name, _("'%s' is gone: %s"), value, _(remedy))
-                  : ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_plot_names);
+    return remedy ? ceduo_usage_error(row->name, _("'%s' is gone: %s"), value, _(remedy))
+                  : ceduo_usage_error(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_plot_names);
 }
 
-/* Numbers with a separator between them, `least` to `most`; those that are missing stay as they were. */
-static bool read_numbers(const char *text, const char *separator, int least, int most, double *numbers)
+/* Read min to max numbers with a separator between them. Missing ones keep their values. */
+static bool read_numbers(const char *text, const char *separator, int min, int max, double *numbers)
 {
-    for (int n = 1; n <= most; n++) {
+    for (int n = 1; n <= max; n++) {
         char part[256];
         size_t length = strcspn(text, separator);
         snprintf(part, sizeof part, "%.*s", (int)(length < sizeof part ? length : 0), text);
         if (ceduo_number_read(part, &numbers[n - 1]) != CEDUO_NUMBER_GOOD)
             return false;
         if (!text[length])
-            return n >= least;
+            return n >= min;
         text += length + 1;
     }
     return false;
@@ -153,29 +154,29 @@ static bool is_whole(double number)
     return number == floor(number);
 }
 
-/* Report a value of another form than the option has. */
-static enum exit_status no_form(const struct option_row *row, const char *value, const char *form, const char *example)
+/* Report a value in a wrong form. */
+static enum exit_status report_form(const struct option_row *row, const char *value, const char *form, const char *example)
 {
-    return ceduo_usage(row->name, _("'%s' is not %s, such as '%s'"), value, form, example);
+    return ceduo_usage_error(row->name, _("'%s' is not %s, such as '%s'"), value, form, example);
 }
 
 static enum exit_status set_size(struct arguments *a, const struct option_row *row, char *value)
 {
     double n[2];
     if (!read_numbers(value, "x", 2, 2, n) || !is_whole(n[0]) || !is_whole(n[1]))
-        return no_form(row, value, "COLUMNSxLINES", "80x24");
-    if (n[0] < WIDTH_LEAST || n[0] > CEDUO_CANVAS_MAX_WIDTH || n[1] < HEIGHT_LEAST || n[1] > CEDUO_CANVAS_MAX_HEIGHT) {
-        char least[16], most[16];
-        snprintf(least, sizeof least, "%dx%d", WIDTH_LEAST, HEIGHT_LEAST);
-        snprintf(most, sizeof most, "%dx%d", CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
-        return ceduo_usage(row->name, _("%s is outside %s to %s"), value, least, most);
+        return report_form(row, value, "COLUMNSxLINES", "80x24");
+    if (n[0] < WIDTH_MIN || n[0] > CEDUO_CANVAS_MAX_WIDTH || n[1] < HEIGHT_MIN || n[1] > CEDUO_CANVAS_MAX_HEIGHT) {
+        char smallest[16], largest[16];
+        snprintf(smallest, sizeof smallest, "%dx%d", WIDTH_MIN, HEIGHT_MIN);
+        snprintf(largest, sizeof largest, "%dx%d", CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
+        return ceduo_usage_error(row->name, _("%s is outside %s to %s"), value, smallest, largest);
     }
     a->plot_width = (int)n[0];
     a->plot_height = (int)n[1];
     return EXIT_DONE;
 }
 
-/* "A:B" or "A:B:STEP", whole years; without a value the years ahead. */
+/* Set "A:B" or "A:B:STEP", whole years; without a value, the years ahead. */
 static enum exit_status set_years(struct arguments *a, const struct option_row *row, char *value)
 {
     a->years = true;
@@ -184,26 +185,26 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
     double parts[3] = {0, 0, 1};
     bool good = read_numbers(value, ":", 2, 3, parts) && is_whole(parts[0]) && is_whole(parts[1]) && is_whole(parts[2]);
     if (!good)
-        return no_form(row, value, "A:B[:STEP]", "0:25");
+        return report_form(row, value, "A:B[:STEP]", "0:25");
     if (parts[0] < 0 || parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1 ||
         (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
-        return ceduo_usage(row->name, _("%s: expected at most %d years of 0 (the stand as filed) to 100000"), value,
-                           CEDUO_YEARS_MOST);
+        return ceduo_usage_error(row->name, _("%s: expected at most %d years of 0 (the stand as filed) to 100000"), value,
+                                 CEDUO_YEARS_MOST);
     a->window = (struct ceduo_window){
         .first = (unsigned)parts[0], .last = (unsigned)parts[1], .step = parts[2] > 100000 ? 100000 : (unsigned)parts[2]};
     return EXIT_DONE;
 }
 
-/* "PATH=LO:HI", of which the path stays where it is. `one`: it may be one value. */
-static enum exit_status read_range(const struct option_row *row, char *value, const char *such_as, bool one,
+/* Read "PATH=LO:HI". The path is not copied. `one`: LO and HI may be equal. */
+static enum exit_status read_range(const struct option_row *row, char *value, const char *example, bool one,
                                    struct path_range *range)
 {
     char *equals = strrchr(value, '=');
     double ends[2];
     if (!equals || equals == value || !read_numbers(equals + 1, ":", 2, 2, ends))
-        return no_form(row, value, row->value, such_as);
+        return report_form(row, value, row->value, example);
     if (one ? ends[1] < ends[0] : ends[1] <= ends[0])
-        return ceduo_usage(row->name, _("the range %s is empty; HI must be above LO"), equals + 1);
+        return ceduo_usage_error(row->name, _("the range %s is empty; HI must be above LO"), equals + 1);
     *equals = '\0';
     *range = (struct path_range){value, ends[0], ends[1]};
     return EXIT_DONE;
@@ -217,7 +218,7 @@ static enum exit_status set_find(struct arguments *a, const struct option_row *r
 static enum exit_status add_calibrate(struct arguments *a, const struct option_row *row, char *value)
 {
     if (a->calibrates_count == CEDUO_CALIBRATION_MOST)
-        return ceduo_usage(row->name, _("at most %d values can be fitted at once"), CEDUO_CALIBRATION_MOST);
+        return ceduo_usage_error(row->name, _("at most %d values can be fitted at once"), CEDUO_CALIBRATION_MOST);
     return read_range(row, value, "slope.materials[talus].rn=0.2:0.5", false, &a->calibrates[a->calibrates_count++]);
 }
 
@@ -229,34 +230,34 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
     switch (reading) {
     case CEDUO_GOAL_UNKNOWN:
         ceduo_goal_words(&words);
-        return ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_text_string(&words));
+        return ceduo_usage_error(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_text_string(&words));
     case CEDUO_GOAL_NO_NUMBER:
-        return no_number(row, number);
+        return report_no_number(row, number);
     case CEDUO_GOAL_NEGATIVE:
-        return ceduo_usage(row->name, _("%s is below 0"), number);
+        return ceduo_usage_error(row->name, _("%s is below 0"), number);
     case CEDUO_GOAL_NO_SHARE:
-        return no_share(row, number);
+        return report_no_share(row, number);
     default:
         return EXIT_DONE;
     }
 }
 
-/* The file is the output; standard output is where it goes without one. Where it was forgotten, the first scene stands in its
- * place, and must not be written over. */
+/* Set the output to the file of --report. Require .html: if the user forgot the file, `value` is a scene, which must not be
+ * overwritten. */
 static enum exit_status set_report(struct arguments *a, const struct option_row *row, char *value)
 {
     const char *dot = strrchr(value, '.');
     bool standard = strcmp(value, "-") == 0;
     if (!standard && !(dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0)))
-        return ceduo_usage(row->name,
-                           _("'%s' does not end in .html or .htm; name the page, or - for standard output, then the "
-                             "scenes: --report page.html scene.yaml"),
-                           value);
+        return ceduo_usage_error(row->name,
+                                 _("'%s' does not end in .html or .htm; name the page, or - for standard output, then the "
+                                   "scenes: --report page.html scene.yaml"),
+                                 value);
     a->output = standard ? NULL : value;
     return EXIT_DONE;
 }
 
-/* A file, or - for standard output. */
+/* Set a file, or - for standard output. */
 static enum exit_status set_output(struct arguments *a, const struct option_row *row, char *value)
 {
     (void)row;
@@ -266,104 +267,106 @@ static enum exit_status set_output(struct arguments *a, const struct option_row 
 
 /* ---- the table ---- */
 
-#define AT(member) offsetof(struct arguments, member)
+#define MEMBER(member) offsetof(struct arguments, member)
 
-/* Modes with which an option does not go. */
+/* Modes that refuse an option. */
 enum {
-    CHECK = 1u << MODE_CHECK,
-    FIND = 1u << MODE_FIND,
-    DOUBT = 1u << MODE_SENSITIVITY,
-    FIT = 1u << MODE_CALIBRATE,
-    PAGE = 1u << MODE_REPORT,
-    SURVEY = 1u << MODE_SURVEY,
-    LISTS = 1u << MODE_PARAMETERS | 1u << MODE_PROFILES | 1u << MODE_COLUMNS | 1u << MODE_SCHEMA,
-    SCREEN = 1u << MODE_TERMINAL
+    M_CHECK = 1u << MODE_CHECK,
+    M_FIND = 1u << MODE_FIND,
+    M_DOUBT = 1u << MODE_SENSITIVITY,
+    M_FIT = 1u << MODE_CALIBRATE,
+    M_PAGE = 1u << MODE_REPORT,
+    M_SURVEY = 1u << MODE_SURVEY,
+    M_LISTS = 1u << MODE_PARAMETERS | 1u << MODE_PROFILES | 1u << MODE_COLUMNS | 1u << MODE_SCHEMA,
+    M_SCREEN = 1u << MODE_TERMINAL
 };
 
 static const struct option_row rows[] = {
-    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, SURVEY,
+    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, M_SURVEY,
      .help = N_("compute the scenes and print the result, without a terminal")},
-    {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, CHECK | PAGE | SURVEY | LISTS | SCREEN,
+    {"format", 'f', "table|csv|json", set_word, MEMBER(format), MODE_TERMINAL, M_CHECK | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN,
      .help = N_("format of the output (table)")},
-    {"details", 0, NULL, set_flag, AT(details), MODE_BATCH, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY,
+    {"details", 0, NULL, set_flag, MEMBER(details), MODE_BATCH, M_CHECK | M_FIND | M_DOUBT | M_FIT | M_PAGE | M_SURVEY,
      .help = N_("print the whole page, with every figure, not the answer alone")},
-    {"output", 'o', "FILE", set_output, 0, MODE_TERMINAL, CHECK | PAGE | SCREEN,
+    {"output", 'o', "FILE", set_output, 0, MODE_TERMINAL, M_CHECK | M_PAGE | M_SCREEN,
      .help = N_("write to FILE, - for standard output; a regular file is written completely or not at all")},
-    {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, SURVEY | SCREEN,
+    {"set", 's', "PATH=VALUE", add_word, MEMBER(sets), MODE_TERMINAL, M_SURVEY | M_SCREEN,
      .help = N_("change a parameter of the scene; may be repeated")},
-    {"rocks", 'n', "N", set_count, AT(rocks), MODE_TERMINAL, CHECK | SURVEY | SCREEN,
+    {"rocks", 'n', "N", set_count, MEMBER(rocks), MODE_TERMINAL, M_CHECK | M_SURVEY | M_SCREEN,
      .help = N_("number of rocks; with --tolerance the maximum"), .lo = 1, .hi = CEDUO_ROCKS_MOST},
-    {"tolerance", 'e', "REL", set_share, AT(tolerance), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
+    {"tolerance", 'e', "REL", set_share, MEMBER(tolerance), MODE_TERMINAL,
+     M_CHECK | M_FIND | M_DOUBT | M_FIT | M_SURVEY | M_SCREEN,
      .help = N_("simulate until the 95 % error of each mean energy is below REL of it"), .hi = 1 - 0x1p-53},
-    {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY | SCREEN,
-     NEEDS_CSV, .help = N_("what each row of CSV describes (controls)")},
-    {"each", 0, "ROWS.csv", set_text, AT(each), MODE_TERMINAL, FIT | PAGE | SURVEY | SCREEN,
+    {"rows", 0, "controls|stands", set_word, MEMBER(stands), MODE_TERMINAL,
+     M_CHECK | M_FIND | M_DOUBT | M_FIT | M_PAGE | M_SURVEY | M_SCREEN, NEEDS_CSV,
+     .help = N_("what each row of CSV describes (controls)")},
+    {"each", 0, "ROWS.csv", set_text, MEMBER(each), MODE_TERMINAL, M_FIT | M_PAGE | M_SURVEY | M_SCREEN,
      .help = N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "
                 "copied")},
-    {"columns", 0, "LIST", set_text, AT(columns), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | LISTS | SCREEN, NEEDS_CSV,
-     .help = N_("print these columns of CSV, with commas between their names")},
-    {"resume", 0, NULL, set_flag, AT(resume), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | SCREEN, NEEDS_FILE,
+    {"columns", 0, "LIST", set_text, MEMBER(columns), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN,
+     NEEDS_CSV, .help = N_("print these columns of CSV, with commas between their names")},
+    {"resume", 0, NULL, set_flag, MEMBER(resume), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_SCREEN, NEEDS_FILE,
      .help = N_("with --each and -o: rows that stand in FILE are not computed again; FILE grows row by row, with FILE.resume "
                 "beside it")},
-    {"seed", 0, "N", set_seed, AT(seed), MODE_TERMINAL, SURVEY | SCREEN, .help = N_("seed of the random numbers, 0 to 2^53"),
-     .lo = 0, .hi = 0x1p53},
-    {"threads", 'j', "N", set_count, AT(threads), MODE_TERMINAL, SURVEY,
-     .help = N_("number of threads; it does not change the result (all cores)"), .lo = 1, .hi = THREADS_MOST},
-    {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, FIT | SURVEY | SCREEN,
+    {"seed", 0, "N", set_seed, MEMBER(seed), MODE_TERMINAL, M_SURVEY | M_SCREEN,
+     .help = N_("seed of the random numbers, 0 to 2^53"), .lo = 0, .hi = 0x1p53},
+    {"threads", 'j', "N", set_count, MEMBER(threads), MODE_TERMINAL, M_SURVEY,
+     .help = N_("number of threads; it does not change the result (all cores)"), .lo = 1, .hi = THREADS_MAX},
+    {"option", 0, "NAME", add_word, MEMBER(options), MODE_TERMINAL, M_FIT | M_SURVEY | M_SCREEN,
      .help = N_("compute only this option of the scene; may be repeated")},
-    {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, CHECK | FIT | SURVEY,
+    {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, M_CHECK | M_FIT | M_SURVEY,
      .help =
          N_("compute every option year by year: the years ahead, which all options have, or the years A to B; the stands as "
             "filed are year 0")},
-    {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, CHECK | PAGE | SURVEY, NEEDS_GOAL,
+    {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, M_CHECK | M_PAGE | M_SURVEY, NEEDS_GOAL,
      .help = N_("find the value of a parameter that reaches --goal at the worst control")},
-    {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY, NEEDS_FIND,
+    {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_FIND,
      .help = N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
-    {"sure", 0, "SHARE", set_share, AT(sure), MODE_TERMINAL, CHECK | SURVEY, NEEDS_FIND,
+    {"sure", 0, "SHARE", set_share, MEMBER(sure), MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_FIND,
      .help = N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9"), .hi = 1},
-    {"sensitivity", 0, "[N]", set_count, AT(points), MODE_SENSITIVITY, CHECK | SURVEY,
+    {"sensitivity", 0, "[N]", set_count, MEMBER(points), MODE_SENSITIVITY, M_CHECK | M_SURVEY,
      .help = N_("show how sure the result is, and what that depends on; N points (256)"), .lo = 2,
      .hi = CEDUO_DOUBT_POINTS_MAX},
-    {"report", 0, "FILE", set_report, 0, MODE_REPORT, CHECK | SURVEY,
+    {"report", 0, "FILE", set_report, 0, MODE_REPORT, M_CHECK | M_SURVEY,
      .help = N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
-    {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, CHECK | PAGE | SURVEY,
+    {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, M_CHECK | M_PAGE | M_SURVEY,
      .help =
          N_("fit this value to what was observed, between LO and HI; may be repeated; -o FILE.yaml writes the first scene with "
             "what was found")},
-    {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, CHECK | FIND | FIT | PAGE | SURVEY,
+    {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, M_CHECK | M_FIND | M_FIT | M_PAGE | M_SURVEY,
      .help =
          N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare, tradeoff, doubt or hazard")},
-    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, CHECK | SURVEY, NEEDS_PLOT,
+    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_PLOT,
      .help = N_("size of a picture in columns and lines (80x24)")},
-    {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, CHECK | SURVEY, NEEDS_PICTURE,
+    {"charset", 0, "braille|block|ascii", set_word, MEMBER(charset), MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_PICTURE,
      .help = N_("characters that pictures are made of (from the locale)")},
-    {"language", 0, "it|en", set_language, AT(language), MODE_TERMINAL, 0,
+    {"language", 0, "it|en", set_language, MEMBER(language), MODE_TERMINAL, 0,
      .help = N_("language of tables, screens and messages (from the locale)")},
-    {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, ~(unsigned)SCREEN,
+    {"script", 0, "FILE", set_text, MEMBER(script), MODE_TERMINAL, ~(unsigned)M_SCREEN,
      .help = N_("feed keys and commands to the terminal program; needs no terminal")},
-    {"check", 0, NULL, NULL, 0, MODE_CHECK, SURVEY, .help = N_("check the scenes and print every problem; compute nothing")},
-    {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, SURVEY,
+    {"check", 0, NULL, NULL, 0, MODE_CHECK, M_SURVEY, .help = N_("check the scenes and print every problem; compute nothing")},
+    {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, M_SURVEY,
      .help = N_("list path, type, unit, range, default and meaning of each parameter")},
-    {"list-profiles", 0, NULL, NULL, 0, MODE_PROFILES, SURVEY,
+    {"list-profiles", 0, NULL, NULL, 0, MODE_PROFILES, M_SURVEY,
      .help = N_("list the scenes, slopes, stands and rules that can be named")},
-    {"list-columns", 0, NULL, NULL, 0, MODE_COLUMNS, SURVEY,
+    {"list-columns", 0, NULL, NULL, 0, MODE_COLUMNS, M_SURVEY,
      .help = N_("list path, type, unit and meaning of each column of CSV, also with --rows stands or --years")},
-    {"schema", 0, "result|find|sensitivity|calibration", set_word, AT(schema), MODE_SCHEMA, SURVEY,
+    {"schema", 0, "result|find|sensitivity|calibration", set_word, MEMBER(schema), MODE_SCHEMA, M_SURVEY,
      .help = N_("print the JSON Schema of this output")},
-    {"survey", 0, "FILE.csv", set_text, AT(survey), MODE_SURVEY, CHECK,
+    {"survey", 0, "FILE.csv", set_text, MEMBER(survey), MODE_SURVEY, M_CHECK,
      .help = N_("write the stand of a survey: a CSV file with a row for each stem on sample plots; --survey --template writes "
                 "an empty one")},
-    {"quiet", 'q', NULL, set_flag, AT(quiet), MODE_TERMINAL, 0, .help = N_("print no progress")},
+    {"quiet", 'q', NULL, set_flag, MEMBER(quiet), MODE_TERMINAL, 0, .help = N_("print no progress")},
     {"help", 'h', NULL, NULL, 0, MODE_HELP, 0, .help = N_("print this help")},
     {"version", 'V', NULL, NULL, 0, MODE_VERSION, 0, .help = N_("print the version")},
 };
 
-#define ROWS (sizeof rows / sizeof rows[0])
-_Static_assert(ROWS <= 64, "arguments.given has a bit for each");
+#define OPTIONS (sizeof rows / sizeof rows[0])
+_Static_assert(OPTIONS <= 64, "arguments.given has a bit for each");
 
 const struct option_row *ceduo_option_rows(size_t *n)
 {
-    *n = ROWS;
+    *n = OPTIONS;
     return rows;
 }
 
@@ -389,7 +392,7 @@ void ceduo_arguments_help(struct text *text)
                            "       ceduo --survey PLOTS.csv [-o STAND.yaml]\n"
                            "       ceduo --list-parameters | --list-profiles\n\n"
                            "SCENE is a file, - for standard input, or the name of a shipped scene.\n\n"));
-    for (size_t i = 0; i < ROWS; i++) {
+    for (size_t i = 0; i < OPTIONS; i++) {
         const char *value = rows[i].value ? rows[i].value : "", *blank = rows[i].value ? " " : "";
         char head[64];
         int width = rows[i].letter ? snprintf(head, sizeof head, "  -%c, --%s%s%s", rows[i].letter, rows[i].name, blank, value)
@@ -406,20 +409,20 @@ void ceduo_arguments_help(struct text *text)
                            "see man ceduo\n"));
 }
 
-/* ---- what goes together ---- */
+/* ---- checks ---- */
 
-static enum exit_status say_excluded(const char *option, const char *other)
+static enum exit_status report_conflict(const char *option, const char *other)
 {
-    return ceduo_usage(NULL, _("--%s cannot be used with --%s"), option, other);
+    return ceduo_usage_error(NULL, _("--%s cannot be used with --%s"), option, other);
 }
 
-static enum exit_status say_needed(const char *option, const char *needed)
+static enum exit_status report_requirement(const char *option, const char *needed)
 {
-    return ceduo_usage(NULL, _("--%s requires %s"), option, needed);
+    return ceduo_usage_error(NULL, _("--%s requires %s"), option, needed);
 }
 
-/* Report an option that does not go with the mode, or needs another one. With --format table a list or a report prints what it always
- * prints. */
+/* Report an option that conflicts with the mode or requires another option. Lists and reports accept --format table, their only
+ * format. */
 static enum exit_status check_rows(const struct arguments *a, const char *mode)
 {
     bool plot = a->plot != CEDUO_PLOT_NONE, csv = a->format == CEDUO_CSV;
@@ -432,28 +435,28 @@ static enum exit_status check_rows(const struct arguments *a, const char *mode)
                  [NEEDS_PICTURE] = {"--plot", plot || a->mode == MODE_TERMINAL},
                  [NEEDS_CSV] = {"--format csv", csv || a->mode == MODE_COLUMNS},
                  [NEEDS_FILE] = {"--each --output --format csv", a->each && a->output && csv}};
-    for (size_t i = 0; i < ROWS; i++) {
+    for (size_t i = 0; i < OPTIONS; i++) {
         const struct option_row *row = &rows[i];
         bool table = strcmp(row->name, "format") == 0 && a->format == CEDUO_TABLE;
-        bool other_plot = a->mode == MODE_SENSITIVITY && strcmp(row->name, "plot") == 0 && a->plot != CEDUO_PLOT_DOUBT;
-        bool without = other_plot || (row->without >> a->mode & 1);
+        bool wrong_plot = a->mode == MODE_SENSITIVITY && strcmp(row->name, "plot") == 0 && a->plot != CEDUO_PLOT_DOUBT;
+        bool conflicts = wrong_plot || (row->conflicts >> a->mode & 1);
         if (!(a->given >> i & 1) || (table && (a->mode == MODE_REPORT || a->mode >= MODE_PARAMETERS)))
             continue;
-        if (without && a->mode == MODE_TERMINAL)
-            return say_needed(row->name, "--batch");
-        if (without)
-            return say_excluded(mode, row->name);
+        if (conflicts && a->mode == MODE_TERMINAL)
+            return report_requirement(row->name, "--batch");
+        if (conflicts)
+            return report_conflict(mode, row->name);
         if (row->needs != NEEDS_NOTHING && !needs[row->needs].given)
-            return say_needed(row->name, needs[row->needs].name);
+            return report_requirement(row->name, needs[row->needs].name);
     }
     return EXIT_DONE;
 }
 
-/* Check that the options go together, and that the number of scenes fits. */
+/* Check the combination of options and the number of scenes. */
 static enum exit_status check_arguments(const struct arguments *a)
 {
     const char *mode = "batch", *goal = ceduo_goals[a->goal].word;
-    for (size_t i = 0; i < ROWS; i++)
+    for (size_t i = 0; i < OPTIONS; i++)
         if (rows[i].mode == a->mode && (a->given >> i & 1))
             mode = rows[i].name;
     if (a->mode >= MODE_HELP)
@@ -462,35 +465,36 @@ static enum exit_status check_arguments(const struct arguments *a)
         return EXIT_USAGE;
     bool screen = a->mode == MODE_TERMINAL, plot = a->plot != CEDUO_PLOT_NONE;
     bool wants_scene = a->mode >= MODE_BATCH && a->mode <= MODE_CHECK;
-    size_t standard = a->each && a->scenes_count > 0; /* a scene that is read for each row must be a file */
+    size_t standard = a->each && a->scenes_count > 0; /* --each reads the scene for each row, so it must be a file */
     for (size_t i = 0; i < a->scenes_count; i++)
         standard += strcmp(a->scenes[i], "-") == 0;
     if (a->mode == MODE_FIND && a->window.step > 0)
-        return say_excluded("find", "years A:B");
+        return report_conflict("find", "years A:B");
     if (plot && a->format != CEDUO_TABLE)
-        return say_excluded("plot", a->format == CEDUO_CSV ? "format csv" : "format json");
+        return report_conflict("plot", a->format == CEDUO_CSV ? "format csv" : "format json");
     if (plot && a->years && a->plot != CEDUO_PLOT_ROTATION && a->plot != CEDUO_PLOT_TRADEOFF)
-        return say_needed("years", "--plot rotation|tradeoff");
+        return report_requirement("years", "--plot rotation|tradeoff");
     if (a->mode == MODE_FIND && !ceduo_goals[a->goal].usual && isnan(a->goal_value))
-        return ceduo_usage("goal", _("'%s' needs a value, such as %s=%s"), goal, goal,
-                           ceduo_goal_is_share(a->goal) ? "0.5" : "50");
+        return ceduo_usage_error("goal", _("'%s' needs a value, such as %s=%s"), goal, goal,
+                                 ceduo_goal_is_share(a->goal) ? "0.5" : "50");
     if (wants_scene && a->scenes_count == 0)
-        return ceduo_usage(NULL,
-                           _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input"));
+        return ceduo_usage_error(
+            NULL, _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input"));
     if (!wants_scene && !screen && a->scenes_count > 0)
-        return ceduo_usage(NULL, _("--%s takes no scene: '%s'"), mode, a->scenes[0]);
+        return ceduo_usage_error(NULL, _("--%s takes no scene: '%s'"), mode, a->scenes[0]);
     if (screen && a->scenes_count > 1)
-        return ceduo_usage(NULL, _("the terminal program opens one scene; --batch takes several"));
-    return standard > 1 ? ceduo_usage(NULL, _("standard input can be read only once; name a file for the scene")) : EXIT_DONE;
+        return ceduo_usage_error(NULL, _("the terminal program opens one scene; --batch takes several"));
+    return standard > 1 ? ceduo_usage_error(NULL, _("standard input can be read only once; name a file for the scene"))
+                        : EXIT_DONE;
 }
 
 /* ---- reading ---- */
 
-#define LONG 256 /* from here on getopt's numbers of options without a letter */
+#define FIRST_LONG 256 /* first number of options without a letter, for getopt */
 
-/* The value of an option that may be without one, where it is a word of its own: one with a colon, or that begins as a
- * number does, unless it is a file. */
-static char *word_of_its_own(int argc, char **argv)
+/* Return the next word as the value of an option with an optional value: accept "--years 0:25" like "--years=0:25". It must have a
+ * colon or begin like a number, and must not be a file. NULL: none. */
+static char *find_detached_value(int argc, char **argv)
 {
     char *word = optind < argc ? argv[optind] : NULL;
     bool number = word && strcspn(word, "0123456789") <= (size_t)(word[0] == '-');
@@ -499,30 +503,30 @@ static char *word_of_its_own(int argc, char **argv)
     return is_value ? word : NULL;
 }
 
-/* A list or a check goes before what is computed, help goes before all; of two alike the first one counts. */
-static int weight(enum mode mode)
+/* Return the priority of a mode: help first, then lists and checks, then computations. Of equal modes the first wins. */
+static int rank_mode(enum mode mode)
 {
     return (int)(mode < MODE_CHECK ? mode : mode < MODE_HELP ? MODE_CHECK : MODE_HELP);
 }
 
 enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv)
 {
-    struct option longs[ROWS + 1] = {{0}};
-    char shorts[2 * ROWS + 2] = ":", *letter_at = shorts + 1;
-    cpu_set_t given; /* the processors that a job of Slurm or taskset leaves to it */
+    struct option longs[OPTIONS + 1] = {{0}};
+    char shorts[2 * OPTIONS + 2] = ":", *letter_at = shorts + 1;
+    cpu_set_t given; /* processors that Slurm or taskset allow */
     long cores = sched_getaffinity(0, sizeof given, &given) == 0 ? CPU_COUNT(&given) : sysconf(_SC_NPROCESSORS_ONLN);
-    size_t most = (size_t)argc + 1;
-    *a = (struct arguments){.threads = cores > 0 && cores <= THREADS_MOST ? (uint64_t)cores : 1,
-                            .charset = ceduo_say_utf8() ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII,
+    size_t max = (size_t)argc + 1;
+    *a = (struct arguments){.threads = cores > 0 && cores <= THREADS_MAX ? (uint64_t)cores : 1,
+                            .charset = ceduo_is_utf8() ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII,
                             .plot_width = 80,
                             .plot_height = 24,
                             .points = CEDUO_DOUBT_POINTS,
                             .goal_value = NAN,
-                            .sets.items = ceduo_must(calloc(most, sizeof *a->sets.items)),
-                            .options.items = ceduo_must(calloc(most, sizeof *a->options.items))};
-    for (size_t i = 0; i < ROWS; i++) {
+                            .sets.items = ceduo_must(calloc(max, sizeof *a->sets.items)),
+                            .options.items = ceduo_must(calloc(max, sizeof *a->options.items))};
+    for (size_t i = 0; i < OPTIONS; i++) {
         int takes = !rows[i].value ? no_argument : rows[i].value[0] == '[' ? optional_argument : required_argument;
-        longs[i] = (struct option){rows[i].name, takes, NULL, LONG + (int)i};
+        longs[i] = (struct option){rows[i].name, takes, NULL, FIRST_LONG + (int)i};
         if (rows[i].letter)
             *letter_at++ = rows[i].letter;
         if (rows[i].letter && rows[i].value)
@@ -533,24 +537,25 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
     for (int letter; (letter = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
         const char *word = argv[optind - 1];
         if (letter == ':')
-            return ceduo_usage(NULL, _("'%s' needs a value"), word);
+            return ceduo_usage_error(NULL, _("'%s' needs a value"), word);
         if (letter == '?' && word[0] == '-' && word[1] == '-' && optopt)
-            return ceduo_usage(NULL, _("'%s': this option takes no value"), word);
+            return ceduo_usage_error(NULL, _("'%s': this option takes no value"), word);
         const char *remedy = letter == '?' ? ceduo_gone(word) : NULL;
         if (remedy)
-            return ceduo_usage(NULL, _("'%s' is gone: %s"), word, _(remedy));
+            return ceduo_usage_error(NULL, _("'%s' is gone: %s"), word, _(remedy));
         if (letter == '?')
-            return ceduo_usage(NULL, _("unknown or ambiguous option '%s'"), optopt ? (char[]){'-', (char)optopt, '\0'} : word);
-        size_t i = letter >= LONG ? (size_t)(letter - LONG) : 0;
-        while (letter < LONG && rows[i].letter != letter)
+            return ceduo_usage_error(NULL, _("unknown or ambiguous option '%s'"),
+                                     optopt ? (char[]){'-', (char)optopt, '\0'} : word);
+        size_t i = letter >= FIRST_LONG ? (size_t)(letter - FIRST_LONG) : 0;
+        while (letter < FIRST_LONG && rows[i].letter != letter)
             i++;
         if (!optarg && rows[i].value)
-            optarg = word_of_its_own(argc, argv);
+            optarg = find_detached_value(argc, argv);
         enum exit_status status = rows[i].set ? rows[i].set(a, &rows[i], optarg) : EXIT_DONE;
         if (status != EXIT_DONE)
             return status;
         a->given |= (uint64_t)1 << i;
-        if (weight(rows[i].mode) > weight(a->mode))
+        if (rank_mode(rows[i].mode) > rank_mode(a->mode))
             a->mode = rows[i].mode;
     }
     a->scenes = argv + optind;

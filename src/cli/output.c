@@ -6,16 +6,16 @@
 
 #include "base/language.h"
 #include "io/file.h"
-#include "say.h"
+#include "messages.h"
 
 enum exit_status ceduo_output_write(const struct arguments *a, const struct text *text)
 {
     const char *bytes = ceduo_text_string(text);
-    ceduo_say_no_progress();
+    ceduo_clear_progress();
     if (a->output ? ceduo_file_write(a->output, bytes, text->length)
                   : ceduo_file_fill(STDOUT_FILENO, bytes, text->length, ceduo_interrupt_flag()))
         return EXIT_DONE;
-    ceduo_say_why(a->output ? a->output : _("standard output"), strerror(errno));
+    ceduo_print_message(a->output ? a->output : _("standard output"), strerror(errno));
     return EXIT_OUTPUT;
 }
 
@@ -23,7 +23,7 @@ bool ceduo_output_is(const struct arguments *a, const char *path)
 {
     if (!a->output || !path || !ceduo_file_same(a->output, path))
         return false;
-    ceduo_say_why(a->output, _("it is read in this run; write elsewhere"));
+    ceduo_print_message(a->output, _("it is read in this run; write elsewhere"));
     return true;
 }
 
@@ -32,7 +32,7 @@ bool ceduo_output_check(const struct arguments *a)
     LOCAL_ARENA(arena);
     bool good = !a->output || ceduo_file_can_write(a->output);
     if (!good)
-        ceduo_say_why(*a->output ? a->output : "--output", *a->output ? strerror(errno) : _("name a file"));
+        ceduo_print_message(*a->output ? a->output : "--output", *a->output ? strerror(errno) : _("name a file"));
     for (size_t i = 0; a->output && good && i < a->scenes_count; i++) {
         const char *path = a->scenes[i];
         if (strcmp(path, "-") != 0)
@@ -44,11 +44,11 @@ bool ceduo_output_check(const struct arguments *a)
 
 /* ---- results of several scenes ---- */
 
-#define WAITING_MAX ((size_t)1 << 20) /* bytes that wait in memory */
+#define WAITING_MAX ((size_t)1 << 20) /* bytes kept in memory */
 
 static enum exit_status fail(const struct arguments *a)
 {
-    ceduo_say_why(a->output, strerror(errno));
+    ceduo_print_message(a->output, strerror(errno));
     return EXIT_OUTPUT;
 }
 

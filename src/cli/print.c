@@ -1,27 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is printed of one scene: its page, JSON or CSV; what doubt does to it; what a search finds; its pictures; its chapter of
- * --report. */
+/* Prints the answer of one scene: page, JSON or CSV; uncertainty; search; pictures; chapter of --report. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "batch.h"
+#include "messages.h"
 #include "model/search.h"
-#include "say.h"
 #include "view/figures.h"
 #include "view/page.h"
 #include "view/svg.h"
 
-#define BLOCK_ROCKS 512 /* of each other size at the most: their intervals stand beside them */
+#define BLOCK_ROCKS 512 /* at most, of each other size; the page prints their intervals */
 
-/* Adds an answer as JSON, or its rows as CSV; false where a page is wanted. */
+/* Append an answer as JSON, or its rows as CSV. Return false if the format is a page. */
 static bool print_figures(const struct arguments *a, const struct ceduo_figure *figures, const struct ceduo_csv *csv,
                           const void *object, struct text *out)
 {
     if (a->format == CEDUO_JSON) {
         ceduo_figures_json(out, figures, object, a->details);
     } else if (a->format == CEDUO_CSV) {
-        ceduo_text_put(out, ""); /* of what has no row the header is printed */
+        ceduo_text_put(out, ""); /* so that an answer without rows prints the header */
         ceduo_csv_rows(out, csv, object);
     }
     return a->format != CEDUO_TABLE;
@@ -29,7 +28,7 @@ static bool print_figures(const struct arguments *a, const struct ceduo_figure *
 
 /* ---- pages ---- */
 
-/* True unless --columns asks for nothing that the years decide. */
+/* True unless --columns has no column that depends on future years. */
 static bool judges_years(const struct arguments *a)
 {
     return !a->columns || strstr(a->columns, "window.") || strstr(a->columns, "verdict.");
@@ -37,74 +36,74 @@ static bool judges_years(const struct arguments *a)
 
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)
 {
-    struct asked c;
+    struct query q;
     bool page = a->format == CEDUO_TABLE, stands = a->stands && a->format == CEDUO_CSV;
-    ceduo_ask_begin(&c, a, file);
-    uint64_t rocks = c.question.rocks;
-    if (stands) /* what is asked of the stands no rock answers */
-        c.question.rocks = 0;
+    ceduo_query_begin(&q, a, file);
+    uint64_t rocks = q.question.rocks;
+    if (stands) /* --rows stands needs no simulation */
+        q.question.rocks = 0;
     if (!a->years && !stands && judges_years(a))
-        ceduo_ask_years(&c.question);
-    if (page && !a->years) { /* what a page does not print is not simulated */
-        c.question.rotations = a->details;
-        c.question.block_rocks = a->details ? BLOCK_ROCKS : 0;
+        ceduo_query_add_years(&q.question);
+    if (page && !a->years) { /* simulate only what the page prints */
+        q.question.rotations = a->details;
+        q.question.block_rocks = a->details ? BLOCK_ROCKS : 0;
     }
-    c.question.run.other_energy = !page || a->details;
-    enum ceduo_status status = ceduo_ask_runs(&c);
+    q.question.run.other_energy = !page || a->details;
+    enum ceduo_status status = ceduo_query_run(&q);
     if (status == CEDUO_OK && page)
-        status = ceduo_ask_doubt_beside(&c, a, file);
+        status = ceduo_query_add_doubt(&q, a, file);
     if (status == CEDUO_OK) {
         const struct ceduo_report report = {.file = file,
-                                            .result = c.answer.result,
-                                            .years = a->years ? c.answer.years : NULL,
-                                            .verdict = &c.verdict,
-                                            .doubt = c.doubt.file ? &c.doubt : NULL,
-                                            .blocks = c.answer.blocks,
-                                            .work = c.answer.work,
-                                            .seconds = c.seconds,
+                                            .result = q.answer.result,
+                                            .years = a->years ? q.answer.years : NULL,
+                                            .verdict = &q.verdict,
+                                            .doubt = q.doubt.file ? &q.doubt : NULL,
+                                            .blocks = q.answer.blocks,
+                                            .work = q.answer.work,
+                                            .seconds = q.seconds,
                                             .details = a->details,
                                             .rocks_asked = stands ? rocks : 0,
-                                            .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed}};
+                                            .remarks = {a->tolerance, q.answer.tolerance_met, file->ground_assumed}};
         if (!print_figures(a, ceduo_result_figures, ceduo_result_csv(a->stands, a->years),
                            &(struct ceduo_place){.report = &report}, out)) {
-            ceduo_report_page(out, &report, a->details, !ceduo_say_utf8());
-            ceduo_say_plainly(out);
+            ceduo_report_page(out, &report, a->details, !ceduo_is_utf8());
+            ceduo_fit_charset(out);
             ceduo_profiles_add(a->profiles, &report, a->label);
         }
     }
-    return ceduo_ask_end(&c, file, status);
+    return ceduo_query_end(&q, file, status);
 }
 
 enum exit_status ceduo_print_doubt(const struct arguments *a, struct scene_file *file, struct text *out)
 {
-    struct asked c;
+    struct query q;
     ceduo_batch_warn(a, file, false);
-    ceduo_ask_begin(&c, a, file);
-    enum ceduo_status status = ceduo_ask_doubt(&c, a, file);
-    const struct ceduo_place place = {.doubt = &c.doubt};
+    ceduo_query_begin(&q, a, file);
+    enum ceduo_status status = ceduo_query_doubt(&q, a, file);
+    const struct ceduo_place place = {.doubt = &q.doubt};
     if (status == CEDUO_OK && !print_figures(a, ceduo_doubt_figures, &ceduo_doubt_csv, &place, out)) {
-        ceduo_doubt_page(out, &c.doubt, !ceduo_say_utf8());
-        ceduo_say_plainly(out);
+        ceduo_doubt_page(out, &q.doubt, !ceduo_is_utf8());
+        ceduo_fit_charset(out);
     }
-    return ceduo_ask_end(&c, file, status);
+    return ceduo_query_end(&q, file, status);
 }
 
 /* ---- searches ---- */
 
-/* The one option to look at. */
-static enum exit_status choose_option(const struct arguments *a, const struct scene_file *file, size_t *option)
+/* Find the option of a search: the only option, or that of --option. */
+static enum exit_status find_single_option(const struct arguments *a, const struct scene_file *file, size_t *option)
 {
     bool several = a->options.n == 0 && file->scene.options_count > 1;
     *option = 0;
     for (size_t i = 0; i < a->options.n; i++) {
         size_t k;
-        if (ceduo_batch_option(file, a->options.items[i], &k) != EXIT_DONE)
+        if (ceduo_find_option(file, a->options.items[i], &k) != EXIT_DONE)
             return EXIT_USAGE;
         several |= i > 0 && k != *option;
         *option = k;
     }
     if (several)
-        ceduo_say_why("ceduo", _("--find: the scene has several options; name one with --option"));
+        ceduo_print_message("ceduo", _("--find: the scene has several options; name one with --option"));
     return several ? EXIT_USAGE : EXIT_DONE;
 }
 
@@ -120,12 +119,12 @@ enum exit_status ceduo_print_find(const struct arguments *a, struct scene_file *
                                   .sure_rocks = a->rocks,
                                   .rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks};
     struct search_answer answer;
-    if (choose_option(a, file, &search.option) != EXIT_DONE)
+    if (find_single_option(a, file, &search.option) != EXIT_DONE)
         return EXIT_USAGE;
     ceduo_batch_warn(a, file, false);
     enum ceduo_status status = ceduo_search(file, &search, (unsigned)a->threads, ceduo_interrupt_flag(), &answer);
     bool usage = answer.problems.count > 0;
-    ceduo_say_problems(&answer.problems);
+    ceduo_print_problems(&answer.problems);
     search.target = answer.target;
     search.rotation = answer.rotation;
     const struct ceduo_find_report report = {file, &search, &answer.found, &answer.yield, answer.yield_depends, &answer.sure};
@@ -140,8 +139,8 @@ enum exit_status ceduo_print_find(const struct arguments *a, struct scene_file *
 
 /* ---- pictures ---- */
 
-/* `start`: where this scene's pictures begin; a blank line stands between two. */
-static void add_plot(const struct arguments *a, const struct ceduo_picture *picture, size_t start, struct text *out)
+/* Append a picture, after a blank line unless it is the first. `start`: begin of the scene's pictures. */
+static void print_plot(const struct arguments *a, const struct ceduo_picture *picture, size_t start, struct text *out)
 {
     struct ceduo_cells *cells = ceduo_cells_create(a->plot_width, a->plot_height, a->charset);
     struct ceduo_area area = {.top = 1, .width = a->plot_width, .height = a->plot_height - 1};
@@ -157,14 +156,14 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
     ceduo_cells_free(cells);
 }
 
-/* One picture for each option, belt or control that it depends on. */
-static void add_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct asked *c, struct text *out)
+/* Append a picture for each option, belt or control that it depends on. */
+static void print_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct query *q, struct text *out)
 {
-    struct ceduo_years *const *years = c->answer.years;
+    struct ceduo_years *const *years = q->answer.years;
     struct ceduo_picture picture = {.scene = scene,
-                                    .snapshot = c->snapshot,
-                                    .verdict = c->snapshot ? &c->verdict : NULL,
-                                    .doubt = c->doubt.file ? &c->doubt : NULL,
+                                    .snapshot = q->snapshot,
+                                    .verdict = q->snapshot ? &q->verdict : NULL,
+                                    .doubt = q->doubt.file ? &q->doubt : NULL,
                                     .control = ceduo_scene_last_control(scene)};
     size_t start = out->length;
     size_t options = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_WHOLE ? 1 : scene->options_count;
@@ -177,30 +176,30 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
         for (size_t k = 0; k == 0 || k < belts || k < controls; k++) {
             picture.belt = k;
             picture.control = controls > 0 ? k : picture.control;
-            add_plot(a, &picture, start, out);
+            print_plot(a, &picture, start, out);
         }
     }
 }
 
 enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file *file, struct text *out)
 {
-    struct asked c;
+    struct query q;
     enum ceduo_status status = CEDUO_OK;
-    ceduo_ask_begin(&c, a, file);
+    ceduo_query_begin(&q, a, file);
     if (a->plot == CEDUO_PLOT_DOUBT) {
-        status = ceduo_ask_doubt(&c, a, file);
+        status = ceduo_query_doubt(&q, a, file);
     } else if (ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_RUN) {
         ceduo_batch_warn(a, file, false);
-        c.pictures = true;
-        c.envelopes = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS;
-        c.trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0;
-        c.question.run.other_energy = false;
-        c.question.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
-        status = ceduo_ask_runs(&c);
+        q.pictures = true;
+        q.envelopes = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS;
+        q.trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0;
+        q.question.run.other_energy = false;
+        q.question.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
+        status = ceduo_query_run(&q);
     }
     if (status == CEDUO_OK)
-        add_plots(a, &file->scene, &c, out);
-    return ceduo_ask_end(&c, file, status);
+        print_plots(a, &file->scene, &q, out);
+    return ceduo_query_end(&q, file, status);
 }
 
 /* ---- chapters ---- */
@@ -215,7 +214,7 @@ static void append_word(struct text *text, const char *before, const char *word)
         ceduo_text_quoted(text, word);
 }
 
-/* All that decides about the page, and nothing else: not its own name, nor the threads. */
+/* Append the command line with all options that affect the page; not its file name or the threads. */
 static void append_command(struct text *text, const struct arguments *a)
 {
     ceduo_text_put(text, "ceduo --report report.html");
@@ -237,44 +236,44 @@ static void append_command(struct text *text, const struct arguments *a)
         append_word(text, " ", a->scenes[i]);
 }
 
-/* Rocks and points are moderate: a page shows no more digits. */
-#define YEAR_ROCKS 1024
-#define WAYS       80 /* more are no denser to the eye, and make the page large */
+/* Moderate numbers: a page does not show more digits. */
+#define YEAR_ROCKS   1024
+#define TRAJECTORIES 80 /* more would not look denser, but make the page large */
 
 enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_file *file, struct text *out)
 {
-    struct asked c;
-    ceduo_ask_begin(&c, a, file);
-    c.pictures = c.envelopes = true;
-    c.trajectories = WAYS;
+    struct query q;
+    ceduo_query_begin(&q, a, file);
+    q.pictures = q.envelopes = true;
+    q.trajectories = TRAJECTORIES;
     if (a->window.step > 0)
-        c.question.year_rocks = YEAR_ROCKS;
+        q.question.year_rocks = YEAR_ROCKS;
     else
-        ceduo_ask_years(&c.question);
-    c.question.block_rocks = file->scene.options_count == 1 ? BLOCK_ROCKS : 0;
-    enum ceduo_status status = ceduo_ask_runs(&c);
+        ceduo_query_add_years(&q.question);
+    q.question.block_rocks = file->scene.options_count == 1 ? BLOCK_ROCKS : 0;
+    enum ceduo_status status = ceduo_query_run(&q);
     if (status == CEDUO_OK)
-        status = ceduo_ask_doubt_beside(&c, a, file);
+        status = ceduo_query_add_doubt(&q, a, file);
     if (status == CEDUO_OK) {
         LOCAL_TEXT(command);
         LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
         append_command(&command, a);
         struct ceduo_report report = {.file = file,
-                                      .result = c.answer.result,
-                                      .verdict = &c.verdict,
-                                      .blocks = c.answer.blocks,
-                                      .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed},
-                                      .doubt = &c.doubt,
-                                      .ahead = c.answer.years,
-                                      .snapshot = c.snapshot,
+                                      .result = q.answer.result,
+                                      .verdict = &q.verdict,
+                                      .blocks = q.answer.blocks,
+                                      .remarks = {a->tolerance, q.answer.tolerance_met, file->ground_assumed},
+                                      .doubt = &q.doubt,
+                                      .ahead = q.answer.years,
+                                      .snapshot = q.snapshot,
                                       .command = ceduo_text_string(&command),
                                       .same = true};
-        c.doubt.years = &c.verdict;
+        q.doubt.years = &q.verdict;
         ceduo_page_chapter(&page, &report);
         ceduo_page_html(&(struct ceduo_html){.text = out}, &page, a->profiles->count + 1);
         if (a->profiles->count == 0)
             ceduo_text_put(a->title, ceduo_in_language(file->scene.title, file->scene.title_it));
         ceduo_profiles_add(a->profiles, &report, NULL);
     }
-    return ceduo_ask_end(&c, file, status);
+    return ceduo_query_end(&q, file, status);
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* --resume: the output grows scene by scene, and a side file has a line for each scene: hash of its input, number of its lines in the
- * output, their hash, exit status. A scene is added to the output first and to the side file then. After a kill the lines that the
- * side file does not know, or that are not as it says, are computed again. They are added at the end; the last step of a run that
- * needs it is to put all lines into the order of the rows. */
+/* --resume: the output grows scene by scene. A side file has a line for each scene: hash of its input, number of its lines in the
+ * output, their hash, exit status. A scene is appended to the output, then to the side file. After a kill, lines that are missing in
+ * the side file, or differ from it, are computed again and appended. At the end the lines are sorted by row if necessary. */
 #include "resume.h"
 
 #include <errno.h>
@@ -21,13 +20,13 @@
 #include "base/must.h"
 #include "ceduo/status.h"
 #include "io/file.h"
-#include "say.h"
+#include "messages.h"
 
 #define FORMAT      "ceduo-resume-1"
-#define PART_LENGTH 59 /* bytes of a line of the side file, its end included */
+#define PART_LENGTH 59 /* bytes of a line of the side file, with the line end */
 #define PART_FORMAT "%016" PRIx64 " %016" PRIx64 " %020zu %03d\n"
 
-/* ---- what the run is ---- */
+/* ---- identity of the run ---- */
 
 uint64_t ceduo_resume_files(const struct scene_file *file)
 {
@@ -42,7 +41,7 @@ static void hash_text(uint64_t *hash, const char *text)
     hash_count(hash, text ? hash_bytes(text, strlen(text)) : 0);
 }
 
-/* Hash of all files of the scenes and of all changes but the seed. A scene may be wrong until a row changes it. */
+/* Hash all files of the scenes, and all changes except the seed. A scene may be invalid without the changes of a row. */
 static uint64_t hash_scenes(const struct arguments *a)
 {
     uint64_t hash = HASH_START;
@@ -60,7 +59,7 @@ static uint64_t hash_scenes(const struct arguments *a)
     return hash;
 }
 
-/* Hash of the options that change figures, without those that have a line of their own. */
+/* Hash the options that change figures, except those with a line of their own. */
 static uint64_t hash_options(const struct arguments *a)
 {
     uint64_t hash = HASH_START;
@@ -75,7 +74,7 @@ static uint64_t hash_options(const struct arguments *a)
     return hash;
 }
 
-/* Hash of the head of the output and of the columns that are set. */
+/* Hash the head of the output and the names of the columns that are set. */
 static uint64_t hash_columns(const struct each *e, const struct text *head)
 {
     uint64_t hash = hash_bytes(head->bytes, head->length);
@@ -84,7 +83,7 @@ static uint64_t hash_columns(const struct each *e, const struct text *head)
     return hash;
 }
 
-/* Names of the lines of the identity, in their order. */
+/* Names of the lines of the identity, in order. */
 static const char *const identity_names[] = {N_("version"), N_("scene"), N_("options"), N_("seed"), N_("rocks"), N_("columns")};
 enum { IDENTITY = sizeof identity_names / sizeof identity_names[0] };
 
@@ -102,11 +101,11 @@ static void make_identity(struct resume *r, const struct each *e)
 
 static enum exit_status refuse(const char *path, const char *why)
 {
-    ceduo_say_why(path, why);
+    ceduo_print_message(path, why);
     return EXIT_OUTPUT;
 }
 
-/* Open a regular file; -1 with a reason in `*why` if it is none. */
+/* Open a regular file. Return -1 and set *why on error. */
 static int open_regular(const char *path, const char **why)
 {
     struct stat st;
@@ -122,7 +121,7 @@ static int open_regular(const char *path, const char **why)
     return fd;
 }
 
-/* Open and lock the output. Another program may have put a new file in its place meanwhile: then the new file is opened. */
+/* Open and lock the output. If another program has replaced it meanwhile, open the new file. */
 static enum exit_status open_locked(struct resume *r)
 {
     const char *path = r->arguments->output, *why;
@@ -140,7 +139,7 @@ static enum exit_status open_locked(struct resume *r)
     }
 }
 
-/* All of a file; "" if it is empty, NULL with errno set on failure. */
+/* Map a file into memory. Return "" if it is empty; NULL with errno set on failure. */
 static const char *map_file(int fd, size_t *n)
 {
     struct stat st;
@@ -159,7 +158,7 @@ static void unmap_file(const char *bytes, size_t n)
         munmap((void *)(uintptr_t)bytes, n);
 }
 
-/* Write bytes at the end of a file that has `end` bytes, all or none of them. False with errno set. */
+/* Append all bytes, or none, to a file of `end` bytes. False with errno set. */
 static bool append(int fd, size_t end, const char *bytes, size_t n)
 {
     if (lseek(fd, (off_t)end, SEEK_SET) >= 0 && ceduo_file_fill(fd, bytes, n, NULL))
@@ -171,7 +170,7 @@ static bool append(int fd, size_t end, const char *bytes, size_t n)
     return false;
 }
 
-/* ---- what the output holds ---- */
+/* ---- existing output ---- */
 
 /* Append the name of each line that differs between two identities. */
 static void append_differences(const char *a, const char *b, struct text *names)
@@ -211,7 +210,7 @@ static bool read_part(const char *line, size_t n, struct resume_part *part)
     return true;
 }
 
-/* Find the lines of a part, which begin at `from`. Returns the byte after them, and whether they are as the side file says. */
+/* Find the lines of a part, which begin at `from`. Set *whole to true if they match the side file. Return the byte after them. */
 static size_t find_lines(const char *bytes, size_t n, size_t from, struct resume_part *part, bool *whole)
 {
     size_t end = from;
@@ -232,28 +231,28 @@ static int compare_parts(const void *a, const void *b)
     return order != 0 ? order : (x->from > y->from) - (x->from < y->from);
 }
 
-/* Find the parts of the output that are whole, and cut off both files after the last of them. */
+/* Find the complete parts of the output, and truncate both files after the last of them. */
 static bool find_parts(struct resume *r, const char *output, size_t output_n, const char *side, size_t side_n)
 {
-    size_t at = r->identity.length, side_end = at, from = r->head->length, most = (side_n - at) / PART_LENGTH;
+    size_t offset = r->identity.length, side_end = offset, from = r->head->length, max = (side_n - offset) / PART_LENGTH;
     struct resume_part part;
-    r->known = ceduo_must(calloc(most + 1, sizeof *r->known));
+    r->old_parts = ceduo_must(calloc(max + 1, sizeof *r->old_parts));
     r->end = from;
-    for (; read_part(side + at, side_n - at, &part); at += PART_LENGTH) {
+    for (; read_part(side + offset, side_n - offset, &part); offset += PART_LENGTH) {
         bool whole;
         from = find_lines(output, output_n, from, &part, &whole);
         if (!whole)
             continue;
-        r->known[r->known_count++] = part;
+        r->old_parts[r->old_count++] = part;
         r->end = from;
-        side_end = at + PART_LENGTH;
+        side_end = offset + PART_LENGTH;
     }
-    if (r->known_count > 0)
-        qsort(r->known, r->known_count, sizeof *r->known, compare_parts);
+    if (r->old_count > 0)
+        qsort(r->old_parts, r->old_count, sizeof *r->old_parts, compare_parts);
     return ftruncate(r->file, (off_t)r->end) == 0 && ftruncate(r->side, (off_t)side_end) == 0;
 }
 
-/* Compare the files with this run. `*again`: nothing in them is of use. */
+/* Compare the files with this run. Set *again to true if they have no usable line. */
 static enum exit_status compare_run(const struct resume *r, const char *output, size_t output_n, const char *side,
                                     size_t side_n, bool *again)
 {
@@ -274,7 +273,7 @@ static enum exit_status compare_run(const struct resume *r, const char *output, 
     ceduo_text_add(&found, side, side_n < 2 * r->identity.length ? side_n : 2 * r->identity.length);
     append_differences(ceduo_text_string(&r->identity), ceduo_text_string(&found), &names);
     if (names.length == 0 && !*again && (output_n < head || memcmp(output, r->head->bytes, head) != 0))
-        ceduo_text_put(&names, _("columns")); /* its head was changed */
+        ceduo_text_put(&names, _("columns")); /* the head differs */
     *again |= side_n < r->identity.length;
     return names.length > 0 ? refuse_other(r, ceduo_text_string(&names)) : EXIT_DONE;
 }
@@ -323,18 +322,18 @@ static void add_to_order(struct resume *r, struct resume_part part)
 
 bool ceduo_resume_has(struct resume *r, uint64_t key, enum exit_status *status)
 {
-    size_t lo = 0, hi = r->known_count; /* bounds of the first part of this key */
+    size_t lo = 0, hi = r->old_count; /* bounds of the first part of this key */
     while (lo < hi) {
         size_t middle = lo + (hi - lo) / 2;
-        if (r->known[middle].key < key)
+        if (r->old_parts[middle].key < key)
             lo = middle + 1;
         else
             hi = middle;
     }
-    if (lo == r->known_count)
+    if (lo == r->old_count)
         return false;
-    struct resume_part *first = &r->known[lo], *part = first + first->used;
-    if (first->key != key || part == r->known + r->known_count || part->key != key)
+    struct resume_part *first = &r->old_parts[lo], *part = first + first->used;
+    if (first->key != key || part == r->old_parts + r->old_count || part->key != key)
         return false;
     first->used++;
     add_to_order(r, *part);
@@ -342,7 +341,7 @@ bool ceduo_resume_has(struct resume *r, uint64_t key, enum exit_status *status)
     return true;
 }
 
-/* Append the line of a part to the text of a side file. */
+/* Append the line of a part to a side file. */
 static void append_part(const struct resume_part *part, struct text *side)
 {
     ceduo_text_format(side, PART_FORMAT, part->key, part->hash, part->lines, (int)part->status);
@@ -385,7 +384,7 @@ static bool is_in_order(const struct resume *r)
     return from == r->end || r->order_count == 0;
 }
 
-/* Write the parts of the output in the order of the rows, neighbours at once. False with errno set. */
+/* Write the parts of the output in the order of the rows; adjacent parts in one call. False with errno set. */
 static bool write_parts(const struct resume *r, const char *bytes, int fd)
 {
     bool good = ceduo_file_fill(fd, r->head->bytes, r->head->length, NULL);
@@ -399,7 +398,7 @@ static bool write_parts(const struct resume *r, const char *bytes, int fd)
     return good;
 }
 
-/* Put a new output in the place of the old one. It is locked before it is there, until the program ends. False with errno set. */
+/* Replace the output by a sorted one. It is locked before the rename, until the program ends. False with errno set. */
 static bool replace_output(const struct resume *r)
 {
     struct pending_file file = {.path = r->arguments->output, .wait = true};
@@ -416,7 +415,7 @@ static bool replace_output(const struct resume *r)
     return good;
 }
 
-static enum exit_status put_in_order(const struct resume *r)
+static enum exit_status sort_output(const struct resume *r)
 {
     LOCAL_TEXT(side);
     if (!replace_output(r))
@@ -432,7 +431,7 @@ enum exit_status ceduo_resume_close(struct resume *r, bool whole)
     enum exit_status status = EXIT_DONE;
     if (whole && !is_in_order(r)) {
         ceduo_interrupt_catch();
-        status = put_in_order(r);
+        status = sort_output(r);
         ceduo_interrupt_release();
     }
     if (r->side >= 0)
@@ -441,7 +440,7 @@ enum exit_status ceduo_resume_close(struct resume *r, bool whole)
         close(r->file);
     ceduo_text_free(&r->identity);
     free(r->side_path);
-    free(r->known);
+    free(r->old_parts);
     free(r->order);
     return status;
 }

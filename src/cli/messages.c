@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "say.h"
+#include "messages.h"
 
 #include <langinfo.h>
 #include <limits.h>
@@ -15,26 +15,25 @@
 #include "base/language.h"
 #include "view/cells.h"
 
-bool ceduo_say_utf8(void)
+bool ceduo_is_utf8(void)
 {
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 
-/* For a terminal that knows ASCII alone. */
-void ceduo_say_plainly(struct text *text)
+void ceduo_fit_charset(struct text *text)
 {
     struct text plain = {0};
-    if (ceduo_say_utf8())
+    if (ceduo_is_utf8())
         return;
     for (const char *p = ceduo_text_string(text), *sign; *p; p = sign) {
-        LOCAL_TEXT(others);
+        LOCAL_TEXT(foreign);
         for (sign = p; *sign && (unsigned char)*sign < 0x80;)
             sign++;
         ceduo_text_add(&plain, p, (size_t)(sign - p));
         for (p = sign; (unsigned char)*sign >= 0x80;)
             sign++;
-        ceduo_text_add(&others, p, (size_t)(sign - p));
-        ceduo_cells_ascii(&plain, ceduo_text_string(&others));
+        ceduo_text_add(&foreign, p, (size_t)(sign - p));
+        ceduo_cells_ascii(&plain, ceduo_text_string(&foreign));
     }
     ceduo_text_free(text);
     *text = plain;
@@ -42,7 +41,7 @@ void ceduo_say_plainly(struct text *text)
 
 static bool line_open; /* of progress */
 
-void ceduo_say_progress(const char *format, ...)
+void ceduo_show_progress(const char *format, ...)
 {
     LOCAL_TEXT(line);
     va_list args;
@@ -53,40 +52,40 @@ void ceduo_say_progress(const char *format, ...)
     line_open = true;
 }
 
-void ceduo_say_no_progress(void)
+void ceduo_clear_progress(void)
 {
     if (line_open)
         fprintf(stderr, "\r%-78s\r", "");
     line_open = false;
 }
 
-void ceduo_say(struct text *text)
+void ceduo_print_error(struct text *text)
 {
     if (text->length == 0)
         return;
-    ceduo_say_no_progress();
-    ceduo_say_plainly(text);
+    ceduo_clear_progress();
+    ceduo_fit_charset(text);
     fputs(ceduo_text_string(text), stderr);
 }
 
-void ceduo_say_problems(struct problems *problems)
+void ceduo_print_problems(struct problems *problems)
 {
     ceduo_problems_close(problems);
-    ceduo_say(&problems->text);
+    ceduo_print_error(&problems->text);
     ceduo_problems_free(problems);
 }
 
-void ceduo_say_why(const char *what, const char *why)
+void ceduo_print_message(const char *subject, const char *text)
 {
     LOCAL_TEXT(line);
-    ceduo_text_safe(&line, what);
+    ceduo_text_safe(&line, subject);
     ceduo_text_put(&line, ": ");
-    ceduo_text_safe(&line, why);
+    ceduo_text_safe(&line, text);
     ceduo_text_char(&line, '\n');
-    ceduo_say(&line);
+    ceduo_print_error(&line);
 }
 
-enum exit_status ceduo_usage(const char *option, const char *format, ...)
+enum exit_status ceduo_usage_error(const char *option, const char *format, ...)
 {
     LOCAL_TEXT(message);
     LOCAL_TEXT(safe);
@@ -99,7 +98,7 @@ enum exit_status ceduo_usage(const char *option, const char *format, ...)
     va_end(args);
     ceduo_text_safe(&safe, message.bytes);
     ceduo_text_format(&line, _("ceduo: %s\ntry 'ceduo --help'\n"), safe.bytes);
-    ceduo_say(&line);
+    ceduo_print_error(&line);
     return EXIT_USAGE;
 }
 
@@ -120,7 +119,7 @@ static void set_handlers(void (*handler)(int))
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
         struct sigaction now, new = {.sa_handler = handler, .sa_flags = handler == on_signal ? (int)SA_RESETHAND : 0};
         sigemptyset(&new.sa_mask);
-        /* what the caller of the program has switched off (nohup) stays off */
+        /* keep signals ignored that the parent ignored (nohup) */
         if (sigaction(signals[i], NULL, &now) == 0 && now.sa_handler != SIG_IGN)
             sigaction(signals[i], &new, NULL);
     }
@@ -140,23 +139,23 @@ void ceduo_interrupt_release(void)
 {
     set_handlers(SIG_DFL);
     if (atomic_load(&raised)) {
-        ceduo_say_no_progress();
+        ceduo_clear_progress();
         raise(which);
     }
 }
 
 /* ---- the language ---- */
 
-/* Text is translated by gettext(), which takes its language from LANGUAGE or from the name of the locale, and does nothing
- * in the locale C. A machine need not have the locale of a language: any other does, with LANGUAGE. */
+/* gettext() translates text. Its language is LANGUAGE, or that of the locale; it does nothing in the locale C. If the machine lacks
+ * the locale of the language, any other locale works with LANGUAGE. */
 #ifndef CEDUO_LOCALEDIR
 #define CEDUO_LOCALEDIR "/usr/local/share/locale"
 #endif
 
 #define DOMAIN "ceduo"
 
-/* The first of LC_ALL, the category and LANG that says something, or "". */
-static const char *wanted_locale(const char *category)
+/* Return the first of LC_ALL, the category and LANG that is set; "": none. */
+static const char *get_locale(const char *category)
 {
     const char *const names[] = {"LC_ALL", category, "LANG"};
     for (size_t i = 0; i < 3; i++) {
@@ -169,7 +168,7 @@ static const char *wanted_locale(const char *category)
 
 /* ---- where translations are ---- */
 
-/* Beside the program, where it was built or installed, then in the folder of the installation. */
+/* Search translations relative to the program, built or installed, then in the folder of the installation. */
 static void bind_domain(void)
 {
     static const char *const near[] = {"locale", "build/release/locale", "../locale", "../share/locale"};
@@ -188,19 +187,19 @@ static void bind_domain(void)
         }
     }
     bindtextdomain(DOMAIN, found);
-    bind_textdomain_codeset(DOMAIN, "UTF-8"); /* whatever the terminal takes: what is printed is made plain later */
+    bind_textdomain_codeset(DOMAIN, "UTF-8"); /* ceduo_fit_charset() converts it for the terminal */
     textdomain(DOMAIN);
 }
 
 /* ---- which one ---- */
 
-/* Some versions of libc count C.UTF-8 as C: then another locale does, if there is one. */
+/* Some versions of libc treat C.UTF-8 as C; then use another locale, if there is one. */
 static void use_translation(const char *language)
 {
     static const char *const locales[] = {"it_IT.UTF-8", "C.UTF-8", "C.utf8", "en_US.UTF-8", "en_GB.UTF-8", "it_IT"};
     setenv("LANGUAGE", language, 1);
     setlocale(LC_MESSAGES, "");
-    /* the header of a translation is that of the empty string */
+    /* the empty string has a translation, the header, if a translation is loaded */
     for (size_t i = 0; !dgettext(DOMAIN, "")[0] && i < sizeof locales / sizeof locales[0]; i++)
         setlocale(LC_MESSAGES, locales[i]);
 }
@@ -215,7 +214,7 @@ void ceduo_language_set(const char *language)
 
 void ceduo_language_start(void)
 {
-    const char *characters = wanted_locale("LC_CTYPE"), *messages = wanted_locale("LC_MESSAGES");
+    const char *characters = get_locale("LC_CTYPE"), *messages = get_locale("LC_MESSAGES");
     const char *dot = strchr(characters, '.'), *language = getenv("LANGUAGE");
     bool utf8 = dot && (strncasecmp(dot, ".utf-8", 6) == 0 || strncasecmp(dot, ".utf8", 5) == 0);
     if (!setlocale(LC_CTYPE, "") && utf8)
