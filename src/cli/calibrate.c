@@ -113,10 +113,10 @@ static bool print_scene(const struct fit_job *j, const struct ceduo_calibration_
     if (good) {
         const char *mark = draws->temporary + strlen(draws->target);
         ceduo_document_text(&document, a->output, scene);
-        char *at = strstr(scene->bytes, mark);
-        if (at) {
+        char *found = strstr(scene->bytes, mark);
+        if (found) {
             scene->length -= strlen(mark);
-            memmove(at, at + strlen(mark), strlen(at + strlen(mark)) + 1);
+            memmove(found, found + strlen(mark), strlen(found + strlen(mark)) + 1);
         }
     }
     ceduo_print_problems(&problems);

@@ -102,10 +102,10 @@ static bool is_one_edit(const char *a, const char *b)
         begin++;
     while (end < shorter - begin && lower(a[n - 1 - end]) == lower(b[m - 1 - end]))
         end++;
-    size_t left = n - begin - end, right = m - begin - end;
+    size_t a_rest = n - begin - end, b_rest = m - begin - end;
     bool exchanged =
-        left == 2 && right == 2 && lower(a[begin]) == lower(b[begin + 1]) && lower(a[begin + 1]) == lower(b[begin]);
-    return exchanged || (left <= 1 && right <= 1);
+        a_rest == 2 && b_rest == 2 && lower(a[begin]) == lower(b[begin + 1]) && lower(a[begin + 1]) == lower(b[begin]);
+    return exchanged || (a_rest <= 1 && b_rest <= 1);
 }
 
 /* Return the path that the head of a copied column probably means; NULL: none. */

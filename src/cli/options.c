@@ -411,9 +411,9 @@ void ceduo_arguments_help(struct text *text)
 
 /* ---- checks ---- */
 
-static enum exit_status report_conflict(const char *option, const char *other)
+static enum exit_status report_conflict(const char *option, const char *conflicting)
 {
-    return ceduo_usage_error(NULL, _("--%s cannot be used with --%s"), option, other);
+    return ceduo_usage_error(NULL, _("--%s cannot be used with --%s"), option, conflicting);
 }
 
 static enum exit_status report_requirement(const char *option, const char *needed)

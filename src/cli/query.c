@@ -123,9 +123,9 @@ void ceduo_progress_scenes(struct progress *p, size_t computed, size_t done, siz
     double seconds;
     if (computed == 0 || !ceduo_progress_due(p, &seconds))
         return;
-    double left = seconds / (double)computed * (double)(all - done);
+    double remaining = seconds / (double)computed * (double)(all - done);
     LOCAL_TEXT(time);
-    ceduo_text_format(&time, left < 120 ? "%.0f s" : "%.0f min", left < 120 ? left : left / 60);
+    ceduo_text_format(&time, remaining < 120 ? "%.0f s" : "%.0f min", remaining < 120 ? remaining : remaining / 60);
     ceduo_show_progress(_("%zu of %zu scenes, %s left"), done, all, ceduo_text_string(&time));
 }
 

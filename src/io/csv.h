@@ -66,12 +66,12 @@ enum csv_unit {
 
 /* Names and units of a column. Names in `also` and units are separated by |. */
 struct csv_head {
-    const char *name;  /* preferred name; NULL: no column */
-    const char *also;  /* other names, preferred first; NULL: none */
-    const char *units; /* NULL: ignore a unit in brackets */
-    const char *other; /* units of another scale, contained in `units`; NULL: none */
-    const char *unit;  /* for messages, marked for translation */
-    double lo, hi;     /* range of its numbers, in the usual unit */
+    const char *name;        /* preferred name; NULL: no column */
+    const char *also;        /* other names, preferred first; NULL: none */
+    const char *units;       /* NULL: ignore a unit in brackets */
+    const char *other_units; /* units of another scale, contained in `units`; NULL: none */
+    const char *unit;        /* for messages, marked for translation */
+    double lo, hi;           /* range of its numbers, in the usual unit */
 };
 
 /* Return the column with a head; CEDUO_CSV_NOT_FOUND; CEDUO_CSV_DUPLICATE. Ignores case, blanks and punctuation. A unit may follow

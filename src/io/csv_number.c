@@ -62,10 +62,10 @@ static void read_signs(struct numeral *numeral)
     if (!last)
         return;
     numeral->sign = *last;
-    char other = *last == '.' ? ',' : '.';
-    size_t same = *last == '.' ? dots : commas, others = dots + commas - same;
-    if (others > 0)
-        numeral->signs = same == 1 && are_groups(p, last, other) ? SIGNS_GROUPS_DECIMAL : SIGNS_DECIMAL;
+    char other_sign = *last == '.' ? ',' : '.';
+    size_t same = *last == '.' ? dots : commas, others_count = dots + commas - same;
+    if (others_count > 0)
+        numeral->signs = same == 1 && are_groups(p, last, other_sign) ? SIGNS_GROUPS_DECIMAL : SIGNS_DECIMAL;
     else if (same > 1)
         numeral->signs = are_groups(p, end, *last) ? SIGNS_GROUPS : SIGNS_DECIMAL;
     else

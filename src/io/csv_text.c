@@ -139,14 +139,14 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
             ceduo_no_memory();
         return false;
     }
-    size_t at = ceduo_source_mark(csv->source);
-    const char *bytes = csv->source->bytes + at;
-    csv->next = (struct csv_place){at, 1};
+    size_t offset = ceduo_source_mark(csv->source);
+    const char *bytes = csv->source->bytes + offset;
+    csv->next = (struct csv_place){offset, 1};
     if (!*bytes)
         return ceduo_problem(problems, csv->source, 0, 0, _("the file is empty"));
     if (strncasecmp(bytes, "sep=", 4) == 0 && bytes[4] && strchr("\r\n", bytes[5])) { /* Excel */
         csv->separator = bytes[4];
-        csv->next = (struct csv_place){at + strcspn(bytes, "\n") + (strchr(bytes, '\n') != NULL), 2};
+        csv->next = (struct csv_place){offset + strcspn(bytes, "\n") + (strchr(bytes, '\n') != NULL), 2};
     }
     return true;
 }

@@ -52,9 +52,9 @@ bool ceduo_input_shares(const struct ceduo_input *a, const struct ceduo_input *b
 const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *s, const char *place)
 {
     size_t i = 0, k;
-    bool within = sscanf(place, "options[%zu].forest[%zu].", &i, &k) == 2 ||
+    bool inside = sscanf(place, "options[%zu].forest[%zu].", &i, &k) == 2 ||
                   (s->options_count == 1 && sscanf(place, "forest[%zu].", &k) == 1);
-    return within && i < s->options_count && k < s->options[i].belts_count ? &s->options[i].belts[k] : NULL;
+    return inside && i < s->options_count && k < s->options[i].belts_count ? &s->options[i].belts[k] : NULL;
 }
 
 /* ---- inputs and their places ---- */
@@ -244,8 +244,8 @@ static const char *make_common_path(struct scene_file *file, const struct ceduo_
         const char *item = find_bracket(input->places[0], n);
         bool same = true;
         for (size_t k = 1; k < input->places_count; k++) {
-            const char *other = find_bracket(input->places[k], n);
-            same &= other && strtoul(other, NULL, 10) == strtoul(item, NULL, 10);
+            const char *bracket = find_bracket(input->places[k], n);
+            same &= bracket && strtoul(bracket, NULL, 10) == strtoul(item, NULL, 10);
         }
         ceduo_text_add(&path, from, (size_t)(item - from));
         if (same)

@@ -266,11 +266,11 @@ bool ceduo_resolve_item(const struct node *list, const struct path_step *step, s
 
 const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **file_path, size_t *used)
 {
-    size_t at = 0, length = strlen(path);
+    size_t offset = 0, length = strlen(path);
     struct path_step step;
     *file_path = path;
     *used = 0;
-    while (ceduo_path_next(path, length, &at, &step)) {
+    while (ceduo_path_next(path, length, &offset, &step)) {
         const struct node *next = NULL;
         size_t i;
         if (step.bracket && root->kind == NODE_LIST && ceduo_resolve_item(root, &step, &i))
@@ -281,9 +281,9 @@ const struct node *ceduo_resolve_walk(const struct node *root, const char *path,
         if (!next)
             break;
         root = next;
-        *used = at;
+        *used = offset;
         if (root->kind == NODE_MAP && root->written && root->written->kind == NODE_SCALAR)
-            *file_path = path[at] == '.' ? path + at + 1 : path + at;
+            *file_path = path[offset] == '.' ? path + offset + 1 : path + offset;
     }
     return root;
 }
@@ -299,7 +299,7 @@ const struct node *ceduo_resolve_at(const struct node *root, const char *path)
 /* ---- changing ---- */
 
 static const struct node *set_in(struct resolver *s, const struct field *f, const struct object *object,
-                                 const struct node *node, size_t at);
+                                 const struct node *node, size_t offset);
 
 static const struct node *fail_at(struct resolver *s, const struct path_step *step, const char *what)
 {
@@ -344,11 +344,11 @@ static bool keeps_source(const struct resolver *s, const struct field *f, const 
 }
 
 /* Return the assumed ground of a slope without ground as a list, if the next step of the path names it; NULL: no, or on failure. */
-static const struct node *make_assumed_ground(struct resolver *s, size_t at)
+static const struct node *make_assumed_ground(struct resolver *s, size_t offset)
 {
     const struct ceduo_material *talus = ceduo_material_talus();
     struct path_step step;
-    if (!ceduo_path_next(s->set->bytes, s->length, &at, &step) || find_ground(&step) < 0 ||
+    if (!ceduo_path_next(s->set->bytes, s->length, &offset, &step) || find_ground(&step) < 0 ||
         strcmp(ceduo_material_words.names[find_ground(&step)], talus->name) != 0)
         return NULL;
     const char *const entries[][2] = {{"from_m", FIRST}, {"to_m", "end"}, {"material", talus->name}};
@@ -362,7 +362,7 @@ static const struct node *make_assumed_ground(struct resolver *s, size_t at)
 }
 
 static const struct node *set_entry(struct resolver *s, const struct object *object, const struct node *map,
-                                    const struct path_step *step, size_t at)
+                                    const struct path_step *step, size_t offset)
 {
     char key[64];
     if (step->n >= sizeof key)
@@ -380,7 +380,7 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
         return fail_at(s, step, ceduo_text_string(&message));
     }
     const struct node *child = ceduo_node_get(map, key);
-    bool last = at >= s->length;
+    bool last = offset >= s->length;
     if (!last && f && f->flags & FIELD_FOLLOWS && child && !(child = load_reference(s, f->object, child, 0)))
         return NULL;
     if (!last && f && f->type == FIELD_SPREAD && (!child || child->kind == NODE_SCALAR)) {
@@ -388,7 +388,7 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
         child = parts && child ? ceduo_node_with(s->arena, parts, "mean", child) : parts;
     } else if (!last && !child && f && f->object && ceduo_schema_field(f->object, "material") &&
                !ceduo_node_get(map, "segments"))
-        child = make_assumed_ground(s, at);
+        child = make_assumed_ground(s, offset);
     else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = ceduo_node_empty(s->arena, NODE_MAP, s->set);
     else if (!last && !child) {
@@ -403,7 +403,7 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
     if (!last && !child)
         return NULL;
     s->source_done |= keeps_source(s, f, key, last ? child : NULL);
-    child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, at);
+    child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, offset);
     map = child ? mark_source(s, map, step) : NULL;
     const char *rival = f && f->type == FIELD_NUMBER ? ceduo_schema_other(object, key) : NULL;
     if (map && rival)
@@ -415,7 +415,7 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
 #define ITEMS_SHOWN 12
 
 static const struct node *set_item(struct resolver *s, const struct field *f, const struct node *list,
-                                   const struct path_step *step, size_t at)
+                                   const struct path_step *step, size_t offset)
 {
     const struct object *object = f && f->type == FIELD_LIST ? f->object : NULL;
     size_t first, index, n = 0;
@@ -432,7 +432,7 @@ static const struct node *set_item(struct resolver *s, const struct field *f, co
             if (!matches(step, object, list->items[i]))
                 continue;
             s->source_done = before;
-            list = ceduo_node_replaced(s->arena, list, i, set_in(s, NULL, object, list->items[i], at));
+            list = ceduo_node_replaced(s->arena, list, i, set_in(s, NULL, object, list->items[i], offset));
             all_marked &= s->source_done;
         }
         s->source_done = all_marked;
@@ -454,18 +454,18 @@ static const struct node *set_item(struct resolver *s, const struct field *f, co
     ceduo_text_format(&message, _("several items have this name; use one of: %s"), ceduo_text_string(&items));
     if (n > 1)
         return fail_at(s, step, ceduo_text_string(&message));
-    return ceduo_node_replaced(s->arena, list, first, set_in(s, NULL, object, list->items[first], at));
+    return ceduo_node_replaced(s->arena, list, first, set_in(s, NULL, object, list->items[first], offset));
 }
 
 /* Return a copy of the node with the value set along the path from byte `at` on. A resolved reference stays marked. */
 static const struct node *set_in(struct resolver *s, const struct field *f, const struct object *object,
-                                 const struct node *node, size_t at)
+                                 const struct node *node, size_t offset)
 {
-    if (at >= s->length)
+    if (offset >= s->length)
         return s->value;
     struct path_step step;
-    size_t from = at;
-    if (!ceduo_path_next(s->set->bytes, s->length, &at, &step)) {
+    size_t from = offset;
+    if (!ceduo_path_next(s->set->bytes, s->length, &offset, &step)) {
         ceduo_problem(s->problems, s->set, 1, from + 1, _("malformed path; keys are joined by '.', items are [0] or [name]"));
         return NULL;
     }
@@ -473,7 +473,7 @@ static const struct node *set_in(struct resolver *s, const struct field *f, cons
         return fail_at(s, &step, _("there is no list here"));
     if (!step.bracket && node->kind != NODE_MAP)
         return fail_at(s, &step, _("there is no mapping here"));
-    const struct node *changed = step.bracket ? set_item(s, f, node, &step, at) : set_entry(s, object, node, &step, at);
+    const struct node *changed = step.bracket ? set_item(s, f, node, &step, offset) : set_entry(s, object, node, &step, offset);
     if (!changed)
         return NULL;
     ceduo_node_keep_written(changed, node);

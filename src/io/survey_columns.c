@@ -33,7 +33,7 @@ const struct csv_head ceduo_survey_heads[COLUMNS] = {
               AREA_UNITS, .unit = N_("m2"), .lo = 1, .hi = 1e6},
     [RADIUS] = {N_("radius_m"), "radius|plot radius|raggio|raggio saggio|r", "m", .unit = N_("m"), .lo = 0.5, .hi = 500},
     [SLOPE] = {N_("slope_deg"), "slope|pendenza|pend|pendenza media|inclinazione|neigung|hangneigung", DEGREES "|" PERCENT,
-               .other = PERCENT, .unit = N_("degrees or %")},
+               .other_units = PERCENT, .unit = N_("degrees or %")},
     [STOOLS] = {N_("stools"),
                 "ceppaie|n ceppaie|num ceppaie|numero ceppaie|n di ceppaie|stool count|number of stools|no of stools|"
                 "anzahl stöcke|stöcke",
@@ -48,11 +48,11 @@ const struct csv_head ceduo_survey_heads[COLUMNS] = {
              "dbh|dap|diametro|diam|diametro a 1,30 m|diametro a 1,30|diam a 1,30|diam a 1,30 m|diam 1,30|d130|"
              "diametro medio|diam medio|d medio|classe diam|classe diametrica|classe di diametro|diameter|mean dbh|"
              "mean diameter|dbh class|diameter class|bhd|brusthöhendurchmesser|mitteldurchmesser|durchmesser|Ø|⌀|d",
-             "cm|mm", .other = "mm", .unit = N_("cm or mm"), .lo = 0.1, .hi = 1e6},
+             "cm|mm", .other_units = "mm", .unit = N_("cm or mm"), .lo = 0.1, .hi = 1e6},
     [CIRCUMFERENCE] = {N_("circumference_cm"),
                        "circumference|circonferenza|circonferenza a 1,30|circonferenza a 1,30 m|circ|circ a 1,30|c130|girth|"
                        "gbh|cbh|umfang|brusthöhenumfang",
-                       "cm|mm", .other = "mm", .unit = N_("cm or mm"), .lo = 0.3, .hi = 3e6},
+                       "cm|mm", .other_units = "mm", .unit = N_("cm or mm"), .lo = 0.3, .hi = 3e6},
     [HEIGHT] =
         {N_("height_m"),
          "height|total height|altezza|altezza totale|altezza media|mean height|h tot|ht|h media|h medio|höhe|baumhöhe|h|alt",
@@ -247,7 +247,7 @@ bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum cs
         none[c] = columns[c] == CEDUO_CSV_NOT_FOUND;
     bool sized = !none[DBH] || !none[CIRCUMFERENCE], laid = !none[AREA] || !none[RADIUS];
     for (int c = 0; c < COLUMNS; c++) {
-        const char *usual = ceduo_survey_heads[c].units, *other = ceduo_survey_heads[c].other;
+        const char *usual = ceduo_survey_heads[c].units, *rare = ceduo_survey_heads[c].other_units;
         units[c] = CSV_UNIT_NONE;
         bool needed = c == DBH || c == CIRCUMFERENCE ? !sized : c == AREA || c == RADIUS ? !laid : true;
         if (usual && none[c] && needed)
@@ -255,7 +255,7 @@ bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum cs
         if (!usual || columns[c] >= CEDUO_CSV_DUPLICATE)
             continue;
         const struct csv_cell head = csv->heads[columns[c]];
-        units[c] = other && has_unit(head, other) ? CSV_UNIT_OTHER : has_unit(head, usual) ? CSV_UNIT_USUAL : CSV_UNIT_NONE;
+        units[c] = rare && has_unit(head, rare) ? CSV_UNIT_OTHER : has_unit(head, usual) ? CSV_UNIT_USUAL : CSV_UNIT_NONE;
     }
     if (csv->problems->met > before)
         return false;

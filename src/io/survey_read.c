@@ -63,16 +63,16 @@ static bool read_number(struct survey_reader *r, enum column c, double *value)
     if (cell.n == 0)
         return true;
     const struct csv_head *head = &ceduo_survey_heads[c];
-    const enum csv_unit own = ceduo_csv_split_unit(&cell, head->other)   ? CSV_UNIT_OTHER
-                              : ceduo_csv_split_unit(&cell, head->units) ? CSV_UNIT_USUAL
-                                                                         : CSV_UNIT_NONE;
+    const enum csv_unit own = ceduo_csv_split_unit(&cell, head->other_units) ? CSV_UNIT_OTHER
+                              : ceduo_csv_split_unit(&cell, head->units)     ? CSV_UNIT_USUAL
+                                                                             : CSV_UNIT_NONE;
     if (own && r->units[c] && own != r->units[c])
         return ceduo_csv_error(&r->csv, cell, _("the first line gives another unit for this column; write it without a unit"));
     if (c == SLOPE)
         return read_slope(r, cell, own, value);
     bool mm = (own ? own : r->units[c]) == CSV_UNIT_OTHER;
     double scale = mm ? 10 : 1;
-    const char *unit = mm ? _("mm") : head->other ? _("cm") : _(head->unit);
+    const char *unit = mm ? _("mm") : head->other_units ? _("cm") : _(head->unit);
     if (!ceduo_csv_number(&r->csv, cell, head->lo * scale, head->hi * scale, unit, value))
         return false;
     *value /= scale;

@@ -310,7 +310,7 @@ static void print_doubt(const struct writer *w, size_t *n, const char *path, con
 static void print_doubts(const struct writer *w)
 {
     const struct ceduo_survey_answer *a = w->answer;
-    size_t n = 0, at[2] = {0};
+    size_t n = 0, indices[2] = {0};
     print_doubt(w, &n, "stools.per_ha", &a->stools, count_stools(w));
     print_doubt(w, &n, "stools.spacing_m", &a->spacing, a->spacing.mean);
     if (w->stumps)
@@ -322,13 +322,13 @@ static void print_doubts(const struct writer *w)
             continue;
         bool tree = is_tree(c->kind);
         const char *list = tree ? "trees" : "shoots";
-        snprintf(path, sizeof path, "%s[%zu].per_ha", list, at[tree]++);
+        snprintf(path, sizeof path, "%s[%zu].per_ha", list, indices[tree]++);
         print_doubt(w, &n, path, &c->per_ha, c->per_ha.mean);
         if ((tree ? a->trees : a->shoots).from < CEDUO_HEIGHTS_SHOOTS)
             continue;
         bool given = needs_volume(w, c); /* otherwise the program computes the volume from the height */
         double size = given ? c->volume : c->height, range = CEDUO_SURVEY_HEIGHT_DOUBT * size;
-        snprintf(path, sizeof path, "%s[%zu].%s", list, at[tree] - 1, given ? "volume_m3" : "height_m");
+        snprintf(path, sizeof path, "%s[%zu].%s", list, indices[tree] - 1, given ? "volume_m3" : "height_m");
         print_row(w, &n, path, (const char *[]){"lo", "hi"}, size - range, size + range);
     }
 }

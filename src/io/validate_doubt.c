@@ -51,8 +51,8 @@ static const struct node *find_list(const struct node *root, const char *path)
 static const char *replace_names(struct validator *v, const char *path)
 {
     struct path_step step;
-    size_t at = 0, index;
-    while (ceduo_path_next(path, strlen(path), &at, &step)) {
+    size_t offset = 0, index;
+    while (ceduo_path_next(path, strlen(path), &offset, &step)) {
         if (!step.bracket || ceduo_path_index(&step, &index))
             continue;
         int before = (int)(step.p - path);

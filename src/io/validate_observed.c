@@ -304,9 +304,10 @@ static bool check_each(const struct entry *e)
 static bool check_released(const struct entry *e)
 {
     const struct observed_values *values = e->values;
-    unsigned long long observed = e->kind_row->list ? values->values_count : values->count, of = values->of;
+    unsigned long long observed = e->kind_row->list ? values->values_count : values->count, released = values->of;
     /* untaken: complaint */
-    return of == 0 || observed <= of || ceduo_reject(e->v, e->path, "of", _("%llu were seen of %llu released"), observed, of);
+    return released == 0 || observed <= released ||
+           ceduo_reject(e->v, e->path, "of", _("%llu were seen of %llu released"), observed, released);
 }
 
 static bool check_values(const struct entry *e)

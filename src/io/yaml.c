@@ -97,24 +97,24 @@ static void *report_syntax(struct reader *r)
         uint32_t code;
         while (from < p->problem_offset && (n = ceduo_utf8_decode(bytes + from, length - from, &code)) > 0)
             from += n; /* libyaml may name a byte within the character */
-        yaml_mark_t at = find_mark(bytes, from);
+        yaml_mark_t place = find_mark(bytes, from);
         if (p->problem_value >= 0 && strstr(message, "control"))
-            return STOP(r, at, _("a control character (\\x%02x); remove it"), (unsigned)p->problem_value);
-        return STOP(r, at, _("not UTF-8; save the file as UTF-8"));
+            return STOP(r, place, _("a control character (\\x%02x); remove it"), (unsigned)p->problem_value);
+        return STOP(r, place, _("not UTF-8; save the file as UTF-8"));
     }
     /* untaken: table */
     while (length > 0 && (bytes[length - 1] == '\n' || bytes[length - 1] == '\r' || bytes[length - 1] == ' '))
         length--;
-    yaml_mark_t at = p->problem_mark, end = find_mark(bytes, length); /* end: of the last line that is not blank */
-    at = at.line > end.line ? end : at;
-    size_t byte = ceduo_source_byte(r->source, find_line(at), find_column(r, at));
+    yaml_mark_t place = p->problem_mark, end = find_mark(bytes, length); /* end: of the last line that is not blank */
+    place = place.line > end.line ? end : place;
+    size_t byte = ceduo_source_byte(r->source, find_line(place), find_column(r, place));
     if (strstr(message, "tab") || (byte < r->source->length && r->source->bytes[byte] == '\t'))
-        return STOP(r, at, _("a tab; indent with spaces"));
+        return STOP(r, place, _("a tab; indent with spaces"));
     if (strstr(message, "cannot start any token"))
-        return STOP(r, at, _("malformed YAML: no value can start with this character; put the text in quotes"));
+        return STOP(r, place, _("malformed YAML: no value can start with this character; put the text in quotes"));
     if (p->context)
-        return STOP(r, at, _("malformed YAML: %s %s"), message, p->context);
-    return STOP(r, at, _("malformed YAML: %s"), message);
+        return STOP(r, place, _("malformed YAML: %s %s"), message, p->context);
+    return STOP(r, place, _("malformed YAML: %s"), message);
 }
 
 static bool next_event(struct reader *r, yaml_event_t *event)
