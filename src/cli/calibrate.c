@@ -153,15 +153,15 @@ static enum exit_status write_scene(const struct fit_job *j, const struct ceduo_
         draws.wait = false; /* the scene waits for the disk, right after */
         if (!ceduo_file_prepare(&file)) {
             failed = output;
-        } else if (ceduo_file_place(&draws)) {
-            failed = ceduo_file_place(&file) ? NULL : output;
+        } else if (ceduo_file_commit(&draws)) {
+            failed = ceduo_file_commit(&file) ? NULL : output;
             status = failed ? EXIT_OUTPUT : EXIT_DONE;
         }
     }
     if (failed)
         ceduo_print_message(failed, strerror(errno));
-    ceduo_file_drop(&draws);
-    ceduo_file_drop(&file);
+    ceduo_file_abort(&draws);
+    ceduo_file_abort(&file);
     return status;
 }
 

@@ -153,7 +153,7 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
     bool template = strcmp(a->survey, "--template") == 0, standard = strcmp(a->survey, "-") == 0;
     const char *found = standard || template ? NULL : ceduo_file_find(&arena, a->survey, NULL, "surveys");
     if (template)
-        ceduo_survey_template(&yaml);
+        ceduo_survey_print_template(&yaml);
     bool good = template || (ceduo_survey_read(&file, &arena, found ? found : a->survey, NULL, &problems) &&
                              ceduo_survey_stand(&file, &yaml, &problems));
     ceduo_print_problems(&problems);

@@ -63,7 +63,7 @@ enum exit_status ceduo_output_next(struct output *o, const struct arguments *a, 
         o->begun = o->fd >= 0;
         if (!o->begun) {
             enum exit_status status = fail(a);
-            ceduo_file_drop(&o->file);
+            ceduo_file_abort(&o->file);
             return status;
         }
     }
@@ -83,7 +83,7 @@ enum exit_status ceduo_output_end(struct output *o, const struct arguments *a, s
         close(o->fd);
     else if (!ceduo_file_finish(&o->file, o->fd))
         status = fail(a);
-    ceduo_file_drop(&o->file);
+    ceduo_file_abort(&o->file);
     ceduo_interrupt_release();
     return status;
 }

@@ -411,7 +411,7 @@ static bool replace_output(const struct resume *r)
         close(fd);
     good = good && ceduo_file_finish(&file, fd);
     unmap_file(bytes, n);
-    ceduo_file_drop(&file);
+    ceduo_file_abort(&file);
     return good;
 }
 

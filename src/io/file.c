@@ -328,10 +328,10 @@ int ceduo_file_begin(struct pending_file *file)
 bool ceduo_file_finish(struct pending_file *file, int fd)
 {
     file->n = 0;
-    return write_and_close(fd, file) && (!file->target || ceduo_file_place(file));
+    return write_and_close(fd, file) && (!file->target || ceduo_file_commit(file));
 }
 
-bool ceduo_file_place(struct pending_file *file)
+bool ceduo_file_commit(struct pending_file *file)
 {
     if (!file->target) {
         int fd = open_in_place(file->path);
@@ -355,7 +355,7 @@ bool ceduo_file_place(struct pending_file *file)
     return true;
 }
 
-void ceduo_file_drop(struct pending_file *file)
+void ceduo_file_abort(struct pending_file *file)
 {
     int error = errno;
     if (file->temporary)
@@ -368,8 +368,8 @@ void ceduo_file_drop(struct pending_file *file)
 bool ceduo_file_write(const char *path, const char *bytes, size_t n)
 {
     struct pending_file file = {.path = path, .bytes = bytes, .n = n, .wait = true};
-    bool good = ceduo_file_prepare(&file) && ceduo_file_place(&file);
-    ceduo_file_drop(&file);
+    bool good = ceduo_file_prepare(&file) && ceduo_file_commit(&file);
+    ceduo_file_abort(&file);
     return good;
 }
 
@@ -391,6 +391,6 @@ bool ceduo_file_can_write(const char *path)
             slash[slash == file.target] = '\0';
         good = access(slash ? file.target : ".", W_OK | X_OK) == 0;
     }
-    ceduo_file_drop(&file);
+    ceduo_file_abort(&file);
     return good;
 }

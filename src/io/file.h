@@ -39,7 +39,7 @@ bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *can
 bool ceduo_file_write(const char *path, const char *bytes, size_t n);
 
 /* A temporary file that is written but not renamed. Write several, then rename them all. A device or FIFO is written by
- * ceduo_file_place(); `bytes` must stay valid until then. */
+ * ceduo_file_commit(); `bytes` must stay valid until then. */
 struct pending_file {
     const char *path;
     const char *bytes;
@@ -49,16 +49,16 @@ struct pending_file {
     char *temporary; /* TARGET.ceduo-tmp-…; NULL: none, or renamed */
 };
 
-/* Write the temporary file. The first four members must be set. Return false with errno set. Call ceduo_file_drop() even then. */
+/* Write the temporary file. The first four members must be set. Return false with errno set. Call ceduo_file_abort() even then. */
 bool ceduo_file_prepare(struct pending_file *file);
 /* Rename it to its target. Return false with errno set. */
-bool ceduo_file_place(struct pending_file *file);
-/* Open a file to be written piece by piece. Return its descriptor; -1 with errno set. Call ceduo_file_drop() even then. */
+bool ceduo_file_commit(struct pending_file *file);
+/* Open a file to be written piece by piece. Return its descriptor; -1 with errno set. Call ceduo_file_abort() even then. */
 int ceduo_file_begin(struct pending_file *file);
 /* Close it and rename it to its target. Return false with errno set. */
 bool ceduo_file_finish(struct pending_file *file, int fd);
 /* Remove the temporary file unless it was renamed, and free all. */
-void ceduo_file_drop(struct pending_file *file);
+void ceduo_file_abort(struct pending_file *file);
 
 /* True if two paths lead to one regular file. `b` may be "-", standard input. */
 bool ceduo_file_same(const char *a, const char *b);

@@ -37,6 +37,6 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
 bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struct problems *problems);
 
 /* Append an empty sheet as CSV in the user's language, with two example rows. */
-void ceduo_survey_template(struct text *sheet);
+void ceduo_survey_print_template(struct text *sheet);
 
 #endif

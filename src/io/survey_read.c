@@ -660,7 +660,7 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
     return ceduo_problems_settle(problems);
 }
 
-void ceduo_survey_template(struct text *sheet)
+void ceduo_survey_print_template(struct text *sheet)
 {
     ceduo_text_put(sheet, _("plot,area_m2,slope_deg,species,kind,stool,dbh_cm,height_m,spacing_m\n"
                             "1,200,30,hop hornbeam,shoot,1,6.5,7.2,0.35\n"
