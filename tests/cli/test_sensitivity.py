@@ -716,12 +716,12 @@ def test_what_is_not_there():
 
 
 REFUSED = {
-    "doubt[0].path: no answer is in doubt because of 'rock.colour'": {"path": "rock.colour", "lo": 1, "hi": 2},
-    "doubt[0].path: no answer is in doubt because of 'title'": {"path": "title", "lo": 1, "hi": 2},
-    "doubt[0].path: no answer is in doubt because of 'slope.materials[gold].rn'": {"path": "slope.materials[gold].rn", "lo": 0.1, "hi": 0.2},
-    "doubt[0].path: no answer is in doubt because of 'simulation.rocks'": {"path": "simulation.rocks", "lo": 100, "hi": 200},
-    "doubt[0].path: no answer is in doubt because of 'doubt[*].lo'": {"path": "doubt[*].lo", "lo": 100, "hi": 200},
-    "doubt[0].path: no answer is in doubt because of 'years.first'": {"path": "years.first", "lo": 1, "hi": 2},
+    "doubt[0].path: 'rock.colour' affects no result": {"path": "rock.colour", "lo": 1, "hi": 2},
+    "doubt[0].path: 'title' affects no result": {"path": "title", "lo": 1, "hi": 2},
+    "doubt[0].path: 'slope.materials[gold].rn' affects no result": {"path": "slope.materials[gold].rn", "lo": 0.1, "hi": 0.2},
+    "doubt[0].path: 'simulation.rocks' affects no result": {"path": "simulation.rocks", "lo": 100, "hi": 200},
+    "doubt[0].path: 'doubt[*].lo' affects no result": {"path": "doubt[*].lo", "lo": 100, "hi": 200},
+    "doubt[0].path: 'years.first' affects no result": {"path": "years.first", "lo": 1, "hi": 2},
     "doubt[0].hi: the range is empty": {"path": "rock.density_kg_m3", "lo": 2500, "hi": 2500},
     "doubt[0].sd: the range is empty": {"path": "rock.density_kg_m3", "mean": 2500, "sd": 0},
     "doubt[0].hi: 1.5 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "lo": 0.5, "hi": 1.5},

@@ -58,7 +58,7 @@ def test_nothing_seen():
     with Place() as place:
         for size in ("80 24", "200 50"):
             view, key = place.play(f"resize {size}\nwait idle\nkey 8\ndump\nkey c\ndump")
-            says(view, "This scene does not say what was seen on its slope.", "a asks for what of it is known", "c fits the ground to it.")
+            says(view, "This scene does not no observation; give one of on its slope.", "a asks for what of it is known", "c fits the ground to it.")
             view.lacks("not computed yet", "fallin")
             key.whole().has("a asks for it").lacks("What is fitted")
 
@@ -123,7 +123,7 @@ def test_typed():
     expect(re.search(r"^1 +41 44\.5 52 61 +6 +-$", stops.body, re.M), stops)
     refused.has("'sixty' is not a number")
     wrong.has("how many passed a place")
-    expect_in(" 9 were seen of 6 released", wrong.popup, "nine of six")
+    expect_in(" 9 observed, but only 6 released; correct one", wrong.popup, "nine of six")
     for row in (r"2 +60 +2 +6", r"3 +20 +1\.5 2 2\.5 +- +- +-", r"4 +10 +30 +0\.8 1\.1 +- +-"):
         expect(re.search(rf"^{row}$", all_.body, re.M), row, all_)
     expect(re.search(r"^2 +60 +3 +6$", edited.body, re.M), edited)
