@@ -309,7 +309,7 @@ def test_tallies():
         refused(survey(f, "plot,area_m2,kind,dbh_cm,shoots\n1,400,tree,16,5\n"), "this row has another kind of stem; leave 'shoots' empty here")
         refused(survey(f, head.format("") + "1,400,5,30,,\n"), "plots.csv:2:13", "(column 'stools')")
         classes = "plot,area_m2,dbh_cm,shoots,stools\n1,400,5,30,{}\n1,,10,11,{}\n"
-        for first, second, words in ((50, "", "50 stools do not match 41 live shoots"), (0, "", "0 stools do not fit 41 live shoots"),
+        for first, second, words in ((50, "", "50 stools do not match 41 live shoots"), (0, "", "0 stools do not match 41 live shoots"),
                                      (2.5, "", "'stools' must be a whole number"),
                                      (1, 2, "'stools' is 1 in another row of this plot, here 2; if it numbers the stools")):
             refused(survey(f, classes.format(first, second)), words)
