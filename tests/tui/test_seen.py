@@ -58,7 +58,7 @@ def test_nothing_seen():
     with Place() as place:
         for size in ("80 24", "200 50"):
             view, key = place.play(f"resize {size}\nwait idle\nkey 8\ndump\nkey c\ndump")
-            says(view, "This scene does not no observation; give one of on its slope.", "a asks for what of it is known", "c fits the ground to it.")
+            says(view, "This scene does not say what was seen on its slope.", "a asks for what of it is known", "c fits the ground to it.")
             view.lacks("not computed yet", "fallin")
             key.whole().has("a asks for it").lacks("What is fitted")
 
