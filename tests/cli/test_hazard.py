@@ -570,7 +570,7 @@ def test_refused():
              ({**POWER, "per_year": 0}, "blocks.per_year: 0 is not above 0 1/y"),
              ([], "blocks: the list is empty"),
              ([POWER, {**POWER, "volume_m3": [5, 20]}],
-              "blocks[1].volume_m3: the class overlaps one before it, from 0.01 to 10 m3; let them touch at most"),
+              "blocks[1].volume_m3: this class overlaps an earlier one, from 0.01 to 10 m3; classes may only touch"),
              ([{**POWER, "volume_m3": [3, 1]}], "blocks[0].volume_m3: 3 m3 is not below 1 m3"),
              ([{"per_year": 1}], "'volume_m3' is missing"),
              ([POWER] * 1001, "items; at most 1000 can be computed"),
@@ -585,9 +585,9 @@ def test_refused():
             expect_in(wanted, r.err)
         for changes, wanted in (({"rocks_per_year": 3}, "rocks_per_year: blocks already says this; keep one of the two"),
                                 ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}}},
-                                 "rock: blocks say how large the rocks are; remove the size, or give it without a spread"),
-                                ({"rock": {"volume_m3": {"mean": 1, "spread": 0.1}}}, "rock: blocks say how large"),
-                                ({"rock": {"mass_kg": {"mean": 900, "spread": 10}}}, "rock: blocks say how large"),
+                                 "rock: 'blocks' gives the sizes of rocks; remove the size here, or its spread"),
+                                ({"rock": {"volume_m3": {"mean": 1, "spread": 0.1}}}, "rock: 'blocks' gives the sizes"),
+                                ({"rock": {"mass_kg": {"mean": 900, "spread": 10}}}, "rock: 'blocks' gives the sizes"),
                                 ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}, "height_m": 2}}, "does not belong to the shape"),
                                 ({"simulation": {"rocks": "all"}}, "simulation.rocks")):
             r = ceduo("--check", f.write("s.yaml", falls(POWER, **changes)))

@@ -123,7 +123,7 @@ def test_typed():
     expect(re.search(r"^1 +41 44\.5 52 61 +6 +-$", stops.body, re.M), stops)
     refused.has("'sixty' is not a number")
     wrong.has("how many passed a place")
-    expect_in(" 9 were seen of 6 released", wrong.popup, "nine of six")
+    expect_in(" 9 observed, but only 6 released; correct one", wrong.popup, "nine of six")
     for row in (r"2 +60 +2 +6", r"3 +20 +1\.5 2 2\.5 +- +- +-", r"4 +10 +30 +0\.8 1\.1 +- +-"):
         expect(re.search(rf"^{row}$", all_.body, re.M), row, all_)
     expect(re.search(r"^2 +60 +3 +6$", edited.body, re.M), edited)
