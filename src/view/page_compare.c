@@ -223,11 +223,12 @@ static const char *cell_of(enum column column, const struct ceduo_subject *s, ch
     case MEAN_RANGE:
         return isnan(s->mean.may_lo) || rates ? "" : ceduo_measure_plausible_range(s->mean, room);
     case WORST:
-        return !c || c->over->simulated == 0 ? unknown
-                                            : print(room, "%s (%u)",
-                                                    rates ? WRITTEN(1 / (c->worst.mean * ceduo_hazard_at(s->bare)->per_year), 2)
-                                                          : WRITTEN(1000 * c->worst.mean, 0),
-                                                    c->over->worst_year);
+        return !c || c->over->simulated == 0
+                   ? unknown
+                   : print(room, "%s (%u)",
+                           rates ? WRITTEN(1 / (c->worst.mean * ceduo_hazard_at(s->bare)->per_year), 2)
+                                 : WRITTEN(1000 * c->worst.mean, 0),
+                           c->over->worst_year);
     case ROTATION:
         return c ? ceduo_measure_error(ceduo_share(c->rotation), "", room) : "-";
     case WORST_ADC:

@@ -125,8 +125,7 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);
-        for (size_t i = 0; knows_rotation(pane) && i < pane->report->uncertainty->answer->orders_count;
-             i++)
+        for (size_t i = 0; knows_rotation(pane) && i < pane->report->uncertainty->answer->orders_count; i++)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->uncertainty, i);
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);
