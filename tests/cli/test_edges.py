@@ -31,7 +31,7 @@ def test_unfinished():
         expect_equal(option["controls"][0]["lights"]["energy"], "unknown", "rocks that may still arrive")
         done = ceduo("--batch", "-n", 3, path)
         expect(done.status == RUN and "unfinished" in done.out, done)
-        expect_in("what is not known was not computed", " ".join(done.out.split()), "what would take minutes")
+        expect_in("Uncertainty was not computed", " ".join(done.out.split()), "what would take minutes")
         done = ceduo(*WHOLE, "-n", 3, path)
         words = " ".join(done.out.split())
         expect_in("3 of 3 never come to an end", words)

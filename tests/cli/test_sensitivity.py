@@ -62,7 +62,7 @@ def test_nothing():
         result = answer(what)
         expect_equal((result["figures"], result["ranking"], result["evaluations"]), ([], [], 0))
     with Folder() as f:
-        for uncertainty, told in ([], "nothing in this scene is marked as assumed"), ("none", "not computed, because the scene says 'uncertainty: none'"):
+        for uncertainty, told in ([], "Nothing in this scene is marked as assumed"), ("none", "not computed, because the scene says 'uncertainty: none'"):
             path = f.write("s.yaml", measured(uncertainty=uncertainty))
             report = f.path / "r.html"
             expect_in(told, " ".join(ceduo("--sensitivity", path).out.split()))
@@ -78,7 +78,7 @@ def test_page_of_a_run():
         with Folder() as f:
             page = " ".join(good("--batch", "--details", "-n", 50, f.write("s.yaml", what)).out.split())
             expect(re.search(r"by the number of rocks \(50\); [\d-]+–[\d-]+ by what is not known\." if says else
-                             r"by the number of rocks \(50\); nothing in this scene is marked as assumed\.", page), page)
+                             r"by the number of rocks \(50\); Nothing in this scene is marked as assumed\.", page), page)
 
 
 def test_lights():
@@ -598,7 +598,7 @@ def test_bound_of_a_page():
                         rock={"shape": "sphere", "diameter_m": rock, "density_kg_m3": 2600})
     with Folder() as f:
         for what, rocks, says in ((of(500, 0.7), 20, ""), (of(60000, 4), 400, r"Uncertainty from \d+ points\."),
-                                  (of(100000, 60), 100, "what is not known was not computed, as it takes long: --sensitivity does")):
+                                  (of(100000, 60), 100, "Uncertainty was not computed, because it takes long; --sensitivity computes it")):
             path, report = f.write("s.yaml", what), f.path / "r.html"
             good("--report", report, "-n", rocks, path)
             words = html.unescape(re.sub("<[^>]*>", " ", report.read_text(encoding="utf-8")))
