@@ -2,13 +2,13 @@
 #ifndef CEDUO_H
 #define CEDUO_H
 
-/* All of libceduo: scenes and their files, rockfall over a slope, and what a coppice takes from it. From C++ include this header,
- * not its parts.
+/* All of libceduo: scenes and their files, rockfall on a slope, and the energy that a coppice absorbs. C++ programs include this
+ * header, not its parts.
  *
- * There is no global state but GSL's handler of errors, and calls may run side by side in several threads: what one of them reads,
- * such as a scene, no other may change meanwhile, and a pool, run, surface or observer that a call changes is its alone.
- * GSL's own handler ends the program. While a call runs, errors of GSL in its threads are what the call returns; those of other
- * threads go to the handler that was set before, which stands again after the call. Set none while a call runs. */
+ * Calls may run concurrently. Nobody may modify a scene while a call reads it. One thread at a time uses a pool, run, surface or
+ * observer. The only global state is the error handler of GSL, whose default ends the program. During a call, errors of GSL in
+ * its threads become the status of the call; errors in other threads go to the handler that was set before. The call restores
+ * that handler. Do not set one during a call. */
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>

@@ -55,7 +55,7 @@ void ceduo_pool_set_scene(struct ceduo_pool *pool, const struct ceduo_scene *sce
 #define CEDUO_POOL_BYTES ((size_t)256 * 1024 * 1024)
 void ceduo_pool_trim(struct ceduo_pool *pool);
 
-/* Work done so far. */
+/* Work of all runs up to now. */
 struct ceduo_work {
     uint64_t rocks, contacts; /* rocks simulated, contacts with the ground; all runs */
     struct ceduo_stem_counts stems;

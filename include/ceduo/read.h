@@ -5,28 +5,27 @@
 #include "observe.h"
 #include "uncertainty.h"
 
-/* A scene as its files have it. What it points to belongs to the reading: numbers may be changed in place, and pointers may be
- * set to memory of the caller, which is not freed. */
+/* A scene read from files. Its memory belongs to this struct. The caller may change numbers in place, and may set pointers to
+ * memory of its own, which is not freed. */
 struct ceduo_scene_file {
     struct ceduo_scene scene;
-    size_t inputs_count; /* what is not known of it, as of --sensitivity: for ceduo_uncertainty_compute() */
+    size_t inputs_count; /* uncertain inputs, for ceduo_uncertainty_compute() */
     const struct ceduo_input *inputs;
-    size_t observations_count; /* what was observed there: for ceduo_calibrate() */
+    size_t observations_count; /* for ceduo_calibrate() */
     const struct ceduo_observation *observations;
-    const char *
-        messages; /* what is wrong or, of a good scene, unusual, as `ceduo --check` prints it, but always in English; "": nothing */
+    const char *messages; /* errors, or warnings about a valid scene, as `ceduo --check` prints them, in English; "": none */
     void *memory;
 };
 
-/* Reads a scene from a file: a path, the name of a scene that comes with the program, or "-" for standard input. `sets`
- * (may be NULL) is a list that ends in NULL of changes PATH=VALUE, as of --set, made from first to last. CEDUO_BAD_FILE,
- * with messages; CEDUO_NO_MEMORY. Release it in any case. */
-enum ceduo_status ceduo_scene_read(const char *path, const char *const *sets, struct ceduo_scene_file *reading);
+/* Read a scene from a file: a path, the name of a shipped scene, or "-" for standard input. `sets` is a NULL-terminated list of
+ * changes PATH=VALUE (--set), applied in order; may be NULL. Return CEDUO_OK, CEDUO_BAD_FILE (see messages) or CEDUO_NO_MEMORY.
+ * The caller releases *file in each case. */
+enum ceduo_status ceduo_scene_read(const char *path, const char *const *sets, struct ceduo_scene_file *file);
 
-/* The same from text. Messages call it `name`, and other files that it names are looked for beside a file of that name. */
-enum ceduo_status ceduo_scene_read_text(const char *name, const char *text, struct ceduo_scene_file *reading);
+/* Read a scene from text. Messages call it `name`. Other files are searched relative to the folder of `name`. */
+enum ceduo_status ceduo_scene_read_text(const char *name, const char *text, struct ceduo_scene_file *file);
 
-/* Frees it; a second time does nothing. */
-void ceduo_scene_file_release(struct ceduo_scene_file *reading);
+/* Release the memory. A second call has no effect. */
+void ceduo_scene_file_release(struct ceduo_scene_file *file);
 
 #endif

@@ -58,7 +58,7 @@ struct ceduo_trajectory {
     double x, z;       /* end point */
     uint64_t contacts; /* with the ground */
     uint64_t stems_hit;
-    uint64_t stools_met; /* stools and single trees of which a stem was hit */
+    uint64_t stools_met; /* stools and single trees with a stem that was hit */
     uint64_t stems_drawn;
 };
 
