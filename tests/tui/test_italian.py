@@ -105,7 +105,7 @@ def test_columns():
     """The rule beside the figures stands in one column, as in English"""
     for english, italian in both(VIEWS, "options.yaml"):
         for screen in (english, italian):
-            lines = [line for line in str(screen).split("\n") if "\u2502 di 1000" in line or "\u2502 of 1000" in line]
+            lines = [line for line in str(screen).split("\n") if "\u2502 su 1000" in line or "\u2502 of 1000" in line]
             expect_equal({line.index("\u2502 ", 40) for line in lines}, {51}, str(screen))
 
 
