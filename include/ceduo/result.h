@@ -56,8 +56,8 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
                                       const struct ceduo_other_energy *others, struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 
-/* Assess an option from its simulated rocks. Fills `stands` for each belt and `controls` for each control. `wooded` without
- * rocks is unknown. */
+/* Assess an option from its simulated rocks. Fills `stands` for each belt and `controls` for each control. `wooded` may be
+ * empty. */
 void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_simulated *bare,
                        const struct ceduo_simulated *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls);
 

@@ -5,8 +5,7 @@
 #include "result.h"
 #include "rotation.h"
 
-/* An option year by year. Its stands grow and are cut as their files and belts define. The same rocks are simulated through
- * each year's forest. */
+/* An option year by year. Its stands grow and are cut as their files and belts define. All years have the same rocks. */
 
 struct ceduo_year {
     unsigned year;                     /* 0: the stands as filed */
@@ -105,8 +104,7 @@ struct ceduo_years_summary {
 };
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control);
 
-/* Return the difference of the mean marked shares of two options, rock by rock over the rocks that both have. NaN if
- * unknown. */
+/* Return the difference of the mean marked shares of two options, over the rocks that both have. NaN if unknown. */
 struct ceduo_estimate ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less);
 
 /* Return the felled length of belts, m, summed over all cuts in the computed years: m2 per metre of width. */

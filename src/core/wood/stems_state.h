@@ -54,8 +54,7 @@ struct stems_side {
     struct points *groups; /* the third stream; NULL: no groups */
     double unequal_to;     /* m along the strip: beyond, the queue has only shoots of equal diameter per kind */
     struct stem single;    /* next single tree; `along` infinite: none */
-    /* shoots of drawn stools and trees of drawn groups that the rock can hit, from `first` to before `end`, sorted; capacity
-     * for one more */
+    /* drawn shoots and grouped trees that the rock can hit, from `first` to before `end`, sorted; end < capacity */
     struct stem *queue;
     size_t first, end, capacity;
     double certain_to; /* m along the strip: the first queued stem is next if it is before */
