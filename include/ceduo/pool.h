@@ -39,7 +39,7 @@ enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks);
 /* True if the 95 % half-width of a mean of `reached` arrivals is at most `tolerance` × the mean, or if there are too few. */
 bool ceduo_mean_is_precise(uint64_t reached, struct ceduo_estimate mean, double tolerance);
 
-/* Extend all runs, from one block on by an eighth each time, until the mean energies are precise or `max` rocks are done. At
+/* Extend all runs, from one batch on by an eighth each time, until the mean energies are precise or `max` rocks are done. At
  * every control with at least CEDUO_FEW_ROCKS arrivals the 95 % half-width must be below `tolerance` × the mean. Sets *met. */
 enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t max, bool *met);
 
