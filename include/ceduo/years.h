@@ -92,10 +92,9 @@ struct ceduo_years_summary {
     bool nothing; /* the forest cannot be judged (ceduo_says_nothing()): all lights are unknown */
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which this light fails */
     size_t thick_contact, thick_free_run;                                 /* likewise, counting stems from CEDUO_THICK_DBH on */
-    size_t failing_lo,
-        failing_hi;             /* years whose lower, or upper, 95 % limit of the judged share is above the control's limit */
-    struct ceduo_estimate rate; /* with blocks: ceduo_hazard_feared(); the interval is an upper bound */
-    struct ceduo_estimate reach, exceed;       /* of the released */
+    size_t failing_lo, failing_hi;       /* years whose lower, or upper, 95 % limit of `exceed` is above the control's limit */
+    struct ceduo_estimate rate;          /* with blocks: ceduo_hazard_feared(); the interval is an upper bound */
+    struct ceduo_estimate reach, exceed; /* of the released */
     struct ceduo_estimate energy_per_released; /* J */
     /* year of the largest exceeding share, or arriving share without an accepted energy; with the index, of the largest ADC */
     unsigned worst_year;

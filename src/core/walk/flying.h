@@ -15,7 +15,7 @@
 #endif
 #define PAUSE_SEGMENTS 64 /* a flight may pass all segments, so that longer profiles have shorter pauses */
 
-/* ---- what is next ---- */
+/* ---- next stem and pause ---- */
 
 static inline void set_next_stems(struct walker *w)
 {

@@ -109,7 +109,7 @@ FORCE_INLINE void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, un
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
         const struct stem *stem = k->stem.next[i];
-        uint64_t *place = &k->stem.met[i][stem->stool & places];
+        uint64_t *place = &k->stem.hit_stools[i][stem->stool & places];
         bool is_hit = hit >> i & 1, shoot = is_hit & stem->shoot;
         k->stem.hit[i] += is_hit;
         k->stem.stools_met[i] += is_hit & !(shoot & (*place == stem->stool));

@@ -79,7 +79,7 @@ struct rock_state {
     struct landing l;     /* in flight */
 };
 
-/* ---- what is next ---- */
+/* ---- next mark ---- */
 
 static inline bool is_behind_marks(const struct walker *w)
 {
