@@ -75,7 +75,7 @@ struct object;
 /* Display and input of a value, see view/typed.h. */
 struct field_shown {
     const char *label, *brief; /* marked for translation; brief: for the head of a column, NULL: the label */
-    const char *unit;          /* NULL: that of the file */
+    const char *unit;          /* NULL: the file's unit */
     double per;                /* displayed units per unit of the file */
     double least, most;        /* usual range, in the file's unit; outside, the form asks and the reader warns */
 };
