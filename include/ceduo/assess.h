@@ -64,8 +64,8 @@ bool ceduo_index_depends_on_thin_stems(const struct ceduo_index *index);
  * Unknown for NULL, without an accepted energy, or if unfinished rocks decide it. */
 enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 
-/* Limits of the mean speed (m/s) and of the 95th percentile of the height (m) at a control. Above them a warning asks to check
- * the ground. Assumed. */
+/* Limits of the mean speed (m/s) and of the 95th percentile of the height (m) at a control. Above them a page warns.
+ * Assumed. */
 #define CEDUO_SPEED_USUAL  35.0
 #define CEDUO_HEIGHT_USUAL 10.0
 
@@ -75,8 +75,8 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 bool ceduo_too_few_arrivals(const struct ceduo_arrivals *bare);
 
 /* Compare the rocks that arrive without forest with the terrain. Rocks usually reach places under a steep reach or shadow
- * angle, and rarely reach places under a flat one. Evans and Hungr (1993) suggest 27.5 degrees as the smallest shadow angle.
- * The limits are assumed. */
+ * angle, and rarely reach places under a flat one. Evans and Hungr (1993) suggest 27.5 degrees as minimum shadow angle. Limits
+ * assumed. */
 #define CEDUO_REACH_STEEP  35.0 /* degrees */
 #define CEDUO_SHADOW_STEEP 32.0
 #define CEDUO_SHADOW_FLAT  24.0

@@ -7,8 +7,8 @@
 
 #include "statistics.h"
 
-/* Annual frequency and energy of rocks at a control, for scenes with `blocks`. Energies in J, rates in events per year, each
- * with its 95 % interval. */
+/* Annual frequency and energy of rocks at a control, for scenes with `blocks`. Energies in J, rates per year, with 95 %
+ * intervals. */
 
 /* Energy that is reached or exceeded once in `years`; NaN if the sample does not reach this return period. */
 struct ceduo_return {
@@ -16,8 +16,7 @@ struct ceduo_return {
     struct ceduo_estimate energy; /* se: NaN */
 };
 
-/* Classes of intensity and of return period in Swiss practice: below 30 kJ, 30 to 300 kJ, above 300 kJ (BAFU 2016); up to 30,
- * 100 and 300 years. */
+/* Classes of intensity and of return period in Swiss practice: limits 30 and 300 kJ (BAFU 2016); 30, 100 and 300 years. */
 #define CEDUO_INTENSITIES 3
 #define CEDUO_RETURNS     4                                      /* and 10 years */
 extern const double ceduo_intensity_from[CEDUO_INTENSITIES + 1]; /* J; the last is infinite */

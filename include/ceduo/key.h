@@ -6,7 +6,7 @@
 
 #include "scene.h"
 
-/* Hashes of all inputs of a run. If they are equal, rocks with the same number have the same trajectory. */
+/* Hashes of all inputs of a run. If they are equal, the same rocks have the same trajectories. */
 
 /* Return the hash of all but the forest: rock, release, slope, controls, law, seed, gravity. */
 uint64_t ceduo_scene_key(const struct ceduo_scene *scene);

@@ -7,7 +7,7 @@
 /* The same rocks under the other energy law of stems. Two published laws disagree about thin stems (Brauner et al. 2005; Dorren
  * et al. 2006). Neither has been validated there, so results are shown for both. */
 
-/* Few rocks show the effect of the other law: the first ones of the scene, in whole blocks. */
+/* Few rocks show the effect of the other law: the first ones of the scene, in whole batches. */
 #define CEDUO_OTHER_ROCKS ((uint64_t)10 * CEDUO_BATCH_ROCKS)
 
 /* Results of an option at one control under the other law. */

@@ -19,7 +19,7 @@ struct ceduo_simulated {
 enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *simulated);
 /* Set unknown contacts to 0, for a forest without stems. */
 void ceduo_simulated_meets_nothing(struct ceduo_simulated *simulated);
-/* Set the hazard relative to that of `bare`. */
+/* Set the hazard relative to `bare`. */
 void ceduo_simulated_compare(struct ceduo_simulated *simulated, const struct ceduo_simulated *bare);
 void ceduo_simulated_free(struct ceduo_simulated *simulated);
 
@@ -56,8 +56,8 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
                                       const struct ceduo_alternative_energy *others, struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 
-/* Assess an option from its simulated rocks. Fills `stands` for each belt and `controls` for each control. `wooded` without
- * rocks is unknown. */
+/* Assess an option from its simulated rocks. Fills `stands` for each belt and `controls` for each control. `wooded` may be
+ * empty. */
 void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_simulated *bare,
                        const struct ceduo_simulated *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls);
 

@@ -48,8 +48,7 @@ enum ceduo_shape {
 };
 
 /* A rock as a user describes it. Sizes that are not given have mean NaN. A sphere needs one of diameter, volume or mass (with
- * density), a cylinder diameter and height, an ellipsoid or a block three axes. If the sizes are given, a mass replaces volume
- * × density. */
+ * density), a cylinder diameter and height, an ellipsoid or a block three axes. A given mass replaces volume × density. */
 struct ceduo_rock_def {
     enum ceduo_shape shape;
     struct ceduo_number diameter; /* m, > 0 */

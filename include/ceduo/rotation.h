@@ -31,8 +31,7 @@
  *
  * Trees and shoots share the growing space (assumed). In computed years, that is all but year 0 as filed, only the shoots are
  * thinned, by one factor to growth.sdi_most·(1 - ceduo_growing_space_used()). If less than one per stool is left, stools die, and
- * each remaining stool has one shoot. Because each year is computed on its own, a cut starts again from all stools of the
- * inventory. */
+ * each remaining stool has one shoot. Because years are independent, a cut starts again from all stools of the inventory. */
 
 #define CEDUO_YEAR_MAX 100000 /* the last year of a window */
 
@@ -47,8 +46,7 @@ struct ceduo_grown_stand {
 
 /* Compute the stand of `year` in *out; caller frees it by ceduo_grown_stand_release(). `first_cut`: as in ceduo_first_cut(). A
  * stratum without a growth curve is copied unchanged. Without any curve, or in year 0 without a cut, so is the whole stand, bit
- * for bit. In the year of a cut the stand is the one after the cut. Return CEDUO_NO_MEMORY, with nothing to free, or
- * CEDUO_OK. */
+ * for bit. In the year of a cut it is the stand after the cut. Return CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
 enum ceduo_status ceduo_stand_at(const struct ceduo_stand *stand, double first_cut, unsigned year,
                                  struct ceduo_grown_stand *out);
 void ceduo_grown_stand_release(struct ceduo_grown_stand *grown);
@@ -66,7 +64,7 @@ double ceduo_curve_height(const struct ceduo_curve *curve, double dbh);
 struct ceduo_beside_curve {
     double age, basal_area, by_curve;
 };
-/* Compare kind i of the stems, shoots first, with its curve. An unknown age of the only kind of shoots is the years since a cut
+/* Compare kind i of the stems, shoots first, with its curve. A single kind of shoots without age has the years since a cut
  * before year 0. */
 struct ceduo_beside_curve ceduo_stems_beside_curve(const struct ceduo_stand *stand, double first_cut, size_t i);
 
@@ -82,8 +80,7 @@ bool ceduo_stand_grows(const struct ceduo_stand *stand);
  * fraction is rounded up. Cuts repeat by the rotation. A negative year only sets the rhythm: -5 with a rotation of 25 years
  * gives 20, and the inventory is what the cut in year -5 left. INFINITY: never. NaN: cut when the oldest shoots reach the age
  * of cutting, rotation × cohorts. Without shoots the oldest trees decide, at rotation × (rotations survived by the oldest
- * retained trees + 1). If they are older, the cut is in year 1, so that year 0 is the stand as filed. Never if no age is
- * known. */
+ * retained trees + 1). If they are older, the cut is in year 1, so that year 0 is the stand as filed. Unknown age: never. */
 unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut);
 
 /* True if `year` is the year of the first cut or any number of whole rotations later. */

@@ -10,8 +10,7 @@
 #include "statistics.h"
 #include "trajectory.h"
 
-/* A run: many rocks of one scene, without forest or through the forest of one option. It can be extended, and read at any time
- * between. */
+/* A run: many rocks of one scene, without forest or through the forest of one option. It can be extended and read. */
 struct ceduo_run;
 
 #define CEDUO_BATCH_ROCKS 1024 /* rocks per batch */

@@ -13,8 +13,7 @@
 #define CEDUO_THRESHOLD_M 30      /* Bozzolo 1987 as cited by Ciabocco et al. 2009 */
 #define CEDUO_ROCKS_MAX   1048576 /* in a run, which stores each: the standard error of a share is at most 0.0005 */
 
-/* Laws of impact on the ground. To add one, write a file like src/core/walk/law_crsp.h, include it in strike.h and add a line
- * here. */
+/* Laws of impact on the ground. To add one, write a file like src/core/walk/law_crsp.h, include it in strike.h, and list it. */
 #define CEDUO_LAWS(X)                                                                                                          \
     X(LUMPED, lumped)                                                                                                          \
     X(CRSP, crsp)                                                                                                              \
@@ -44,7 +43,7 @@ struct ceduo_control {
     char *name_given;      /* as the user wrote it, if a name in another language is displayed */
     double accepted;       /* J that the object at risk withstands; NaN: not given */
     double measured_speed; /* m/s of a real rock observed here; NaN: none */
-    /* Years, > 0: with blocks, accepted mean time between rocks with more than `accepted`. NaN or 0: not given. Read it by
+    /* Years, > 0: accepted return period of rocks with more than `accepted`. NaN or 0: not given; see
      * ceduo_accepted_return(). */
     double accepted_return;
 };
@@ -64,7 +63,7 @@ struct ceduo_belt {
     char *name, *name_given;     /* of the stand: as displayed, and as the user wrote it */
     bool assumed;                /* some value of the stand is an assumption */
     bool changed;                /* numbers of a stand from a file were changed, and it has no name of its own */
-    bool felled;                 /* in a year of ceduo_years: this stand is what a cut left in this year */
+    bool felled;                 /* in a year of ceduo_years: this stand was left by a cut in this year */
     double cut_year;             /* a year in which it is cut, as in ceduo_first_cut(); NaN: cut when old enough */
     struct ceduo_stand stand;
 };
@@ -239,8 +238,7 @@ enum ceduo_where {
     CEDUO_WHERE_ON_STEMS  /* impacts on stems along a stretch: centre of the rock */
 };
 
-/* Observed quantity; its row has the unit. A height is the clearance of the underside above the ground, on stems that of the
- * centre. */
+/* Observed quantity; its row has the unit. Heights above the ground refer to the underside, on stems to the centre. */
 enum ceduo_quantity {
     CEDUO_QUANTITY_PLACE,
     CEDUO_QUANTITY_COUNT,

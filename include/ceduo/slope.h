@@ -95,8 +95,7 @@ enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope);
 /* ---- library of grounds ---- */
 
 /* A ground of the library. Restitutions are the means of published ranges. Roughness and friction are assumed, because no
- * source has them for a rock that keeps its motion while it rolls. They follow two field sites without forest
- * (ceduo-validation(7)). */
+ * source has them for a rock that keeps its motion while it rolls. They follow two bare field sites (ceduo-validation(7)). */
 struct ceduo_material {
     const char *name;
     const char *what; /* description, marked for translation */

@@ -20,8 +20,8 @@ enum ceduo_system {
 #undef X
 };
 
-/* Laws of the energy that a stem takes from a rock. To add one, write a file like src/core/stand/energy_dorren.c and add a line
- * here. */
+/* Laws of the energy that a stem takes from a rock. To add one, write a file like src/core/stand/energy_dorren.c, and list
+ * it. */
 #define CEDUO_ENERGY_MODELS(X)                                                                                                 \
     X(BRAUNER, brauner)                                                                                                        \
     X(DORREN, dorren)
@@ -81,8 +81,8 @@ struct ceduo_growth {
     unsigned stump_years;            /* years that stumps persist after a cut */
 };
 
-/* Trees with free crowns occupy a site fully from about 35 % of the maximum density on (Long 1985). Assumed to hold for
- * standards above a coppice. */
+/* Trees with free crowns occupy a site fully from about 35 % of the maximum density on (Long 1985). Assumed for standards,
+ * too. */
 #define CEDUO_TREES_SPACE 0.35
 
 /* Cutting of a stand. */
@@ -127,8 +127,7 @@ bool ceduo_stand_has_stems(const struct ceduo_stand *stand); /* shoots or trees 
 bool ceduo_stand_is_bare(const struct ceduo_stand *stand);   /* no stems, stumps or logs */
 bool ceduo_stems_are_grouped(const struct ceduo_stems *stems);
 
-/* Data of a species. Volume (m3) = (b0 + b1 d2 h + b2 d)/1000, d in cm, h in m (Tabacchi et al. 2011), valid inside the
- * rectangle of d and h. */
+/* Data of a species. Volume (m3) = (b0 + b1 d2 h + b2 d)/1000, d in cm, h in m (Tabacchi et al. 2011), inside its rectangle. */
 struct ceduo_species {
     const char *name;   /* in files: ostrya-carpinifolia */
     const char *common; /* common name: hop hornbeam */
@@ -163,8 +162,8 @@ double ceduo_stand_fracture_ratio(const struct ceduo_stand *stand);
  * over all eccentricities (0.558) of E = FE·38.7·dbh_cm^2.31 (Dorren et al. 2006). */
 double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
 
-/* dorren: maximum energy (J) of a stem of `dbh` m, and the share of it at eccentricity u = |offset|/((B + d)/2), 0…1 (Dorren et
- * al. 2006), clamped to 0…1. */
+/* dorren: maximum energy (J) of a stem of `dbh` m, and the share of it at eccentricity u = |offset|/((B + d)/2), 0…1, clamped
+ * (Dorren et al. 2006). */
 double ceduo_dorren_energy(double dbh, double fracture_ratio);
 double ceduo_dorren_share(double u);
 

@@ -45,12 +45,12 @@ double ceduo_half_width(double se, uint64_t n);
 /* Return the standard error of a share of n values. */
 double ceduo_share_se(double share, double n);
 
-/* Return the half-width for a share of n rocks by the normal distribution. For shares 0 and 1, which have standard error 0, it
- * is that of Wilson's interval. Also valid for the difference of two equal shares. */
+/* Return the half-width for a share of n rocks by the normal distribution. For shares 0 and 1, whose standard error is 0, it is
+ * the width of Wilson's interval. Also valid for the difference of two equal shares. */
 double ceduo_half_width_of_share(double share, double se, uint64_t n);
 
 /* Return the estimate of a share of n rocks with its interval after Wilson (1927); se is NaN. n need not be whole. The upper
- * limit is that of `max`, a share that includes rocks of unknown end. The interval is [0, 1] for n = 0. */
+ * limit uses `max`, a share that includes rocks of unknown end. The interval is [0, 1] for n = 0. */
 struct ceduo_estimate ceduo_wilson(double share, double max, double n);
 
 /* Return the estimate of a mean with its interval by the normal distribution. */

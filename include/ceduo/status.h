@@ -32,8 +32,8 @@ const char *ceduo_status_text(enum ceduo_status status);
 
 #define CEDUO_VERSION "0.4.0"
 
-/* Return the version of the running library. Before 1.0 structures may differ between versions: a program must compare it with
- * its own CEDUO_VERSION. */
+/* Return the version of the running library. Before 1.0 structs may change: programs must compare it with their
+ * CEDUO_VERSION. */
 const char *ceduo_version(void);
 
 #endif

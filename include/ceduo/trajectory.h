@@ -32,7 +32,7 @@ struct ceduo_stem_encounter {
     uint64_t stool;       /* number of the stool, equal for all its shoots */
     bool hit;             /* false: the rock flew over it */
     double clearance;     /* m: clearance of the rock's underside above the ground */
-    double before, taken; /* J: energy of the rock before, and energy that the stem took; 0 if not hit */
+    double before, taken; /* J: energy of the rock before the hit, and energy taken by the stem; 0 if not hit */
 };
 
 /* Callbacks for a trajectory; any may be NULL. */
@@ -58,7 +58,7 @@ struct ceduo_trajectory {
     double x, z;       /* end point */
     uint64_t contacts; /* with the ground */
     uint64_t stems_hit;
-    uint64_t stools_met; /* stools and single trees with a stem that was hit */
+    uint64_t stools_met; /* stools and single trees with a stem hit */
     uint64_t stems_drawn;
 };
 
@@ -69,8 +69,7 @@ enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const
                                           const struct ceduo_trajectory_callbacks *watch, struct ceduo_trajectory *trajectory,
                                           struct ceduo_crossing *crossings);
 
-/* Simulates many rocks, one at a time, of a scene that is prepared once. NULL without memory, or if the scene does not pass
- * ceduo_scene_check(). */
+/* Simulates many rocks, one at a time, of a scene that is prepared once. NULL without memory, or for a bad scene. */
 struct ceduo_tracer;
 struct ceduo_tracer *ceduo_tracer_create(const struct ceduo_scene *scene, const struct ceduo_option *option);
 enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *follower, uint64_t rock, const struct ceduo_trajectory_callbacks *watch,

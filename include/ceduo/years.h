@@ -5,8 +5,7 @@
 #include "result.h"
 #include "rotation.h"
 
-/* An option year by year. Its stands grow and are cut as their files and belts define. The same rocks are simulated through
- * each year's forest. */
+/* An option year by year. Its stands grow and are cut as their files and belts define. All years have the same rocks. */
 
 struct ceduo_year {
     unsigned year;                     /* 0: the stands as filed */
@@ -93,10 +92,9 @@ struct ceduo_years_summary {
     bool nothing; /* the forest cannot be judged (ceduo_too_few_arrivals()): all lights are unknown */
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which this light fails */
     size_t thick_contact, thick_free_run;                                 /* likewise, counting stems from CEDUO_THICK_DBH on */
-    size_t failing_lo,
-        failing_hi;             /* years whose lower, or upper, 95 % limit of the judged share is above the control's limit */
-    struct ceduo_estimate rate; /* with blocks: ceduo_hazard_feared(); the interval is an upper bound */
-    struct ceduo_estimate reach, exceed;       /* of the released */
+    size_t failing_lo, failing_hi;       /* years whose lower, or upper, 95 % limit of `exceed` is above the control's limit */
+    struct ceduo_estimate rate;          /* with blocks: ceduo_hazard_feared(); the interval is an upper bound */
+    struct ceduo_estimate reach, exceed; /* of the released */
     struct ceduo_estimate energy_per_released; /* J */
     /* year of the largest exceeding share, or arriving share without an accepted energy; with the index, of the largest ADC */
     unsigned worst_year;
@@ -105,8 +103,7 @@ struct ceduo_years_summary {
 };
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control);
 
-/* Return the difference of the mean marked shares of two options, rock by rock over the rocks that both have. NaN if
- * unknown. */
+/* Return the difference of the mean marked shares of two options, over the rocks that both have. NaN if unknown. */
 struct ceduo_estimate ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less);
 
 /* Return the felled length of belts, m, summed over all cuts in the computed years: m2 per metre of width. */

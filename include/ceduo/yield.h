@@ -22,8 +22,7 @@ struct ceduo_yield {
     double died_per_year; /* likewise */
     double standing;      /* m3/ha: mean over the years of the rotation */
     double volume_today;  /* m3/ha as filed; NaN without a forest */
-    /* maximum share of the growing space that trees take before a cut; above 1 the site cannot carry them, and growth and yield
-     * are unknown */
+    /* maximum share of the growing space that trees take before a cut; above 1 growth and yield are unknown */
     double space;
     size_t fellings_count;
     struct ceduo_felling *fellings; /* by year, then by belt */

@@ -16,7 +16,7 @@ double ceduo_log(double x)
     return small ? result - 54 * 0.6931471805599453 : result;
 }
 
-/* The rounding error of 1 + x and that of its logarithm are proportional, and cancel out (W. Kahan). */
+/* The rounding errors of 1 + x and of its logarithm are proportional, and cancel out (W. Kahan). */
 double ceduo_log1p(double x)
 {
     double y = 1 + x;

@@ -6,8 +6,7 @@
 #include <string.h>
 
 /* Elementary functions for trajectories and for stands of a year. Those of the C library differ between machines in the last
- * bit, because some have fused multiply-adds. These give the same bits everywhere. Errors are at most 1 ulp, for atan 2, for
- * log1p and expm1 3. */
+ * bit, because some have fused multiply-adds. These give the same bits everywhere. Errors: 1 ulp, atan 2, log1p and expm1 3. */
 double ceduo_log(double x);
 double ceduo_log1p(double x); /* log(1 + x), x > -1 */
 double ceduo_exp(double x);

@@ -8,8 +8,7 @@
  * call. Required in every library function that lets GSL allocate or fit, and in every thread of the library. */
 #define GSL_RETURNS_ERRORS __attribute__((cleanup(ceduo_gsl_leave), unused)) bool gsl_returned_errors = ceduo_gsl_enter()
 
-/* Run a GSL call that dereferences a failed allocation, such as the singular value decomposition. Returns its status, or
- * GSL_ENOMEM. */
+/* Run a GSL call that dereferences a failed allocation, such as the SVD. Returns its status, or GSL_ENOMEM. */
 int ceduo_gsl_try(int (*call)(void *context), void *context);
 
 bool ceduo_gsl_enter(void);

@@ -25,8 +25,7 @@ static inline bool ceduo_cancelled(const atomic_bool *cancel)
     return cancel && atomic_load_explicit(cancel, memory_order_relaxed);
 }
 
-/* Guard for a callback that one thread at a time may call. If it is busy, a thread skips the call: progress is soon reported
- * again. Starts zeroed. */
+/* Guard for a callback that one thread at a time may call. If it is busy, a thread skips the call. Starts zeroed. */
 struct talk {
     atomic_flag busy;
 };

@@ -128,8 +128,8 @@ __attribute__((format(printf, 2, 0))) static void format_plain(struct text *text
     va_end(args_copy);
 }
 
-/* Return the length of a format like %'.1f without the %, or 0 if there is none. Only translations have such formats: ISO C has
- * no such flag. */
+/* Return the length of a format like %'.1f without the %, or 0 if there is none. Only in translations: ISO C has no such
+ * flag. */
 static size_t localized_length(const char *format)
 {
     size_t n = strncmp(format, "%'", 2) == 0 ? 2 + strspn(format + 2, "-+ #.*0123456789") : 0;
@@ -227,8 +227,7 @@ char *ceduo_number_shortest(double value, char buffer[CEDUO_NUMBER_ROOM])
         return strcpy(buffer, "null");
     if (value == 0)
         return strcpy(buffer, "0"); /* also for -0 */
-    /* Begin with 15 digits: %g drops trailing zeros, so shorter decimals come out, too. Subnormal numbers begin with 1. 17
-     * digits always suffice. */
+    /* Begin with 15 digits: %g drops trailing zeros. Subnormal numbers begin with 1. 17 digits always suffice. */
     int digits = fabs(value) < DBL_MIN ? 1 : 15;
     while (ceduo_decimal_format(buffer, CEDUO_NUMBER_ROOM, "%.*g", digits, value), ceduo_decimal_read(buffer) != value)
         digits++;

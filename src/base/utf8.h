@@ -6,8 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* UTF-8 as displayed by a terminal, by libunistring. An invalid byte counts as a character of one column, so that any string
- * can be measured and cut. */
+/* UTF-8 as displayed by a terminal, by libunistring. An invalid byte counts as a character of one column. */
 
 /* Return the length of the character at p, 1…4; 0 if none is complete within n bytes. Sets *code to its code point. */
 size_t ceduo_utf8_decode(const char *p, size_t n, uint32_t *code);
@@ -15,8 +14,7 @@ size_t ceduo_utf8_decode(const char *p, size_t n, uint32_t *code);
 /* True unless a code point is a control, breaks lines, changes the direction of text, or is a noncharacter. */
 bool ceduo_utf8_printable(uint32_t code);
 
-/* True if a code point is a space that keyboards or spreadsheets use instead of a blank: no-break, narrow, thin or figure
- * space. */
+/* True if a code point is a space other than a blank: no-break, narrow, thin or figure space, as spreadsheets use. */
 bool ceduo_utf8_is_space(uint32_t code);
 
 /* Return the length of a blank, tab or such a space at p; 0 if there is none within n bytes. */

@@ -75,7 +75,7 @@ struct object;
 /* Display and input of a value, see view/typed.h. */
 struct field_shown {
     const char *label, *brief; /* marked for translation; brief: for the head of a column, NULL: the label */
-    const char *unit;          /* NULL: that of the file */
+    const char *unit;          /* NULL: the file's unit */
     double per;                /* displayed units per unit of the file */
     double least, most;        /* usual range, in the file's unit; outside, the form asks and the reader warns */
 };
@@ -220,8 +220,8 @@ bool ceduo_schema_field_holds(const struct field *field, const void *item);
 /* Check the belts of an option outside a scene. */
 enum ceduo_status ceduo_check_stands(const struct ceduo_option *option);
 
-/* True if the lists of an option exist. Its numbers are not checked, because a year may exceed the ranges of files. `option`
- * may be NULL. */
+/* True if the lists of an option exist. Numbers are not checked: a year may exceed the ranges of files. `option` may be
+ * NULL. */
 bool ceduo_option_has_lists(const struct ceduo_option *option);
 
 /* Append the range of a field; false if there is none. */

@@ -73,6 +73,6 @@ bool ceduo_stems_are_grouped(const struct ceduo_stems *stems)
 
 double ceduo_stem_volume(const struct ceduo_stand *stand, const struct ceduo_stems *stems, enum ceduo_volume_from *from)
 {
-    const struct stem_volume volume = stem_volume_of(stand, stems);
+    const struct stem_volume volume = make_stem_volume(stand, stems);
     return stem_volume_mean(&volume, from);
 }

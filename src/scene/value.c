@@ -27,7 +27,7 @@ static bool next_index(struct finder *f, size_t n, size_t *index)
     return next(f, &step) && step.bracket && ceduo_path_index(&step, index) && *index < n;
 }
 
-/* Enter the item of a list that the next step selects by index or name. The name of a belt is that of its stand. */
+/* Enter the item of a list that the next step selects by index or name. A belt has the name of its stand. */
 static bool enter_item(struct finder *f, const struct object *object, char *items, size_t n)
 {
     const struct field *named = ceduo_schema_field(object, "name");

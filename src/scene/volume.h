@@ -17,7 +17,7 @@ struct stem_volume {
     const struct ceduo_species *species; /* NULL: not given */
 };
 
-static inline struct stem_volume stem_volume_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+static inline struct stem_volume make_stem_volume(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
     struct stem_volume v = {.given = stems->volume,
                             .squares = stems->dbh * stems->dbh + stems->dbh_sd * stems->dbh_sd,
@@ -57,8 +57,7 @@ static inline double stem_volume_mean(const struct stem_volume *v, enum ceduo_vo
     return v->given;
 }
 
-/* Return the volume (m3) of one stem. A given volume is the mean of all stems, and is proportional to the square of the
- * diameter. */
+/* Return the volume (m3) of one stem. A given volume is the mean of all stems, and scales with the squared diameter. */
 static inline double stem_volume_one(const struct stem_volume *v, double dbh)
 {
     return isnan(v->given) ? stem_volume_computed(v, dbh, NULL) : v->given * (dbh * dbh / v->squares);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Long profiles: what makes them fast changes nothing. Neighbours on one line are one segment inside the core, flights
- * pass blocks of segments, rolls whole segments; each against the same without it. */
+ * pass chunks of segments, rolls whole segments; each against the same without it. */
 #include "expect.h"
 #include "local.h"
 
@@ -139,7 +139,7 @@ TEST(a_narrow_face_keeps_its_foot)
     assert_int_equal(segments_inside(&steep), 2);
 }
 
-/* ---- flights over blocks ---- */
+/* ---- flights over chunks ---- */
 
 /* Waves of many lengths. */
 static struct ceduo_slope rough_slope(size_t vertices, double spacing, uint64_t seed)
@@ -196,12 +196,12 @@ TEST(flights_land_as_without_blocks)
         }
     }
     print_message("%ju flights of more than 100 segments\n", (uintmax_t)far);
-    EXPECT(far, >, 1000); /* blocks were passed */
+    EXPECT(far, >, 1000); /* chunks were passed */
 }
 
 /* Ground with teeth whose tips lie on one line but for rounding: each is as high as a flight along this line is there
- * without weight, or some last digits higher or lower. Where blocks of segments begin the ground is as deep below
- * everywhere, so that the chords of blocks are parallel to the line. */
+ * without weight, or some last digits higher or lower. Where chunks of segments begin the ground is as deep below
+ * everywhere, so that the chords of chunks are parallel to the line. */
 static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, double fall, double top)
 {
     const size_t chunk = (size_t)1 << GROUND_BITS;
@@ -221,7 +221,7 @@ static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, 
     return s;
 }
 
-/* Whether a flight that grazes many teeth touches one is for rounding to decide; a block that is passed as a whole must
+/* Whether a flight that grazes many teeth touches one is for rounding to decide; a chunk that is passed as a whole must
  * not decide it otherwise. That is what the margin of its height is for. */
 TEST(flights_along_teeth_touch_the_same_with_blocks)
 {

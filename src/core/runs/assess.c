@@ -23,8 +23,8 @@ static struct ceduo_stand count_standing_from(const struct ceduo_stand *stand, d
 }
 
 /* Return the correction of the exponent for groups: trees of a group are met together, so a path without contacts is likelier
- * than by crofton, which assumes independent trees. `finite`: no tree stands on `length` m; otherwise no group with its centre
- * there is met. */
+ * than by crofton, which assumes independent trees. `finite`: no tree on `length` m; otherwise no group with its centre
+ * there. */
 static double group_correction(const struct ceduo_stand *stand, double b, double length, bool finite)
 {
     double correction = 0;

@@ -77,8 +77,7 @@ static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant
     return CEDUO_OK;
 }
 
-/* Simulate one rock, then four times as many each time, because the first may be untypical. A size over the work limit is
- * skipped. */
+/* Simulate one rock, then four times as many each time, because the first may be untypical. Skip sizes over the work limit. */
 static enum ceduo_status read_size(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
 {
     struct sizes_run *r = context;

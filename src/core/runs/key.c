@@ -10,7 +10,7 @@
 
 #define NOT_HASHED (FIELD_NOWHERE | FIELD_DRAFT | FIELD_WOOD | FIELD_NO_RUN)
 
-/* Hash the members of `object` that affect future years, or those that affect trajectories now. */
+/* Hash the members of `object` that affect future years, or that affect trajectories now. */
 static void hash_fields(uint64_t *key, const struct object *object, const char *item, bool years)
 {
     for (const struct field *f = object->fields; f < object->fields + object->n; f++) {

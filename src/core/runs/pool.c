@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One run per different forest of a scene, found by the key of the forest (key.c). The pool owns the runs, and frees those that
+/* One run per different forest of a scene, found by the key of the forest (key.c). The pool owns the runs, and frees runs that
  * its scene no longer needs, least recently used first. */
 #include "ceduo/pool.h"
 

@@ -49,8 +49,7 @@ static double get_effort(const struct ceduo_pool *pool, const struct ceduo_optio
     return run ? (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn : 0;
 }
 
-/* The work limit of each size is that of the runs without and through the forest. A splinter too thin to be scaled down has no
- * other sizes. */
+/* The work limit of each size is the work of the runs without and through the forest. A splinter too thin has no sizes. */
 static enum ceduo_status simulate_sizes(const struct ceduo_request *q, const struct ceduo_pool *pool, struct ceduo_results *a)
 {
     const struct ceduo_scene *scene = q->run.scene;

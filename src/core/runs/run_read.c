@@ -24,7 +24,7 @@ static struct weight_totals sum_released(const struct ceduo_run *run, double mis
     return totals;
 }
 
-/* Compute upper bounds of the energies of all rocks, from their release and a fall to the lowest ground. */
+/* Compute upper bounds of the energies of all rocks: energy of the release, plus a fall to the lowest ground. */
 static void bound_energies(const struct ceduo_run *run, struct weighted *max_energies)
 {
     const struct ceduo_scene *scene = &run->prepared.scene;

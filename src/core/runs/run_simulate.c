@@ -16,8 +16,8 @@ struct arrival {
     bool arrives, exceeds; /* exceeds: above the accepted energy */
 };
 
-/* Work of one thread on a chunk. The rocks of a batch may end in any order: their arrivals are stored, and summed when all have
- * ended. */
+/* Work of one thread on a chunk. The rocks of a batch may end in any order: their arrivals are stored, and summed at the
+ * end. */
 struct worker {
     struct ceduo_run *run;
     struct walker *walkers; /* one per lane */

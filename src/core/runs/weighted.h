@@ -7,8 +7,7 @@
 
 /* Statistics of rocks with weights of mean 1 (prepared.h). Shares and means are weighted, and divided by the sum of all
  * weights, so that no share exceeds 1. The error is that of the regression estimator on the weights, whose mean is known
- * (Cochran 1977); it excludes the part caused by drawing heavy rocks too often. With equal weights these are the plain
- * statistics. */
+ * (Cochran 1977); it excludes the part caused by drawing heavy rocks too often. Equal weights give plain statistics. */
 
 /* One percentile of a distribution. */
 #define PERCENTILES 3
@@ -69,8 +68,7 @@ double ceduo_weighted_quantile(const struct weighted *values, size_t n, double p
 
 void ceduo_weighted_sort(struct weighted *values, size_t n);
 
-/* Compute the hazard from the energies of the n arriving rocks, which are sorted in place. `curve` may be NULL. False without
- * memory. */
+/* Compute the hazard from the energies of n arriving rocks, sorted in place. `curve` may be NULL. False without memory. */
 bool ceduo_hazard_read(const struct weight_totals *totals, struct weighted *energies, size_t n, double accepted,
                        struct ceduo_hazard *hazard, struct ceduo_hazard_curve *curve);
 

@@ -124,8 +124,7 @@ static struct adc_term make_term(const struct ceduo_stand *stand, enum ceduo_rul
     return (struct adc_term){is_counted(stand, s) ? s->per_ha : 0, width, ceduo_contact_energy(stand, s)};
 }
 
-/* Return the form's denominator for a rock of diameter b, m per ha: A/ADC; with `energies` each term is multiplied by its
- * energy. */
+/* Return the form's denominator for a rock of diameter b, m per ha: A/ADC; with `energies` each term times its energy. */
 static double denominator_per_ha(const struct ceduo_stand *stand, double b, enum ceduo_rule rule, bool energies)
 {
     double sum = 0;

@@ -38,8 +38,7 @@ double ceduo_stem_energy_hit(const struct stem_energy *e, double dbh, double sha
 bool ceduo_stem_energy_by_eccentricity(const struct stem_energy *e);
 unsigned ceduo_stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
 
-/* Share of Dorren et al. 2006 at eccentricity u, not clamped: LOW + SPAN/(1 + 10^(STEEPNESS (u - CENTRE))), as a power of e.
- * For numbers and registers. */
+/* Share of Dorren et al. 2006 at eccentricity u, not clamped: LOW + SPAN/(1 + 10^(STEEPNESS (u - CENTRE))), by a power of e. */
 #define LN10                   2.302585092994046
 #define DORREN_LOW             (-0.046)
 #define DORREN_SPAN            1.026

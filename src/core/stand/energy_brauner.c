@@ -7,7 +7,7 @@ enum { U /* J/m3 */, OFFSET /* 1: by eccentricity */ };
 
 static void prepare(struct stem_energy *to, const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    to->volume = stem_volume_of(stand, stems);
+    to->volume = make_stem_volume(stand, stems);
     to->values[U] = ceduo_stand_u(stand);
     to->values[OFFSET] = stand->offset == CEDUO_OFFSET_BY_ECCENTRICITY;
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A group with centre at offset c has no tree in the strip with probability (1 - p)^n, p the share of its disc in the strip.
- * Integrals between kinks of p use the 21-point Gauss-Kronrod rule. Points are closer near the kinks, at which p has a power of
- * 3/2. */
+ * Integrals between kinks of p use the 21-point Gauss-Kronrod rule. Points are closer near kinks, which are powers of 3/2. */
 #include "strata.h"
 
 #include <gsl/gsl_integration.h>

@@ -49,8 +49,7 @@ FORCE_INLINE real chord_height(const struct chord *s, real x)
 }
 
 /* Move a nearby point onto the chord: keep x, or z if the chord is steeper than 45 degrees (`steep`), and compute the other
- * coordinate. `any_steep`: some lane is steep. `snap_upper`: a steep point at the height of vertex 1 becomes exactly this
- * vertex. */
+ * coordinate. `any_steep`: some lane is steep. `snap_upper`: a steep point at the height of vertex 1 becomes vertex 1. */
 FORCE_INLINE void snap_to_chord(const struct chord *s, mask steep, bool any_steep, bool snap_upper, real *x, real *z)
 {
     real flat_x = clamp(*x, s->x0, s->x1), flat_z = chord_height(s, flat_x);

@@ -15,7 +15,7 @@
 #endif
 #define PAUSE_SEGMENTS 64 /* a flight may pass all segments, so that longer profiles have shorter pauses */
 
-/* ---- what is next ---- */
+/* ---- next stem and pause ---- */
 
 static inline void set_next_stems(struct walker *w)
 {
@@ -123,8 +123,7 @@ static inline void count_hit(struct walker *w, const struct stem *stem)
     w->stools_met += ceduo_stems_record_hit(w->stems, stem);
 }
 
-/* Record a hit of a stem at x by a rock of kinetic energy `energy`. Return the remaining share of its speed, 0 if it is
- * stopped. */
+/* Record a hit of a stem at x by a rock of kinetic energy `energy`. Return the remaining share of its speed; 0: stopped. */
 static double hit_stem(struct walker *w, struct stem *stem, double x, double clearance, double energy)
 {
     struct hit hit = {.energy = energy, .cost = stem->energy};

@@ -24,8 +24,7 @@
 
 /* ---- merging vertices ---- */
 
-/* Slopes of lines from one vertex that pass all vertices so far within rounding, and turn from no segment by more than
- * NO_BREAK. */
+/* Slopes of lines from one vertex that pass all vertices so far within rounding, and turn from segments by at most NO_BREAK. */
 struct lines {
     double lo, hi;
 };
@@ -102,8 +101,8 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     g->rt_varies |= from->rt.spread > 0;
 }
 
-/* Index the roughnesses of a profile if rocks differ in radius, so that each rock computes their angles once at its release.
- * False without memory. */
+/* Index the roughnesses of a profile if rocks differ in radius, so that a rock computes each angle once. False without
+ * memory. */
 static bool number_roughnesses(struct ground *g)
 {
     if (!g->theta_varies)

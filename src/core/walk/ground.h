@@ -8,7 +8,7 @@
 #include "base/real.h"
 #include "ceduo/slope.h"
 
-/* A slope prepared for many rocks. Vertices and segments are stored in pairs, as lanes look them up; a segment fills one cache
+/* A slope prepared for many rocks. Vertices and segments are stored in pairs, as lanes look them up; a segment is a cache
  * line. */
 struct ground_vertex {
     double x, z;
@@ -48,8 +48,7 @@ FORCE_INLINE double roughness_angle(struct ground_roughness r, double radius)
     return isnan(r.height) ? r.angle : ceduo_atan(r.height / radius);
 }
 
-/* Neighbouring segments of the slope on one line with the same ground are one segment here, so indices differ from the
- * slope. */
+/* Neighbouring segments of the slope on one line with the same ground are one segment here, so indices differ. */
 struct ground {
     size_t n; /* segments */
     struct ground_vertex

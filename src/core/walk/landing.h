@@ -5,8 +5,8 @@
 #include "flight.h"
 #include "ground.h"
 
-/* Return the slope of segment j. On long profiles the vertices are in cache but the segment is not: compute the slope from
- * them, with the same bits. */
+/* Return the slope of segment j. On long profiles the vertices are in cache but the segment is not: use them, with the same
+ * bits. */
 FORCE_INLINE double segment_slope(const struct ground *g, size_t j, bool chunks)
 {
     return chunks ? (g->vertices[j + 1].z - g->vertices[j].z) / (g->vertices[j + 1].x - g->vertices[j].x) : g->segments[j].m;

@@ -46,8 +46,8 @@ FORCE_INLINE real next_draw(struct kernel_params params, const struct lanes *k, 
 
 /* ---- one contact in every lane ---- */
 
-/* Return the lanes that the scalar walk must bring to the next contact. Of the other lanes, set which pass a mark and which
- * leave the slope. */
+/* Return the lanes that the scalar walk must bring to the next contact. Of the others, set which pass a mark or leave the
+ * slope. */
 FORCE_INLINE unsigned find_scalar_lanes(struct kernel_params params, const struct lanes *k, unsigned *pass, unsigned *leave)
 {
     unsigned mark = 0, stem = 0, pausing = 0;

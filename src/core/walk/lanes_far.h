@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Search for landings on a long slope, for flights along +x; the result is that of land_from_vertex_chunked(). The lanes
  * alternate, so that one is computed while data of another are prefetched. Each step tests all vertices of a chunk at once, or
- * all chunks of the next larger one. Lanes at chunks of the same size follow each other, so that no branch depends on the
- * size. */
+ * all chunks of the next larger one. Lanes at chunks of the same size follow each other, to avoid branches. */
 #ifndef CEDUO_LANES_FAR_H
 #define CEDUO_LANES_FAR_H
 
@@ -76,8 +75,7 @@ FORCE_INLINE void prefetch_search(const struct lanes *k, const struct far_search
         __builtin_prefetch(from + 64 * line);
 }
 
-/* Advance each search at a level by one step. lanes_at[l] are the lanes at level l. Return the lanes that found their
- * landing. */
+/* Advance each search at a level by one step. lanes_at[l] are the lanes at level l. Return the finished lanes. */
 FORCE_INLINE unsigned search_level(const struct lanes *k, struct far_search *searches, int level,
                                    unsigned lanes_at[GROUND_LEVELS])
 {

@@ -107,11 +107,11 @@ struct lanes {
         double height[LANES];           /* m, of the next stem ahead */
         double cost[LANES];             /* J that a hit takes, see struct hit */
         const struct stem *next[LANES]; /* NULL: not in the queue, or unknown */
-        double second_x[LANES];         /* x of the following queued stem, which is next if */
-        double certain_to[LANES];       /* it is before this x */
+        double second_x[LANES];         /* x of the following queued stem; it is next if before certain_to */
+        double certain_to[LANES];       /* x up to which only queued stems stand */
         double overlap_to[LANES];       /* x up to which stools around the release may reach */
         double clear_to[LANES];         /* x up to which the flight is above `tallest` */
-        uint64_t *met[LANES];           /* of struct stems */
+        uint64_t *hit_stools[LANES];    /* of struct stems */
         uint64_t hit[LANES], stools_met[LANES];
     } stem; /* save_stems() returns counts and `next` to the walker and its stems */
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
@@ -197,7 +197,7 @@ static void load_stem(struct lanes *k, size_t i)
     struct stems_side *side = &w->stems->side[0];
     k->stem.hit[i] = w->stems_hit;
     k->stem.stools_met[i] = w->stools_met;
-    k->stem.met[i] = w->stems->hit_stools;
+    k->stem.hit_stools[i] = w->stems->hit_stools;
     k->stem.overlap_to[i] = w->stems->start + 2 * w->stems->wood->reach;
     k->stem.next[i] = NULL;
     k->stem.second_x[i] = k->stem.certain_to[i] = INFINITY;

@@ -28,8 +28,8 @@ struct passing {
     unsigned aborted;       /* trajectory aborted */
 };
 
-/* Find the segment under the next stem by bisection, for the lanes `advancing` from i on. On a long profile it may be hundreds
- * of segments away. */
+/* Find the segment under the next stem by bisection, for the lanes `advancing` from i on. It may be hundreds of segments
+ * away. */
 NOINLINE void search_segments(const struct lanes *k, struct passing *p, size_t i, mask advancing)
 {
     for (unsigned remaining = lane_bits(advancing) << i; remaining; remaining &= remaining - 1) {
@@ -60,8 +60,7 @@ FORCE_INLINE void go_to_segment(struct kernel_params params, const struct lanes 
     }
 }
 
-/* Consume the next stem of each of `lanes` by the scalar walk. If it is hit or the rock is aborted, the marks before it are
- * passed. */
+/* Consume the next stem of each of `lanes` by the scalar walk. If it is hit or the rock aborted, pass the marks before it. */
 NOINLINE void take_stems_scalar(struct lanes *k, struct passing *p, unsigned lanes, unsigned hit)
 {
     for (; lanes; lanes &= lanes - 1) {
@@ -110,7 +109,7 @@ FORCE_INLINE void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, un
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
         const struct stem *stem = k->stem.next[i];
-        uint64_t *place = &k->stem.met[i][stem->stool & places];
+        uint64_t *place = &k->stem.hit_stools[i][stem->stool & places];
         bool is_hit = hit >> i & 1, shoot = is_hit & stem->shoot;
         k->stem.hit[i] += is_hit;
         k->stem.stools_met[i] += is_hit & !(shoot & (*place == stem->stool));

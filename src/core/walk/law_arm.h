@@ -24,7 +24,7 @@ FORCE_INLINE real arm_clamp(real p, real lo, real hi)
     return blend(less(p, lo), lo, blend(less(hi, p), hi, p));
 }
 
-/* Compute the arm to the point of contact: that of the ellipse, or straight down if its end does not approach the ground. */
+/* Compute the arm to the point of contact: of the ellipse, or straight down if its end does not approach the ground. */
 FORCE_INLINE void arm_compute(const struct ground_point *point, const struct arm_state *in, real *r, real *h)
 {
     real wide = point->section.wide, high = point->section.high, zero = splat(0);

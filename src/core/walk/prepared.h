@@ -33,8 +33,7 @@ struct size {
 bool ceduo_sizes_init(struct sizes *sizes, const struct ceduo_scene *scene);
 void ceduo_sizes_release(struct sizes *sizes);
 
-/* True if a rock belongs to a fixed subset with natural size frequencies. A rock is selected with probability weight over
- * largest weight. */
+/* True if a rock belongs to a fixed subset with natural size frequencies. Its probability is weight over largest weight. */
 bool ceduo_rock_is_typical(const struct sizes *sizes, uint64_t seed, uint64_t rock);
 
 struct size ceduo_rock_size(const struct sizes *sizes, uint64_t rock);

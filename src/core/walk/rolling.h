@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The part of the walk on the ground: rolling along segments and over vertices, past stems, and resting. Included only by
- * walk.c. */
+/* The walk on the ground: rolling along segments and over vertices, past stems, and resting. Included only by walk.c. */
 #ifndef CEDUO_ROLLING_H
 #define CEDUO_ROLLING_H
 
@@ -227,8 +226,7 @@ static bool rises_to(const struct ground *g, size_t j, int dir, double z)
     }
 }
 
-/* Set *j to the next segment towards dir that is not level, and *level to the metres of level ground before it. False if the
- * profile ends. */
+/* Set *j to the next segment towards dir that is not level, and *level to the level metres before it. False at the end. */
 static bool past_level(const struct ground *g, size_t *j, int dir, double *level)
 {
     *level = 0;

@@ -58,8 +58,8 @@ FORCE_INLINE struct impact bound_by_friction(struct impact in, struct impact out
     return out;
 }
 
-/* Return the velocity after a contact, in the segment's axes. A rolling rock has exactly no speed off the ground. Speed into
- * the segment is lost. */
+/* Return the velocity after a contact, in the segment's axes. A rolling rock has no speed off the ground. Speed into the ground
+ * is lost. */
 FORCE_INLINE struct velocity strike(const struct contact_law *law, const struct ground_point *point, real sine, real cosine,
                                     struct velocity v, real *spin)
 {

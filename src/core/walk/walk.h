@@ -79,7 +79,7 @@ struct rock_state {
     struct landing l;     /* in flight */
 };
 
-/* ---- what is next ---- */
+/* ---- next mark ---- */
 
 static inline bool is_behind_marks(const struct walker *w)
 {
@@ -108,8 +108,7 @@ enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law);
 
 /* ---- steps of a trajectory, for the walk of lanes ---- */
 
-/* Move from the release to the first contact. This and the following functions return false if the trajectory ends before, at
- * w->flight. */
+/* Move from the release to the first contact. This and the next functions return false if the trajectory ends, at w->flight. */
 bool ceduo_walk_start(struct walker *w, struct rock_state *c, enum ceduo_end *end);
 
 /* Report the marks that a flight passes up to x, where it lands after t. */

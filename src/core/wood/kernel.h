@@ -19,7 +19,7 @@ struct kernel {
 /* Return the kernel of the best registers of this machine, or the wanted kernel if available; otherwise the scalar one. */
 const struct kernel *ceduo_kernel(enum ceduo_kernel wanted);
 
-/* The last one runs on any machine, the others need x86-64. */
+/* The scalar kernel runs on any machine; AVX kernels need x86-64. */
 extern const struct kernel ceduo_kernel_avx512, ceduo_kernel_avx2, ceduo_kernel_scalar;
 
 #endif

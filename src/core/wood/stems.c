@@ -251,7 +251,7 @@ static bool must_pause(const struct stems *s)
 }
 
 /* Make the stools or groups with a centre up to `to` along a side. False if it paused before. */
-static bool make_up_to(struct stems *s, int side, enum stem_stream stream, double to)
+static bool make_centres_to(struct stems *s, int side, enum stem_stream stream, double to)
 {
     for (double along; (along = next_place(s, side, stream)) <= to && along < INFINITY;) { /* untaken: rounding */
         if (must_pause(s))
@@ -340,11 +340,11 @@ void ceduo_stems_advance(struct stems *s, int i)
     struct stems_side *side = &s->side[i];
     s->pause = s->effort + PAUSE_EFFORT;
     if (i == 1 && !s->behind_ready) {
-        /* The strip behind the release is drawn only when a rock enters it. The stools and groups around the release belong to
-         * the strip ahead. */
-        if (!make_up_to(s, 0, STREAM_STOOLS, s->start + s->wood->reach))
+        /* The strip behind the release is drawn only when a rock enters it. Stools and groups around the release belong to side
+         * 0. */
+        if (!make_centres_to(s, 0, STREAM_STOOLS, s->start + s->wood->reach))
             return;
-        if (s->wood->grouped && !make_up_to(s, 0, STREAM_GROUPS, s->start + s->wood->group_reach))
+        if (s->wood->grouped && !make_centres_to(s, 0, STREAM_GROUPS, s->start + s->wood->group_reach))
             return;
         s->behind_ready = true;
         find_next(s, 0);

@@ -261,8 +261,7 @@ static inline void choose_kinds(const struct points *p, const struct wood_stools
     }
 }
 
-/* Append the shoots of the stools from place k to before p->next, at most one register of them, all in one belt. Loops over the
- * shoots of a ring. */
+/* Append the shoots of the stools from place k to before p->next, at most one register of them, all in one belt. */
 static inline void add_columns(const struct stems *s, const struct points *p, unsigned k, const struct wood_stools *t,
                                uint64_t event, struct shoots *to)
 {
@@ -305,7 +304,7 @@ static inline void make_columns(struct stems *s, int side, const struct wood_sto
 }
 
 /* Compute the rank of each shoot by distance. `equal`: break ties by the order of drawing of stools, then of shoots. Return the
- * sum of the ranks. */
+ * sum. */
 static inline uint64_t rank_shoots(const struct shoots *t, bool equal, uint64_t rank[SHOOTS_MAX])
 {
     ints sums = splat_ints(0);

@@ -54,11 +54,10 @@ struct stems_side {
     struct points *groups; /* the third stream; NULL: no groups */
     double unequal_to;     /* m along the strip: beyond, the queue has only shoots of equal diameter per kind */
     struct stem single;    /* next single tree; `along` infinite: none */
-    /* shoots of drawn stools and trees of drawn groups that the rock can hit, from `first` to before `end`, sorted; capacity
-     * for one more */
+    /* drawn shoots and grouped trees that the rock can hit, from `first` to before `end`, sorted; end < capacity */
     struct stem *queue;
     size_t first, end, capacity;
-    double certain_to; /* m along the strip: the first queued stem is next if it is before */
+    double certain_to; /* m along the strip: up to here only queued stems stand */
     double next;       /* m along the strip: no stem stands before */
     bool next_known;   /* a stem stands at `next`; false: stools or groups up to `next` are not drawn yet */
     bool next_queued;  /* it is queued; false: it is `single` */
@@ -100,7 +99,7 @@ struct stems {
  * rock's centre is at hit_below. */
 static inline double get_hit_height(const struct stems *s, const struct wood_kind *kind)
 {
-    double below = kind->below - 0.5 * s->b;
+    double below = kind->hit_below - 0.5 * s->b;
     return kind->height < below ? kind->height : below;
 }
 

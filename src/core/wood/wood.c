@@ -40,7 +40,7 @@ static struct wood_kind make_kind(const struct ceduo_stand *stand, const struct 
     struct wood_kind k = {.dbh = stems->dbh,
                           .dbh_max = stems->dbh,
                           .height = stems->height,
-                          .below = stand->hit_below > 0 ? stand->hit_below : INFINITY,
+                          .hit_below = stand->hit_below > 0 ? stand->hit_below : INFINITY,
                           .energy = NAN,
                           .hit_energy = ceduo_stem_energy(stand, stems)};
     if (stems->dbh_sd > SPREAD_MIN * stems->dbh) {
@@ -92,11 +92,11 @@ static struct wood_stratum make_stratum(const struct ceduo_stand *stand, size_t 
     const struct ceduo_logs *l = &stand->logs;
     if (i == stumps && t->per_ha > 0) {
         *kind = (struct wood_kind){
-            .dbh = t->diameter, .dbh_max = t->diameter, .height = t->height, .below = INFINITY, .energy = t->energy};
+            .dbh = t->diameter, .dbh_max = t->diameter, .height = t->height, .hit_below = INFINITY, .energy = t->energy};
         return plain_stratum(t->per_ha, t->diameter, kind);
     }
     /* a log lies across the path: dbh NaN, because it has no eccentricity */
-    *kind = (struct wood_kind){.dbh = NAN, .height = l->diameter, .below = INFINITY, .energy = l->energy};
+    *kind = (struct wood_kind){.dbh = NAN, .height = l->diameter, .hit_below = INFINITY, .energy = l->energy};
     return plain_stratum(l->per_ha, ceduo_log_width(l->length), kind);
 }
 
@@ -273,7 +273,7 @@ bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, 
             const struct wood_stratum stratum = make_stratum(stand, k, &kind);
             hash_each(hash, stratum.base_rate, stratum.rate_per_b);
             _Static_assert(offsetof(struct wood_stratum, kind) == 2 * sizeof(double), "all numbers before it are hashed");
-            hash_each(hash, kind.dbh, kind.height, kind.below, kind.energy, kind.shape, kind.scale, kind.share_to);
+            hash_each(hash, kind.dbh, kind.height, kind.hit_below, kind.energy, kind.shape, kind.scale, kind.share_to);
             _Static_assert(offsetof(struct wood_kind, dbh_max) == 7 * sizeof(double), "all numbers before it are hashed");
             if (isnan(kind.energy))
                 ceduo_stem_energy_hash(hash, &kind.hit_energy);

@@ -12,7 +12,7 @@ struct wood_kind {
     /* Inputs, hashed by ceduo_wood_hash(): */
     double dbh;          /* m, mean; NaN: a log */
     double height;       /* m */
-    double below;        /* m: a hit takes no energy if the rock's centre is higher; infinite: no limit */
+    double hit_below;    /* m: a hit takes no energy if the rock's centre is higher; infinite: no limit */
     double energy;       /* J per hit; NaN: depends on diameter or eccentricity, see hit_energy */
     double shape, scale; /* of the gamma distribution of diameters; shape 0: all equal */
     double share_to;     /* of shoots: cumulative share up to this cohort */
