@@ -499,14 +499,16 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
         return;
     const char *said = ceduo_in_language(note->text, note->text_it);
     LOCAL_TEXT(where);
-    if (!places) {
-        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(said, ";"), said); /* its first clause */
-        return;
-    }
     const struct ceduo_scene *scene = report->result->scene;
     const char *dot = strncmp(note->path, "options[", 8) == 0 ? strchr(note->path, '.') : NULL;
     size_t option = dot ? strtoul(note->path + 8, NULL, 10) : SIZE_MAX;
     ceduo_shown_path(dot ? dot + 1 : note->path, &where);
+    if (!places) { /* the value, and the first clause of its source */
+        const char *what = ceduo_text_string(&where);
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s%s%.*s", (int)strcspn(what, ","), what, where.length > 0 ? ": " : "",
+                        (int)strcspn(said, ";"), said);
+        return;
+    }
     if (option < scene->options_count)
         ceduo_text_append_joined(&where, ", ", "%s", scene->options[option].name);
     const char *place = where.length > 0 ? where.bytes : _("the scene");
