@@ -379,8 +379,8 @@ static const struct field control_fields[] = {
            COORDINATE_MAX, REQUIRED | FIELD_PLACE, NULL, N_("where passing rocks are counted")),
     TEXT("name", NAMED(N_("name")), MEMBER(ceduo_control, name_given), NO_RUN, N_("what stands there")),
     NAME_IT(MEMBER(ceduo_control, name), 0),
-    NUM(FIELD_NUMBER, "accepted_kJ", SHOWN(N_("withstands, kJ"), N_("withst. kJ"), 0, 20000), MEMBER(ceduo_control, accepted),
-        "kJ", 1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
+    NUM(FIELD_NUMBER, "accepted_kJ", SHOWN(N_("limit, kJ"), N_("limit kJ"), 0, 20000), MEMBER(ceduo_control, accepted), "kJ",
+        1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
     NUMBER(
         "accepted_return_y", SHOWN(N_("accepted return, years"), N_("return y"), 1, 10000),
         MEMBER(ceduo_control, accepted_return), "y", 0, 1e6, ABOVE | NO_RUN | FIELD_SETTLED, NULL,

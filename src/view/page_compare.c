@@ -572,7 +572,7 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_report *report)
         any |= ceduo_subject_find(report, i, r->last_control).other && ceduo_result_wooded(r, i, r->last_control);
     if (!any)
         return;
-    ceduo_page_para(page, CEDUO_PAGE_SECTION, _("One energy law against the other"));
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Comparison of the energy laws"));
     ceduo_page_note(page, _("Two published laws disagree on the energy that thin stems absorb (Brauner et al. 2005; Dorren et "
                             "al. 2006). Neither has been validated for them. More rocks do not decide between them."));
     ceduo_page_para(page, CEDUO_PAGE_CAPTION,

@@ -113,8 +113,7 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
                         hazard_of(r, 0, c)->per_year, (unsigned long long)r->bare.rocks, hazard_of(r, 0, c)->effective);
     ceduo_page_para(
         page, CEDUO_PAGE_CAPTION,
-        _("Years from one such rock to the next, and what arrives weak, medium and strong, in %% of what does without "
-          "forest:"));
+        _("Return period of such a rock, years, and rocks that arrive by intensity, in %% of those without forest:"));
     ceduo_page_options(page, report, CEDUO_OPTIONS_RATES, c, SIZE_MAX, 0, SIZE_MAX);
     ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s",
                     _("Energy reached or exceeded once per return period, kJ (95 % interval):"));

@@ -68,7 +68,7 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
         ceduo_text_format(place, ", %s", c->name);
     ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
     if (!isnan(c->accepted))
-        ceduo_text_append_joined(place, ", ", _("withstands %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
+        ceduo_text_append_joined(place, ", ", _("limit %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
                                  ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
     ceduo_words_topography(place, ceduo_topography_at(&report->result->bare.arrivals[i]), false);
 }
@@ -113,7 +113,7 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
     if (!whole && !nothing && wood && !isnan(s->today.may_lo) && page->width < CEDUO_PAGE_WIDTH)
         add_row(page, (const char *const[3][2]){{"", _("  90 % range")}, {MAY_BE(s->today), ""}, {"", ""}});
     if (blocks && !nothing) /* what matters if blocks of all sizes come down */
-        add_row(page, (const char *const[3][2]){{_("years from one such rock to the next"), _("years apart")},
+        add_row(page, (const char *const[3][2]){{_("return period of such a rock, years"), _("years apart")},
                                                 {YEARS(ceduo_feared(wood)), EVERY(ceduo_feared(wood))},
                                                 {YEARS(ceduo_feared(bare)), EVERY(ceduo_feared(bare))}});
     for (enum ceduo_measured what = 0; what < CEDUO_P95_TOP; what++) {

@@ -136,7 +136,7 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
     if (!(d->frame.x1 > 0 && d->frame.y1 > RAREST))
         return _("rocks arrive less than once in a thousand years");
     ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
-                   _("years from one rock with more than this energy to the next"));
+                   _("return period of a rock above this energy, years"));
     for (int i = 0; i < 2; i++) {
         ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_AXIS, log10(energies[i]));
         put_energy(d, energies[i]);

@@ -94,7 +94,7 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i)
     struct ceduo_page_cell *marks = ceduo_page_cell(page);
     marks->role = CEDUO_ROLE_TITLE;
     if (h->accepted >= b->first && (h->accepted < end || b->over))
-        add_mark(h, i, h->accepted, page->width >= MARKS_WIDTH ? _("withstands") : ">", &marks->text);
+        add_mark(h, i, h->accepted, page->width >= MARKS_WIDTH ? _("limit") : ">", &marks->text);
     add_mark(h, i, e->p50 * J_TO_KJ, "p50", &marks->text);
     add_mark(h, i, e->p95 * J_TO_KJ, "p95", &marks->text);
 }

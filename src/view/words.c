@@ -167,8 +167,7 @@ void ceduo_words_thick_stems(const struct ceduo_belt *belt, ceduo_sentence_sink 
     size_t n;
     if (thick)
         ceduo_words_format(say, context,
-                           _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
-                             "were measured on, %g cm: check them."),
+                           _("%s: %.3g cm stems are thicker than the volume tables of their species, %g cm: check them."),
                            NAME_OF(belt), thick->dbh * 100, ceduo_species_list(&n)[s->species].d_hi);
 }
 

@@ -23,14 +23,12 @@ static void say_lost(const struct ceduo_result *result, ceduo_sentence_sink *say
     if (uphill->ends.uphill > 0)
         ceduo_words_format(
             say, context,
-            _("Of %llu rocks simulated %llu bounce back over the upper end of the profile and are counted as gone: let "
-              "it begin farther up."),
+            _("Of %llu rocks %llu bounce over the upper end of the profile and count as gone: extend the profile upward."),
             (unsigned long long)uphill->rocks, (unsigned long long)uphill->ends.uphill);
     if (most * 1000 >= 0.5)
-        ceduo_words_format(
-            say, context,
-            _("%s: of 1000 rocks simulated stems stop %.0f within %g m of the release, before they have any speed."),
-            NAME_OF(&result->scene->options[option]), most * 1000, CEDUO_EARLY_M);
+        ceduo_words_format(say, context,
+                           _("%s: stems stop %.0f of 1000 rocks within %g m of the release, where they are slow."),
+                           NAME_OF(&result->scene->options[option]), most * 1000, CEDUO_EARLY_M);
 }
 
 /* Warns of controls with unusual rocks: more or fewer than the terrain suggests, faster or higher than on slopes. */
@@ -102,13 +100,13 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
                                     (unsigned long)unfinished),
                            (unsigned long long)unfinished, CEDUO_STEMS_MAX);
     else if (unfinished > 0)
-        ceduo_words_format(say, context,
-                           ngettext("%llu rock was still moving after %d contacts and counts as unfinished: does the ground "
-                                    "take energy?",
-                                    "%llu rocks were still moving after %d contacts and count as unfinished: does the ground "
-                                    "take energy?",
-                                    (unsigned long)unfinished),
-                           (unsigned long long)unfinished, CEDUO_CONTACTS_MAX);
+        ceduo_words_format(
+            say, context,
+            ngettext(
+                "%llu rock was still moving after %d contacts and counts as unfinished: check that the ground absorbs energy.",
+                "%llu rocks were still moving after %d contacts and count as unfinished: check that the ground absorbs energy.",
+                (unsigned long)unfinished),
+            (unsigned long long)unfinished, CEDUO_CONTACTS_MAX);
     for (size_t i = 0; i < result->options_count; i++)
         for (size_t c = 0; c < result->scene->controls_count; c++) {
             const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);

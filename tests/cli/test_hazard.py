@@ -331,8 +331,8 @@ def test_page():
         bare, wooded = hazard_of(result), hazard_of(result, "wooded", -1, 1)
         years = [f"{shown(h['accepted_years'])} ({shown(h['accepted_years_lo'])}–{shown(h['accepted_years_hi'])})"
                  for h in (bare, wooded)]
-        expect(re.search(rf"years from one such rock to the next {re.escape(years[0])} ", page), years, page)
-        expect(re.search(rf"years from one such rock to the next {re.escape(years[1])} ", page), years, page)
+        expect(re.search(rf"return period of such a rock, years {re.escape(years[0])} ", page), years, page)
+        expect(re.search(rf"return period of such a rock, years {re.escape(years[1])} ", page), years, page)
         expect_in("Rock sphere; rocks are the blocks below, the index is of ", page)
         left = " ".join(shown(100 * m["rate_left"]) for m in wooded["matrix"])
         expect_in(f"coppice {years[1]} {left} without forest {years[0]} 100 100 100 Energy that is reached", page)
@@ -352,15 +352,15 @@ def test_page():
         expect_in(f"without, {bare['rocks_reached']} of 2000 50 % 95 % 99 % speed, m/s {bare['speed_m_s']['p50']:.1f} "
                   f"({bare['speed_m_s']['p50_lo']:.1f}–{bare['speed_m_s']['p50_hi']:.1f})", page)
         alone = " ".join(good(*WHOLE, f.write("t.yaml", slope_site(controls=[{"x_m": 140}]))).out.split())
-        expect_in("years from one such rock to the next", alone)
+        expect_in("return period of such a rock, years", alone)
         stuck = " ".join(good(*WHOLE, f.write("u.yaml", falls(POWER, controls=[{"x_m": 55}]))).out.split())
-        expect_in("years from one such rock to the next > ", stuck)
+        expect_in("return period of such a rock, years > ", stuck)
         few = " ".join(good(*WHOLE, f.write("w.yaml", slope_site(blocks={"per_year": 4, "volume_m3": [0.001, 0.002], "exponent": 1},
                                                                       controls=[{"x_m": 140, "accepted_kJ": 1}]))).out.split())
         expect(re.search(r"current > \d+ 0(\.\d)? none none ", few), "intensities that do not arrive", few)
         expect(" - %" not in few and "- %" not in stuck, "a share of none", few, stuck)
         index = " ".join(good(*WHOLE, "-s", "simulation.contact_model=index", path).out.split())
-        expect_in(f"years from one such rock to the next {years[0]} ", index)
+        expect_in(f"return period of such a rock, years {years[0]} ", index)
         without = good(*WHOLE, f.write("v.yaml", slope_site(blocks=None))).out
         expect("How often" not in without and "Blocks   " not in without, without)
 

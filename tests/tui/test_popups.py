@@ -76,7 +76,7 @@ def test_new_typed():
             key Enter
             dump""")
         screens[0].has("New scene", "profile (CSV file or points)", "rocks start at x", "face from the top", "ground",
-                       "rock: diameter, m", "counted at x, m", "the place withstands, kJ", "stand on the way", "Esc one back")
+                       "rock: diameter, m", "counted at x, m", "the place limit, kJ", "stand on the way", "Esc one back")
         screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0,9", "95", "30", "simple-coppice")
         screens[2].has("* Above the mill", "At 95 m", "above 30 kJ")
         screens[3].has("Save as")
