@@ -232,12 +232,12 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
 {
     static const struct ceduo_page_column columns[] = {
         {N_("stand"), 10, 2, CEDUO_FILLS},
-        {NP_("head", "m|from, to, m"), 1, 1, CEDUO_FITS | CEDUO_DROPPED(4)},
+        {NP_("head", "m|from, to, m"), 1, 1, CEDUO_FITS | CEDUO_DROPPED(3)},
         {N_("ADC m|ADC, m"), -5, 1, CEDUO_FITS},
         {NULL, -5, 1, CEDUO_FITS},
-        {NP_("head", "free run|chance of a free run"), -7, 1, CEDUO_FITS | CEDUO_DROPPED(7)},
-        {NP_("head", "kJ|energy taken, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(8)},
-        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(9)}};
+        {NP_("head", "free run|chance of a free run"), -7, 1, CEDUO_FITS | CEDUO_DROPPED(4)},
+        {NP_("head", "kJ|energy taken, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
+        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(6)}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *head = ceduo_page_head(page);
     ceduo_text_format(&head->text, "<%s m", SHORTEST(scene->simulation.threshold));
