@@ -45,7 +45,7 @@ enum ceduo_stand_warning {
     CEDUO_WARN_SLENDER = 1 << 10,        /* likewise, above CEDUO_SLENDERNESS_MAX */
     CEDUO_WARN_STOUT = 1 << 11,          /* likewise, below CEDUO_SLENDERNESS_MIN */
     CEDUO_WARN_THICK = 1 << 12,          /* thicker than any stem measured for the volume equation of its species */
-    CEDUO_WARN_UNLIKELY = 31 << 8        /* any of the last five */
+    CEDUO_WARN_IMPLAUSIBLE = 31 << 8     /* any of the last five */
 };
 
 /* Limits beyond which a stand is implausible (assumed). */
@@ -55,7 +55,7 @@ enum ceduo_stand_warning {
 #define CEDUO_SLENDERNESS_MIN 25
 
 /* Return which of SLENDER, STOUT and THICK apply to one kind of stem. */
-unsigned ceduo_stem_unlikely(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
+unsigned ceduo_stem_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
 
 unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ceduo_rule rule);
 

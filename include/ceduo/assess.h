@@ -91,7 +91,7 @@ enum ceduo_terrain ceduo_terrain(const struct ceduo_arrivals *bare);
 /* Judge whether the share of the released that exceeds the accepted energy is at most the limit of the control. Uses one energy
  * law and the sampling error alone. `wooded` may be NULL (not simulated). Return CEDUO_UNANSWERED without an accepted energy,
  * or if `wooded` is NULL and the slope without forest does not meet the limit. */
-enum ceduo_judgement { CEDUO_UNANSWERED, CEDUO_YES, CEDUO_NO, CEDUO_NOT_DECIDED, CEDUO_DEPENDS, CEDUO_NOTHING };
+enum ceduo_judgement { CEDUO_UNANSWERED, CEDUO_YES, CEDUO_NO, CEDUO_NOT_DECIDED, CEDUO_DEPENDS, CEDUO_CANNOT_JUDGE };
 enum ceduo_judgement ceduo_judge_control(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded);
 
 /* Judge whether a share is at most a limit; CEDUO_NOT_DECIDED if its interval holds the limit. */

@@ -22,7 +22,7 @@ struct ceduo_size_result {
 /* Return the rock scaled by `factor` in every dimension, with the same shape and density. Spreads are scaled with the sizes. */
 struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double factor);
 
-struct ceduo_blocks_def {
+struct ceduo_sizes_def {
     const struct ceduo_scene *scene;
     const struct ceduo_option *option;
     size_t control;
@@ -36,10 +36,10 @@ struct ceduo_blocks_def {
 };
 
 /* Return the default: last control, first option, the scene's number of rocks, no work limit. */
-struct ceduo_blocks_def ceduo_blocks_def_default(const struct ceduo_scene *scene);
+struct ceduo_sizes_def ceduo_sizes_def_default(const struct ceduo_scene *scene);
 
 /* Simulate blocks of each size through the forest to the control; sorted by volume. With the contact model index no rock is
  * simulated. Return CEDUO_CANCELLED, CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or a status of ceduo_run_create(). */
-enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_size_result blocks[CEDUO_SIZES]);
+enum ceduo_status ceduo_sizes_simulate(const struct ceduo_sizes_def *def, struct ceduo_size_result blocks[CEDUO_SIZES]);
 
 #endif

@@ -11,15 +11,15 @@
  * chains (Haario, Saksman and Tamminen 2001) start at the best Sobol' points and draw from the posterior. The prior is uniform
  * within the bounds. */
 
-#define CEDUO_CALIBRATION_MAX    12 /* values fitted at once */
-#define CEDUO_CALIBRATION_CHAINS 4
-#define CEDUO_CALIBRATION_DRAWS  200 /* for predictions */
-#define CEDUO_CALIBRATION_ROCKS  2000
-#define CEDUO_CALIBRATION_STEPS  1000000 /* of a chain */
-#define CEDUO_RHAT_MAX           1.05    /* convergence of the chains (Gelman and Rubin 1992) */
-#define CEDUO_EFFECTIVE_MIN      200     /* effective sample size that the chains must reach */
-#define CEDUO_NOT_DETERMINED     0.8     /* of the bounds: a value with a wider range is not identified */
-#define CEDUO_MISFIT             0.05    /* p-value below which the model cannot reproduce an observation */
+#define CEDUO_CALIBRATION_MAX      12 /* values fitted at once */
+#define CEDUO_CALIBRATION_CHAINS   4
+#define CEDUO_CALIBRATION_DRAWS    200 /* for predictions */
+#define CEDUO_CALIBRATION_ROCKS    2000
+#define CEDUO_CALIBRATION_STEPS    1000000 /* of a chain */
+#define CEDUO_RHAT_MAX             1.05    /* convergence of the chains (Gelman and Rubin 1992) */
+#define CEDUO_EFFECTIVE_MIN        200     /* effective sample size that the chains must reach */
+#define CEDUO_IDENTIFIED_WIDTH_MAX 0.8     /* of the bounds: a value with a wider range is not identified */
+#define CEDUO_MISFIT               0.05    /* p-value below which the model cannot reproduce an observation */
 
 /* One scene, with the places of the fitted values in it: inputs of kind CEDUO_INPUT_RANGE. Number and bounds are the same in each
  * scene. A value that the scene does not have has no places. */
@@ -47,7 +47,7 @@ struct ceduo_calibration_def {
     uint64_t rocks;          /* of each evaluation and setting */
     uint64_t seed;
     unsigned threads;         /* at most CEDUO_THREADS_MAX; 0: one */
-    size_t steps_most;        /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: default */
+    size_t steps_max;         /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: default */
     const ceduo_flag *cancel; /* may be NULL */
     void (*progress)(void *context,
                      const struct ceduo_calibration_state *state); /* may be NULL; called by one thread at a time */

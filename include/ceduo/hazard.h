@@ -38,7 +38,7 @@ struct ceduo_intensity {
 double ceduo_hazard_energy(size_t i);
 
 /* Rocks that arrive with more than an energy. */
-struct ceduo_exceeding {
+struct ceduo_hazard_point {
     double energy;
     struct ceduo_estimate rate;
 };
@@ -46,7 +46,7 @@ struct ceduo_exceeding {
 /* Exceedance rates, up to the first energy that no rock exceeds. */
 struct ceduo_hazard_curve {
     size_t count;
-    struct ceduo_exceeding at[CEDUO_HAZARD_ENERGIES];
+    struct ceduo_hazard_point at[CEDUO_HAZARD_ENERGIES];
 };
 
 struct ceduo_hazard {
@@ -57,7 +57,7 @@ struct ceduo_hazard {
     struct ceduo_estimate reach;    /* rocks that arrive */
     struct ceduo_estimate accepted; /* rocks that arrive with more than the accepted energy; NaN: none is given */
     double accepted_return;         /* years: ceduo_accepted_return() of the control */
-    double left;                    /* ceduo_hazard_feared() divided by its value without forest; NaN: that is 0 or unknown */
+    double left; /* ceduo_hazard_judged_rate() divided by its value without forest; NaN: that is 0 or unknown */
     struct ceduo_intensity intensity[CEDUO_INTENSITIES];
 };
 
@@ -65,7 +65,7 @@ struct ceduo_hazard {
 struct ceduo_hazard ceduo_hazard_none(void);
 
 /* Return the rate of harmful rocks at a control: above the accepted energy, or of any energy if none is given. */
-struct ceduo_estimate ceduo_hazard_feared(const struct ceduo_hazard *hazard);
+struct ceduo_estimate ceduo_hazard_judged_rate(const struct ceduo_hazard *hazard);
 
 /* Set `left` in `hazard` from the rates of `bare`, which may be `hazard` itself. */
 void ceduo_hazard_compare(struct ceduo_hazard *hazard, const struct ceduo_hazard *bare);

@@ -50,14 +50,14 @@ struct ceduo_observation ceduo_observation_default(void);
 #define CEDUO_CLASS_ROCKS_MIN 10 /* simulated rocks per class; fewer overstate the deviance */
 
 /* Simulated rocks compared with one observation. */
-#define CEDUO_SOME_VALUES 40
+#define CEDUO_SAMPLE_VALUES 40
 struct ceduo_observation_fit {
     uint64_t rocks;                                           /* simulated rocks */
     size_t classes;                                           /* 0: means are compared */
     double seen[CEDUO_CLASSES_MAX], count[CEDUO_CLASSES_MAX]; /* in each class: observed, simulated */
     double mean, sd;                                          /* of the simulated values */
     size_t some_count; /* the first values; rocks are exchangeable, so these are a random sample */
-    double some[CEDUO_SOME_VALUES];
+    double some[CEDUO_SAMPLE_VALUES];
     double seen_mean;
     double variance;                 /* of the difference of the means, with the errors of both */
     double scars, scars_variance;    /* expected number for the rocks released; NaN: not a count of scars */

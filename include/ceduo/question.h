@@ -21,10 +21,10 @@ struct ceduo_request {
      * unknown. CEDUO_ALL_OPTIONS: without forest and through each. */
     size_t only;
     bool years;                 /* also each option year by year */
-    struct ceduo_window window; /* the years; step 0: ceduo_window_in() */
+    struct ceduo_window window; /* the years; step 0: ceduo_scene_window() */
     bool rotations;             /* also the whole rotation of each option: ceduo_window_compute() */
     uint64_t year_rocks;        /* rocks per year, at most `rocks`; 0: `rocks` */
-    bool years_apart;           /* each year has independent rocks, see ceduo_years_simulate_independent(); not with blocks */
+    bool years_independent;     /* each year has independent rocks, see ceduo_years_simulate_independent(); not with blocks */
     unsigned years_most;        /* > 0: at most this many years, evenly spread */
     uint64_t block_rocks; /* > 0: at most n blocks of each other size, to the last control, for at most the work of the runs */
 };
@@ -40,7 +40,7 @@ struct ceduo_results {
     struct ceduo_years **years;       /* one per option, NULL if excluded by `only`; NULL: not requested */
     struct ceduo_years **rotations;   /* likewise */
     struct ceduo_size_result *blocks; /* CEDUO_SIZES per option; NULL: not requested, or the rock has no other sizes */
-    struct ceduo_work work;           /* of all runs of the pool; without blocks and years_apart */
+    struct ceduo_work work;           /* of all runs of the pool; without blocks and years_independent */
 };
 
 /* Simulate and read a scene. `pool` (may be NULL) keeps the runs between calls, see ceduo_pool_reuse_or_create(). *pool is NULL at first;

@@ -18,7 +18,7 @@ struct ceduo_simulated {
 /* Read a run. Return CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
 enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *simulated);
 /* Set unknown contacts to 0, for a forest without stems. */
-void ceduo_simulated_meets_nothing(struct ceduo_simulated *simulated);
+void ceduo_simulated_set_no_contacts(struct ceduo_simulated *simulated);
 /* Set the hazard relative to `bare`. */
 void ceduo_simulated_compare(struct ceduo_simulated *simulated, const struct ceduo_simulated *bare);
 void ceduo_simulated_free(struct ceduo_simulated *simulated);

@@ -28,8 +28,8 @@ struct ceduo_number {
 struct ceduo_number ceduo_number(double mean);
 
 /* Return the smallest and the largest value that can be drawn. */
-double ceduo_number_lowest(struct ceduo_number n);
-double ceduo_number_highest(struct ceduo_number n);
+double ceduo_number_min(struct ceduo_number n);
+double ceduo_number_max(struct ceduo_number n);
 
 /* Return quantile u (0 < u < 1) of the distribution, truncated to [lo, hi] as well. One draw replaces rejection sampling.
  * Requires that [lo, hi] overlaps the range of the distribution. */
@@ -74,7 +74,7 @@ struct ceduo_rock {
 };
 
 /* Compute the rock of mean sizes. CEDUO_BAD_ROCK if a size is missing or not above 0. */
-enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct ceduo_rock *rock);
+enum ceduo_status ceduo_rock_from_means(const struct ceduo_rock_def *def, struct ceduo_rock *rock);
 
 /* Return the rock of mean sizes; every member is NaN if the sizes are not valid. */
 struct ceduo_rock ceduo_rock_mean(const struct ceduo_rock_def *def);

@@ -61,15 +61,15 @@ double ceduo_curve_height(const struct ceduo_curve *curve, double dbh);
 
 /* Comparison of one kind of stems of the inventory with its growth curve: age (years), basal area, and basal area of the same
  * number of stems on the curve at this age (m2/ha). by_curve is NaN if the age or the curve is unknown. */
-struct ceduo_beside_curve {
+struct ceduo_curve_comparison {
     double age, basal_area, by_curve;
 };
 /* Compare kind i of the stems, shoots first, with its curve. A single kind of shoots without age has the years since a cut
  * before year 0. */
-struct ceduo_beside_curve ceduo_stems_beside_curve(const struct ceduo_stand *stand, double first_cut, size_t i);
+struct ceduo_curve_comparison ceduo_stems_compare_to_curve(const struct ceduo_stand *stand, double first_cut, size_t i);
 
 /* Maximum relative difference of the basal areas; above it a page warns (assumed). */
-#define CEDUO_OFF_CURVE 0.2
+#define CEDUO_CURVE_DEVIATION_MAX 0.2
 
 /* True if the stools were cut just before year 0; true if anything changes apart from cuts. */
 bool ceduo_stand_sprouts(const struct ceduo_stand *stand);
@@ -84,7 +84,7 @@ bool ceduo_stand_grows(const struct ceduo_stand *stand);
 unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut);
 
 /* True if `year` is the year of the first cut or any number of whole rotations later. */
-bool ceduo_is_cut_year(const struct ceduo_stand *stand, double first_cut, unsigned year);
+bool ceduo_stand_is_cut_year(const struct ceduo_stand *stand, double first_cut, unsigned year);
 
 /* Return the stand density index of n kinds of stems, N(dq/25.4)^1.605, N per ha, dq the quadratic mean dbh in cm (Reineke
  * 1933); 0 without stems. */

@@ -115,7 +115,7 @@ struct ceduo_difference {
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control);
 
 /* Return the difference of a run to itself: 0 without error. `exceed` is NaN if `accepted` is. */
-struct ceduo_difference ceduo_no_difference(double accepted);
+struct ceduo_difference ceduo_difference_zero(double accepted);
 
 #define CEDUO_EARLY_M 10.0
 

@@ -215,7 +215,7 @@ bool ceduo_scene_rock_varies(const struct ceduo_scene *scene);
 size_t ceduo_scene_last_control(const struct ceduo_scene *scene);
 
 /* Return the start of the first belt that is not bare (m, relative to the slope's first vertex); infinite if all are bare. */
-double ceduo_option_stems_from(const struct ceduo_option *option);
+double ceduo_option_forest_begin(const struct ceduo_option *option);
 
 /* ---- observations of real rocks, and uncertain values ---- */
 

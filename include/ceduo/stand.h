@@ -68,8 +68,8 @@ struct ceduo_logs {
 
 /* Growth of a stem: dbh D(1 - exp(-k age)), height H(1 - exp(-m age)). All 0: unknown. */
 struct ceduo_curve {
-    double dbh_most, dbh_rate;       /* D, m, > 0; k, 1/year, > 0 */
-    double height_most, height_rate; /* H, m, > 0; m, 1/year, > 0 */
+    double dbh_most, dbh_rate;      /* D, m, > 0; k, 1/year, > 0 */
+    double height_max, height_rate; /* H, m, > 0; m, 1/year, > 0 */
 };
 
 /* How a stand grows from year to year (assumed, see rotation.h). All 0: unknown, the stand does not change. */
@@ -87,10 +87,10 @@ struct ceduo_growth {
 
 /* Cutting of a stand. */
 struct ceduo_cutting {
-    unsigned rotation;   /* years between two cuts; 0: never cut */
-    unsigned cohorts;    /* cohorts of shoots on a stool; each cut takes the oldest; 0 or 1: each cut takes all shoots */
-    size_t stay_count;   /* number of age classes of trees that a cut leaves */
-    double *stay_per_ha; /* trees per ha, >= 0, that are 1, 2, 3 … rotations old */
+    unsigned rotation;     /* years between two cuts; 0: never cut */
+    unsigned cohorts;      /* cohorts of shoots on a stool; each cut takes the oldest; 0 or 1: each cut takes all shoots */
+    size_t retained_count; /* number of age classes of trees that a cut leaves */
+    double *stay_per_ha;   /* trees per ha, >= 0, that are 1, 2, 3 … rotations old */
 };
 
 /* A stand. Without members it is no forest. Shoots stand on stools; stools without shoots are ignored. */

@@ -47,18 +47,18 @@ double ceduo_share_se(double share, double n);
 
 /* Return the half-width for a share of n rocks by the normal distribution. For shares 0 and 1, whose standard error is 0, it is
  * the width of Wilson's interval. Also valid for the difference of two equal shares. */
-double ceduo_half_width_of_share(double share, double se, uint64_t n);
+double ceduo_share_half_width(double share, double se, uint64_t n);
 
 /* Return the estimate of a share of n rocks with its interval after Wilson (1927); se is NaN. n need not be whole. The upper
  * limit uses `max`, a share that includes rocks of unknown end. The interval is [0, 1] for n = 0. */
 struct ceduo_estimate ceduo_wilson(double share, double max, double n);
 
 /* Return the estimate of a mean with its interval by the normal distribution. */
-struct ceduo_estimate ceduo_estimate_by_se(double mean, double se);
+struct ceduo_estimate ceduo_estimate_from_se(double mean, double se);
 
 /* Return the estimate of a mean difference between pairs of rocks, with the spread of the pairs in `m`. If no pair differs, se
  * is NaN and the interval goes to the share of pairs that may differ all the same (Wilson). */
-struct ceduo_estimate ceduo_estimate_of_pairs(double mean, const struct ceduo_moments *m, uint64_t rocks);
+struct ceduo_estimate ceduo_estimate_from_pairs(double mean, const struct ceduo_moments *m, uint64_t rocks);
 
 /* True if no pair of such an estimate differs. */
 static inline bool ceduo_pairs_are_equal(const struct ceduo_estimate *difference)

@@ -65,9 +65,9 @@ struct ceduo_trajectory {
 /* Simulate rock number `rock` of a scene through the forest of `option` (NULL: without forest), as a run does. `watch` may be
  * NULL. `crossings` (may be NULL) has one entry per control, in their order. Requires a scene that has passed
  * ceduo_scene_check(). Return CEDUO_NO_MEMORY, CEDUO_CANCELLED (`trajectory` ends early) or CEDUO_OK. */
-enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                          const struct ceduo_trajectory_callbacks *watch, struct ceduo_trajectory *trajectory,
-                                          struct ceduo_crossing *crossings);
+enum ceduo_status ceduo_trajectory_run(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
+                                       const struct ceduo_trajectory_callbacks *watch, struct ceduo_trajectory *trajectory,
+                                       struct ceduo_crossing *crossings);
 
 /* Simulates many rocks, one at a time, of a scene that is prepared once. NULL without memory, or for a bad scene. */
 struct ceduo_tracer;

@@ -31,13 +31,13 @@ struct ceduo_window {
     unsigned first, last, step;
 };
 
-#define CEDUO_YEARS_MAX   1000 /* per window */
-#define CEDUO_YEARS_AHEAD 20   /* minimum years of CEDUO_WINDOW_AHEAD */
-#define CEDUO_AHEAD_MAX   60   /* maximum */
-#define CEDUO_PERIOD_MAX  120  /* years; if the common period of several rotations is longer, the longest rotation counts */
+#define CEDUO_YEARS_MAX       1000 /* per window */
+#define CEDUO_YEARS_AHEAD_MIN 20   /* minimum years of CEDUO_WINDOW_AHEAD */
+#define CEDUO_AHEAD_MAX       60   /* maximum */
+#define CEDUO_PERIOD_MAX      120  /* years; if the common period of several rotations is longer, the longest rotation counts */
 
 /* Return one whole rotation of an option. After its first cut a forest is periodic, so that a rotation has each state once.
- * With several rotations the window is their common period. Without a cut it is the next CEDUO_YEARS_AHEAD years
+ * With several rotations the window is their common period. Without a cut it is the next CEDUO_YEARS_AHEAD_MIN years
  * (CEDUO_WINDOW_AHEAD), or CEDUO_WINDOW_CONSTANT. */
 struct ceduo_window ceduo_window_compute(const struct ceduo_option *option);
 
@@ -45,9 +45,9 @@ struct ceduo_window ceduo_window_compute(const struct ceduo_option *option);
 struct ceduo_window ceduo_window_thinned(struct ceduo_window window, unsigned max);
 
 /* Return the years by which all options of a scene are judged and compared. They reach from year 1 to the longest rotation of
- * any belt, at least CEDUO_YEARS_AHEAD and at most CEDUO_AHEAD_MAX years. If the scene gives the first or last year:
+ * any belt, at least CEDUO_YEARS_AHEAD_MIN and at most CEDUO_AHEAD_MAX years. If the scene gives the first or last year:
  * CEDUO_WINDOW_GIVEN, at most CEDUO_YEARS_MAX years. CEDUO_WINDOW_CONSTANT if no option has a stand that grows or is cut. */
-struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene);
+struct ceduo_window ceduo_scene_window(const struct ceduo_scene *scene);
 
 struct ceduo_years {
     struct ceduo_scene scene; /* everything that it points to must outlive the years */
@@ -93,7 +93,7 @@ struct ceduo_years_summary {
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which this light fails */
     size_t thick_contact, thick_free_run;                                 /* likewise, counting stems from CEDUO_THICK_DBH on */
     size_t failing_lo, failing_hi;       /* years whose lower, or upper, 95 % limit of `exceed` is above the control's limit */
-    struct ceduo_estimate rate;          /* with blocks: ceduo_hazard_feared(); the interval is an upper bound */
+    struct ceduo_estimate rate;          /* with blocks: ceduo_hazard_judged_rate(); the interval is an upper bound */
     struct ceduo_estimate reach, exceed; /* of the released */
     struct ceduo_estimate energy_per_released; /* J */
     /* year of the largest exceeding share, or arriving share without an accepted energy; with the index, of the largest ADC */
@@ -101,7 +101,7 @@ struct ceduo_years_summary {
     double worst;                             /* this share, or this ADC in m */
     double passes_per_year, exceeds_per_year; /* expected, if the scene gives rocks_per_year */
 };
-struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control);
+struct ceduo_years_summary ceduo_years_summarize(const struct ceduo_years *years, size_t control);
 
 /* Return the difference of the mean marked shares of two options, over the rocks that both have. NaN if unknown. */
 struct ceduo_estimate ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less);

@@ -33,7 +33,7 @@ void *ceduo_arena_alloc(struct arena *arena, size_t size)
         out_of_memory = !page;
     }
     if (out_of_memory) {
-        ceduo_no_memory();
+        ceduo_oom_set_flag();
         arena->failed = true;
         return NULL;
     }

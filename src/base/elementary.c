@@ -99,7 +99,7 @@ double ceduo_cbrt(double x)
     return copysign(y * scale, x);
 }
 
-double ceduo_length(double x, double y)
+double ceduo_hypot(double x, double y)
 {
     double square = x * x + y * y;
     if (square < 0x1p-900) /* squares that lose digits are scaled */

@@ -18,7 +18,7 @@ double ceduo_cbrt(double x);
 double ceduo_pow(double x, double y);
 
 /* Return sqrt(x2 + y2). Requires that neither square overflows. */
-double ceduo_length(double x, double y);
+double ceduo_hypot(double x, double y);
 
 /* Set the cosine and sine of 2 pi i/n. */
 void ceduo_sincos_turn(uint64_t i, uint64_t n, double *cosine, double *sine);

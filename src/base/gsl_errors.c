@@ -21,7 +21,7 @@ static void on_error(const char *reason, const char *file, int line, int error)
 {
     if (in_library) {
         if (error == GSL_ENOMEM)
-            ceduo_no_memory();
+            ceduo_oom_set_flag();
         if (error == GSL_ENOMEM && oom_jump)
             longjmp(*oom_jump, 1);
         return;

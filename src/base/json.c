@@ -9,7 +9,7 @@
 static void append_string(struct text *text, const char *string)
 {
     size_t n = strlen(string);
-    ceduo_text_char(text, '"');
+    ceduo_text_append_char(text, '"');
     for (size_t i = 0; i < n;) {
         uint32_t code = 0;
         size_t length = ceduo_utf8_decode(string + i, n - i, &code);
@@ -17,19 +17,19 @@ static void append_string(struct text *text, const char *string)
             ceduo_text_append(text, "\\ufffd");
             length = 1;
         } else if (code == '"' || code == '\\') {
-            ceduo_text_char(text, '\\');
-            ceduo_text_char(text, (char)code);
+            ceduo_text_append_char(text, '\\');
+            ceduo_text_append_char(text, (char)code);
         } else if (!ceduo_utf8_printable(code) && code <= 0xffff) {
             ceduo_text_format(text, "\\u%04x", (unsigned)code);
         } else if (!ceduo_utf8_printable(code)) { /* as a UTF-16 surrogate pair */
             unsigned high = 0xd7c0 + (code >> 10), low = 0xdc00 + (code & 0x3ff);
             ceduo_text_format(text, "\\u%04x\\u%04x", high, low);
         } else {
-            ceduo_text_add(text, string + i, length);
+            ceduo_text_append_n(text, string + i, length);
         }
         i += length;
     }
-    ceduo_text_char(text, '"');
+    ceduo_text_append_char(text, '"');
 }
 
 static void begin(struct json *json, const char *key)
@@ -46,20 +46,20 @@ static void begin(struct json *json, const char *key)
 void ceduo_json_open(struct json *json, const char *key, char bracket)
 {
     begin(json, key);
-    ceduo_text_char(json->text, bracket);
+    ceduo_text_append_char(json->text, bracket);
     json->more = false;
 }
 
 void ceduo_json_close(struct json *json, char bracket)
 {
-    ceduo_text_char(json->text, bracket);
+    ceduo_text_append_char(json->text, bracket);
     json->more = true;
 }
 
 void ceduo_json_number(struct json *json, const char *key, double value)
 {
     begin(json, key);
-    ceduo_text_append(json->text, NUMERAL(value));
+    ceduo_text_append(json->text, ROUNDTRIP(value));
 }
 
 void ceduo_json_count(struct json *json, const char *key, uint64_t value)

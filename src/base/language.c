@@ -6,7 +6,7 @@
 
 static _Thread_local bool data_language;
 
-void ceduo_language_of_data(bool on)
+void ceduo_language_set_data(bool on)
 {
     data_language = on;
 }

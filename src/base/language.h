@@ -27,6 +27,6 @@ const char *ceduo_translate_in(const char *marked);
 const char *ceduo_in_language(const char *english, const char *italian);
 
 /* While on, text of this thread stays English, so that sentences in JSON and CSV do not depend on the language. */
-void ceduo_language_of_data(bool on);
+void ceduo_language_set_data(bool on);
 
 #endif

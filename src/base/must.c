@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "must.h"
 
-void (*ceduo_memory_hook)(void);
+void (*ceduo_oom_hook)(void);
 
 static _Thread_local bool lost;
 
-void ceduo_no_memory(void)
+void ceduo_oom_set_flag(void)
 {
     lost = true;
-    if (ceduo_memory_hook) /* untaken: end */
-        ceduo_memory_hook();
+    if (ceduo_oom_hook) /* untaken: end */
+        ceduo_oom_hook();
 }
 
 bool ceduo_memory_failed(void)

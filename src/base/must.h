@@ -9,10 +9,10 @@
  * and ends the program, so that text, arenas and ceduo_grow() never fail and need no check. */
 
 /* Called by any thread; must not return. NULL: functions return an error. */
-extern void (*ceduo_memory_hook)(void);
+extern void (*ceduo_oom_hook)(void);
 
 /* Set the out-of-memory flag of this thread, and call the hook if there is one. */
-void ceduo_no_memory(void);
+void ceduo_oom_set_flag(void);
 
 /* Return and clear the out-of-memory flag of this thread. Check it once after many small allocations. */
 bool ceduo_memory_failed(void);
@@ -21,7 +21,7 @@ bool ceduo_memory_failed(void);
 static inline void *ceduo_check_memory(void *allocated)
 {
     if (!allocated) {
-        ceduo_no_memory();
+        ceduo_oom_set_flag();
         abort();
     }
     return allocated;
@@ -36,7 +36,7 @@ static inline void *ceduo_grow(void *items, size_t n, size_t *capacity, size_t s
     size_t more = *capacity > 0 ? 2 * *capacity : 32;
     void *grown = realloc(items, more * size);
     if (!grown)
-        ceduo_no_memory();
+        ceduo_oom_set_flag();
     *capacity = grown ? more : *capacity;
     return grown;
 }

@@ -29,11 +29,11 @@ static inline bool ceduo_cancelled(const atomic_bool *cancel)
 struct talk {
     atomic_flag busy;
 };
-static inline bool ceduo_talk_begin(struct talk *talk)
+static inline bool ceduo_guard_try_enter(struct talk *talk)
 {
     return !atomic_flag_test_and_set(&talk->busy);
 }
-static inline void ceduo_talk_end(struct talk *talk)
+static inline void ceduo_guard_leave(struct talk *talk)
 {
     atomic_flag_clear(&talk->busy);
 }

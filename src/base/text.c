@@ -25,7 +25,7 @@ static bool reserve(struct text *text, size_t more)
         capacity *= 2;
     char *bytes = realloc(text->bytes, capacity);
     if (!bytes) {
-        ceduo_no_memory();
+        ceduo_oom_set_flag();
         text->failed = true;
         return false;
     }
@@ -34,7 +34,7 @@ static bool reserve(struct text *text, size_t more)
     return true;
 }
 
-void ceduo_text_add(struct text *text, const char *bytes, size_t n)
+void ceduo_text_append_n(struct text *text, const char *bytes, size_t n)
 {
     if (!reserve(text, n))
         return;
@@ -46,7 +46,7 @@ void ceduo_text_add(struct text *text, const char *bytes, size_t n)
 
 void ceduo_text_append(struct text *text, const char *string)
 {
-    ceduo_text_add(text, string, strlen(string));
+    ceduo_text_append_n(text, string, strlen(string));
 }
 
 void ceduo_text_cut(struct text *text, size_t length)
@@ -56,17 +56,17 @@ void ceduo_text_cut(struct text *text, size_t length)
         text->bytes[length] = '\0';
 }
 
-void ceduo_text_quoted(struct text *text, const char *string)
+void ceduo_text_append_quoted(struct text *text, const char *string)
 {
-    ceduo_text_char(text, '\'');
+    ceduo_text_append_char(text, '\'');
     for (const char *c = string; *c; c++)
-        ceduo_text_add(text, *c == '\'' ? "'\\''" : c, *c == '\'' ? 4 : 1);
-    ceduo_text_char(text, '\'');
+        ceduo_text_append_n(text, *c == '\'' ? "'\\''" : c, *c == '\'' ? 4 : 1);
+    ceduo_text_append_char(text, '\'');
 }
 
-void ceduo_text_char(struct text *text, char c)
+void ceduo_text_append_char(struct text *text, char c)
 {
-    ceduo_text_add(text, &c, 1);
+    ceduo_text_append_n(text, &c, 1);
 }
 
 /* ---- numbers with a dot ---- */
@@ -109,7 +109,7 @@ double ceduo_decimal_read(const char *string)
     return strtod_l(string, NULL, get_dot_locale());
 }
 
-char *ceduo_number_spoken(char *number)
+char *ceduo_number_localize(char *number)
 {
     for (char *dot = number; (dot = strchr(dot, '.'));)
         *dot++ = P_("decimal", ".")[0];
@@ -147,9 +147,9 @@ static void format_localized(struct text *text, const char *format, va_list args
             ceduo_text_format(&marked, "\1%%%.*s\2", (int)n - 1, c + 2);
             c += n;
         } else {
-            ceduo_text_char(&marked, *c);
+            ceduo_text_append_char(&marked, *c);
             if (c[0] == '%' && c[1] == '%')
-                ceduo_text_char(&marked, *c++);
+                ceduo_text_append_char(&marked, *c++);
         }
     }
 #pragma GCC diagnostic push
@@ -161,7 +161,7 @@ static void format_localized(struct text *text, const char *format, va_list args
         if (*c == '\1' || *c == '\2')
             number = *c == '\1';
         else
-            ceduo_text_char(text, number && *c == '.' ? P_("decimal", ".")[0] : *c);
+            ceduo_text_append_char(text, number && *c == '.' ? P_("decimal", ".")[0] : *c);
 }
 
 void ceduo_text_vformat(struct text *text, const char *format, va_list args)
@@ -209,7 +209,7 @@ void ceduo_text_append_escaped_n(struct text *text, const char *string, size_t n
         bool printable = length > 0 && ceduo_utf8_printable(c);
         length += length == 0;
         if (printable)
-            ceduo_text_add(text, string + i, length);
+            ceduo_text_append_n(text, string + i, length);
         for (size_t k = 0; k < length && !printable; k++)
             ceduo_text_format(text, "\\x%02x", (unsigned char)string[i + k]);
         i += length;
@@ -221,7 +221,7 @@ void ceduo_text_append_escaped(struct text *text, const char *string)
     ceduo_text_append_escaped_n(text, string, strlen(string));
 }
 
-char *ceduo_number_shortest(double value, char buffer[CEDUO_NUMBER_ROOM])
+char *ceduo_number_shortest(double value, char buffer[CEDUO_NUMBER_SIZE])
 {
     if (!isfinite(value))
         return strcpy(buffer, "null");
@@ -229,7 +229,7 @@ char *ceduo_number_shortest(double value, char buffer[CEDUO_NUMBER_ROOM])
         return strcpy(buffer, "0"); /* also for -0 */
     /* Begin with 15 digits: %g drops trailing zeros. Subnormal numbers begin with 1. 17 digits always suffice. */
     int digits = fabs(value) < DBL_MIN ? 1 : 15;
-    while (ceduo_decimal_format(buffer, CEDUO_NUMBER_ROOM, "%.*g", digits, value), ceduo_decimal_read(buffer) != value)
+    while (ceduo_decimal_format(buffer, CEDUO_NUMBER_SIZE, "%.*g", digits, value), ceduo_decimal_read(buffer) != value)
         digits++;
     return buffer;
 }
@@ -279,7 +279,7 @@ enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double
     return CEDUO_NUMBER_GOOD;
 }
 
-void ceduo_text_csv(struct text *text, const char *value)
+void ceduo_text_append_csv(struct text *text, const char *value)
 {
     LOCAL_TEXT(safe);
     double number;
@@ -291,10 +291,10 @@ void ceduo_text_csv(struct text *text, const char *value)
     if (!strpbrk(bytes, ",\"")) {
         ceduo_text_append(text, bytes);
     } else {
-        ceduo_text_char(text, '"');
+        ceduo_text_append_char(text, '"');
         for (; *bytes; bytes++)
-            ceduo_text_add(text, *bytes == '"' ? "\"\"" : bytes, *bytes == '"' ? 2 : 1);
-        ceduo_text_char(text, '"');
+            ceduo_text_append_n(text, *bytes == '"' ? "\"\"" : bytes, *bytes == '"' ? 2 : 1);
+        ceduo_text_append_char(text, '"');
     }
     text->failed |= safe.failed; /* NOLINT(clang-analyzer-unix.Malloc): false positive: `safe` is freed here */
 }

@@ -15,13 +15,13 @@ struct text {
     bool failed;
 };
 
-void ceduo_text_add(struct text *text, const char *bytes, size_t n);
+void ceduo_text_append_n(struct text *text, const char *bytes, size_t n);
 void ceduo_text_append(struct text *text, const char *string);
 /* Remove all but the first `length` bytes. */
 void ceduo_text_cut(struct text *text, size_t length);
 /* Append a string in shell quotes. */
-void ceduo_text_quoted(struct text *text, const char *string);
-void ceduo_text_char(struct text *text, char c);
+void ceduo_text_append_quoted(struct text *text, const char *string);
+void ceduo_text_append_char(struct text *text, char c);
 void ceduo_text_format(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* In translations, %'.1f and similar formats print the decimal sign of the language. */
 void ceduo_text_vformat(struct text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
@@ -47,13 +47,13 @@ void ceduo_text_append_escaped(struct text *text, const char *string);
 void ceduo_text_append_escaped_n(struct text *text, const char *string, size_t n);
 
 /* Print the shortest decimal that reads back as the same number; "null" if it is not finite. Returns `buffer`. */
-#define CEDUO_NUMBER_ROOM 32
-char *ceduo_number_shortest(double value, char buffer[CEDUO_NUMBER_ROOM]);
+#define CEDUO_NUMBER_SIZE 32
+char *ceduo_number_shortest(double value, char buffer[CEDUO_NUMBER_SIZE]);
 /* As ceduo_number_shortest(), into memory of the enclosing block. */
-#define NUMERAL(value) ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0})
+#define ROUNDTRIP(value) ceduo_number_shortest(value, (char[CEDUO_NUMBER_SIZE]){0})
 
 /* Replace each dot by the decimal sign of the language. Returns `number`. */
-char *ceduo_number_spoken(char *number);
+char *ceduo_number_localize(char *number);
 
 /* As snprintf(), and strtod() without its second argument, but with a decimal point in every locale. In an Italian or German
  * locale strtod() reads "9.81" as 9. */
@@ -69,7 +69,7 @@ enum ceduo_number_reading ceduo_number_read(const char *string, double *value);
 enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double hi, uint64_t *value);
 
 /* Append a CSV field, in quotes if necessary, after an apostrophe if a spreadsheet would read a formula. */
-void ceduo_text_csv(struct text *text, const char *value);
+void ceduo_text_append_csv(struct text *text, const char *value);
 
 /* Return the most similar of n words; NULL if none is similar. */
 const char *ceduo_text_nearest(const char *word, const char *const *words, size_t n);

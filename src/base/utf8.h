@@ -28,7 +28,7 @@ size_t ceduo_utf8_encode(uint32_t code, char to[4]);
 const char *ceduo_utf8_fold(const char *p, size_t n, char *to, size_t size);
 
 /* True if a byte continues a character. */
-static inline bool ceduo_utf8_inside(char byte)
+static inline bool ceduo_utf8_is_continuation(char byte)
 {
     return ((unsigned char)byte & 0xc0) == 0x80;
 }

@@ -35,7 +35,7 @@ static void append_answer(struct batch *b, const struct text *answer)
     bool row = b->each.rows;
     if (a->format == CEDUO_CSV) {
         if (b->first && !a->resume)
-            ceduo_text_add(&b->out, b->head.bytes, b->head.length);
+            ceduo_text_append_n(&b->out, b->head.bytes, b->head.length);
         ceduo_columns_lines(&b->columns, answer, &b->out);
     } else if (a->format == CEDUO_JSON && row) {
         struct json json = {.text = &b->out};
@@ -45,10 +45,10 @@ static void append_answer(struct batch *b, const struct text *answer)
         ceduo_text_append(&b->out, ceduo_text_string(answer) + 1);
     } else {
         if (!b->first && a->format == CEDUO_TABLE && a->profiles->count == 0 && a->mode != MODE_CHECK)
-            ceduo_text_char(&b->out, '\n');
+            ceduo_text_append_char(&b->out, '\n');
         if (row)
             ceduo_each_page(&b->each, &b->out);
-        ceduo_text_add(&b->out, answer->bytes, answer->length);
+        ceduo_text_append_n(&b->out, answer->bytes, answer->length);
     }
     b->first = false;
 }
@@ -83,8 +83,8 @@ static void add_verdicts(struct text *text, const struct arguments *a, const siz
     }
     for (size_t i = 0; i < n; i++) {
         if (!html)
-            ceduo_text_char(text, '\n');
-        ceduo_text_add(text, pages.bytes + starts[order[i]], starts[order[i] + 1] - starts[order[i]]);
+            ceduo_text_append_char(text, '\n');
+        ceduo_text_append_n(text, pages.bytes + starts[order[i]], starts[order[i] + 1] - starts[order[i]]);
     }
     if (html)
         ceduo_page_html_end(&to);

@@ -46,7 +46,7 @@ static enum exit_status find_parameter(struct fit_job *j, size_t i)
         places += input->places_count;
         arms += j->files[s].scene.simulation.law == CEDUO_LAW_ARM;
         for (size_t k = 0; k < i; k++)
-            if (ceduo_input_shares(input, &j->inputs[s * j->parameters_count + k]))
+            if (ceduo_input_overlaps(input, &j->inputs[s * j->parameters_count + k]))
                 return ceduo_usage_error("calibrate", _("'%s' and '%s' are the same value"), j->inputs[k].path, path);
     }
     if (places == 0)

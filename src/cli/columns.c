@@ -39,8 +39,8 @@ static void append_copied(const struct each *e, bool heads, struct text *line)
 {
     for (size_t i = 0; i < e->heads_count; i++)
         if (ceduo_each_is_copied(&e->heads[i])) {
-            ceduo_text_csv(line, heads ? e->heads[i].printed : e->cells[i]);
-            ceduo_text_char(line, ',');
+            ceduo_text_append_csv(line, heads ? e->heads[i].printed : e->cells[i]);
+            ceduo_text_append_char(line, ',');
         }
 }
 
@@ -48,16 +48,16 @@ static void append_copied(const struct each *e, bool heads, struct text *line)
 static void append_line(const struct columns *c, const struct text *line, struct text *out)
 {
     if (!c->chosen) {
-        ceduo_text_add(out, line->bytes, line->length);
+        ceduo_text_append_n(out, line->bytes, line->length);
     } else {
         size_t n = split_line(line->bytes, line->length, c->cells, c->count);
         for (size_t k = 0; k < c->chosen_count; k++) {
             ceduo_text_append(out, k > 0 ? "," : "");
             if (c->chosen[k] < n)
-                ceduo_text_add(out, c->cells[c->chosen[k]].p, c->cells[c->chosen[k]].n);
+                ceduo_text_append_n(out, c->cells[c->chosen[k]].p, c->cells[c->chosen[k]].n);
         }
     }
-    ceduo_text_char(out, '\n');
+    ceduo_text_append_char(out, '\n');
 }
 
 /* Find the columns of --columns among n sorted names. */
@@ -117,7 +117,7 @@ void ceduo_columns_head(const struct columns *c, const struct text *header, stru
 {
     LOCAL_TEXT(line);
     append_copied(c->each, true, &line);
-    ceduo_text_add(&line, header->bytes, header->length - 1);
+    ceduo_text_append_n(&line, header->bytes, header->length - 1);
     append_line(c, &line, out);
 }
 
@@ -126,7 +126,7 @@ void ceduo_columns_lines(const struct columns *c, const struct text *lines, stru
     for (const char *p = ceduo_text_string(lines), *end; (end = strchr(p, '\n')); p = end + 1) {
         LOCAL_TEXT(line);
         append_copied(c->each, false, &line);
-        ceduo_text_add(&line, p, (size_t)(end - p));
+        ceduo_text_append_n(&line, p, (size_t)(end - p));
         append_line(c, &line, out);
     }
 }

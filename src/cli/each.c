@@ -135,10 +135,10 @@ enum exit_status ceduo_each_open(struct each *e, const struct arguments *a)
 /* Append a text as a quoted YAML scalar. */
 static void append_quoted(struct text *change, const char *cell)
 {
-    ceduo_text_char(change, '\'');
+    ceduo_text_append_char(change, '\'');
     for (const char *p = cell; *p; p++)
         ceduo_text_append(change, *p == '\'' ? "''" : (char[]){*p, '\0'});
-    ceduo_text_char(change, '\'');
+    ceduo_text_append_char(change, '\'');
 }
 
 /* Return the change of a cell of the present record, PATH=VALUE; NULL: none. */
@@ -224,7 +224,7 @@ void ceduo_each_json(const struct each *e, struct json *json)
         double number;
         if (!ceduo_each_is_copied(&e->heads[i]))
             continue;
-        if (ceduo_number_read(cell, &number) == CEDUO_NUMBER_GOOD && strcmp(NUMERAL(number), cell) == 0)
+        if (ceduo_number_read(cell, &number) == CEDUO_NUMBER_GOOD && strcmp(ROUNDTRIP(number), cell) == 0)
             ceduo_json_number(json, name, number);
         else
             ceduo_json_string(json, name, cell[0] ? cell : NULL);
@@ -240,7 +240,7 @@ void ceduo_each_page(const struct each *e, struct text *page)
             ceduo_text_append(page, " \xc2\xb7 ");
             ceduo_text_append_escaped(page, e->cells[i]);
         }
-    ceduo_text_char(page, '\n');
+    ceduo_text_append_char(page, '\n');
 }
 
 void ceduo_each_note_failed(struct each *e)

@@ -37,14 +37,14 @@ static const char *fill_brackets(struct arena *arena, const char *pattern, const
 {
     LOCAL_TEXT(path);
     for (const char *p = pattern; *p; p++) {
-        ceduo_text_char(&path, *p);
+        ceduo_text_append_char(&path, *p);
         if (*p != '[')
             continue;
         const char *open = from ? strchr(from, '[') : NULL, *close = open ? strchr(open, ']') : NULL;
         if (close && close > open + 1)
-            ceduo_text_add(&path, open + 1, (size_t)(close - open) - 1);
+            ceduo_text_append_n(&path, open + 1, (size_t)(close - open) - 1);
         else
-            ceduo_text_char(&path, '0');
+            ceduo_text_append_char(&path, '0');
         from = close;
     }
     return ceduo_arena_string(arena, ceduo_text_string(&path));
@@ -131,7 +131,7 @@ static const char *find_nearest(const struct meants *m, struct arena *arena, con
     for (size_t i = 0; i < m->n; i++)
         patterns[i] = m->items[i].pattern;
     for (const char *p = head; *p; p++) {
-        ceduo_text_char(&pattern, *p);
+        ceduo_text_append_char(&pattern, *p);
         if (*p == '[')
             p += strcspn(p, "]") - 1;
     }
@@ -178,7 +178,7 @@ static bool check_duplicates(const struct csv *table, struct arena *arena, const
     size_t named = 0, duplicates = 0;
     for (size_t i = 0; i < n; i++) {
         LOCAL_TEXT(text);
-        ceduo_text_csv(&text, heads[i].name);
+        ceduo_text_append_csv(&text, heads[i].name);
         if (heads[i].name[0])
             sorted[named++] = (struct printed_head){ceduo_arena_string(arena, ceduo_text_string(&text)), i};
     }

@@ -28,7 +28,7 @@ static void align(struct text *to, const char *rows)
             if (!pass && !last && width > widths[column])
                 widths[column] = width > WIDTH_MAX ? WIDTH_MAX : width;
             if (pass) {
-                ceduo_text_add(to, p, n);
+                ceduo_text_append_n(to, p, n);
                 ceduo_text_format(to, "%*s", last ? 0 : width > widths[column] ? 1 : (int)(widths[column] + 2 - width), "");
                 ceduo_text_append(to, last ? "\n" : "");
             }
@@ -63,7 +63,7 @@ static void print_parameter(void *context, const char *path, const struct field 
     if (f->choices)
         ceduo_text_join(&words, f->choices->names, f->choices->n, "|");
     else if (!ceduo_schema_range_text(f, &words))
-        ceduo_text_char(&words, '-');
+        ceduo_text_append_char(&words, '-');
     ceduo_text_format(text, "%s\t%s\t%s\t%s\t%s\t%s\n", path, type_names[f->type], f->unit[0] ? f->unit : "-",
                       ceduo_text_string(&words), f->value ? f->value : "-", _(f->meaning));
 }
@@ -132,9 +132,9 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
                 ceduo_text_append_escaped(&rows, names[i]);
                 ceduo_text_format(&rows, "\t%s\t", kinds[k][1]);
                 ceduo_text_append_escaped(&rows, read_title(&arena, path));
-                ceduo_text_char(&rows, '\t');
+                ceduo_text_append_char(&rows, '\t');
                 ceduo_text_append_escaped(&rows, path);
-                ceduo_text_char(&rows, '\n');
+                ceduo_text_append_char(&rows, '\n');
             }
         }
     return print_table(a, &rows, "");
@@ -155,7 +155,7 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
     if (template)
         ceduo_survey_print_template(&yaml);
     bool good = template || (ceduo_survey_read(&file, &arena, found ? found : a->survey, NULL, &problems) &&
-                             ceduo_survey_stand(&file, &yaml, &problems));
+                             ceduo_survey_print_stand(&file, &yaml, &problems));
     ceduo_print_problems(&problems);
     if (good && !template && !a->quiet) {
         ceduo_text_format(&line, "%s\n", file.understood);

@@ -79,7 +79,7 @@ static enum exit_status interact(const struct arguments *a)
 
 int main(int argc, char **argv)
 {
-    ceduo_memory_hook = end_without_memory;
+    ceduo_oom_hook = end_without_memory;
     /* If a standard stream is closed, open /dev/null in its place, so that no other file gets its number. The mode is inverted:
      * reading and writing must still fail. */
     for (int fd = 0; fd <= 2; fd++)

@@ -29,10 +29,10 @@ void ceduo_fit_charset(struct text *text)
         LOCAL_TEXT(foreign);
         for (sign = p; *sign && (unsigned char)*sign < 0x80;)
             sign++;
-        ceduo_text_add(&plain, p, (size_t)(sign - p));
+        ceduo_text_append_n(&plain, p, (size_t)(sign - p));
         for (p = sign; (unsigned char)*sign >= 0x80;)
             sign++;
-        ceduo_text_add(&foreign, p, (size_t)(sign - p));
+        ceduo_text_append_n(&foreign, p, (size_t)(sign - p));
         ceduo_cells_ascii(&plain, ceduo_text_string(&foreign));
     }
     ceduo_text_free(text);
@@ -81,7 +81,7 @@ void ceduo_print_message(const char *subject, const char *text)
     ceduo_text_append_escaped(&line, subject);
     ceduo_text_append(&line, ": ");
     ceduo_text_append_escaped(&line, text);
-    ceduo_text_char(&line, '\n');
+    ceduo_text_append_char(&line, '\n');
     ceduo_print_error(&line);
 }
 

@@ -82,7 +82,7 @@ static enum exit_status set_count(struct arguments *a, const struct option_row *
     case CEDUO_NUMBER_GOOD:
         return EXIT_DONE;
     case CEDUO_NUMBER_TOO_LARGE:
-        return ceduo_usage_error(row->name, _("%s is outside %s to %s"), value, NUMERAL(row->lo), NUMERAL(row->hi));
+        return ceduo_usage_error(row->name, _("%s is outside %s to %s"), value, ROUNDTRIP(row->lo), ROUNDTRIP(row->hi));
     default:
         return ceduo_usage_error(row->name, _("'%s' is not a whole number"), value);
     }

@@ -21,7 +21,7 @@ enum exit_status ceduo_output_write(const struct arguments *a, const struct text
 
 bool ceduo_output_is(const struct arguments *a, const char *path)
 {
-    if (!a->output || !path || !ceduo_file_same(a->output, path))
+    if (!a->output || !path || !ceduo_file_is_same(a->output, path))
         return false;
     ceduo_print_message(a->output, _("this file is an input of the run; write elsewhere"));
     return true;

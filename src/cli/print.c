@@ -150,7 +150,7 @@ static void print_plot(const struct arguments *a, const struct ceduo_picture *pi
     ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_TITLE, ceduo_text_string(&title));
     char *rows = ceduo_cells_dump(cells);
     if (out->length > start)
-        ceduo_text_char(out, '\n');
+        ceduo_text_append_char(out, '\n');
     ceduo_text_append(out, rows);
     free(rows);
     ceduo_cells_free(cells);
@@ -166,7 +166,7 @@ static void print_plots(const struct arguments *a, const struct ceduo_scene *sce
                                     .uncertainty = q->uncertainty.file ? &q->uncertainty : NULL,
                                     .control = ceduo_scene_last_control(scene)};
     size_t start = out->length;
-    size_t options = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_WHOLE ? 1 : scene->options_count;
+    size_t options = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_ALL_OPTIONS ? 1 : scene->options_count;
     for (size_t o = 0; o < options; o++) {
         size_t belts = a->plot == CEDUO_PLOT_STAND ? scene->options[o].belts_count : 0;
         size_t controls = a->plot == CEDUO_PLOT_HISTOGRAM ? scene->controls_count : 0;
@@ -211,7 +211,7 @@ static void append_word(struct text *text, const char *before, const char *word)
     if (*word && strspn(word, plain) == strlen(word))
         ceduo_text_append(text, word);
     else
-        ceduo_text_quoted(text, word);
+        ceduo_text_append_quoted(text, word);
 }
 
 /* Append the command line with all options that affect the page; not its file name or the threads. */
@@ -223,7 +223,7 @@ static void append_command(struct text *text, const struct arguments *a)
     if (a->rocks > 0)
         ceduo_text_format(text, " -n %llu", (unsigned long long)a->rocks);
     if (a->tolerance > 0)
-        append_word(text, " -e ", NUMERAL(a->tolerance));
+        append_word(text, " -e ", ROUNDTRIP(a->tolerance));
     for (size_t i = 0; i < a->sets.n; i++)
         append_word(text, " -s ", a->sets.items[i]);
     for (size_t i = 0; i < a->options.n; i++)

@@ -268,7 +268,7 @@ static enum exit_status compare_run(const struct resume *r, const char *output, 
     }
     LOCAL_TEXT(found);
     LOCAL_TEXT(names);
-    ceduo_text_add(&found, side, side_n < 2 * r->identity.length ? side_n : 2 * r->identity.length);
+    ceduo_text_append_n(&found, side, side_n < 2 * r->identity.length ? side_n : 2 * r->identity.length);
     append_differences(ceduo_text_string(&r->identity), ceduo_text_string(&found), &names);
     if (names.length == 0 && !*again && (output_n < head || memcmp(output, r->head->bytes, head) != 0))
         ceduo_text_append(&names, _("columns")); /* the head differs */
@@ -418,7 +418,7 @@ static enum exit_status sort_output(const struct resume *r)
     LOCAL_TEXT(side);
     if (!replace_output(r))
         return refuse(r->arguments->output, strerror(errno));
-    ceduo_text_add(&side, r->identity.bytes, r->identity.length);
+    ceduo_text_append_n(&side, r->identity.bytes, r->identity.length);
     for (size_t i = 0; i < r->order_count; i++)
         append_part(&r->order[i], &side);
     return ceduo_file_write(r->side_path, side.bytes, side.length) ? EXIT_DONE : refuse(r->side_path, strerror(errno));

@@ -61,7 +61,7 @@ static size_t enter_key(struct binder *b, const char *key)
 {
     size_t before = b->path.length;
     if (before > 0)
-        ceduo_text_char(&b->path, '.');
+        ceduo_text_append_char(&b->path, '.');
     ceduo_text_append(&b->path, key);
     return before;
 }
@@ -173,27 +173,27 @@ static bool read_number(struct binder *b, const struct node *node, double *value
     size_t whole = strspn(text, "+-0123456789"), rest = comma ? strspn(comma + 1, "0123456789") : 0;
     bool thousands = rest == 3 && ceduo_decimal_read(text) != 0;
     LOCAL_TEXT(part);
-    ceduo_text_add(&part, text, strcspn(text, "%"));
+    ceduo_text_append_n(&part, text, strcspn(text, "%"));
     if (comma == text + whole && rest > 0 && !comma[1 + rest] && !thousands)
         return report(b, node, DECIMAL_COMMA, (int)whole, text, comma + 1);
     if (comma)
         return report(b, node, _("'%s' is not a number; write a dot for the decimals and nothing between thousands"), text);
     if (strcmp(text + part.length, "%") == 0 && ceduo_number_read(ceduo_text_string(&part), value) == CEDUO_NUMBER_GOOD)
-        return report(b, node, _("'%s' is not a number; write %s"), text, NUMERAL(*value / 100));
+        return report(b, node, _("'%s' is not a number; write %s"), text, ROUNDTRIP(*value / 100));
     return report(b, node, _("'%s' is not a number"), text);
 }
 
 static bool check_range(struct binder *b, const struct field *f, const struct node *node, double value)
 {
-    const char *number = NUMERAL(value), *gap = f->unit[0] ? " " : "", *unit = f->unit;
+    const char *number = ROUNDTRIP(value), *gap = f->unit[0] ? " " : "", *unit = f->unit;
     if (value < f->lo)
-        return report(b, node, _("%s is below %s%s%s"), number, NUMERAL(f->lo), gap, unit);
+        return report(b, node, _("%s is below %s%s%s"), number, ROUNDTRIP(f->lo), gap, unit);
     if (f->flags & FIELD_ABOVE && !(value > f->lo))
-        return report(b, node, _("%s is not above %s%s%s"), number, NUMERAL(f->lo), gap, unit);
+        return report(b, node, _("%s is not above %s%s%s"), number, ROUNDTRIP(f->lo), gap, unit);
     if (value > f->hi)
-        return report(b, node, _("%s is above %s%s%s"), number, NUMERAL(f->hi), gap, unit);
+        return report(b, node, _("%s is above %s%s%s"), number, ROUNDTRIP(f->hi), gap, unit);
     if (f->flags & FIELD_UNDER && !(value < f->hi))
-        return report(b, node, _("%s is not below %s%s%s"), number, NUMERAL(f->hi), gap, unit);
+        return report(b, node, _("%s is not below %s%s%s"), number, ROUNDTRIP(f->hi), gap, unit);
     return true;
 }
 
@@ -204,7 +204,7 @@ static void warn_unusual(struct binder *b, const struct field *f, const struct n
     place.unusual = true;
     if (b->to->warns && !ceduo_schema_is_usual(f, value))
         ceduo_problem_at(b->to->problems, place, _("%s%s%s is unusual (usual: %s to %s%s%s); check the number and its unit"),
-                         NUMERAL(value), gap, unit, NUMERAL(f->shown.least), NUMERAL(f->shown.most), gap, unit);
+                         ROUNDTRIP(value), gap, unit, ROUNDTRIP(f->shown.least), ROUNDTRIP(f->shown.most), gap, unit);
 }
 
 static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)
@@ -231,7 +231,7 @@ static void bind_count(struct binder *b, const struct field *f, const struct nod
     else if (!check_range(b, f, node, value))
         return;
     else if (ceduo_count_read(node->text, f->lo, f->hi, &count) != CEDUO_NUMBER_GOOD)
-        report(b, node, _("%s is above %s%s%s"), node->text, NUMERAL(f->hi), f->unit[0] ? " " : "", f->unit);
+        report(b, node, _("%s is above %s%s%s"), node->text, ROUNDTRIP(f->hi), f->unit[0] ? " " : "", f->unit);
     else {
         warn_unusual(b, f, node, value);
         ceduo_schema_set_count(f, to, count);
@@ -294,7 +294,7 @@ static void bind_spread(struct binder *b, const struct field *f, const struct no
     bind_map(b, &parts, node, to);
     if (!ceduo_schema_spread_fits(f, *to))
         report(b, node, _("with this spread the values reach from %.6g to %.6g %s; reduce it to stay within the range"),
-               ceduo_number_lowest(*to) / f->scale, ceduo_number_highest(*to) / f->scale, f->unit);
+               ceduo_number_min(*to) / f->scale, ceduo_number_max(*to) / f->scale, f->unit);
 }
 
 /* Bind a list: allocate its items, set the member that points to them, and bind each item. */
@@ -302,7 +302,7 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
 {
     const struct object *object = f->object;
     bool points = f->type == FIELD_POINTS, words = f->type == FIELD_WORDS;
-    bool one = f->flags & FIELD_OR_ONE && node->kind == NODE_MAP; /* one item instead of a list */
+    bool one = f->flags & FIELD_SCALAR_OK && node->kind == NODE_MAP; /* one item instead of a list */
     size_t n = one ? 1 : node->n, size = object ? object->size : words ? sizeof(char *) : sizeof(double);
     if (f->flags & FIELD_OR_NONE && node->kind == NODE_SCALAR && strcmp(node->text, "none") == 0)
         return;
@@ -312,7 +312,7 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
                       points ? ceduo_arena_alloc(b->to->arena, (n + 1) * size) : NULL}; /* x and z of points */
     if (!items[0] || (points && !items[1]))
         return;
-    if (!(f->flags & FIELD_NOWHERE)) {
+    if (!(f->flags & FIELD_NO_MEMBER)) {
         memcpy((char *)item + f->offset, items, points ? sizeof items : sizeof items[0]);
         memcpy((char *)item + f->beside, &n, sizeof n);
     }
@@ -355,7 +355,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         break;
     case FIELD_TEXT:
     case FIELD_FILE:
-        bind_text(b, node, f->flags & FIELD_NOWHERE ? NULL : to);
+        bind_text(b, node, f->flags & FIELD_NO_MEMBER ? NULL : to);
         break;
     case FIELD_NUMBER:
         bind_number(b, f, node, to);

@@ -542,7 +542,7 @@ bool ceduo_csv_error(const struct csv *csv, struct csv_cell cell, const char *fo
     size_t column = 1;
     const char *begin = csv->source->bytes + ceduo_source_mark(csv->source);
     for (const char *p = cell.begin; p > begin && p[-1] != '\n'; p--)
-        column += !ceduo_utf8_inside(p[-1]);
+        column += !ceduo_utf8_is_continuation(p[-1]);
     va_start(args, format);
     ceduo_problem_v(csv->problems,
                     (struct problem_place){.source = csv->source, .line = ceduo_csv_line(csv, cell), .column = column}, format,

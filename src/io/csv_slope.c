@@ -532,7 +532,7 @@ static bool check_heights(struct reader *r)
 static bool is_text_order(const struct reader *r)
 {
     size_t i = 1;
-    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+    char a[CEDUO_NUMBER_SIZE], b[CEDUO_NUMBER_SIZE];
     while (i < r->n && strcmp(ceduo_number_shortest(r->raw[i - 1].along, a), ceduo_number_shortest(r->raw[i].along, b)) <= 0)
         i++;
     return i == r->n;
@@ -543,8 +543,8 @@ static bool refuse_order(struct reader *r, const struct raw *raw, double before)
     if (is_text_order(r))
         return reject_at(r, raw, _("the rows are sorted as text; sort them by distance, as numbers"));
     return ceduo_problem(r->problems, r->csv.source, raw->line, 1,
-                         _("distances must rise, but %s follows %s; sort the rows by distance"), NUMERAL(raw->along),
-                         NUMERAL(before));
+                         _("distances must rise, but %s follows %s; sort the rows by distance"), ROUNDTRIP(raw->along),
+                         ROUNDTRIP(before));
 }
 
 static void add_vertex(struct points *p, double x, double z)
@@ -589,12 +589,12 @@ static bool make_rising(struct reader *r, struct points *p, double sign)
         ceduo_text_format(
             &r->notes,
             ngettext("; %zu vertical step, at %s m, made a wall", "; %zu vertical steps, the first at %s m, made walls", walls),
-            walls, NUMERAL(wall));
+            walls, ROUNDTRIP(wall));
     if (overhangs > 0)
         ceduo_text_format(&r->notes,
                           ngettext("; %zu overhang, at %s m, replaced by its outer envelope",
                                    "; %zu overhangs, the first at %s m, replaced by their outer envelope", overhangs),
-                          overhangs, NUMERAL(overhang));
+                          overhangs, ROUNDTRIP(overhang));
     return true;
 }
 

@@ -136,7 +136,7 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
         return refuse(csv, binary);
     if (!decode(csv) || !end_lines(csv)) {
         if (problems->met == before)
-            ceduo_no_memory();
+            ceduo_oom_set_flag();
         return false;
     }
     size_t offset = ceduo_source_mark(csv->source);

@@ -36,7 +36,7 @@ static bool is_plain(const char *s)
 
 static void print_quoted(struct text *text, const char *s)
 {
-    ceduo_text_char(text, '"');
+    ceduo_text_append_char(text, '"');
     for (size_t n = strlen(s), length; n > 0; s += length, n -= length) {
         uint32_t c = 0;
         size_t known = ceduo_utf8_decode(s, n, &c);
@@ -49,9 +49,9 @@ static void print_quoted(struct text *text, const char *s)
         else if (known && (!ceduo_utf8_printable(c) || c == 0xfeff)) /* YAML allows no byte order mark */
             ceduo_text_format(text, c < 0x100 ? "\\x%02x" : c <= 0xffff ? "\\u%04x" : "\\U%08x", c);
         else
-            ceduo_text_add(text, s, length);
+            ceduo_text_append_n(text, s, length);
     }
-    ceduo_text_char(text, '"');
+    ceduo_text_append_char(text, '"');
 }
 
 void ceduo_emit_scalar(struct text *text, const char *value, bool quoted)
@@ -73,7 +73,7 @@ void ceduo_emit_flow(struct text *text, const struct node *node)
         ceduo_emit_scalar(text, node->text, node->quoted);
         return;
     }
-    ceduo_text_char(text, node->kind == NODE_MAP ? '{' : '[');
+    ceduo_text_append_char(text, node->kind == NODE_MAP ? '{' : '[');
     for (size_t i = 0; i < node->n; i++) {
         if (i > 0)
             ceduo_text_append(text, ", ");
@@ -81,7 +81,7 @@ void ceduo_emit_flow(struct text *text, const struct node *node)
             ceduo_text_format(text, "%s: ", node->items[i]->key);
         ceduo_emit_flow(text, node->items[i]);
     }
-    ceduo_text_char(text, node->kind == NODE_MAP ? '}' : ']');
+    ceduo_text_append_char(text, node->kind == NODE_MAP ? '}' : ']');
 }
 
 static void print_block(struct text *text, const struct node *node, size_t indent)
@@ -101,7 +101,7 @@ static void print_block(struct text *text, const struct node *node, size_t inden
             ceduo_text_format(text, "%*s- ", (int)indent, "");
         if (flow) {
             ceduo_emit_flow(text, item);
-            ceduo_text_char(text, '\n');
+            ceduo_text_append_char(text, '\n');
             continue;
         }
         size_t begin = text->length; /* the first line of a list item follows the dash */
@@ -181,7 +181,7 @@ static bool patch_span(struct patcher *p, const struct node *old, const struct n
     size_t to = ceduo_source_byte(p->source, old->end_line, old->end_column);
     if (from < p->done)
         return false;
-    ceduo_text_add(p->text, p->source->bytes + p->done, from - p->done);
+    ceduo_text_append_n(p->text, p->source->bytes + p->done, from - p->done);
     ceduo_emit_flow(p->text, now);
     p->done = to;
     return true;
@@ -212,7 +212,7 @@ bool ceduo_emit_patched(struct text *text, const struct source *source, const st
     if (good) { /* read the text back */
         struct arena arena = {0};
         struct problems problems = {0};
-        ceduo_text_add(&out, source->bytes + p.done, source->length - p.done);
+        ceduo_text_append_n(&out, source->bytes + p.done, source->length - p.done);
         const struct source whole = {.name = "", .bytes = out.bytes, .length = out.length};
         const struct node *again = ceduo_yaml_read(&arena, &whole, &problems);
         good = again && ceduo_node_equal(again, root);
@@ -220,6 +220,6 @@ bool ceduo_emit_patched(struct text *text, const struct source *source, const st
         ceduo_arena_free(&arena);
     }
     if (good)
-        ceduo_text_add(text, out.bytes, out.length);
+        ceduo_text_append_n(text, out.bytes, out.length);
     return good;
 }

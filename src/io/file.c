@@ -72,7 +72,7 @@ static bool read_file(struct arena *arena, const char *path, size_t max, struct 
     return bytes && error == 0;
 }
 
-const struct source *ceduo_source_keep(struct arena *arena, struct source source)
+const struct source *ceduo_source_copy(struct arena *arena, struct source source)
 {
     struct source *copied = ceduo_arena_alloc(arena, sizeof *copied);
     source.name = ceduo_arena_string(arena, source.name);
@@ -280,7 +280,7 @@ static int open_temporary(struct pending_file *file, mode_t mode)
     const char *name = ceduo_file_name(file->target);
     size_t n = strlen(name);
     if (n > NAME_MAX - sizeof mark)
-        for (n = NAME_MAX - sizeof mark; ceduo_utf8_inside(name[n]); n--)
+        for (n = NAME_MAX - sizeof mark; ceduo_utf8_is_continuation(name[n]); n--)
             ;
     struct text path = {0};
     ceduo_text_format(&path, "%.*s%s", (int)(name - file->target + (ptrdiff_t)n), file->target, mark);
@@ -373,7 +373,7 @@ bool ceduo_file_write(const char *path, const char *bytes, size_t n)
     return good;
 }
 
-bool ceduo_file_same(const char *a, const char *b)
+bool ceduo_file_is_same(const char *a, const char *b)
 {
     struct stat x, y;
     return stat(a, &x) == 0 && (is_standard(b) ? fstat(STDIN_FILENO, &y) : stat(b, &y)) == 0 && S_ISREG(x.st_mode) &&

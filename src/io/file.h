@@ -11,7 +11,7 @@
 #define CSV_BYTES_MAX  ((size_t)64 * 1024 * 1024)
 
 /* Copy a source, with its name and its bytes, into the arena. NULL on failure. */
-const struct source *ceduo_source_keep(struct arena *arena, struct source source);
+const struct source *ceduo_source_copy(struct arena *arena, struct source source);
 
 /* Read a whole file of at most `max` bytes; "-": standard input. Return NULL on error. Name and bytes are in the arena, which lists
  * the file among its `sources`. */
@@ -61,7 +61,7 @@ bool ceduo_file_finish(struct pending_file *file, int fd);
 void ceduo_file_abort(struct pending_file *file);
 
 /* True if two paths lead to one regular file. `b` may be "-", standard input. */
-bool ceduo_file_same(const char *a, const char *b);
+bool ceduo_file_is_same(const char *a, const char *b);
 
 /* True if ceduo_file_write() is expected to succeed; nothing is written. Return false with errno set. */
 bool ceduo_file_can_write(const char *path);

@@ -42,7 +42,7 @@ size_t ceduo_source_byte(const struct source *s, size_t line, size_t column)
     for (size_t c = 1; c < column && at < s->length; c++)
         do
             at++;
-        while (at < s->length && ceduo_utf8_inside(s->bytes[at]));
+        while (at < s->length && ceduo_utf8_is_continuation(s->bytes[at]));
     return at;
 }
 
@@ -65,16 +65,16 @@ static void print_line(struct text *out, const struct source *s, size_t line, si
     for (; at < to && c < first + max; c++) {
         size_t before = out->length, n = ceduo_utf8_step(s->bytes + at);
         if (s->bytes[at] == '\t')
-            ceduo_text_char(out, ' ');
+            ceduo_text_append_char(out, ' ');
         else
             ceduo_text_append_escaped_n(out, s->bytes + at, n);
         for (size_t w = c < column && out->bytes ? ceduo_utf8_width(out->bytes + before) : 0; w > 0; w--)
-            ceduo_text_char(&caret, ' ');
+            ceduo_text_append_char(&caret, ' ');
         at += n;
     }
     if (s->foreign && at < to)
         ceduo_text_format(out, "\xe2\x80\xa6 %s", _("(nothing says that this file is one of ceduo's: no more of it is shown)"));
-    ceduo_text_char(out, '\n');
+    ceduo_text_append_char(out, '\n');
     ceduo_text_append(&caret, "^\n");
     if (!s->foreign || (line == 1 && column <= c))
         ceduo_text_append(out, ceduo_text_string(&caret));
@@ -97,9 +97,9 @@ static void print_cut(struct text *out, const char *string)
         ceduo_text_append_escaped_n(out, string, n);
         return;
     }
-    while (head > 0 && ceduo_utf8_inside(string[head]))
+    while (head > 0 && ceduo_utf8_is_continuation(string[head]))
         head--;
-    while (ceduo_utf8_inside(string[tail]))
+    while (ceduo_utf8_is_continuation(string[tail]))
         tail++;
     ceduo_text_append_escaped_n(out, string, head);
     ceduo_text_append(out, "\xe2\x80\xa6");
@@ -136,7 +136,7 @@ static bool is_new(struct problems *problems, const struct problem *p)
     for (size_t i = 0; i + sizeof hash <= problems->known.length; i += sizeof hash)
         if (memcmp(problems->known.bytes + i, &hash, sizeof hash) == 0)
             return false;
-    ceduo_text_add(&problems->known, (const char *)&hash, sizeof hash);
+    ceduo_text_append_n(&problems->known, (const char *)&hash, sizeof hash);
     return true;
 }
 

@@ -242,7 +242,7 @@ static const char *find_name(const struct node *item)
 static int find_ground(const struct path_step *step)
 {
     LOCAL_TEXT(name);
-    ceduo_text_add(&name, step->p, step->n);
+    ceduo_text_append_n(&name, step->p, step->n);
     return step->bracket ? ceduo_choice_find(&ceduo_material_words, ceduo_text_string(&name)) : -1;
 }
 
@@ -304,7 +304,7 @@ static const struct node *set_in(struct resolver *s, const struct field *f, cons
 static const struct node *fail_at(struct resolver *s, const struct path_step *step, const char *what)
 {
     LOCAL_TEXT(word);
-    ceduo_text_add(&word, step->p, step->n);
+    ceduo_text_append_n(&word, step->p, step->n);
     ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", ceduo_text_string(&word), what);
     return NULL;
 }

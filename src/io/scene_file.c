@@ -67,7 +67,7 @@ static struct source name_change(const struct scene_sets *sets, size_t i)
 static bool apply_change(struct scene_file *file, struct source set, struct problems *problems)
 {
     set.beside = file->path;
-    const struct source *source = ceduo_source_keep(&file->arena, set);
+    const struct source *source = ceduo_source_copy(&file->arena, set);
     if (!source)
         return false;
     const char *equals = find_equals(source->bytes);
@@ -78,7 +78,7 @@ static bool apply_change(struct scene_file *file, struct source set, struct prob
         length--;
     /* unquoted, '#' would begin a comment and ': ' a mapping */
     LOCAL_TEXT(path);
-    ceduo_text_add(&path, source->bytes, length);
+    ceduo_text_append_n(&path, source->bytes, length);
     const struct field *field = ceduo_schema_at(ceduo_text_string(&path));
     const char *text = equals + 1 + strspn(equals + 1, " ");
     bool all = *text == '#'; /* the whole value would be a comment */
@@ -209,7 +209,7 @@ bool ceduo_scene_load_text(struct scene_file *file, const char *name, const char
 {
     *file = (struct scene_file){.path = name};
     ceduo_memory_failed();
-    const struct source *source = ceduo_source_keep(&file->arena, (struct source){.name = name, .bytes = text});
+    const struct source *source = ceduo_source_copy(&file->arena, (struct source){.name = name, .bytes = text});
     return source && read_source(file, source, &(struct scene_sets){0}, problems);
 }
 

@@ -76,7 +76,7 @@ size_t ceduo_input_count_places(struct scene_file *file, const char *path);
 bool ceduo_inputs_have(const struct ceduo_input *inputs, size_t n, const char *place);
 
 /* True if two inputs have a place in common. */
-bool ceduo_input_shares(const struct ceduo_input *a, const struct ceduo_input *b);
+bool ceduo_input_overlaps(const struct ceduo_input *a, const struct ceduo_input *b);
 
 /* Return the belt of a place, forest[0].stand… or options[2].forest[0].stand…; NULL: none. */
 const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *scene, const char *place);

@@ -24,13 +24,13 @@ static enum ceduo_status read_scene(const char *name, const char *text, const ch
     size_t n = 0;
     while (sets && sets[n])
         n++;
-    ceduo_language_of_data(true); /* the caller has its own message domain */
+    ceduo_language_set_data(true); /* the caller has its own message domain */
     bool good = text ? ceduo_scene_load_text(&m->file, name, text, &m->problems)
                      : ceduo_scene_load(&m->file, name, sets, n, &m->problems);
     struct scene_inputs inputs = {0};
     good = good && ceduo_inputs_collect(&m->file, &inputs) && ceduo_problems_check_memory(&m->problems);
     reading->messages = ceduo_problems_print(&m->problems);
-    ceduo_language_of_data(false);
+    ceduo_language_set_data(false);
     if (good)
         *reading = (struct ceduo_scene_file){.scene = m->file.scene,
                                              .inputs_count = inputs.n,

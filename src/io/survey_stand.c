@@ -31,7 +31,7 @@ static double rounded(double value)
     return ceduo_decimal_read(buffer);
 }
 
-#define ROUNDED(value) NUMERAL(rounded(value))
+#define ROUNDED(value) ROUNDTRIP(rounded(value))
 
 /* `end`: text after the source. */
 static void print_source(struct text *out, bool assumed, const char *what, const char *end)
@@ -50,7 +50,7 @@ static void print_estimate_comment(struct text *out, const char *name, const str
     ceduo_text_format(out, "# %-10s %8.0f", name, e->mean);
     if (!isnan(e->se))
         ceduo_text_format(out, _(" %8.0f    %.0f to %.0f"), e->se, fmax(e->lo, 0), e->hi);
-    ceduo_text_char(out, '\n');
+    ceduo_text_append_char(out, '\n');
 }
 
 static void print_heights_comment(struct text *out, const char *name, const struct ceduo_survey_heights *h)
@@ -73,7 +73,7 @@ static void print_heights_comment(struct text *out, const char *name, const stru
                           name, h->missing, h->curve.a, h->curve.b);
     if (h->beyond > 0)
         ceduo_text_format(out, _("; thicker than any of the measured: %zu"), h->beyond);
-    ceduo_text_char(out, '\n');
+    ceduo_text_append_char(out, '\n');
 }
 
 static void print_comments(const struct writer *w)
@@ -261,7 +261,7 @@ static void print_assumed(const struct writer *w, const char *key, const struct 
             continue;
         }
         ceduo_emit_flow(w->out, item);
-        ceduo_text_char(w->out, '\n');
+        ceduo_text_append_char(w->out, '\n');
     }
     ceduo_text_append(w->out, "  ");
     print_source(w->out, true, what, "\n");
@@ -401,7 +401,7 @@ static bool check(const struct writer *w, struct problems *problems)
     return true;
 }
 
-bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struct problems *problems)
+bool ceduo_survey_print_stand(const struct survey_file *file, struct text *yaml, struct problems *problems)
 {
     struct ceduo_survey_result answer;
     struct writer w = {.file = file, .answer = &answer, .out = yaml, .one_plot = file->survey.plots_count == 1};

@@ -40,7 +40,7 @@ bool ceduo_inputs_have(const struct ceduo_input *inputs, size_t n, const char *p
     return false;
 }
 
-bool ceduo_input_shares(const struct ceduo_input *a, const struct ceduo_input *b)
+bool ceduo_input_overlaps(const struct ceduo_input *a, const struct ceduo_input *b)
 {
     for (size_t i = 0; i < a->places_count; i++)
         for (size_t k = 0; k < b->places_count; k++)
@@ -165,7 +165,7 @@ static void walk(struct input_finder *f, const struct object *object, const stru
         size_t here = f->path.length;
         if (!list && !group)
             add_value(f, field, node);
-        else if (list ? field->flags & FIELD_OR_ONE && node && node->kind == NODE_MAP
+        else if (list ? field->flags & FIELD_SCALAR_OK && node && node->kind == NODE_MAP
                       : node || ceduo_schema_field(field->object, "model"))
             walk(f, field->object, node);
         for (size_t k = 0; list && node && node->kind == NODE_LIST && k < node->n; k++) {
@@ -247,11 +247,11 @@ static const char *make_common_path(struct scene_file *file, const struct ceduo_
             const char *bracket = find_bracket(input->places[k], n);
             same &= bracket && strtoul(bracket, NULL, 10) == strtoul(item, NULL, 10);
         }
-        ceduo_text_add(&path, from, (size_t)(item - from));
+        ceduo_text_append_n(&path, from, (size_t)(item - from));
         if (same)
             ceduo_text_format(&path, "%lu", strtoul(item, NULL, 10));
         else
-            ceduo_text_char(&path, '*');
+            ceduo_text_append_char(&path, '*');
         from = strchr(item, ']');
     }
     ceduo_text_append(&path, from);
@@ -279,7 +279,7 @@ bool ceduo_inputs_collect(struct scene_file *file, struct scene_inputs *inputs)
     for (size_t i = 0; inputs->items && i < 2 * f.n;
          i++) { /* today's inputs first, so that growth does not change their points */
         struct ceduo_input *input = &f.found[i % f.n].input;
-        if (input->places_count == 0 || ceduo_input_is_of_years(input) != (i >= f.n))
+        if (input->places_count == 0 || ceduo_input_is_future(input) != (i >= f.n))
             continue;
         const char *origin = f.found[i % f.n].origin;
         input->path = strncmp(origin, "slope.materials", 15) == 0 ? origin : make_common_path(file, input);
@@ -292,7 +292,7 @@ void ceduo_inputs_keep_today(struct scene_inputs *inputs)
 {
     size_t n = 0;
     for (size_t i = 0; i < inputs->n; i++)
-        if (!ceduo_input_is_of_years(&inputs->items[i]))
+        if (!ceduo_input_is_future(&inputs->items[i]))
             inputs->items[n++] = inputs->items[i];
     inputs->n = n;
 }

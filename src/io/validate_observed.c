@@ -294,10 +294,10 @@ static bool check_each(const struct entry *e)
         if (stops && !ceduo_check_on_slope(e->v, path, "", x))
             return false;
         if (stops && x < values->seen_from)
-            return ceduo_reject(v, path, "", _("%s lies before the begin of the searched area (%s)"), NUMERAL(x),
-                                NUMERAL(values->seen_from));
+            return ceduo_reject(v, path, "", _("%s lies before the begin of the searched area (%s)"), ROUNDTRIP(x),
+                                ROUNDTRIP(values->seen_from));
         if (!stops && x < 0)
-            return ceduo_reject(v, path, "", _("%s is below %s%s%s"), NUMERAL(x), "0", "", "");
+            return ceduo_reject(v, path, "", _("%s is below %s%s%s"), ROUNDTRIP(x), "0", "", "");
     }
     return true;
 }
@@ -315,7 +315,7 @@ static bool check_released(const struct entry *e)
 static bool check_values(const struct entry *e)
 {
     const struct observed_values *values = e->values;
-    double last = ceduo_number_highest(e->release->x) + e->v->origin;
+    double last = ceduo_number_max(e->release->x) + e->v->origin;
     switch (e->kind_row->where) { /* untaken: table */
     case CEDUO_WHERE_AT_REST:
         return ceduo_check_on_slope(e->v, e->path, "seen_from_m", values->seen_from) && check_each(e) && check_released(e);
@@ -323,7 +323,7 @@ static bool check_values(const struct entry *e)
         return (!e->kind_row->list || check_form(e)) && ceduo_check_on_slope(e->v, e->path, "x_m", values->x) &&
                /* untaken: complaint */
                (values->x > last || ceduo_reject(e->v, e->path, "x_m", _("%s must lie beyond the release (%s m)"),
-                                                 NUMERAL(values->x), NUMERAL(last))) &&
+                                                 ROUNDTRIP(values->x), ROUNDTRIP(last))) &&
                (e->kind_row->list ? check_each(e) : check_released(e));
     case CEDUO_WHERE_ON_STEMS: /* a rock may hit several stems, so no check of the number released */
         return ceduo_check_stretch(e->v, e->path, values->from, values->to) && check_each(e);
@@ -348,12 +348,12 @@ static void set_name(const struct entry *e, struct ceduo_observation *o)
         o->name_given = e->row->name;
         o->name = ceduo_in_language(e->row->name, e->row->name_it);
     } else if (e->kind_row->where == CEDUO_WHERE_AT_PLACE) {
-        o->name_given = ceduo_asprintf(e->v, "%s at %s m", path, NUMERAL(x));
-        o->name = ceduo_asprintf(e->v, _("%s at %s m"), what, ceduo_number_spoken(NUMERAL(x)));
+        o->name_given = ceduo_asprintf(e->v, "%s at %s m", path, ROUNDTRIP(x));
+        o->name = ceduo_asprintf(e->v, _("%s at %s m"), what, ceduo_number_localize(ROUNDTRIP(x)));
     } else if (e->kind_row->where == CEDUO_WHERE_ALONG) {
-        o->name_given = ceduo_asprintf(e->v, "%s %s-%s m", path, NUMERAL(from), NUMERAL(to));
-        o->name = ceduo_asprintf(e->v, "%s %s\xe2\x80\x93%s m", what, ceduo_number_spoken(NUMERAL(from)),
-                                 ceduo_number_spoken(NUMERAL(to)));
+        o->name_given = ceduo_asprintf(e->v, "%s %s-%s m", path, ROUNDTRIP(from), ROUNDTRIP(to));
+        o->name = ceduo_asprintf(e->v, "%s %s\xe2\x80\x93%s m", what, ceduo_number_localize(ROUNDTRIP(from)),
+                                 ceduo_number_localize(ROUNDTRIP(to)));
     } else {
         o->name_given = path;
         o->name = what;

@@ -18,7 +18,7 @@ static const struct {
 static void check_rock(struct validator *v, const char *path, const struct ceduo_rock_def *def)
 {
     struct ceduo_rock rock;
-    if (ceduo_rock_of_means(def, &rock) != CEDUO_OK)
+    if (ceduo_rock_from_means(def, &rock) != CEDUO_OK)
         ceduo_reject(v, path, "", _("the rock is too small or too large to compute"));
 }
 
@@ -78,10 +78,10 @@ void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_
     x->mean = release->x_assumed ? 0 : x->mean - v->origin;
     if (!v->has_profile || !ceduo_is_valid_below(v, path))
         return;
-    double end = slope->x[slope->vertices - 1], first = ceduo_number_lowest(*x), last = ceduo_number_highest(*x);
+    double end = slope->x[slope->vertices - 1], first = ceduo_number_min(*x), last = ceduo_number_max(*x);
     if (!(first >= 0) || !(last < end))
         ceduo_reject(v, path, "", _("%s lies outside the slope; a release must be at least %s and less than %s m"),
-                     NUMERAL((first >= 0 ? last : first) + v->origin), NUMERAL(v->origin), NUMERAL(end + v->origin));
+                     ROUNDTRIP((first >= 0 ? last : first) + v->origin), ROUNDTRIP(v->origin), ROUNDTRIP(end + v->origin));
 }
 
 /* ---- blocks ---- */
@@ -153,8 +153,8 @@ void ceduo_validate_blocks(struct validator *v)
         if (!two)
             ceduo_reject(v, path, "", _("expected %s"), "[lo, hi]");
         else if (!rise)
-            ceduo_reject(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"), NUMERAL(b->volumes[0]),
-                         NUMERAL(b->volumes[1]));
+            ceduo_reject(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"), ROUNDTRIP(b->volumes[0]),
+                         ROUNDTRIP(b->volumes[1]));
         good &= rise;
     }
     for (size_t i = 0; i < n && good; i++) { /* classes must not overlap */
@@ -165,7 +165,7 @@ void ceduo_validate_blocks(struct validator *v)
         if (k < i)
             ceduo_reject(v, ceduo_asprintf(v, "blocks[%zu].volume_m3", i), "",
                          _("this class overlaps an earlier one, from %s to %s m3; classes may only touch"),
-                         NUMERAL(b[k].volumes[0]), NUMERAL(b[k].volumes[1]));
+                         ROUNDTRIP(b[k].volumes[0]), ROUNDTRIP(b[k].volumes[1]));
     }
     if (v->sized_by_blocks && good && n > 0)
         size_by_blocks(v);
@@ -205,7 +205,7 @@ void ceduo_validate_controls(struct validator *v)
     if (ceduo_is_too_long(v, path, n) || (!has_list && !(scene->controls = ceduo_alloc(v, n, sizeof *scene->controls))))
         return;
     bool has_release = v->has_profile && ceduo_is_valid_below(v, "release.x_m");
-    double last = has_release ? ceduo_number_highest(scene->release.x) : -INFINITY;
+    double last = has_release ? ceduo_number_max(scene->release.x) : -INFINITY;
     for (size_t i = 0; i < n; i++) {
         struct ceduo_control *c = &scene->controls[i];
         const char *item = ceduo_asprintf(v, has_list ? "%s[%zu].x_m" : "%s[%zu]", path, i);
@@ -216,14 +216,14 @@ void ceduo_validate_controls(struct validator *v)
         }
         c->name = (char *)(uintptr_t)ceduo_in_language(c->name_given, c->name);
         c->x = c->x_given - v->origin;
-        const char *x = NUMERAL(c->x_given);
+        const char *x = ROUNDTRIP(c->x_given);
         while (k < i && scene->controls[k].x != c->x)
             k++;
         check_return(v, i, c);
         if (!ceduo_check_on_slope(v, item, "", c->x_given))
             continue;
         if (c->x <= last)
-            ceduo_reject(v, item, "", _("%s must lie beyond the release (%s m)"), x, NUMERAL(last + v->origin));
+            ceduo_reject(v, item, "", _("%s must lie beyond the release (%s m)"), x, ROUNDTRIP(last + v->origin));
         else if (k < i)
             ceduo_reject(v, item, "", _("'%s' is given twice"), x);
     }

@@ -52,8 +52,8 @@ static bool check_vertices(struct validator *v, const struct points *p)
     for (size_t i = 1; i < p->n; i++)
         if (p->x[i] <= p->x[i - 1]) {
             ceduo_reject(v, ceduo_asprintf(v, "slope.vertices_m[%zu]", i), "",
-                         _("x must rise, but %s follows %s; give a wall a small run, such as 0.01 m"), NUMERAL(p->x[i]),
-                         NUMERAL(p->x[i - 1]));
+                         _("x must rise, but %s follows %s; give a wall a small run, such as 0.01 m"), ROUNDTRIP(p->x[i]),
+                         ROUNDTRIP(p->x[i - 1]));
             rising = false;
         }
     if (!rising || (!csv && !ceduo_is_valid_below(v, "slope.vertices_m")))
@@ -63,10 +63,10 @@ static bool check_vertices(struct validator *v, const struct points *p)
         ceduo_reject(v, path, "",
                      _("the profile rises from %s to %s m, but rocks move along x; if it was drawn uphill, mirror it with "
                        "'reversed: true' in slope"),
-                     NUMERAL(first), NUMERAL(last));
+                     ROUNDTRIP(first), ROUNDTRIP(last));
     else if (last < first && reversed)
-        ceduo_reject(v, "slope.reversed", "", _("the profile already falls from %s to %s m; remove 'reversed'"), NUMERAL(first),
-                     NUMERAL(last));
+        ceduo_reject(v, "slope.reversed", "", _("the profile already falls from %s to %s m; remove 'reversed'"),
+                     ROUNDTRIP(first), ROUNDTRIP(last));
     return reversed ? last >= first : last <= first;
 }
 
@@ -106,13 +106,13 @@ static void check_materials(struct validator *v, const struct points *p)
         double begin = i > 0 ? rows[i - 1].to : p->n > 0 ? p->x[0] : NAN;
         const char *path = ceduo_asprintf(v, "slope.materials[%zu]", i);
         if (ceduo_check_order(v, path, rows[i].from, rows[i].to) && (rows[i].from > begin || (i > 0 && rows[i].from < begin)))
-            ceduo_reject(v, path, "from_m", _("%s leaves a gap or an overlap; begin at %s"), NUMERAL(rows[i].from),
-                         NUMERAL(begin));
+            ceduo_reject(v, path, "from_m", _("%s leaves a gap or an overlap; begin at %s"), ROUNDTRIP(rows[i].from),
+                         ROUNDTRIP(begin));
     }
     if (v->problems->met == before && p->n > 0 && rows[n - 1].to < p->x[p->n - 1])
         ceduo_reject(v, ceduo_asprintf(v, "slope.materials[%zu]", n - 1), "to_m",
-                     _("%s is before the end of the profile, %s; extend the last row"), NUMERAL(rows[n - 1].to),
-                     NUMERAL(p->x[p->n - 1]));
+                     _("%s is before the end of the profile, %s; extend the last row"), ROUNDTRIP(rows[n - 1].to),
+                     ROUNDTRIP(p->x[p->n - 1]));
 }
 
 /* Add the assumption of mu, which no file gives. Only the law arm uses it. */
@@ -314,7 +314,7 @@ static size_t count_points(const struct ceduo_slope *slope, double tolerance, do
     struct ceduo_slope copy = *slope, to;
     copy.tolerance = tolerance;
     if (ceduo_slope_simplify(&copy, release_x, &to) != CEDUO_OK)
-        ceduo_no_memory();
+        ceduo_oom_set_flag();
     size_t n = to.x ? to.vertices : slope->vertices;
     ceduo_slope_simplified_free(&to);
     return n;
@@ -341,7 +341,7 @@ void ceduo_simplify_slope(struct validator *v)
         return;
     assume_tolerance(v, v->draft.scene.release.x.mean);
     if (ceduo_slope_simplify(s, v->draft.scene.release.x.mean, &to) != CEDUO_OK)
-        ceduo_no_memory();
+        ceduo_oom_set_flag();
     if (!to.x)
         return;
     double *x = ceduo_alloc(v, to.vertices, sizeof *x), *z = ceduo_alloc(v, to.vertices, sizeof *z);

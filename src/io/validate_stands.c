@@ -16,7 +16,7 @@ static void check_spreads(struct validator *v, const char *path, const char *lis
         if (stems[i].dbh_sd > stems[i].dbh) /* false for unreadable values: NaN and 0 */
             ceduo_reject(v, ceduo_asprintf(v, "%s.%s[%zu]", path, list, i), "dbh_sd_m",
                          _("the spread, %s m, exceeds the diameter, %s m; split these stems into two entries"),
-                         NUMERAL(stems[i].dbh_sd), NUMERAL(stems[i].dbh));
+                         ROUNDTRIP(stems[i].dbh_sd), ROUNDTRIP(stems[i].dbh));
 }
 
 /* True if a required value is missing. An unreadable value is already reported. */
@@ -65,7 +65,7 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
         return;
     if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_valid(v, "%s.growth.shoots_young", path))
         ceduo_reject(v, path, "growth.shoots_young", _("%s is below the number of old shoots, %s; shoots can only decrease"),
-                     NUMERAL(s->growth.shoots_young), NUMERAL(s->growth.shoots_old));
+                     ROUNDTRIP(s->growth.shoots_young), ROUNDTRIP(s->growth.shoots_old));
     if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
         ceduo_reject(v, path, "system", _("'bare' has no stems; name the system, or remove the stems"));
     for (size_t i = 0; i < s->shoots_count; i++) { /* per_ha or per_stool is required */
@@ -83,7 +83,7 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
         return;
     if (s->stools_per_ha > 0 && ceduo_stand_shoots(s) / s->stools_per_ha > SHOOTS_MAX)
         ceduo_reject(v, path, "shoots", _("%s shoots on each stool are too many; the limit is %s"),
-                     NUMERAL(ceduo_stand_shoots(s) / s->stools_per_ha), NUMERAL(SHOOTS_MAX));
+                     ROUNDTRIP(ceduo_stand_shoots(s) / s->stools_per_ha), ROUNDTRIP(SHOOTS_MAX));
     if (ceduo_stand_has_shoots(s) && !(s->stools_per_ha > 0))
         ceduo_reject(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
     else if (s->shoots_count == 0 && s->stools_per_ha > 0 && !ceduo_stand_sprouts(s))
@@ -128,8 +128,8 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
         const double from = belt->from_given, to = belt->to_given, before = i > 0 ? belt[-1].to_given : -INFINITY;
         if (ceduo_check_stretch(v, here, from, to) && from < before)
             ceduo_reject(v, here, "from_m",
-                         _("belts must not overlap, but this one begins at %s and the previous one ends at %s"), NUMERAL(from),
-                         NUMERAL(before));
+                         _("belts must not overlap, but this one begins at %s and the previous one ends at %s"),
+                         ROUNDTRIP(from), ROUNDTRIP(before));
         belt->from = belt->from_given - v->origin;
         belt->to = belt->to_given - v->origin;
         const struct node *node = ceduo_resolve_at(v->root, stand);

@@ -172,7 +172,7 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
     const char *const keys[] = {normal ? "mean" : "lo", normal ? "sd" : "hi"};
     for (int i = 0; i < 2; i++)
         if (!ceduo_schema_in_range(field, ends[i]))
-            return ceduo_reject(v, row->path, keys[i], _("%s is outside the range of %s: %s"), NUMERAL(ends[i]), field->key,
+            return ceduo_reject(v, row->path, keys[i], _("%s is outside the range of %s: %s"), ROUNDTRIP(ends[i]), field->key,
                                 ceduo_describe_range(v, field));
     return true;
 }
@@ -409,7 +409,7 @@ static bool read_table(struct draws *t, const char *path)
             for (; h < t->places_count && t->places[h].column == c; h++) {
                 const struct field *f = t->places[h].field;
                 if (number && !ceduo_schema_in_range(f, *to))
-                    ceduo_csv_error(csv, cell, _("%s is outside the range of %s: %s"), NUMERAL(*to), f->key,
+                    ceduo_csv_error(csv, cell, _("%s is outside the range of %s: %s"), ROUNDTRIP(*to), f->key,
                                     ceduo_describe_range(t->v, f));
             }
         }
@@ -524,7 +524,7 @@ static const char *value_text(struct validator *v, size_t i, size_t k)
     if (input->kind == CEDUO_INPUT_WORDS)
         return f->choices->names[input->words[k]];
     const char *sign = input->kind == CEDUO_INPUT_NORMAL ? k == 0 ? " (mean - 3 sd)" : " (mean + 3 sd)" : "";
-    return ceduo_asprintf(v, "%s%s%s%s", NUMERAL(k == 0 ? input->lo : input->hi), f->unit[0] ? " " : "", f->unit, sign);
+    return ceduo_asprintf(v, "%s%s%s%s", ROUNDTRIP(k == 0 ? input->lo : input->hi), f->unit[0] ? " " : "", f->unit, sign);
 }
 
 static const char *describe_status(enum ceduo_status status)

@@ -113,15 +113,15 @@ bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key
     double end = v->has_profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
     return !v->has_profile || !(x < v->origin || x > end) ||
            /* untaken: complaint */
-           ceduo_reject(v, path, key, _("%s lies outside the slope, which goes from %s to %s m"), NUMERAL(x),
-                        NUMERAL(v->origin), NUMERAL(end));
+           ceduo_reject(v, path, key, _("%s lies outside the slope, which goes from %s to %s m"), ROUNDTRIP(x),
+                        ROUNDTRIP(v->origin), ROUNDTRIP(end));
 }
 
 bool ceduo_check_order(struct validator *v, const char *path, double from, double to)
 {
     /* untaken: complaint */
     return !(to <= from) ||
-           ceduo_reject(v, path, "to_m", _("the end (%s) must lie beyond the start (%s)"), NUMERAL(to), NUMERAL(from));
+           ceduo_reject(v, path, "to_m", _("the end (%s) must lie beyond the start (%s)"), ROUNDTRIP(to), ROUNDTRIP(from));
 }
 
 bool ceduo_check_stretch(struct validator *v, const char *path, double from, double to)

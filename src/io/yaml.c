@@ -79,7 +79,7 @@ static yaml_mark_t find_mark(const char *bytes, size_t offset)
         if (bytes[i] == '\n') {
             mark.line++;
             mark.column = 0;
-        } else if (!ceduo_utf8_inside(bytes[i])) {
+        } else if (!ceduo_utf8_is_continuation(bytes[i])) {
             mark.column++;
         }
     }
@@ -92,7 +92,7 @@ static void *report_syntax(struct reader *r)
     const char *bytes = r->bytes, *message = p->problem;
     size_t length = r->length, from = 0, n;
     if (p->error == YAML_MEMORY_ERROR) {
-        ceduo_no_memory();
+        ceduo_oom_set_flag();
         return stop(r);
     }
     if (p->error == YAML_READER_ERROR) {
@@ -284,7 +284,7 @@ static void join_halves(struct reader *r)
             memcpy(to + length, low ? escape : from + i, written);
         length += written;
         for (size_t k = 0; k < (low ? 0 : used); k++)
-            column += !ceduo_utf8_inside(from[i + k]);
+            column += !ceduo_utf8_is_continuation(from[i + k]);
         column += low ? written : 0;
         bool may_begin = !before || strchr("[{,:-?", before);
         if (used > 1)
@@ -337,9 +337,9 @@ const struct node *ceduo_yaml_read_value(struct arena *arena, const struct sourc
 {
     struct reader r = {.arena = arena, .source = source, .problems = problems, .skip = skip};
     for (size_t i = source->is_option ? 0 : skip; i < skip; i++) /* a byte order mark has no column */
-        r.skip_column += !ceduo_utf8_inside(source->bytes[i]);
+        r.skip_column += !ceduo_utf8_is_continuation(source->bytes[i]);
     if (!yaml_parser_initialize(&r.parser)) {
-        ceduo_no_memory();
+        ceduo_oom_set_flag();
         return NULL;
     }
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);

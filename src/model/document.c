@@ -93,7 +93,7 @@ const struct node *ceduo_document_parse(struct document *d, const char *name, co
 {
     /* its own copy of the path: the document may be saved elsewhere, what was typed is looked for where it was typed */
     const struct source *source =
-        ceduo_source_keep(&d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .beside = d->path});
+        ceduo_source_copy(&d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .beside = d->path});
     return ceduo_yaml_read(&d->file.arena, source, &d->problems);
 }
 

@@ -53,7 +53,7 @@ double ceduo_document_place_at(const struct document *d, const char *path)
 /* Replaces the node at a path. */
 static void put(struct edit *e, const char *path, const struct node *value)
 {
-    const struct source *source = ceduo_source_keep(e->arena, (struct source){.name = path, .bytes = path, .is_option = true});
+    const struct source *source = ceduo_source_copy(e->arena, (struct source){.name = path, .bytes = path, .is_option = true});
     bool good = e->root && value;
     e->root = good ? ceduo_resolve_set(e->arena, e->root, source, source->length, value, &e->d->problems) : NULL;
 }
@@ -352,9 +352,9 @@ void ceduo_document_belts(const struct document *d, const char *stand, struct te
             ceduo_text_format(yaml, "cut_year: %.10g, ", belts[i].cut_year);
         ceduo_text_append(yaml, "stand: ");
         ceduo_emit_scalar(yaml, stand, true);
-        ceduo_text_char(yaml, '}');
+        ceduo_text_append_char(yaml, '}');
     }
-    ceduo_text_char(yaml, ']');
+    ceduo_text_append_char(yaml, ']');
 }
 
 bool ceduo_document_add_option(struct document *d, const char *stand, const char *name)
@@ -363,7 +363,7 @@ bool ceduo_document_add_option(struct document *d, const char *stand, const char
     LOCAL_TEXT(yaml);
     ceduo_text_append(&yaml, "{name: new, forest: ");
     ceduo_document_belts(d, stand, &yaml);
-    ceduo_text_char(&yaml, '}');
+    ceduo_text_append_char(&yaml, '}');
     const struct node *item = ceduo_document_parse(d, "options", yaml.bytes), *list = need_options(&e);
     put_item(&e, "options", list->n, item ? with_new_name(&e, list, with_name(&e, item, name)) : NULL);
     return commit(&e, stand);

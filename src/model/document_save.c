@@ -71,7 +71,7 @@ static const struct node *reference_from(struct document *d, const struct node *
     const char *const names[] = {slash ? slash + 1 : node->text, node->text};
     for (int i = 0; now && !written && i < 2; i++) {
         const char *then = ceduo_file_find(&found, names[i], to, folder);
-        written = then && ceduo_file_same(now, then) ? names[i] : NULL;
+        written = then && ceduo_file_is_same(now, then) ? names[i] : NULL;
     }
     if (!now || written == node->text)
         return node;

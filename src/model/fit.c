@@ -135,7 +135,7 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
     def.seed = file->scene.simulation.seed;
     if (request->n > 1) { /* what the observations do not hold */
         struct ceduo_calibration_def first = def;
-        first.steps_most = FIRST_STEPS;
+        first.steps_max = FIRST_STEPS;
         enum ceduo_status status = ceduo_calibrate(&first, &f->answer);
         if (status != CEDUO_OK)
             return status;
@@ -160,7 +160,7 @@ void ceduo_fit_free(void *fit)
 
 static void put_number(struct text *t, const char *before, double value)
 {
-    ceduo_text_format(t, "%s%s", before, NUMERAL(value));
+    ceduo_text_format(t, "%s%s", before, ROUNDTRIP(value));
 }
 
 /* True for a row of uncertainty about ground or points that the written scene no longer has. */
@@ -235,7 +235,7 @@ static bool is_fitted(const struct document *d, const struct fit_values *fit, co
     const char *path = ceduo_node_text(row, "path");
     for (size_t i = 0; path && i < d->file.inputs_of_scene; i++)
         for (size_t k = 0; strcmp(d->file.inputs[i].path, path) == 0 && k < fit->answer->parameters_count; k++)
-            if (ceduo_input_shares(&d->file.inputs[i], &fit->inputs[k]))
+            if (ceduo_input_overlaps(&d->file.inputs[i], &fit->inputs[k]))
                 return true;
     return false;
 }
@@ -277,7 +277,7 @@ bool ceduo_apply_fit(struct document *d, const struct fit_values *fit)
             bool spread = ceduo_value_find(&d->file.scene, place, &v) && v.field->type == FIELD_SPREAD &&
                           ((const struct ceduo_number *)v.at)->spread > 0;
             ceduo_changes_add(&c, CHANGE_SET, spread ? ceduo_arena_format(&d->file.arena, "%s.mean", place) : place,
-                              NUMERAL(fit->answer->parameters[i].best));
+                              ROUNDTRIP(fit->answer->parameters[i].best));
         }
     for (size_t i = 0; i < fit->answer->parameters_count; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)

@@ -24,7 +24,7 @@ struct follow {
 /* A number of so many digits as text, in the arena of the document. */
 static const char *rounded(struct follow *f, double value, int digits)
 {
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     snprintf(room, sizeof room, "%.*g", digits, value);
     return ceduo_arena_string(f->arena, ceduo_number_shortest(strtod(room, NULL), room));
 }
@@ -70,9 +70,9 @@ static void follow_border(struct follow *f)
                              : _("what comes before begins at %g m only; delete that first"),
                           end);
     ceduo_changes_set(&f->changes, border, "%s",
-                      f->value[0] == 'e' ? f->value : NUMERAL(now)); /* from the end, as this one is */
+                      f->value[0] == 'e' ? f->value : ROUNDTRIP(now)); /* from the end, as this one is */
     ceduo_text_format(&f->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
-                      ceduo_number_spoken(NUMERAL(now)));
+                      ceduo_number_localize(ROUNDTRIP(now)));
 }
 
 /* The ground reaches as far as the profile does. */
@@ -85,10 +85,10 @@ static void follow_end(struct follow *f)
         sscanf(f->value, "[%lf", &now) != 1)
         return;
     if (f->index == 0)
-        ceduo_changes_set(&f->changes, "slope.materials[0].from_m", "%s", NUMERAL(now));
+        ceduo_changes_set(&f->changes, "slope.materials[0].from_m", "%s", ROUNDTRIP(now));
     else if (vertices && f->index + 1 == vertices->n)
         ceduo_changes_set(&f->changes, ceduo_arena_format(f->arena, "slope.materials[%zu].to_m", materials->n - 1), "%s",
-                          NUMERAL(now));
+                          ROUNDTRIP(now));
 }
 
 /* ---- stands ---- */
@@ -106,7 +106,7 @@ static void follow_diameter(struct follow *f, const struct ceduo_curve *curve, c
     ceduo_text_format(&f->followed,
                       taller > 0 ? _("its height, assumed, goes along by the growth curve: %s m")
                                  : _("its height, %s m, is assumed and stays: no growth curve has this diameter"),
-                      ceduo_number_spoken(ceduo_arena_string(f->arena, written)));
+                      ceduo_number_localize(ceduo_arena_string(f->arena, written)));
 }
 
 static void follow_stand(struct follow *f)
@@ -142,7 +142,7 @@ static const struct field *put_name(struct text *text, const char *path)
     const struct field *field = ceduo_schema_at(path);
     const char *label = field ? _(field->shown.label) : strrchr(path, '.') + 1;
     ceduo_text_append(text, text->length ? ", " : "");
-    ceduo_text_add(text, label, strcspn(label, ","));
+    ceduo_text_append_n(text, label, strcspn(label, ","));
     return field;
 }
 
@@ -165,7 +165,7 @@ static void fill_in(struct follow *f, const char *path, const char *value)
         if (!strchr("[],", *from))
             *end++ = *from;
     *end = '\0';
-    ceduo_text_format(&f->filled, " %s %s", ceduo_number_spoken(spoken), field ? field->unit : "");
+    ceduo_text_format(&f->filled, " %s %s", ceduo_number_localize(spoken), field ? field->unit : "");
 }
 
 /* ---- another shape ---- */
@@ -182,7 +182,7 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         sized |= ceduo_document_node(f->d, sizes[i]) != NULL;
     struct ceduo_rock rock;
-    if (!sized || shape == def->shape || (!round && axes_then) || ceduo_rock_of_means(def, &rock) != CEDUO_OK)
+    if (!sized || shape == def->shape || (!round && axes_then) || ceduo_rock_from_means(def, &rock) != CEDUO_OK)
         return;
     if (axes_then)
         take_out(f, "rock", "diameter_m");

@@ -233,7 +233,7 @@ const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
 {
     if (scene->simulation.contact_model == CEDUO_INDEX)
         return N_("not computed: years by the index have no uncertainty");
-    return ceduo_window_in(scene).kind == CEDUO_WINDOW_CONSTANT ? N_("not computed: all years are alike") : NULL;
+    return ceduo_scene_window(scene).kind == CEDUO_WINDOW_CONSTANT ? N_("not computed: all years are alike") : NULL;
 }
 
 #define PROGRESS_STEP 0.01 /* a smaller part is no news */
@@ -391,7 +391,7 @@ static void *work(void *argument)
         void *result = NULL;
         enum ceduo_status status = kinds[kind].step(q, &job, &result);
         if (status == CEDUO_NO_MEMORY)
-            ceduo_no_memory();
+            ceduo_oom_set_flag();
         if (status == CEDUO_OK && result)
             publish(q, &job, result);
         else
@@ -518,7 +518,7 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
     figures.key = coming.key = ceduo_jobs_key(&file->scene);
     if (!index) {
         if (!ceduo_alternative_scene(&file->scene, &other))
-            ceduo_no_memory();
+            ceduo_oom_set_flag();
         others.key = figures.key;
         hash_count(&others.key, JOB_OTHERS); /* without it two laws have the same key as when they change places */
         hash_count(&others.key, ceduo_jobs_key(&other));

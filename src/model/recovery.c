@@ -92,8 +92,8 @@ bool ceduo_recovery_write(struct recovery_copy *copy, const char *path, const ch
     char *real = path ? realpath(path, NULL) : NULL;
     ceduo_text_append(&text, UNSAVED);
     ceduo_emit_scalar(&text, real ? real : "a new scene", true);
-    ceduo_text_char(&text, '\n');
-    ceduo_text_add(&text, bytes, n);
+    ceduo_text_append_char(&text, '\n');
+    ceduo_text_append_n(&text, bytes, n);
     free(real);
     int file = -1;
     for (int i = 0; i < TRIES && file < 0; i++)

@@ -124,7 +124,7 @@ enum ceduo_status ceduo_runs_others(struct runs *r, const struct ceduo_scene *sc
     size_t n = scene->options_count, controls = scene->controls_count;
     struct ceduo_run *first = NULL;
     if (!ceduo_alternative_scene(scene, &other))
-        ceduo_no_memory();
+        ceduo_oom_set_flag();
     enum ceduo_status status = turn_pool(r, &other, true, &r->others);
     r->other = status == CEDUO_OK ? other : before; /* that the pool is turned to */
     ceduo_alternative_scene_release(status == CEDUO_OK ? &before : &other);
@@ -142,7 +142,7 @@ enum ceduo_status ceduo_runs_others(struct runs *r, const struct ceduo_scene *sc
 
 uint64_t ceduo_runs_years_key(const struct ceduo_scene *scene, size_t option)
 {
-    struct ceduo_window w = ceduo_window_in(scene);
+    struct ceduo_window w = ceduo_scene_window(scene);
     uint64_t key = ceduo_scene_key(scene);
     const uint64_t more[] = {ceduo_years_key(&scene->options[option]), w.kind, w.first, w.last,
                              (uint64_t)scene->simulation.contact_model};
@@ -158,7 +158,7 @@ enum ceduo_status ceduo_runs_years(struct runs *r, const struct ceduo_scene *sce
     const struct ceduo_option *o = &scene->options[option];
     enum ceduo_status status = turn(r, scene);
     if (status == CEDUO_OK)
-        status = r->last && r->last->bare ? ceduo_years_create(scene, o, ceduo_window_in(scene), years) : CEDUO_NO_MEMORY;
+        status = r->last && r->last->bare ? ceduo_years_create(scene, o, ceduo_scene_window(scene), years) : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_years_simulate(*years, r->years, &r->last->bare->flown, rocks);
     if (status == CEDUO_OK)

@@ -58,7 +58,7 @@ const struct field *ceduo_search_field(struct arena *arena, const char *path)
 static bool set_value(struct search *s, double value)
 {
     LOCAL_TEXT(set);
-    ceduo_text_format(&set, "%s=%s", s->def.path, NUMERAL(value));
+    ceduo_text_format(&set, "%s=%s", s->def.path, ROUNDTRIP(value));
     s->file->root = s->root;
     return ceduo_scene_set(s->file, "--find", set.bytes, s->problems) && ceduo_scene_bind(s->file, s->problems);
 }
@@ -104,8 +104,8 @@ static bool leave_input(struct search *s, const struct value *searched, struct c
     input->places = places;
     input->draws = input->draws ? draws : NULL;
     input->places_count = n;
-    bool asked = s->def.rotation || !ceduo_input_is_of_years(input);
-    return n > 0 && asked && ceduo_input_is_of(input, s->def.option);
+    bool asked = s->def.rotation || !ceduo_input_is_future(input);
+    return n > 0 && asked && ceduo_input_affects(input, s->def.option);
 }
 
 /* What is known under uncertainty of the scene at a value; it is asked once. */
@@ -266,7 +266,8 @@ static bool can_be_ends(struct search *s, double lo, double hi)
     bool last = set_value(s, hi);
     s->problems = problems;
     if (first != last)
-        ceduo_problem(problems, &path_source, 0, 0, _("the other end of the range, %s, is possible"), NUMERAL(first ? lo : hi));
+        ceduo_problem(problems, &path_source, 0, 0, _("the other end of the range, %s, is possible"),
+                      ROUNDTRIP(first ? lo : hi));
     return first && last;
 }
 

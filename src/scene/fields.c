@@ -99,17 +99,17 @@ static const struct object material_object = OBJECT(material_belt, material_fiel
 
 static const struct field slope_fields[] = {
     TAG("slope/1"),
-    TEXT("name", NAMED(N_("name")), NO_MEMBER, FIELD_NOWHERE | NO_RUN, N_("name of the slope")),
-    NAME_IT(NO_MEMBER, FIELD_NOWHERE),
+    TEXT("name", NAMED(N_("name")), NO_MEMBER, FIELD_NO_MEMBER | NO_RUN, N_("name of the slope")),
+    NAME_IT(NO_MEMBER, FIELD_NO_MEMBER),
     WORD("facets", NAMED(N_("facets")), MEMBER(ceduo_slope, facets), 0, "against",
          N_("which way the ground's small facets are turned"), &ceduo_facets_words),
     NUM(FIELD_POINTS, "vertices_m", NAMED(N_("point of the profile")), POINTS(ceduo_slope, x, vertices), "m", 1,
         -COORDINATE_MAX, COORDINATE_MAX, 0, NULL, N_("the profile: pairs [x, z], x rising")),
-    ITEMS("segments", N_("ground"), LIST(ceduo_slope, segments, segments_given), FIELD_DRAFT, &segment_object),
-    ITEMS("materials", N_("ground"), SLOPE_LIST(materials, materials_count), FIELD_DRAFT, &material_object),
-    KIND_ROW(FIELD_FILE, "csv", NAMED(N_("file")), NO_MEMBER, FIELD_NOWHERE, NULL,
+    ITEMS("segments", N_("ground"), LIST(ceduo_slope, segments, segments_given), FIELD_FILE_ONLY, &segment_object),
+    ITEMS("materials", N_("ground"), SLOPE_LIST(materials, materials_count), FIELD_FILE_ONLY, &material_object),
+    KIND_ROW(FIELD_FILE, "csv", NAMED(N_("file")), NO_MEMBER, FIELD_NO_MEMBER, NULL,
              N_("the profile from a CSV file with distance and elevation, instead of vertices_m"), NULL, NULL),
-    TEXT("layer", NAMED(N_("line")), NO_MEMBER, FIELD_NOWHERE, N_("line of the CSV file, if the file holds several")),
+    TEXT("layer", NAMED(N_("line")), NO_MEMBER, FIELD_NO_MEMBER, N_("line of the CSV file, if the file holds several")),
     NUMBER(
         "tolerance_m", USUAL(N_("simplify to, m"), 0, 2), MEMBER(ceduo_slope, tolerance), "m", 0, 100, 0, "0.5",
         N_("distance within which points of the profile are left out: the roughness of the ground stands for smaller relief; "
@@ -294,7 +294,7 @@ static const struct field curve_fields[] = {
            REQUIRED | ABOVE | ZERO | YEARS, NULL, N_("diameter that old stems approach: d(t) = D(1 - exp(-kt))")),
     NUMBER("dbh_rate_1_y", NAMED(N_("its rate, 1/year")), MEMBER(ceduo_curve, dbh_rate), "1/y", 0, 10,
            REQUIRED | ABOVE | ZERO | YEARS, NULL, N_("k of the diameter")),
-    NUMBER("height_most_m", USUAL(N_("largest height, m"), 1, 60), MEMBER(ceduo_curve, height_most), "m", 0, 150,
+    NUMBER("height_most_m", USUAL(N_("largest height, m"), 1, 60), MEMBER(ceduo_curve, height_max), "m", 0, 150,
            REQUIRED | ABOVE | ZERO | YEARS, NULL, N_("height that old stems approach: h(t) = H(1 - exp(-mt))")),
     NUMBER("height_rate_1_y", NAMED(N_("its rate, 1/year")), MEMBER(ceduo_curve, height_rate), "1/y", 0, 10,
            REQUIRED | ABOVE | ZERO | YEARS, NULL, N_("m of the height")),
@@ -325,16 +325,16 @@ static const struct field cutting_fields[] = {
     NUM(FIELD_COUNT, "cohorts", NAMED(N_("ages on a stool")), MEMBER(ceduo_stand, cutting.cohorts), "", 1, 1, 20, YEARS, "1",
         N_("cohorts of shoots on a stool; each cut takes the oldest; 1: all shoots are cut")),
     NUM(FIELD_NUMBERS, "stay_per_ha", NAMED(N_("trees kept per ha")),
-        LIST(ceduo_stand, cutting.stay_per_ha, cutting.stay_count), "1/ha", 1, 0, 1e5, YEARS, NULL,
+        LIST(ceduo_stand, cutting.stay_per_ha, cutting.retained_count), "1/ha", 1, 0, 1e5, YEARS, NULL,
         N_("single trees that a cut leaves: those one rotation old, two rotations old, …")),
 };
 static const struct object cutting_object = OBJECT(ceduo_stand, cutting_fields, NULL);
 
 static const struct field stand_fields[] = {
     TAG("stand/1"),
-    TEXT("name", NAMED(N_("name")), NO_MEMBER, FIELD_NOWHERE | NO_RUN, N_("name of the stand")),
-    NAME_IT(NO_MEMBER, FIELD_NOWHERE),
-    KIND_ROW(FIELD_FILE, "base", NAMED(N_("made from")), NO_MEMBER, FIELD_NOWHERE, NULL,
+    TEXT("name", NAMED(N_("name")), NO_MEMBER, FIELD_NO_MEMBER | NO_RUN, N_("name of the stand")),
+    NAME_IT(NO_MEMBER, FIELD_NO_MEMBER),
+    KIND_ROW(FIELD_FILE, "base", NAMED(N_("made from")), NO_MEMBER, FIELD_NO_MEMBER, NULL,
              N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL, NULL),
     WORD("system", NAMED(N_("system")), MEMBER(ceduo_stand, system), NO_RUN, NULL,
          N_("silvicultural system; without it derived from the stems"), &ceduo_system_words),
@@ -348,7 +348,7 @@ static const struct field stand_fields[] = {
     GROUP("energy", N_("energy"), EMBEDDED, 0, &energy_object),
     GROUP("growth", N_("growth"), MEMBER(ceduo_stand, growth), 0, &growth_object),
     GROUP("cutting", N_("cutting"), EMBEDDED, 0, &cutting_object),
-    ITEMS("uncertainty", N_("uncertainty"), NO_MEMBER, FIELD_NOWHERE | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED,
+    ITEMS("uncertainty", N_("uncertainty"), NO_MEMBER, FIELD_NO_MEMBER | FIELD_OR_NONE | NO_RUN | FIELD_CERTAIN,
           &uncertainty_object),
 };
 static const struct object stand_object = OBJECT(ceduo_stand, stand_fields, "stands");
@@ -383,7 +383,7 @@ static const struct field control_fields[] = {
         1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
     NUMBER(
         "accepted_return_y", SHOWN(N_("accepted return, years"), N_("return y"), 1, 10000),
-        MEMBER(ceduo_control, accepted_return), "y", 0, 1e6, ABOVE | NO_RUN | FIELD_SETTLED, NULL,
+        MEMBER(ceduo_control, accepted_return), "y", 0, 1e6, ABOVE | NO_RUN | FIELD_CERTAIN, NULL,
         N_("with blocks: years from one rock with more than accepted_kJ to the next that are accepted there; without it 100, "
            "an assumption")),
     NUMBER("measured_speed_m_s", SHOWN(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80), MEMBER(ceduo_control, measured_speed),
@@ -394,10 +394,10 @@ static const struct object control_object = OBJECT(ceduo_control, control_fields
 static const struct field simulation_fields[] = {
     WORD("law", NAMED(N_("law of impact")), MEMBER(ceduo_simulation, law), 0, "crsp", N_("law of impact"), &ceduo_law_words),
     NUM(FIELD_COUNT, "rocks", NAMED(N_("rocks (batch)")), MEMBER(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MAX,
-        NO_RUN | FIELD_SETTLED, "1000", N_("rocks simulated")),
-    NUM(FIELD_COUNT, "seed", NAMED(N_("seed")), MEMBER(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, FIELD_SETTLED,
+        NO_RUN | FIELD_CERTAIN, "1000", N_("rocks simulated")),
+    NUM(FIELD_COUNT, "seed", NAMED(N_("seed")), MEMBER(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, FIELD_CERTAIN,
         "1", N_("seed of the random numbers, 0 to 2^53")),
-    WORD("contact_model", NAMED(N_("rocks among stems")), MEMBER(ceduo_simulation, contact_model), FIELD_WOOD, "stems",
+    WORD("contact_model", NAMED(N_("rocks among stems")), MEMBER(ceduo_simulation, contact_model), FIELD_FOREST, "stems",
          N_("how rocks meet stems: stem by stem, or not at all (index)"), &ceduo_contact_model_words),
     WORD("rule", NAMED(N_("form of the ADC")), MEMBER(ceduo_simulation, rule), NO_RUN, "auto",
          N_("form of the ADC; auto is the paper's rule"), &ceduo_rule_words),
@@ -467,7 +467,7 @@ static const struct field scene_fields[] = {
     GROUP("page", N_("head of the report"), MEMBER(scene_draft, scene.page), NO_RUN, &page_object),
     GROUP_LABELLED("rock", NAMED(N_("rock")), MEMBER(scene_draft, scene.rock), REQUIRED, N_("rock"), &ceduo_rock_object),
     ITEMS_LABELLED("blocks", NAMED(N_("blocks that come down")), LIST(scene_draft, scene.blocks, scene.blocks_count),
-                   FIELD_OR_ONE,
+                   FIELD_SCALAR_OK,
                    N_("sizes of the blocks that come down and how many a year; of one class, a mapping instead of the list"),
                    &block_object),
     GROUP("release", N_("release"), MEMBER(scene_draft, scene.release), 0, &ceduo_release_object),
@@ -475,20 +475,20 @@ static const struct field scene_fields[] = {
                    N_("a file, or what such a file holds"), &slope_object),
     ITEMS("controls", N_("control"), LIST(scene_draft, scene.controls, scene.controls_count), 0, &control_object),
     NUM(FIELD_NUMBERS, "controls_m", NAMED(N_("counted at, m")), LIST(scene_draft, controls_m, controls_m_count), "m", 1,
-        -COORDINATE_MAX, COORDINATE_MAX, FIELD_DRAFT, NULL, N_("the same by their x alone")),
-    ITEMS("forest", N_("belt"), LIST(scene_draft, belts, belts_count), FIELD_DRAFT | FIELD_WOOD, &belt_object),
-    ITEMS("options", N_("option"), LIST(scene_draft, scene.options, scene.options_count), FIELD_WOOD, &option_object),
+        -COORDINATE_MAX, COORDINATE_MAX, FIELD_FILE_ONLY, NULL, N_("the same by their x alone")),
+    ITEMS("forest", N_("belt"), LIST(scene_draft, belts, belts_count), FIELD_FILE_ONLY | FIELD_FOREST, &belt_object),
+    ITEMS("options", N_("option"), LIST(scene_draft, scene.options, scene.options_count), FIELD_FOREST, &option_object),
     GROUP("simulation", N_("simulation"), MEMBER(scene_draft, scene.simulation), 0, &simulation_object),
     NUMBER("rocks_per_year", NAMED(N_("rocks per year")), MEMBER(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, NO_RUN,
            NULL, N_("rocks that come down in a year, to print how many to expect")),
     ITEMS("uncertainty", N_("uncertainty"), LIST(scene_draft, uncertainties, uncertainties_count),
-          FIELD_DRAFT | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED, &uncertainty_object),
-    ITEMS("observed", N_("seen"), LIST(scene_draft, observed, observed_count), FIELD_DRAFT | NO_RUN | FIELD_SETTLED,
+          FIELD_FILE_ONLY | FIELD_OR_NONE | NO_RUN | FIELD_CERTAIN, &uncertainty_object),
+    ITEMS("observed", N_("seen"), LIST(scene_draft, observed, observed_count), FIELD_FILE_ONLY | NO_RUN | FIELD_CERTAIN,
           &ceduo_observed_object),
     GROUP("design", N_("design values"), MEMBER(scene_draft, scene.design), 0, &design_object),
     GROUP("minimum", N_("minimum"), EMBEDDED, 0, &minimum_object),
     GROUP("rules", N_("rules"), MEMBER(scene_draft, scene.rules), FIELD_FOLLOWS | NO_RUN, &rules_object),
-    GROUP("years", N_("years"), EMBEDDED, FIELD_SETTLED, &window_object),
+    GROUP("years", N_("years"), EMBEDDED, FIELD_CERTAIN, &window_object),
 };
 static const struct object scene_object = OBJECT(scene_draft, scene_fields, "scenes");
 

@@ -25,7 +25,7 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
 
 /* Flags of a row whose member is a pointer to text. Compiles only with a flag that excludes the row from the key of a run,
  * which must not contain an address. */
-#define KEYLESS (FIELD_NOWHERE | FIELD_DRAFT | FIELD_NO_RUN)
+#define KEYLESS (FIELD_NO_MEMBER | FIELD_FILE_ONLY | FIELD_NO_RUN)
 #define TEXT_FLAGS(kind, flags)                                                                                                \
     ((flags) + 0 * sizeof(struct {                                                                                             \
                    _Static_assert(((kind) != FIELD_TEXT && (kind) != FIELD_FILE && (kind) != FIELD_WORDS) ||                   \
@@ -61,7 +61,7 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
 #define TEXT(key, display, member, flags, meaning)                                                                             \
     ROW(key, FIELD_TEXT, member, "", 1, -INFINITY, INFINITY, TEXT_FLAGS(FIELD_TEXT, flags), NULL, meaning, NULL, NULL, display)
 #define TAG(value)                                                                                                             \
-    ROW("ceduo", FIELD_TAG, NO_MEMBER, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value, N_("what kind of file this is"), NULL,    \
+    ROW("ceduo", FIELD_TAG, NO_MEMBER, "", 1, 0, 0, REQUIRED | FIELD_NO_MEMBER, value, N_("what kind of file this is"), NULL,  \
         NULL, NAMED(N_("kind of file")))
 
 /* Display of a value: label, brief label for the head of a column, usual range in the file's unit, other unit. */

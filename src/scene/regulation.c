@@ -24,7 +24,7 @@ static bool meets(const struct ceduo_regulation_item *item, double value)
 
 struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *r, const struct ceduo_stand *stand)
 {
-    double standards = stand->cutting.stay_count > 0 ? ceduo_stand_retained_per_ha(stand) : ceduo_stand_trees(stand);
+    double standards = stand->cutting.retained_count > 0 ? ceduo_stand_retained_per_ha(stand) : ceduo_stand_trees(stand);
     struct ceduo_compliance c = {.standards = standards, .turn = NAN};
     if (!r->name || stand->system == CEDUO_HIGH_FOREST || stand->system == CEDUO_BARE)
         return c;

@@ -19,12 +19,12 @@ static double half_range(struct ceduo_number n)
     return n.kind == CEDUO_NORMAL ? TRUNCATION_SD * n.spread : n.spread;
 }
 
-double ceduo_number_lowest(struct ceduo_number n)
+double ceduo_number_min(struct ceduo_number n)
 {
     return n.mean - half_range(n);
 }
 
-double ceduo_number_highest(struct ceduo_number n)
+double ceduo_number_max(struct ceduo_number n)
 {
     return n.mean + half_range(n);
 }
@@ -33,7 +33,7 @@ double ceduo_number_draw(struct ceduo_number n, double u, double lo, double hi)
 {
     if (!(n.spread > 0))
         return n.mean;
-    double lowest = ceduo_number_lowest(n), highest = ceduo_number_highest(n);
+    double lowest = ceduo_number_min(n), highest = ceduo_number_max(n);
     lo = fmax(lo, lowest);
     hi = fmin(hi, highest);
     if (n.kind == CEDUO_UNIFORM)
@@ -108,7 +108,7 @@ static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, const union siz
     return good ? CEDUO_OK : CEDUO_BAD_ROCK;
 }
 
-enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct ceduo_rock *rock)
+enum ceduo_status ceduo_rock_from_means(const struct ceduo_rock_def *def, struct ceduo_rock *rock)
 {
     union sizes s;
     for (size_t i = 0; i < 8; i++)
@@ -119,8 +119,8 @@ enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct c
 struct ceduo_rock ceduo_rock_mean(const struct ceduo_rock_def *def)
 {
     struct ceduo_rock rock;
-    return ceduo_rock_of_means(def, &rock) == CEDUO_OK ? rock
-                                                       : (struct ceduo_rock){NAN, NAN, NAN, NAN, NAN, NAN, {NAN, NAN, NAN}};
+    return ceduo_rock_from_means(def, &rock) == CEDUO_OK ? rock
+                                                         : (struct ceduo_rock){NAN, NAN, NAN, NAN, NAN, NAN, {NAN, NAN, NAN}};
 }
 
 bool ceduo_rock_varies(const struct ceduo_rock_def *def)

@@ -67,7 +67,7 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
     if (!scene)
         return CEDUO_BAD_ARGUMENT;
     struct ceduo_rock rock;
-    enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &rock);
+    enum ceduo_status status = ceduo_rock_from_means(&scene->rock, &rock);
     /* counted lists exist; ceduo_schema_holds() checks the other lists */
     bool lists = (scene->blocks || scene->blocks_count == 0) && (scene->controls || scene->controls_count == 0) &&
                  (scene->options || scene->options_count == 0);
@@ -85,15 +85,15 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
     if (status != CEDUO_OK)
         return status;
     double end = scene->slope.x[scene->slope.vertices - 1];
-    double first = ceduo_number_lowest(scene->release.x), last = ceduo_number_highest(scene->release.x);
+    double first = ceduo_number_min(scene->release.x), last = ceduo_number_max(scene->release.x);
     if (!(first >= 0) || !(last < end))
         return CEDUO_RELEASE_OFF_SLOPE;
-    if (!(ceduo_number_lowest(scene->release.height) >= 0))
+    if (!(ceduo_number_min(scene->release.height) >= 0))
         return CEDUO_RELEASE_BELOW;
     const struct ceduo_number *speeds[] = {&scene->release.height, &scene->release.vx, &scene->release.vz,
                                            &scene->release.spin};
     for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; i++)
-        if (!(fabs(ceduo_number_lowest(*speeds[i])) < SPEED_MAX) || !(fabs(ceduo_number_highest(*speeds[i])) < SPEED_MAX))
+        if (!(fabs(ceduo_number_min(*speeds[i])) < SPEED_MAX) || !(fabs(ceduo_number_max(*speeds[i])) < SPEED_MAX))
             return CEDUO_BAD_NUMBER;
     for (size_t i = 0; i < scene->controls_count; i++) {
         if (where)
@@ -119,7 +119,7 @@ bool ceduo_scene_rock_varies(const struct ceduo_scene *scene)
     return scene->blocks_count > 0 || ceduo_rock_varies(&scene->rock);
 }
 
-double ceduo_option_stems_from(const struct ceduo_option *option)
+double ceduo_option_forest_begin(const struct ceduo_option *option)
 {
     double from = INFINITY;
     for (size_t i = 0; i < option->belts_count; i++)

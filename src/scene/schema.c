@@ -77,7 +77,7 @@ static const struct field *find_row(const char *path, size_t n, unsigned *flags)
     size_t pos = 0;
     while (ceduo_path_next(path, n, &pos, &step)) {
         bool item = f && f->type == FIELD_LIST && object == NULL;
-        if (item && !step.bracket && f->flags & FIELD_OR_ONE) {
+        if (item && !step.bracket && f->flags & FIELD_SCALAR_OK) {
             item = false;
             object = f->object;
         }
@@ -114,7 +114,7 @@ const struct field *ceduo_schema_fitted(const char *path)
 bool ceduo_schema_is_settled(const char *path)
 {
     unsigned flags = 0;
-    return find_row(path, strlen(path), &flags) && flags & FIELD_SETTLED;
+    return find_row(path, strlen(path), &flags) && flags & FIELD_CERTAIN;
 }
 
 /* ---- paths of --set ---- */
@@ -178,7 +178,7 @@ enum path_value ceduo_schema_value(const char *path)
         return source_part(path);
     if (f->type != FIELD_GROUP && f->type != FIELD_LIST)
         return value_part(f, path + n);
-    bool list = f->type == FIELD_LIST && path[n - 1] != ']' && !(f->flags & FIELD_OR_ONE);
+    bool list = f->type == FIELD_LIST && path[n - 1] != ']' && !(f->flags & FIELD_SCALAR_OK);
     return path[n] == '.' && !list ? source_part(path + n + 1) : PATH_UNKNOWN;
 }
 
@@ -203,7 +203,7 @@ static void init_fields(const struct object *object, char *item)
         bool flag = f->value && strcmp(f->value, "true") == 0;
         if (f->type == FIELD_GROUP)
             init_fields(f->object, to);
-        if (f->flags & FIELD_NOWHERE)
+        if (f->flags & FIELD_NO_MEMBER)
             continue;
         switch (f->type) {
         case FIELD_NUMBER:
@@ -292,7 +292,7 @@ bool ceduo_schema_is_usual(const struct field *f, double value)
 
 bool ceduo_schema_spread_fits(const struct field *f, struct ceduo_number n)
 {
-    double lowest = ceduo_number_lowest(n) / f->scale, highest = ceduo_number_highest(n) / f->scale;
+    double lowest = ceduo_number_min(n) / f->scale, highest = ceduo_number_max(n) / f->scale;
     bool below = f->flags & FIELD_ABOVE ? !(lowest > f->lo) : lowest < f->lo;
     bool clamped = f->lo == 0 && f->hi == 1; /* draws are truncated to the range */
     return clamped || isnan(n.mean) || !(below || highest > f->hi);
@@ -312,7 +312,7 @@ bool ceduo_schema_field_holds(const struct field *f, const void *item)
 {
     const char *member = (const char *)item + f->offset, *items;
     size_t n;
-    if (f->flags & (FIELD_NOWHERE | FIELD_DRAFT))
+    if (f->flags & (FIELD_NO_MEMBER | FIELD_FILE_ONLY))
         return true;
     switch (f->type) {
     case FIELD_NUMBER:
@@ -320,7 +320,7 @@ bool ceduo_schema_field_holds(const struct field *f, const void *item)
     case FIELD_COUNT: { /* 0: not given */
         uint64_t count =
             f->size == sizeof(unsigned) ? *(const unsigned *)(const void *)member : *(const uint64_t *)(const void *)member;
-        return count == 0 || f->flags & FIELD_SETTLED || ceduo_schema_in_range(f, (double)count); /* any seed is valid */
+        return count == 0 || f->flags & FIELD_CERTAIN || ceduo_schema_in_range(f, (double)count); /* any seed is valid */
     }
     case FIELD_CHOICE:
         return *(const int *)(const void *)member >= (f->value ? 0 : -1) &&

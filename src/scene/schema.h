@@ -59,15 +59,15 @@ enum field_flag {
     FIELD_ONE_OF = 1 << 6,   /* another key may be given instead; the default holds if neither is given */
     /* an x in the slope's coordinates; `beside` is the x relative to the first vertex, otherwise it is relative itself */
     FIELD_PLACE = 1 << 7,
-    FIELD_NOWHERE = 1 << 8,  /* no member; only the reader of files uses it */
-    FIELD_DRAFT = 1 << 9,    /* member of the draft; the scene holds derived values */
-    FIELD_WOOD = 1 << 10,    /* affects stems, not trajectories without stems */
-    FIELD_YEARS = 1 << 11,   /* affects future years */
-    FIELD_OR_NONE = 1 << 13, /* a list, or the word none */
-    FIELD_OR_ONE = 1 << 14,  /* a list, or its only item */
-    FIELD_NO_RUN = 1 << 12,  /* affects no trajectory: a name, a limit */
+    FIELD_NO_MEMBER = 1 << 8,  /* no member; only the reader of files uses it */
+    FIELD_FILE_ONLY = 1 << 9,  /* member of the draft; the scene holds derived values */
+    FIELD_FOREST = 1 << 10,    /* affects stems, not trajectories without stems */
+    FIELD_YEARS = 1 << 11,     /* affects future years */
+    FIELD_OR_NONE = 1 << 13,   /* a list, or the word none */
+    FIELD_SCALAR_OK = 1 << 14, /* a list, or its only item */
+    FIELD_NO_RUN = 1 << 12,    /* affects no trajectory: a name, a limit */
     /* cannot be uncertain, with all its parts: a computation setting or an observation */
-    FIELD_SETTLED = 1 << 15
+    FIELD_CERTAIN = 1 << 15
 };
 
 struct object;
@@ -185,7 +185,7 @@ enum path_value {
 };
 enum path_value ceduo_schema_value(const char *path);
 
-/* True if the row of a path, or an enclosing row, has FIELD_SETTLED. */
+/* True if the row of a path, or an enclosing row, has FIELD_CERTAIN. */
 bool ceduo_schema_is_settled(const char *path);
 
 /* True for a place along the slope, which may be relative to the end: x_m, from_m, to_m, controls_m. */

@@ -33,7 +33,7 @@ double ceduo_stand_trees(const struct ceduo_stand *stand)
 double ceduo_stand_retained_per_ha(const struct ceduo_stand *stand)
 {
     double sum = 0;
-    for (size_t i = 0; i < stand->cutting.stay_count; i++)
+    for (size_t i = 0; i < stand->cutting.retained_count; i++)
         sum += stand->cutting.stay_per_ha[i];
     return sum;
 }

@@ -66,14 +66,14 @@ static bool enter_list(struct finder *f, const struct field *list)
             f->item = (char *)(slope->segments + n - 1) - (f->item - (char *)slope->segments);
         return true;
     }
-    if (list->object == ceduo_schema_belt() && list->flags & FIELD_DRAFT) /* the forest is the only option */
+    if (list->object == ceduo_schema_belt() && list->flags & FIELD_FILE_ONLY) /* the forest is the only option */
         return f->scene->options_count == 1 &&
                enter_item(f, list->object, (char *)f->scene->options[0].belts, f->scene->options[0].belts_count);
-    if (list->flags & (FIELD_DRAFT | FIELD_NOWHERE))
+    if (list->flags & (FIELD_FILE_ONLY | FIELD_NO_MEMBER))
         return false;
     memcpy(&items, f->item + list->offset, sizeof items);
     memcpy(&n, f->item + list->beside, sizeof n);
-    if (list->flags & FIELD_OR_ONE && f->path[f->pos] == '.') { /* the only item, without an index */
+    if (list->flags & FIELD_SCALAR_OK && f->path[f->pos] == '.') { /* the only item, without an index */
         f->object = list->object;
         f->item = items;
         return n == 1;
@@ -146,7 +146,7 @@ bool ceduo_value_find(struct ceduo_scene *scene, const char *path, struct value 
             f.object = field->object;
             f.item += field->offset;
         } else if (field->type != FIELD_LIST) { /* the path ends here, or continues to a number of the value */
-            return !(field->flags & (FIELD_NOWHERE | FIELD_DRAFT)) && find_number(&f, field, value);
+            return !(field->flags & (FIELD_NO_MEMBER | FIELD_FILE_ONLY)) && find_number(&f, field, value);
         }
     }
     return false;

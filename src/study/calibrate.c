@@ -59,7 +59,7 @@ static double value_of(const struct fitting *f, size_t parameter, double u)
 
 static void tell(struct fitting *f, enum ceduo_calibration_stage stage, double rhat, double effective_size)
 {
-    if (!f->def->progress || !ceduo_talk_begin(&f->talk))
+    if (!f->def->progress || !ceduo_guard_try_enter(&f->talk))
         return;
     struct ceduo_calibration_state state = {.stage = stage, .rhat = rhat, .effective_size = effective_size};
     pthread_mutex_lock(&f->lock);
@@ -69,7 +69,7 @@ static void tell(struct fitting *f, enum ceduo_calibration_stage stage, double r
         state.best[i] = value_of(f, i, f->best[i]);
     pthread_mutex_unlock(&f->lock);
     f->def->progress(f->def->context, &state);
-    ceduo_talk_end(&f->talk);
+    ceduo_guard_leave(&f->talk);
 }
 
 /* ---- one evaluation ---- */
@@ -193,10 +193,10 @@ static enum ceduo_status run_chains(struct fitting *f, struct chains *chains)
                              .seed = f->def->seed,
                              .threads = f->def->threads,
                              .steps_least = STEPS_MIN,
-                             .steps_most = f->def->steps_most > 0 ? f->def->steps_most : STEPS_MAX,
+                             .steps_max = f->def->steps_max > 0 ? f->def->steps_max : STEPS_MAX,
                              .rhat_most = CEDUO_RHAT_MAX,
                              .effective_least = CEDUO_EFFECTIVE_MIN,
-                             .hopeless = f->def->steps_most == 0,
+                             .hopeless = f->def->steps_max == 0,
                              .density = density,
                              .guess = guess_at,
                              .learn = learn,
@@ -223,7 +223,7 @@ static void read_parameter(const struct fitting *f, const struct ceduo_calibrati
     p->p2_5 = ceduo_quantile(sorted, n, 0.025);
     p->p50 = ceduo_quantile(sorted, n, 0.5);
     p->p97_5 = ceduo_quantile(sorted, n, 0.975);
-    p->determined = p->p97_5 - p->p2_5 <= CEDUO_NOT_DETERMINED * width;
+    p->determined = p->p97_5 - p->p2_5 <= CEDUO_IDENTIFIED_WIDTH_MAX * width;
     double middle = (p->p50 - input->lo) / width;
     p->at_bound = p->determined && (fmin(u, 1 - u) < NEAR_BOUND || fmin(middle, 1 - middle) < HALF_THERE);
 }

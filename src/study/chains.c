@@ -188,10 +188,10 @@ static bool is_done(struct work *w)
     c->settled = c->steps >= def->steps_least && c->rhat < def->rhat_most && c->effective_size >= def->effective_least;
     /* chains that go so slowly that they would have far from enough draws at their end: from an eighth of the way on less than a
      * quarter, from a quarter on less than half of what is wanted */
-    double way = (double)c->steps / (double)def->steps_most;
+    double way = (double)c->steps / (double)def->steps_max;
     bool hopeless = def->hopeless && way >= 0.125 && c->effective_size / way < fmin(0.5, 2 * way) * def->effective_least;
     bool goes_on = !def->round || def->round(def->context, c->steps, c->rhat, c->effective_size);
-    return c->settled || c->steps >= def->steps_most || hopeless || !goes_on;
+    return c->settled || c->steps >= def->steps_max || hopeless || !goes_on;
 }
 
 static enum ceduo_status begin(struct work *w)

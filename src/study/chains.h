@@ -24,7 +24,7 @@ struct chains_def {
     double first_step;    /* the standard deviation of the first steps, in each dimension */
     uint64_t seed;
     unsigned threads;
-    size_t steps_least, steps_most; /* of each chain */
+    size_t steps_least, steps_max; /* of each chain */
     double rhat_most, effective_least;
     bool hopeless; /* whether chains that would have far less than effective_least at their end are ended early */
     /* The logarithm of the density; -INFINITY where it is 0. `chain` is the caller's: one thread at a time asks for it. */

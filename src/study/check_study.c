@@ -108,7 +108,7 @@ enum ceduo_status ceduo_check_calibration_def(const struct ceduo_calibration_def
     enum ceduo_status status =
         good_or_not(def->scenes && def->scenes_count > 0 && def->parameters_count > 0 &&
                     def->parameters_count <= CEDUO_CALIBRATION_MAX && def->rocks > 0 && def->rocks <= CEDUO_ROCKS_MAX &&
-                    def->threads <= CEDUO_THREADS_MAX && def->steps_most <= CEDUO_CALIBRATION_STEPS);
+                    def->threads <= CEDUO_THREADS_MAX && def->steps_max <= CEDUO_CALIBRATION_STEPS);
     for (size_t i = 0; status == CEDUO_OK && i < def->scenes_count; i++)
         status = check_fitted_scene(&def->scenes[i], def->parameters_count);
     return status;

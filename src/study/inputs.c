@@ -101,7 +101,7 @@ void ceduo_inputs_release(struct input_scene *copy)
     ceduo_arena_free(&copy->arena);
 }
 
-bool ceduo_input_is_of(const struct ceduo_input *input, size_t option)
+bool ceduo_input_affects(const struct ceduo_input *input, size_t option)
 {
     for (size_t i = 0; i < input->places_count; i++) {
         const char *place = input->places[i];
@@ -111,7 +111,7 @@ bool ceduo_input_is_of(const struct ceduo_input *input, size_t option)
     return false;
 }
 
-bool ceduo_input_is_of_years(const struct ceduo_input *input)
+bool ceduo_input_is_future(const struct ceduo_input *input)
 {
     for (size_t i = 0; i < input->places_count; i++) {
         const struct field *f = ceduo_schema_at(input->places[i]);

@@ -22,10 +22,10 @@ enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo
 void ceduo_inputs_release(struct input_scene *copy);
 
 /* Whether an option has the input: it has a place elsewhere than in other options. */
-bool ceduo_input_is_of(const struct ceduo_input *input, size_t option);
+bool ceduo_input_affects(const struct ceduo_input *input, size_t option);
 
 /* True if the input changes years to come alone, and no figure of today: its values are numbers of growth, age or cuts. */
-bool ceduo_input_is_of_years(const struct ceduo_input *input);
+bool ceduo_input_is_future(const struct ceduo_input *input);
 
 /* Sets each input to the value at u[i] of its range, 0…1; NaN: as the scene has it. Shoots that are given per stool follow
  * the stools, unless their per_ha is an input. A stand whose stools would be more than its shoots has as many stools as

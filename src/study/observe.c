@@ -320,7 +320,7 @@ static void sum_values(const struct plan *p, const double *values, size_t n, str
     for (size_t i = 0; i < n; i++) {
         if (!isnan(values[i]))
             ceduo_moments_add(&m, values[i]);
-        if (!isnan(values[i]) && c->some_count < CEDUO_SOME_VALUES)
+        if (!isnan(values[i]) && c->some_count < CEDUO_SAMPLE_VALUES)
             c->some[c->some_count++] = values[i];
         if (p->classes > 0 && !isnan(values[i]))
             c->count[p->seen->kind == CEDUO_OBSERVED_PASSED ? 0 : class_of(p, values[i])]++;

@@ -33,7 +33,7 @@ struct item {
 
 static struct ceduo_window window_of(const struct ceduo_uncertainty_def *def, const struct ceduo_scene *scene)
 {
-    return def->window.step > 0 ? def->window : ceduo_window_in(scene);
+    return def->window.step > 0 ? def->window : ceduo_scene_window(scene);
 }
 
 /* The forest of an option in a year. */

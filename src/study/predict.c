@@ -15,7 +15,7 @@
 #include "fitting.h"
 #include "sequence.h"
 
-#define SAMPLES     20   /* for each draw; not more than CEDUO_SOME_VALUES */
+#define SAMPLES     20   /* for each draw; not more than CEDUO_SAMPLE_VALUES */
 #define SINGLE_MIN  400  /* values that tell 95 % of them */
 #define SAMPLES_ONE 2000 /* of a scene as it is */
 
@@ -191,7 +191,7 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
 {
     size_t d = a->parameters_count, most = CEDUO_CALIBRATION_DRAWS;
     size_t draws = a->draws_count < most ? a->draws_count : most;
-    double *places = calloc((draws + 1) * d, sizeof *places), *values = calloc(draws * CEDUO_SOME_VALUES + 1, sizeof *values);
+    double *places = calloc((draws + 1) * d, sizeof *places), *values = calloc(draws * CEDUO_SAMPLE_VALUES + 1, sizeof *values);
     struct sequence sequence;
     gsl_rng random = ceduo_sequence(&sequence, f->def->seed, CEDUO_CALIBRATION_CHAINS);
     f->drawn = calloc((draws + 1) * f->all_count + 1, sizeof *f->drawn);

@@ -20,8 +20,8 @@ void ceduo_observed_stops_find(const struct ceduo_observation *o, const double *
     double first = fmin(values[0], o->values[0]), last = fmax(values[n - 1], o->values[o->n - 1]);
     size_t of = o->of > 0 ? (size_t)o->of : o->n, all = o->of > 0 ? rocks : n;
     to->known = last > first;
-    for (size_t i = 0; i < CEDUO_SEEN_PLACES; i++) {
-        double x = to->x[i] = first + (last - first) * (double)i / (CEDUO_SEEN_PLACES - 1);
+    for (size_t i = 0; i < CEDUO_STOPS_PLACES; i++) {
+        double x = to->x[i] = first + (last - first) * (double)i / (CEDUO_STOPS_PLACES - 1);
         double p = (double)(beyond(values, n, x) + all - n) / (double)all;
         to->seen[i] = (double)(beyond(o->values, o->n, x) + of - o->n) / (double)of;
         size_t lo, hi; /* of how many lie beyond, which is binomial */

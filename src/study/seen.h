@@ -6,12 +6,12 @@
 
 /* Stops that were seen beside simulated ones: at places along the slope the share of the rocks that lie
  * farther, as it was seen, and the middle 95 % of samples as large from the simulated rocks. */
-#define CEDUO_SEEN_PLACES 160
+#define CEDUO_STOPS_PLACES 160
 
 struct ceduo_observed_stops {
     bool known;
-    double x[CEDUO_SEEN_PLACES]; /* m, relative, evenly apart */
-    double seen[CEDUO_SEEN_PLACES], lo[CEDUO_SEEN_PLACES], hi[CEDUO_SEEN_PLACES];
+    double x[CEDUO_STOPS_PLACES]; /* m, relative, evenly apart */
+    double seen[CEDUO_STOPS_PLACES], lo[CEDUO_STOPS_PLACES], hi[CEDUO_STOPS_PLACES];
 };
 
 /* `values`: sorted, of the n simulated rocks, of so many, that stopped where rocks were looked for. The others count

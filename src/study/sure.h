@@ -7,7 +7,7 @@
 
 /* In how much of what may be true of a scene an option reaches a goal. */
 struct reliability_def {
-    /* the scene, one option alone, the inputs that it has (ceduo_input_is_of()), points and rocks; over a rotation: not of
+    /* the scene, one option alone, the inputs that it has (ceduo_input_affects()), points and rocks; over a rotation: not of
      * CEDUO_GOAL_ENERGY. More points are never taken, and progress is not told */
     struct ceduo_uncertainty_def of;
     enum ceduo_goal goal;

@@ -57,10 +57,10 @@ static void report(void *context)
     struct rows *r = context;
     const struct ceduo_uncertainty_def *def = r->def;
     size_t done = atomic_fetch_add(&r->done, 1) + 1;
-    if (!def->progress || !ceduo_talk_begin(&r->talk))
+    if (!def->progress || !ceduo_guard_try_enter(&r->talk))
         return;
     def->progress(def->context, done, r->all);
-    ceduo_talk_end(&r->talk);
+    ceduo_guard_leave(&r->talk);
 }
 
 /* Of the share that a scene's last control is judged by. */
@@ -168,7 +168,7 @@ static enum ceduo_status open_subject(const struct rows *r, size_t option, size_
     if (s->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t i = 0; i < n; i++)
-        s->has[i] = ceduo_input_is_of(&r->def->inputs[i], option) || ceduo_input_is_of(&r->def->inputs[i], against);
+        s->has[i] = ceduo_input_affects(&r->def->inputs[i], option) || ceduo_input_affects(&r->def->inputs[i], against);
     return status;
 }
 
@@ -197,7 +197,7 @@ static bool is_rotation(enum ceduo_uncertainty_kind kind)
 static void choose_inputs(const struct rows *r, const struct subject *s, enum ceduo_uncertainty_kind kind)
 {
     for (size_t i = 0; i < r->def->inputs_count; i++)
-        s->uses[i] = s->has[i] && (is_rotation(kind) || !ceduo_input_is_of_years(&r->def->inputs[i]));
+        s->uses[i] = s->has[i] && (is_rotation(kind) || !ceduo_input_is_future(&r->def->inputs[i]));
 }
 
 /* Fits what the points have of a subject; `figure`: within what bounds. */
@@ -365,12 +365,12 @@ static void set_years(const struct rows *r, struct ceduo_years *const *years, bo
     for (size_t i = 0, options = r->options; i < options; i++) {
         size_t control = years[i]->last_control;
         double each = r->year_count / (double)years[i]->count; /* years that one year stands for */
-        struct ceduo_years_summary s = ceduo_years_sum(years[i], control);
+        struct ceduo_years_summary s = ceduo_years_summarize(years[i], control);
         struct ceduo_uncertainty_figure *f = &answer->figures[i * CEDUO_UNCERTAINTY_KINDS],
                                         *d = &answer->figures[figure_at(options, i, CEDUO_UNCERTAINTY_REACH, i > 0)];
         struct ceduo_estimate mean = judges ? s.exceed : s.reach;
         double counts[3] = {0};
-        mean = ceduo_estimate_by_se(mean.mean, mean.se);
+        mean = ceduo_estimate_from_se(mean.mean, mean.se);
         mean.lo = fmax(0, mean.lo);
         mean.hi = fmin(1, mean.hi);
         set_sampling(&f[CEDUO_UNCERTAINTY_MEAN], mean);

@@ -10,7 +10,7 @@
 static struct ceduo_mean_share portion_of(const struct ceduo_arrivals *a, struct ceduo_estimate share)
 {
     double p = share.mean, half = isnan(a->hazard.per_year)
-                                      ? ceduo_half_width_of_share(p, ceduo_share_se(p, (double)a->released), a->released)
+                                      ? ceduo_share_half_width(p, ceduo_share_se(p, (double)a->released), a->released)
                                       : (share.hi - share.lo) / 2;
     return (struct ceduo_mean_share){p, half};
 }
@@ -25,7 +25,7 @@ struct ceduo_mean_share ceduo_share_exceeding(const struct ceduo_arrivals *a)
     return a ? portion_of(a, a->exceed) : (struct ceduo_mean_share){NAN, NAN};
 }
 
-struct ceduo_mean_share ceduo_share_at(const struct ceduo_arrivals *a)
+struct ceduo_mean_share ceduo_share_judged(const struct ceduo_arrivals *a)
 {
     return a ? portion_of(a, ceduo_judged_share(a)) : (struct ceduo_mean_share){NAN, NAN};
 }
@@ -100,7 +100,7 @@ static struct ceduo_estimate difference_over_years(const void *context, size_t o
 struct ceduo_mean_share ceduo_share_over_years(const struct ceduo_years *years, const struct ceduo_years_summary *s)
 {
     struct ceduo_estimate mean = isnan(s->exceed.mean) ? s->reach : s->exceed;
-    return (struct ceduo_mean_share){mean.mean, ceduo_half_width_of_share(mean.mean, mean.se, years->rocks)};
+    return (struct ceduo_mean_share){mean.mean, ceduo_share_half_width(mean.mean, mean.se, years->rocks)};
 }
 
 static void read_years(const struct ceduo_years *years, struct arena *memory, struct ceduo_choice *c)
@@ -110,7 +110,7 @@ static void read_years(const struct ceduo_years *years, struct arena *memory, st
     if (!ahead)
         return;
     for (size_t k = 0; k < controls; k++)
-        ahead[k] = ceduo_years_sum(years, k);
+        ahead[k] = ceduo_years_summarize(years, k);
     c->ahead = ahead;
     c->over = &ahead[years->last_control];
     c->rocks = years->rocks;
@@ -118,7 +118,7 @@ static void read_years(const struct ceduo_years *years, struct arena *memory, st
     c->worst.mean = c->over->worst; /* by the index an ADC: it has no error */
     for (size_t i = 0; i < years->count; i++)
         if (years->years[i].year == c->over->worst_year && years->years[i].wooded.rocks > 0)
-            c->worst = ceduo_share_at(&years->years[i].wooded.arrivals[years->last_control]);
+            c->worst = ceduo_share_judged(&years->years[i].wooded.arrivals[years->last_control]);
     c->mean = ceduo_share_over_years(years, c->over);
 }
 
@@ -144,14 +144,14 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
     struct ceduo_window rotation = ceduo_window_compute(o);
     *c = (struct ceduo_choice){
         .today = unknown, .worst = unknown, .mean = unknown, .rotation = unknown, .over = &no_years, .cut = due_cut(o)};
-    c->window = years ? years->window : ceduo_window_in(r->scene);
+    c->window = years ? years->window : ceduo_scene_window(r->scene);
     if (r->scene->controls_count > 0) {
-        c->today = ceduo_share_at(ceduo_result_wooded(r, option, r->last_control));
+        c->today = ceduo_share_judged(ceduo_result_wooded(r, option, r->last_control));
         c->energy_known = r->wooded && !isnan(r->scene->controls[r->last_control].accepted);
         if (years)
             read_years(years, memory, c);
         if (whole) {
-            const struct ceduo_years_summary s = ceduo_years_sum(whole, whole->last_control);
+            const struct ceduo_years_summary s = ceduo_years_summarize(whole, whole->last_control);
             c->rotation = ceduo_share_over_years(whole, &s);
         }
     }
@@ -235,7 +235,8 @@ static enum ceduo_judgement judge_today(const struct ceduo_result *r, const stru
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
     enum ceduo_judgement judgement = ceduo_judge_control(bare, wooded);
-    if (judgement == CEDUO_NOTHING || judgement == CEDUO_UNANSWERED || !wooded || !uncertainty || control != r->last_control)
+    if (judgement == CEDUO_CANNOT_JUDGE || judgement == CEDUO_UNANSWERED || !wooded || !uncertainty ||
+        control != r->last_control)
         return judgement;
     const struct ceduo_surface_fit *fit =
         &ceduo_uncertainty_find_figure(uncertainty, option, CEDUO_UNCERTAINTY_EXCEED, false)->fit;
@@ -292,7 +293,7 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
                               .also_bare = ceduo_judge_control(&r->bare.arrivals[control], NULL) == CEDUO_YES,
                               .rate = CEDUO_NO_ESTIMATE};
     bool years = last && uncertainty && uncertainty->rotation;
-    if (today == CEDUO_UNANSWERED || today == CEDUO_NOTHING)
+    if (today == CEDUO_UNANSWERED || today == CEDUO_CANNOT_JUDGE)
         return o;
     if (o.ahead) {
         const struct ceduo_surface_fit *fit =
@@ -305,7 +306,7 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
     }
     if (blocks && wooded) {
         enum ceduo_uncertainty_kind kind = o.ahead ? CEDUO_UNCERTAINTY_MEAN : CEDUO_UNCERTAINTY_EXCEED;
-        o.rate = o.ahead ? s->rate : ceduo_hazard_feared(&wooded->hazard);
+        o.rate = o.ahead ? s->rate : ceduo_hazard_judged_rate(&wooded->hazard);
         o.answer = judge_rate(r,
                               last && uncertainty && (years || !o.ahead)
                                   ? &ceduo_uncertainty_find_figure(uncertainty, option, kind, false)->fit
@@ -313,8 +314,8 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
                               control, &o);
     }
     o.impossible = o.answer == CEDUO_YES && is_impossible(r, option, control);
-    o.answer = o.impossible ? CEDUO_NOTHING : o.answer;
-    o.today = o.impossible && !o.ahead ? CEDUO_NOTHING : today;
+    o.answer = o.impossible ? CEDUO_CANNOT_JUDGE : o.answer;
+    o.today = o.impossible && !o.ahead ? CEDUO_CANNOT_JUDGE : today;
     return o;
 }
 

@@ -21,7 +21,7 @@
 struct ceduo_mean_share {
     double mean, half;
 };
-struct ceduo_mean_share ceduo_share_at(const struct ceduo_arrivals *arrivals); /* may be NULL */
+struct ceduo_mean_share ceduo_share_judged(const struct ceduo_arrivals *arrivals); /* may be NULL */
 
 /* Share that arrives, and share that arrives with more than the accepted energy. `arrivals` may be NULL. */
 struct ceduo_mean_share ceduo_share_arriving(const struct ceduo_arrivals *arrivals);

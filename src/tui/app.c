@@ -24,7 +24,7 @@ char *ceduo_app_format(const struct app *app, const char *format, ...)
 const char *ceduo_app_path(const struct app *app, const char *path)
 {
     LOCAL_TEXT(words);
-    ceduo_shown_path(path, &words);
+    ceduo_format_path(path, &words);
     return ceduo_arena_string(app->scratch, ceduo_text_string(&words));
 }
 

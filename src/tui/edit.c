@@ -18,7 +18,7 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
     if (field->type == FIELD_TEXT || field->type == FIELD_FILE)
         ceduo_emit_scalar(&written, value, true);
     else
-        ceduo_typed_value(field, value, &written);
+        ceduo_input_parse_value(field, value, &written);
     if (ceduo_app_set(app, path, ceduo_text_string(&written)))
         return true;
     const struct problem *p = app->document.problems.wrong.items; /* the label of the field stands for its path */
@@ -50,7 +50,7 @@ void ceduo_edit_start(struct app *app)
     for (size_t i = 0; plain && i < node->n; i++)
         plain = node->items[i]->kind == NODE_SCALAR;
     if (node && node->kind == NODE_SCALAR)
-        ceduo_shown_value(cell->field, node->text, &text);
+        ceduo_format_value(cell->field, node->text, &text);
     else if (node && cell->field->type != FIELD_SPREAD && !plain)
         ceduo_emit_flow(&text, node);
     else
@@ -263,8 +263,8 @@ static bool ask_for_blocks(struct app *app, const struct item *item)
         if (s->blocks[i].volumes[1] > (largest ? largest->volumes[1] : 0))
             largest = &s->blocks[i];
     const char *const offered[] = {
-        largest ? ceduo_number_spoken(ceduo_app_format(app, "%.4g", largest->per_year / 10)) : "",
-        largest ? ceduo_number_spoken(ceduo_app_format(app, "%.10g %.10g", largest->volumes[1], 10 * largest->volumes[1]))
+        largest ? ceduo_number_localize(ceduo_app_format(app, "%.4g", largest->per_year / 10)) : "",
+        largest ? ceduo_number_localize(ceduo_app_format(app, "%.10g %.10g", largest->volumes[1], 10 * largest->volumes[1]))
                 : ""};
     ceduo_popup_item_find(app, item->list, NULL, offered, 2);
     app->popup->title = _("A class of blocks that come down");

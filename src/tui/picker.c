@@ -181,7 +181,7 @@ void ceduo_picker_add_files(struct picker *p, const char *typed, const char *end
     LOCAL_TEXT(folder);
     LOCAL_TEXT(path);
     struct dirent **entries = NULL;
-    ceduo_text_add(&folder, typed, slash ? (size_t)(slash - typed) + 1 : 0);
+    ceduo_text_append_n(&folder, typed, slash ? (size_t)(slash - typed) + 1 : 0);
     int count = scandir(folder.length ? folder.bytes : ".", &entries, NULL, alphasort);
     for (int i = 0; i < count; i++) {
         struct stat st;

@@ -20,7 +20,7 @@ static void append_command(struct app *app, struct text *text, const char *how)
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
     uint64_t rocks = shown ? ceduo_released(shown) : d->file.scene.simulation.rocks;
     ceduo_text_format(text, "ceduo %s -n %llu ", how, (unsigned long long)rocks);
-    ceduo_text_quoted(text, d->path ? d->path : "scene.yaml");
+    ceduo_text_append_quoted(text, d->path ? d->path : "scene.yaml");
 }
 
 /* More rocks may fall while it is read. */
@@ -28,7 +28,7 @@ static void show_command(struct app *app, struct popup *p)
 {
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
     append_command(app, &p->text, "--batch");
-    ceduo_text_char(&p->text, '\n');
+    ceduo_text_append_char(&p->text, '\n');
     if (shown)
         ceduo_text_format(&p->text,
                           app->live.busy ? _("\nThe figures on the screen are of %llu rocks; more are falling.\n")
@@ -150,7 +150,7 @@ static bool filled_head(struct app *app, struct popup *p)
             ceduo_emit_scalar(&head, p->fields[i].line.text, true);
         }
     if (head.length > 0) {
-        ceduo_text_char(&head, '}');
+        ceduo_text_append_char(&head, '}');
         if (!ceduo_app_edited(app, ceduo_document_set(&app->document, "page", head.bytes)))
             return false;
     }
@@ -203,7 +203,7 @@ void ceduo_popup_copy(struct app *app)
     if (r && scene->controls_count > 0) {
         const struct ceduo_subject subject = ceduo_subject_find(ceduo_app_report(app), app->option, r->last_control);
         ceduo_words_answer(&text, &subject, COPY_WIDTH);
-        ceduo_text_char(&text, '\n');
+        ceduo_text_append_char(&text, '\n');
     }
     /* the view drawn by itself, long enough for all of it, its pictures left blank; runs of blank lines are one */
     struct view_state *state = ceduo_app_state(app), kept = *state;

@@ -119,9 +119,9 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
 {
     const struct ceduo_found *f = &answer->found;
     const struct field *field = ceduo_search_field(app->scratch, p->path);
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     if (f->found && !f->whole_range) /* otherwise the field keeps its value */
-        ceduo_text_format(text, "%s = %s: ", ceduo_app_path(app, p->path), ceduo_shown_number(field, f->value, room));
+        ceduo_text_format(text, "%s = %s: ", ceduo_app_path(app, p->path), ceduo_format_number(field, f->value, room));
     ceduo_find_words(text, s, f, field, s->sure == 0); /* otherwise there is no room, and it was typed */
     if (!f->monotone)
         ceduo_text_append_joined(text, "; ", _("not monotone: there may be other values"));
@@ -156,7 +156,7 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
     search.rotation = answer->rotation;
     append_words(app, p, &search, answer, &words);
     if (!found->found || found->whole_range ||
-        ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, NUMERAL(found->value))))
+        ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, ROUNDTRIP(found->value))))
         ceduo_app_show_message(app, "%s", words.bytes);
     ceduo_popup_close(app);
 }
@@ -165,7 +165,7 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
 
 static bool fits(const struct app *app, const char *path, double value)
 {
-    return ceduo_preview_fits(&app->document.file, path, NUMERAL(value));
+    return ceduo_preview_fits(&app->document.file, path, ROUNDTRIP(value));
 }
 
 /* A value of three digits between `now` and `end`, as near to the end as the scene allows; `now` itself is allowed. */
@@ -211,7 +211,7 @@ static void propose(struct app *app, const char *path, const struct field *f, co
 /* `written`: the value that is there. */
 static void ask(struct app *app, const char *path, const char *written)
 {
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     double lo, hi;
     const struct field *f = ceduo_search_field(app->scratch, path);
     propose(app, path, f, written, &lo, &hi);
@@ -227,7 +227,7 @@ static void ask(struct app *app, const char *path, const char *written)
     cases->hi = 100;
     cases->flags = FIELD_ABOVE;
     for (int i = 0; i < 2; i++) {
-        const char *end = ceduo_shown_number(f, i == 0 ? lo : hi, room);
+        const char *end = ceduo_format_number(f, i == 0 ? lo : hi, room);
         struct field *own = ceduo_popup_value(p, i == 0 ? _("values from") : _("to"), end, f);
         own->shown.least = -INFINITY; /* no end is unusual */
         own->shown.most = INFINITY;
@@ -257,7 +257,7 @@ void ceduo_popup_find(struct app *app)
 {
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     const struct node *node = cell ? ceduo_document_node(&app->document, cell->path) : NULL;
-    bool usable = cell && !(cell->field->flags & FIELD_NOWHERE);
+    bool usable = cell && !(cell->field->flags & FIELD_NO_MEMBER);
     enum field_type type = usable ? cell->field->type : FIELD_TEXT;
     if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST)
         ask_which(app, cell->path, node);

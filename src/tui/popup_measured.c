@@ -114,7 +114,7 @@ void ceduo_popup_counts(struct app *app)
         [TREE_HEIGHT] = stand->trees_count ? stand->trees[0].height : 0,
     };
     for (size_t i = 0; i < COUNTS; i++) {
-        const char *value = offered[i] > 0 ? ceduo_number_spoken(ceduo_app_format(app, "%.4g", offered[i])) : "";
+        const char *value = offered[i] > 0 ? ceduo_number_localize(ceduo_app_format(app, "%.4g", offered[i])) : "";
         struct field *own =
             ceduo_popup_value(p, _(rows[i].label), value, rows[i].path ? ceduo_schema_at(rows[i].path) : &ceduo_popup_amount);
         own->flags = rows[i].path ? own->flags & ~(unsigned)FIELD_REQUIRED : rows[i].flags;
@@ -144,7 +144,7 @@ static bool read_survey(const char *path, struct survey_answers *answers, struct
     LOCAL_ARENA(arena);
     struct survey_file file;
     LOCAL_TEXT(yaml);
-    if (!ceduo_survey_read(&file, &arena, path, answers, problems) || !ceduo_survey_stand(&file, &yaml, problems))
+    if (!ceduo_survey_read(&file, &arena, path, answers, problems) || !ceduo_survey_print_stand(&file, &yaml, problems))
         return false;
     const struct source source = {.name = path, .bytes = yaml.bytes, .length = yaml.length};
     const struct node *root = ceduo_yaml_read(&arena, &source, problems);

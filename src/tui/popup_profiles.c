@@ -176,7 +176,7 @@ static void preview_stand(struct app *app, struct popup *p)
                               r.free_run_probability * 100, ceduo_words_law(ceduo_rule_words.names[r.rule]));
         if (!r.bare)
             ceduo_text_append_joined(&p->text, ", ", _("%.3g kJ/100 m"), r.dissipated * J_TO_KJ);
-        ceduo_text_char(&p->text, '\n');
+        ceduo_text_append_char(&p->text, '\n');
         append_change(app, p);
     }
     ceduo_scene_release(&file);
@@ -298,7 +298,7 @@ static void add_word(struct popup *p, const struct field *f, const char *word, c
 {
     LOCAL_TEXT(shown);
     const struct ceduo_material *ground = find_material(f, word);
-    ceduo_shown_value(f, word, &shown);
+    ceduo_format_value(f, word, &shown);
     const char *name = ceduo_arena_string(&p->arena, ceduo_text_string(&shown));
     if (ground)
         ceduo_text_format(&shown, ": %s", _(ground->what));

@@ -89,7 +89,7 @@ static void lend(struct plan *p, size_t belt, const struct lender *l, const char
 {
     const struct node *map = ceduo_resolve_at(l->file.root, ceduo_app_format(p->app, "forest[0].stand.%s", key));
     LOCAL_TEXT(value);
-    ceduo_text_char(&value, '{');
+    ceduo_text_append_char(&value, '{');
     for (size_t i = 0; i < map->n; i++) {
         if (strcmp(map->items[i]->key, "source") == 0)
             continue;
@@ -118,9 +118,9 @@ static void keep_standards(struct plan *p, size_t belt, const struct ceduo_stand
 {
     double all = 0, left = p->number;
     LOCAL_TEXT(list);
-    for (size_t i = 0; i < model->cutting.stay_count; i++)
+    for (size_t i = 0; i < model->cutting.retained_count; i++)
         all += model->cutting.stay_per_ha[i];
-    for (size_t i = 0; all > 0 && i < model->cutting.stay_count; i++) {
+    for (size_t i = 0; all > 0 && i < model->cutting.retained_count; i++) {
         double share = model->cutting.stay_per_ha[i] / all, own = fmin(left, ceil(share * p->number - 1e-9));
         ceduo_text_format(&list, "%s%g", i > 0 ? ", " : "", own);
         left -= own;

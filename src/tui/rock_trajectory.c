@@ -52,7 +52,7 @@ bool ceduo_app_follow_rock(struct app *app)
         s->begun = ceduo_clock();
         const struct ceduo_trajectory_callbacks watch = {
             .enough = is_enough, .piece = add_piece, .stem = add_stem, .context = s};
-        enum ceduo_status status = ceduo_trajectory_follow(scene, ceduo_app_option(app), s->rock, &watch, &s->whole, NULL);
+        enum ceduo_status status = ceduo_trajectory_run(scene, ceduo_app_option(app), s->rock, &watch, &s->whole, NULL);
         s->cut_short = status == CEDUO_CANCELLED;
         if (status != CEDUO_OK && !s->cut_short) {
             ceduo_rock_trajectory_free(s);

@@ -82,7 +82,7 @@ static void draw_verdict(struct app *app)
         return;
     struct ceduo_subject subject = ceduo_subject_find(ceduo_app_report(app), app->option, r->last_control);
     enum ceduo_judgement judgement = subject.outcome.answer;
-    bool open = judgement != CEDUO_NOTHING && judgement != CEDUO_UNANSWERED;
+    bool open = judgement != CEDUO_CANNOT_JUDGE && judgement != CEDUO_UNANSWERED;
     double share = open ? ceduo_live_awaits_uncertainty(&app->live, &app->document.file, app->option) : NAN;
     const char *progress = isnan(share) ? "" : ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
     subject.so_far = !isnan(share);
@@ -219,7 +219,7 @@ static void draw_column(struct app *app, struct ceduo_area area, bool titled)
     struct ceduo_page page = {.width = (size_t)area.width};
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     if (titled) {
-        static const struct ceduo_page_column columns[] = {{"", 8, 0, CEDUO_FILLS}};
+        static const struct ceduo_page_column columns[] = {{"", 8, 0, COL_GROW}};
         CEDUO_PAGE_TABLE_OF(&page, columns);
         ceduo_page_cell_role(&page, CEDUO_ROLE_TITLE, title_of(app));
     }

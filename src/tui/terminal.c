@@ -78,7 +78,7 @@ static void append_base64(struct text *to, const char *bytes, size_t n)
         for (size_t k = 0; k < 3; k++)
             three = three << 8 | (i + k < n ? (uint8_t)bytes[i + k] : 0);
         for (size_t k = 0; k < 4; k++)
-            ceduo_text_char(to, i + k > n ? '=' : digits[three >> (18 - 6 * k) & 63]);
+            ceduo_text_append_char(to, i + k > n ? '=' : digits[three >> (18 - 6 * k) & 63]);
     }
 }
 

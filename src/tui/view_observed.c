@@ -25,10 +25,10 @@ static void append_number(struct text *text, const struct scene_file *file, cons
 
 static void add_rows(struct ceduo_page *page, const struct scene_file *file, const struct ceduo_predicted *predicted)
 {
-    static const struct ceduo_page_column columns[] = {{N_("mean or count"), 13, 0, CEDUO_FILLS | CEDUO_WHOLE},
-                                                       {N_("seen"), -8, 1, CEDUO_FITS},
-                                                       {N_("sim., 95 %"), -11, 1, CEDUO_FITS},
-                                                       {"", 10, 1, CEDUO_FITS}};
+    static const struct ceduo_page_column columns[] = {{N_("mean or count"), 13, 0, COL_GROW | COL_WRAP},
+                                                       {N_("seen"), -8, 1, COL_SHRINK},
+                                                       {N_("sim., 95 %"), -11, 1, COL_SHRINK},
+                                                       {"", 10, 1, COL_SHRINK}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t i = 0; i < file->observations_count; i++) {
         const struct ceduo_predicted *p = &predicted[i];
@@ -43,7 +43,7 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
         ceduo_text_append_joined(seen, " ", "%s", unit);
         struct text *band = ceduo_page_text(page);
         if (isnan(p->lo)) {
-            ceduo_text_char(band, '-');
+            ceduo_text_append_char(band, '-');
         } else {
             append_number(band, file, p, p->lo);
             ceduo_text_append(band, RANGE);
@@ -99,7 +99,7 @@ static void say_as_it_is(struct app *app, struct ceduo_page *page)
 static void append_best(struct text *text, const char *path, double best)
 {
     ceduo_calibration_name(text, path);
-    ceduo_text_char(text, ' ');
+    ceduo_text_append_char(text, ' ');
     ceduo_calibration_number(text, path, best);
 }
 
@@ -170,9 +170,9 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
     ceduo_text_append(command, "ceduo");
     for (size_t i = 0; i < f->request.n; i++) {
         LOCAL_TEXT(value);
-        ceduo_text_format(&value, "%s=%s:%s", f->inputs[i].path, NUMERAL(f->inputs[i].lo), NUMERAL(f->inputs[i].hi));
+        ceduo_text_format(&value, "%s=%s:%s", f->inputs[i].path, ROUNDTRIP(f->inputs[i].lo), ROUNDTRIP(f->inputs[i].hi));
         ceduo_text_append(command, " --calibrate ");
-        ceduo_text_quoted(command, value.bytes);
+        ceduo_text_append_quoted(command, value.bytes);
     }
     ceduo_text_format(command, " -n %llu -o FITTED.yaml SCENE.yaml", (unsigned long long)f->request.rocks);
 }
@@ -287,8 +287,8 @@ static void draw(struct app *app, struct ceduo_area area)
 static void append_bounds(struct text *text, const struct fit_value *value)
 {
     const struct field *field = ceduo_schema_fitted(value->path);
-    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(text, "%s:%s", ceduo_shown_number(field, value->lo, lo), ceduo_shown_number(field, value->hi, hi));
+    char lo[CEDUO_NUMBER_SIZE], hi[CEDUO_NUMBER_SIZE];
+    ceduo_text_format(text, "%s:%s", ceduo_format_number(field, value->lo, lo), ceduo_format_number(field, value->hi, hi));
 }
 
 /* Both ends in the unit that is shown; false where they are none, which is said. */
@@ -358,7 +358,7 @@ static void ask_for_fit(struct app *app)
             ceduo_text_format(&p->text, " %s ", _("Usual bounds of the others:"));
         ceduo_text_append(&p->text, i == FILLED ? "" : "; ");
         ceduo_calibration_name(&p->text, request.values[i].path);
-        ceduo_text_char(&p->text, ' ');
+        ceduo_text_append_char(&p->text, ' ');
         append_bounds(&p->text, &request.values[i]);
     }
     for (size_t i = 0; i < request.n; i++) {

@@ -37,7 +37,7 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         if (yield->fellings[i].year == y->year) {
             ceduo_text_format(text, _("Felled: %.0f m\xc2\xb3 per ha, %.0f stems."), yield->fellings[i].volume,
                               yield->fellings[i].stems_per_ha);
-            ceduo_text_char(text, ' ');
+            ceduo_text_append_char(text, ' ');
         }
     for (const struct ceduo_belt *belt = y->option.belts; belt < y->option.belts + y->option.belts_count; belt++) {
         const struct ceduo_stand *s = &belt->stand;
@@ -61,11 +61,11 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     const struct ceduo_verdict *v = &app->live.verdict;
     ceduo_words_window(text, ceduo_app_option(app));
     ceduo_text_append(text, text->length > 0 ? " " : "");
-    ceduo_words_years_sum(text, app->live.result, years);
+    ceduo_words_years_summary(text, app->live.result, years);
     if (app->option < v->n && !isnan(v->choices[app->option].yield.cut_per_year))
         ceduo_text_append_joined(text, " ", _("Yield %.2g m\xc2\xb3 per ha and year."),
                                  v->choices[app->option].yield.cut_per_year);
-    ceduo_text_char(text, ' ');
+    ceduo_text_append_char(text, ' ');
     ceduo_words_year_numbering(text, years->rocks);
 }
 
@@ -82,7 +82,7 @@ static void draw(struct app *app, struct ceduo_area area)
     struct text text = {0};
     if (picture.years && app->live.result && picture.years->count > 0) {
         say_all(app, picture.years, &text);
-        ceduo_text_char(&text, '\n');
+        ceduo_text_append_char(&text, '\n');
         say_year(app, picture.years, &text);
     }
     int form_min = alone ? 0 : area.height >= HEIGHT_FOR_FORM ? FORM_WANTED : FORM_MIN;

@@ -79,14 +79,14 @@ static int draw_figures(struct app *app, struct ceduo_area area)
     if (!belt)
         return 0;
     struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, belt);
-    ceduo_words_unlikely(belt, &r, add_warning, &unlikely);
+    ceduo_words_implausible(belt, &r, add_warning, &unlikely);
     ceduo_words_thick_stems(belt, add_warning, &unlikely);
     int lines = unlikely.length > 0 ? ceduo_app_text_lines(app, unlikely.bytes, area.width) : 0;
     lines = lines > area.height / 3 ? area.height / 3 : lines;
     struct ceduo_area figures = cut_bottom(&area, FIGURES);
     ceduo_app_set_cursor(app, cut_bottom(&area, lines), CEDUO_ROLE_WARN, &unlikely);
     ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha."), r.stems_per_ha, r.basal_area);
-    ceduo_text_char(&text, ' ');
+    ceduo_text_append_char(&text, ' ');
     if (!r.bare)
         ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g)"), r.adc_m,
                           ceduo_words_law(ceduo_rule_words.names[r.rule]), r.adc.gsteiger_stools, r.adc.gsteiger_stems,

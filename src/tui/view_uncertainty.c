@@ -86,7 +86,7 @@ static void add(struct app *app)
         ceduo_uncertainty_input_end(&row, &r, f->order[i], 0);
         ceduo_text_append(&row, ", hi: ");
         ceduo_uncertainty_input_end(&row, &r, f->order[i], 1);
-        ceduo_text_char(&row, '}');
+        ceduo_text_append_char(&row, '}');
         size_t n = rows ? rows->n : 0;
         if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "uncertainty", n, row.bytes)))
             ceduo_form_go(ceduo_app_form(app), "uncertainty", n);

@@ -25,8 +25,9 @@ static void put_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, s
 {
     static const struct {
         int on, of;
-    } dashes[CEDUO_STROKES] = {[CEDUO_STROKE_WAY] = {1, 1}, [CEDUO_STROKE_RULE] = {1, 2},   [CEDUO_STROKE_DOTS] = {1, 2},
-                               [CEDUO_STROKE_FEW] = {1, 4}, [CEDUO_STROKE_DASHES] = {4, 6}, [CEDUO_STROKE_PLAIN] = {1, 1}};
+    } dashes[CEDUO_STROKES] = {
+        [CEDUO_STROKE_TRAJECTORY] = {1, 1}, [CEDUO_STROKE_RULE] = {1, 2},   [CEDUO_STROKE_DOTS] = {1, 2},
+        [CEDUO_STROKE_FEW] = {1, 4},        [CEDUO_STROKE_DASHES] = {4, 6}, [CEDUO_STROKE_PLAIN] = {1, 1}};
     const struct ceduo_raster *r = &pen->raster;
     struct ceduo_cells *cells = to;
     int across = cells->width * cells->canvas.dots_x, down = cells->height * cells->canvas.dots_y;
@@ -39,7 +40,7 @@ static void put_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, s
         int at_x = r->left + in_x, at_y = r->top + in_y, along = dx != 0 || dots == 0 ? in_x : in_y;
         if (along % dashes[pen->stroke].of >= dashes[pen->stroke].on)
             continue;
-        if (pen->stroke != CEDUO_STROKE_WAY) {
+        if (pen->stroke != CEDUO_STROKE_TRAJECTORY) {
             ceduo_cells_set_dot(to, at_x, at_y, pen->role);
             continue;
         }
@@ -401,7 +402,7 @@ void ceduo_tick_label(double value, double interval, char label[CEDUO_TICK_LABEL
     }
     if (*label == '-' && strpbrk(label, "123456789") == NULL) /* rounded to "-0.0" */
         memmove(label, label + 1, strlen(label));
-    ceduo_number_spoken(label);
+    ceduo_number_localize(label);
 }
 
 /* ---- Axes: labels at round numbers, which never touch ---- */

@@ -45,7 +45,7 @@ struct ceduo_position {
 /* How a line is drawn, from what lies below to what lies above; of rules and curves every second column of dots, every fourth,
  * four of six. */
 enum ceduo_stroke {
-    CEDUO_STROKE_WAY, /* one of many: a part of the cloud */
+    CEDUO_STROKE_TRAJECTORY, /* one of many: a part of the cloud */
     CEDUO_STROKE_RULE,
     CEDUO_STROKE_DOTS,
     CEDUO_STROKE_FEW,
@@ -120,7 +120,7 @@ void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *fr
  * above 0 always shows something. */
 void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int width, double fraction, enum ceduo_role role);
 
-/* A cloud of many trajectories. Start it, draw trajectories with CEDUO_STROKE_WAY, which shows nothing, and show it: the dots
+/* A cloud of many trajectories. Start it, draw trajectories with CEDUO_STROKE_TRAJECTORY, which shows nothing, and show it: the dots
  * that were passed at least as often as the given quantile (0..1) of all dots that were passed. 0 shows every one, 0.9 the most
  * travelled tenth, 1 those passed most. */
 void ceduo_canvas_cloud_start(struct ceduo_canvas *canvas);

@@ -187,7 +187,7 @@ int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo
     return count;
 }
 
-int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text)
+int ceduo_cells_label_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text)
 {
     const char *mark = cells->charset == CEDUO_CHARSET_ASCII ? "~" : "\xe2\x80\xa6";
     bool cut = most > 0 && ceduo_cells_label_width(cells->charset, text) > most;
@@ -201,7 +201,7 @@ void ceduo_cells_ascii(struct text *text, const char *string)
 {
     struct reader reader = {CEDUO_CHARSET_ASCII, string, string, ""};
     for (uint32_t code; (code = next_code(&reader)) != 0;)
-        ceduo_text_char(text, (char)code);
+        ceduo_text_append_char(text, (char)code);
 }
 
 int ceduo_cells_label_width(enum ceduo_charset charset, const char *text)
@@ -248,7 +248,7 @@ void ceduo_cells_text(const struct ceduo_cells *cells, int row, struct text *tex
         --end;
     for (int column = 0; column < end; ++column) {
         char bytes[4];
-        ceduo_text_add(text, bytes, ceduo_utf8_encode(ceduo_cells_glyph(cells, column, row), bytes));
+        ceduo_text_append_n(text, bytes, ceduo_utf8_encode(ceduo_cells_glyph(cells, column, row), bytes));
     }
 }
 
@@ -257,7 +257,7 @@ char *ceduo_cells_dump(const struct ceduo_cells *cells)
     struct text text = {0};
     for (int row = 0; row < cells->height; ++row) {
         ceduo_cells_text(cells, row, &text);
-        ceduo_text_char(&text, '\n');
+        ceduo_text_append_char(&text, '\n');
     }
     return text.bytes;
 }

@@ -108,7 +108,7 @@ void ceduo_cells_clear_area(struct ceduo_cells *cells, struct ceduo_area area); 
 int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text);
 
 /* Write the end of a text that fits into `most` cells; returns the cells it took. */
-int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text);
+int ceduo_cells_label_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text);
 
 /* Whether a digit of a text is the power of a metre, as in m3 and m2/ha, and not part of a key: cells show m³ outside ASCII. */
 bool ceduo_is_power(const char *string, const char *at);

@@ -38,9 +38,9 @@ static struct ceduo_value value_of(const struct ceduo_figure *f, const void *obj
 
 static void say(const struct ceduo_figure *f, const struct ceduo_place *place, ceduo_sentence_sink *to, void *context)
 {
-    ceduo_language_of_data(true);
+    ceduo_language_set_data(true);
     f->say(place, to, context);
-    ceduo_language_of_data(false);
+    ceduo_language_set_data(false);
 }
 
 /* ---- JSON ---- */
@@ -132,14 +132,14 @@ void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, c
 {
     struct writer w = {.json = {.text = text}, .details = details};
     write_object(&w, NULL, figures, object, 1, true);
-    ceduo_text_char(text, '\n');
+    ceduo_text_append_char(text, '\n');
 }
 
 /* ---- CSV ---- */
 
 static void append_value(struct text *text, struct ceduo_value v)
 {
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     if (v.kind == CEDUO_VALUE_NUMBER)
         ceduo_text_append(text, ceduo_number_shortest(v.number, room));
     else if (v.kind == CEDUO_VALUE_COUNT)
@@ -147,7 +147,7 @@ static void append_value(struct text *text, struct ceduo_value v)
     else if (v.kind == CEDUO_VALUE_FLAG)
         ceduo_text_append(text, v.flag ? "true" : "false");
     else if (v.kind == CEDUO_VALUE_TEXT)
-        ceduo_text_csv(text, v.text);
+        ceduo_text_append_csv(text, v.text);
 }
 
 /* Sentences joined by "; ". */
@@ -167,9 +167,9 @@ static void append_cell(struct text *row, const struct ceduo_figure *f, const vo
     } else {
         say(f, object, join, &all);
         if (all.bytes)
-            ceduo_text_csv(row, all.bytes);
+            ceduo_text_append_csv(row, all.bytes);
     }
-    ceduo_text_char(row, ',');
+    ceduo_text_append_char(row, ',');
 }
 
 /* In the order of ceduo_figures_columns(). `object` NULL: empty cells. */
@@ -190,7 +190,7 @@ void ceduo_csv_head(struct text *text, const struct ceduo_csv *csv)
 {
     ceduo_figures_columns(text, csv->columns, true);
     text->length--; /* the last comma */
-    ceduo_text_char(text, '\n');
+    ceduo_text_append_char(text, '\n');
 }
 
 static void append_rows(struct text *text, const struct ceduo_csv *csv, const void *object, size_t level)
@@ -203,7 +203,7 @@ static void append_rows(struct text *text, const struct ceduo_csv *csv, const vo
     }
     append_cells(text, csv->columns, object, 1);
     text->length--;
-    ceduo_text_char(text, '\n');
+    ceduo_text_append_char(text, '\n');
 }
 
 void ceduo_csv_rows(struct text *text, const struct ceduo_csv *csv, const void *object)

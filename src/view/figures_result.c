@@ -59,7 +59,7 @@ static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
 /* NULL if the window is today alone, or its years were not simulated. */
 static const struct ceduo_choice *window_at(const struct ceduo_place *p)
 {
-    const struct ceduo_choice *c = ceduo_report_ahead(p->report, p->option);
+    const struct ceduo_choice *c = ceduo_report_years_ahead(p->report, p->option);
     return c && c->over->simulated > 0 ? c : NULL;
 }
 
@@ -112,7 +112,7 @@ static bool enter_option(struct ceduo_place *p, size_t i)
     p->option = i;
     bool inside = i < result_of(p)->scene->options_count;
     if (inside && p->report->years)
-        p->sum = ceduo_years_sum(p->report->years[i], result_of(p)->last_control);
+        p->sum = ceduo_years_summarize(p->report->years[i], result_of(p)->last_control);
     return inside;
 }
 
@@ -147,7 +147,7 @@ static bool enter_difference(struct ceduo_place *p, size_t i)
 
 static void say_of_run(const struct ceduo_place *p, ceduo_sentence_sink *say, void *context)
 {
-    ceduo_words_still_moving(result_of(p), say, context);
+    ceduo_words_warn_no_answer(result_of(p), say, context);
     ceduo_words_run_warnings(result_of(p), &p->report->remarks, say, context);
 }
 
@@ -171,10 +171,10 @@ static void say_because(const struct ceduo_place *p, ceduo_sentence_sink *say, v
     const struct ceduo_outcome o = outcome_of(p);
     const struct ceduo_subject subject = ceduo_subject_find(p->report, p->option, p->control);
     LOCAL_TEXT(why);
-    if ((o.ahead && o.answer != CEDUO_NOTHING) || o.impossible)
+    if ((o.ahead && o.answer != CEDUO_CANNOT_JUDGE) || o.impossible)
         ceduo_words_reason(&why, &subject);
     else
-        ceduo_words_because(&why, p->report->result, p->control, through_the_wood(p));
+        ceduo_words_judgement_reason(&why, p->report->result, p->control, through_the_wood(p));
     say(context, ceduo_text_string(&why));
 }
 
@@ -286,8 +286,8 @@ static const struct ceduo_figure rate_figures[] = {{"per_year", "1/y", "rocks a 
                                                    {"hi", "1/y", "upper end of its 95 % interval", AT(estimate, hi)},
                                                    END};
 
-static const struct ceduo_figure exceed_rate[] = {{"energy_kJ", "kJ", "energy", AT(exceeding, energy), .scale = J_TO_KJ},
-                                                  {.of = rate_figures, .offset = offsetof(struct ceduo_exceeding, rate)},
+static const struct ceduo_figure exceed_rate[] = {{"energy_kJ", "kJ", "energy", AT(hazard_point, energy), .scale = J_TO_KJ},
+                                                  {.of = rate_figures, .offset = offsetof(struct ceduo_hazard_point, rate)},
                                                   END};
 
 static const struct ceduo_figure returns[] = {

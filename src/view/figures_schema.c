@@ -123,7 +123,7 @@ void ceduo_figures_schema(struct text *text, const char *format, const struct ce
     ceduo_json_string(&j, "$id", ceduo_text_string(&id));
     write_object(&j, figures, false, row);
     ceduo_json_close(&j, '}');
-    ceduo_text_char(text, '\n');
+    ceduo_text_append_char(text, '\n');
 }
 
 /* ---- columns ---- */
@@ -159,7 +159,7 @@ static void add_columns(struct text *rows, const struct ceduo_figure *f, const s
             append_path(rows, group);
             ceduo_text_append(rows, f->key);
             if (heads)
-                ceduo_text_char(rows, ',');
+                ceduo_text_append_char(rows, ',');
             else
                 ceduo_text_format(rows, "\t%s\t%s\t%s\t%s\n", types[f->value ? f->value->kind : CEDUO_VALUE_TEXT],
                                   unit[0] ? unit : "-", null ? null : "-", f->meaning);

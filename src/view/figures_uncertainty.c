@@ -52,8 +52,8 @@ static bool enter_first(struct ceduo_place *p, size_t i)
     if (!a)
         return false;
     const struct ceduo_uncertainty_figure *f =
-        ceduo_uncertainty_find_figure(a, ceduo_uncertainty_chosen(p->uncertainty), a->main, false);
-    size_t input = ceduo_uncertainty_advised(p->uncertainty, f, i);
+        ceduo_uncertainty_find_figure(a, ceduo_uncertainty_advised_option(p->uncertainty), a->main, false);
+    size_t input = ceduo_uncertainty_advised_input(p->uncertainty, f, i);
     p->figure = (size_t)(f - a->figures);
     p->input = input == SIZE_MAX ? 0 : input;
     return input != SIZE_MAX;
@@ -110,7 +110,7 @@ static void say_paths(const struct ceduo_place *p, ceduo_sentence_sink *say, voi
         say(context, own ? input->path : ceduo_input_path(p->uncertainty->file, input->places[i]));
 }
 
-VALUE(input_measured, place, TEXT, WORD(ceduo_uncertainty_measured(o->uncertainty, o->input)))
+VALUE(input_measured, place, TEXT, WORD(ceduo_uncertainty_measured_by(o->uncertainty, o->input)))
 VALUE(input_lo, place, ANY, end_of(o, 0))
 VALUE(input_hi, place, ANY, end_of(o, 1))
 VALUE(input_at_lo, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][0])))

@@ -57,7 +57,7 @@ void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *c
         const char *head = columns[i].head && columns[i].head[0] ? ceduo_translate_in(columns[i].head) : "";
         size_t brief = strcspn(head, "|");
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
-        ceduo_text_add(&cell->text, head, brief);
+        ceduo_text_append_n(&cell->text, head, brief);
         ceduo_text_append(&cell->written, head + brief + (head[brief] != '\0'));
     }
 }

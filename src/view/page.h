@@ -36,19 +36,19 @@ struct ceduo_page_column {
     const char *head; /* marked for translation, "short|written out"; NULL: the page's own, see ceduo_page_head() */
     int width;        /* in characters; negative: set to the right; 0: the last, as wide as it comes */
     int gap;          /* blanks before it */
-    unsigned flags;   /* and CEDUO_DROPPED() */
+    unsigned flags;   /* and COL_PRIORITY() */
 };
 
 enum ceduo_page_flag {
-    CEDUO_WHOLE = 1 << 1, /* never cut: the row goes on in a line below */
-    CEDUO_FITS = 1 << 2,  /* as wide as its widest cell, and no less than its width */
-    CEDUO_FILLS = 1 << 3, /* at least its width, and what the others leave: a text that is longer loses its middle, as names
+    COL_WRAP = 1 << 1,   /* never cut: the row goes on in a line below */
+    COL_SHRINK = 1 << 2, /* as wide as its widest cell, and no less than its width */
+    COL_GROW = 1 << 3,   /* at least its width, and what the others leave: a text that is longer loses its middle, as names
                            * often differ at their ends; a bar is so long */
 };
 
-/* Columns without room are left out, the highest rank first: from CEDUO_MINOR on, at most 9, before names are cut. */
-#define CEDUO_DROPPED(rank) ((unsigned)(rank) << 8)
-#define CEDUO_MINOR         7
+/* Columns without room are left out, the highest rank first: from COL_MINOR on, at most 9, before names are cut. */
+#define COL_PRIORITY(rank) ((unsigned)(rank) << 8)
+#define COL_MINOR          7
 
 enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_BAR };
 

@@ -36,7 +36,7 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
                           withstands);
     else
         ceduo_text_format(&limited, _("%s m (limit %s kJ)"), SHORTEST(place_of(r)->x_given), withstands);
-    struct ceduo_window window = ceduo_window_in(r->scene);
+    struct ceduo_window window = ceduo_scene_window(r->scene);
     unsigned years = window.kind == CEDUO_WINDOW_AHEAD ? window.last : 0;
     if (n == 1 && accepted && years > 0)
         ceduo_text_format(text,
@@ -76,8 +76,8 @@ static void append_keepers(struct text *text, const struct ceduo_report *report,
     LOCAL_TEXT(open);
     append_judged(&keepers, report, today, CEDUO_YES);
     append_judged(&open, report, today, CEDUO_DEPENDS);
-    ceduo_text_char(text, ' ');
-    ceduo_append_with(text, sentence, ceduo_text_string(&keepers));
+    ceduo_text_append_char(text, ' ');
+    ceduo_text_append_with(text, sentence, ceduo_text_string(&keepers));
     if (strcmp(ceduo_text_string(&open), _("none")) != 0)
         ceduo_text_append_joined(text, " ", _("It depends on uncertain inputs for %s."), ceduo_text_string(&open));
 }
@@ -92,7 +92,7 @@ static void answer_many(struct ceduo_page *page, const struct ceduo_report *repo
     if (!v->accepted || !v->wooded)
         return;
     bool blocks = report->result->scene->blocks_count > 0;
-    if (ceduo_report_ahead(report, 0))
+    if (ceduo_report_years_ahead(report, 0))
         append_keepers(text, report, false,
                        blocks ? _("Within the limit over these years: %s.") : _("Within the limit in every year: %s."));
     else
@@ -115,7 +115,7 @@ size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdic
 /* Below the answer over years: "mean 190 ±9 of 1000, worst 489 in year 1; today 31 (YES)". */
 static void say_mean(struct ceduo_page *page, const struct ceduo_subject *s)
 {
-    const struct ceduo_choice *c = ceduo_report_ahead(s->report, 0);
+    const struct ceduo_choice *c = ceduo_report_years_ahead(s->report, 0);
     if (!c || c->over->simulated == 0)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
@@ -126,7 +126,7 @@ static void say_mean(struct ceduo_page *page, const struct ceduo_subject *s)
                       1000 * c->worst.mean, c->over->worst_year);
     ceduo_text_format(text, _("; today %s"), VALUE_OF(s->today));
     if (s->outcome.today != CEDUO_UNANSWERED)
-        ceduo_text_format(text, " (%s)", ceduo_words_decided(s->outcome.today));
+        ceduo_text_format(text, " (%s)", ceduo_words_judgement_name(s->outcome.today));
 }
 
 void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *report)
@@ -136,7 +136,7 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
     if (r->scene->controls_count == 0)
         return;
     if (ceduo_page_is_unassessable(r)) /* neither error changes that */
-        ceduo_words_nothing(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, r->last_control);
+        ceduo_words_too_few_arrivals(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, r->last_control);
     else if (n > 1 && !r->wooded)
         ceduo_text_append(ceduo_page_add(page, CEDUO_PAGE_ANSWER), _(ceduo_words_by_index));
     else if (n > 1 && report->verdict)
@@ -196,7 +196,7 @@ static void say_uncertainty(struct text *text, const struct ceduo_report *report
     if (!uncertainty || !uncertainty->answer) {
         ceduo_text_append_joined(text, " ", "%s.",
                                  uncertainty && (ceduo_uncertainty_is_off(uncertainty) || uncertainty->inputs->n == 0)
-                                     ? ceduo_uncertainty_none(uncertainty)
+                                     ? ceduo_uncertainty_missing_reason(uncertainty)
                                  : uncertainty && uncertainty->too_much
                                      ? _("Uncertainty was not computed, because it takes long; --sensitivity computes it")
                                      : _("Uncertainty was not computed"));
@@ -206,18 +206,18 @@ static void say_uncertainty(struct text *text, const struct ceduo_report *report
         ceduo_text_append_joined(text, " ", _("Uncertain inputs: %s."), SPAN(m, m.may_lo, m.may_hi));
     }
     if (uncertainty->answer->orders_count > 0) {
-        ceduo_text_char(text, ' ');
+        ceduo_text_append_char(text, ' ');
         ceduo_uncertainty_order_words(text, uncertainty, 0); /* how sure the best option is */
     }
     const struct ceduo_uncertainty_result *a = uncertainty->answer;
-    ceduo_uncertainty_advice(text, uncertainty,
-                             ceduo_uncertainty_find_figure(a, ceduo_uncertainty_chosen(uncertainty), a->main, false), 1);
+    ceduo_uncertainty_advice(
+        text, uncertainty, ceduo_uncertainty_find_figure(a, ceduo_uncertainty_advised_option(uncertainty), a->main, false), 1);
     LOCAL_TEXT(points);
     ceduo_uncertainty_points(&points, uncertainty);
     ceduo_text_append_joined(text, points.length > 0 ? " " : "", "%s", ceduo_text_string(&points));
 }
 
-void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)
+void ceduo_page_certainty(struct ceduo_page *page, const struct ceduo_report *report)
 {
     if (ceduo_page_is_unassessable(report->result))
         return;
@@ -228,7 +228,7 @@ void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)
 
 /* ---- over the years ---- */
 
-void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
+void ceduo_page_over_time(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && v->n == 1 ? &v->choices[0] : NULL; /* of several a table says it */
@@ -243,7 +243,7 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
     ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->over->years), c->over->years);
-    ceduo_text_char(text, '\t');
+    ceduo_text_append_char(text, '\t');
     ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), WRITTEN(c->worst.mean, 3),
                       c->over->worst_year, c->over->unprotected_contact, c->over->years);
 }
@@ -265,7 +265,7 @@ void ceduo_page_free_run(struct ceduo_page *page, double share)
     ceduo_page_cell_format(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MAX));
 }
 
-void ceduo_page_yes(struct ceduo_page *page, bool yes)
+void ceduo_page_yes_no(struct ceduo_page *page, bool yes)
 {
     ceduo_page_cell_role(page, yes ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, yes ? _("yes") : _("NO"));
 }

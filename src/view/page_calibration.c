@@ -75,13 +75,13 @@ void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration_r
         LOCAL_TEXT(places);
         ceduo_text_join(&places, input->places, input->places_count, " ");
         ceduo_text_append(text, i > 0 ? "," : "");
-        ceduo_text_csv(text, places.length > 0 ? places.bytes : input->path);
+        ceduo_text_append_csv(text, places.length > 0 ? places.bytes : input->path);
     }
-    ceduo_text_char(text, '\n');
+    ceduo_text_append_char(text, '\n');
     for (size_t k = 0; k < a->draws_count; k++) {
         for (size_t i = 0; i < a->parameters_count; i++)
-            ceduo_text_format(text, "%s%s", i > 0 ? "," : "", NUMERAL(a->draws[k * a->parameters_count + i]));
-        ceduo_text_char(text, '\n');
+            ceduo_text_format(text, "%s%s", i > 0 ? "," : "", ROUNDTRIP(a->draws[k * a->parameters_count + i]));
+        ceduo_text_append_char(text, '\n');
     }
 }
 
@@ -90,7 +90,7 @@ void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration_r
 static void append_range(struct text *t, double lo, double hi)
 {
     if (isnan(lo) || isnan(hi))
-        ceduo_text_char(t, '-');
+        ceduo_text_append_char(t, '-');
     else
         ceduo_text_format(t, "%s\xe2\x80\x93%s", WRITTEN(lo, 3), WRITTEN(hi, 3));
 }

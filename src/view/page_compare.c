@@ -16,39 +16,39 @@
 
 /* Name, head, width, flags. BAR is a bar of the column after it. */
 #define COLUMN_LIST(X)                                                                                                         \
-    X(NAME, N_("option"), 10, CEDUO_FILLS)                                                                                     \
-    X(BAR, "", 6, CEDUO_FILLS | CEDUO_DROPPED(5))                                                                              \
-    X(TODAY, NULL, -5, CEDUO_FITS)                                                                                             \
-    X(RANGE, NP_("head", "range"), -5, CEDUO_FITS | CEDUO_DROPPED(5))                                                          \
-    X(TO_FIRST, NP_("head", "to first|difference to the first option"), -8, CEDUO_FITS)                                        \
-    X(ENERGY, NP_("light", "E|test of energy"), 1, CEDUO_FITS | CEDUO_DROPPED(6))                                              \
-    X(MEAN_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, CEDUO_FITS)                                    \
-    X(ADC, N_("ADC m|ADC of the worst belt, m"), -5, CEDUO_FITS)                                                               \
-    X(CONTACT, NP_("light", "C|test of contact"), 1, CEDUO_FITS | CEDUO_DROPPED(6))                                            \
-    X(MEET_NONE, NP_("head", "free run|chance of a free run"), -7, CEDUO_FITS)                                                 \
-    X(FREE_RUN, NP_("light", "F|test of free runs"), 1, CEDUO_FITS | CEDUO_DROPPED(6))                                         \
-    X(PER_100M, N_("kJ/100 m|taken per 100 m, kJ"), -5, CEDUO_FITS)                                                            \
-    X(LEFT, NP_("head", "left kJ|energy left, kJ"), -5, CEDUO_FITS)                                                            \
-    X(MEAN, N_("mean"), -5, CEDUO_FITS | CEDUO_DROPPED(1))                                                                     \
-    X(MEAN_RANGE, NP_("head", "range"), -5, CEDUO_FITS | CEDUO_DROPPED(5))                                                     \
-    X(WORST, NP_("head", "worst|in the worst year (which)"), -5, CEDUO_FITS | CEDUO_DROPPED(4))                                \
-    X(WORST_ADC, NP_("head", "worst ADC m|ADC in the worst year, m (which)"), -5, CEDUO_FITS | CEDUO_DROPPED(4))               \
-    X(FAIL, NULL, -4, CEDUO_FITS | CEDUO_DROPPED(2))                                                                           \
-    X(FAIL_CONTACT, NP_("head", "fail C|years in which contact fails"), -4, CEDUO_FITS | CEDUO_DROPPED(2))                     \
-    X(FAIL_FREE_RUN, NP_("head", "fail F|years in which free runs fail"), -4, CEDUO_FITS | CEDUO_DROPPED(2))                   \
-    X(FELLED, NP_("head", "m3/y|felled, m3 per ha and year"), -4, CEDUO_FITS | CEDUO_DROPPED(3))                               \
-    X(ROTATION, NP_("head", "rotation|mean over a whole rotation"), -5, CEDUO_FITS | CEDUO_DROPPED(5))                         \
-    X(STANDING, NP_("head", "m3/ha|standing, m3 per ha"), -4, CEDUO_FITS)                                                      \
-    X(MARK, "", 1, CEDUO_FITS | CEDUO_DROPPED(8))                                                                              \
-    X(YEARS, "", 1, CEDUO_FITS | CEDUO_DROPPED(9))                                                                             \
-    X(LAW, NP_("head", "law of the scene"), 7, CEDUO_FITS)                                                                     \
-    X(OTHER_LAW, NP_("head", "other law"), 7, CEDUO_FITS)                                                                      \
-    X(OTHER, N_("of 1000"), -5, CEDUO_FITS)                                                                                    \
-    X(OTHER_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, CEDUO_FITS)                                   \
-    X(APART, N_("today"), -5, CEDUO_FITS)                                                                                      \
-    X(WEAK, NP_("head", "% weak"), -6, CEDUO_FITS)                                                                             \
-    X(MEDIUM, NP_("head", "% medium"), -6, CEDUO_FITS)                                                                         \
-    X(STRONG, NP_("head", "% strong"), -6, CEDUO_FITS)                                                                         \
+    X(NAME, N_("option"), 10, COL_GROW)                                                                                        \
+    X(BAR, "", 6, COL_GROW | COL_PRIORITY(5))                                                                                  \
+    X(TODAY, NULL, -5, COL_SHRINK)                                                                                             \
+    X(RANGE, NP_("head", "range"), -5, COL_SHRINK | COL_PRIORITY(5))                                                           \
+    X(TO_FIRST, NP_("head", "to first|difference to the first option"), -8, COL_SHRINK)                                        \
+    X(ENERGY, NP_("light", "E|test of energy"), 1, COL_SHRINK | COL_PRIORITY(6))                                               \
+    X(MEAN_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, COL_SHRINK)                                    \
+    X(ADC, N_("ADC m|ADC of the worst belt, m"), -5, COL_SHRINK)                                                               \
+    X(CONTACT, NP_("light", "C|test of contact"), 1, COL_SHRINK | COL_PRIORITY(6))                                             \
+    X(MEET_NONE, NP_("head", "free run|chance of a free run"), -7, COL_SHRINK)                                                 \
+    X(FREE_RUN, NP_("light", "F|test of free runs"), 1, COL_SHRINK | COL_PRIORITY(6))                                          \
+    X(PER_100M, N_("kJ/100 m|taken per 100 m, kJ"), -5, COL_SHRINK)                                                            \
+    X(LEFT, NP_("head", "left kJ|energy left, kJ"), -5, COL_SHRINK)                                                            \
+    X(MEAN, N_("mean"), -5, COL_SHRINK | COL_PRIORITY(1))                                                                      \
+    X(MEAN_RANGE, NP_("head", "range"), -5, COL_SHRINK | COL_PRIORITY(5))                                                      \
+    X(WORST, NP_("head", "worst|in the worst year (which)"), -5, COL_SHRINK | COL_PRIORITY(4))                                 \
+    X(WORST_ADC, NP_("head", "worst ADC m|ADC in the worst year, m (which)"), -5, COL_SHRINK | COL_PRIORITY(4))                \
+    X(FAIL, NULL, -4, COL_SHRINK | COL_PRIORITY(2))                                                                            \
+    X(FAIL_CONTACT, NP_("head", "fail C|years in which contact fails"), -4, COL_SHRINK | COL_PRIORITY(2))                      \
+    X(FAIL_FREE_RUN, NP_("head", "fail F|years in which free runs fail"), -4, COL_SHRINK | COL_PRIORITY(2))                    \
+    X(FELLED, NP_("head", "m3/y|felled, m3 per ha and year"), -4, COL_SHRINK | COL_PRIORITY(3))                                \
+    X(ROTATION, NP_("head", "rotation|mean over a whole rotation"), -5, COL_SHRINK | COL_PRIORITY(5))                          \
+    X(STANDING, NP_("head", "m3/ha|standing, m3 per ha"), -4, COL_SHRINK)                                                      \
+    X(MARK, "", 1, COL_SHRINK | COL_PRIORITY(8))                                                                               \
+    X(YEARS, "", 1, COL_SHRINK | COL_PRIORITY(9))                                                                              \
+    X(LAW, NP_("head", "law of the scene"), 7, COL_SHRINK)                                                                     \
+    X(OTHER_LAW, NP_("head", "other law"), 7, COL_SHRINK)                                                                      \
+    X(OTHER, N_("of 1000"), -5, COL_SHRINK)                                                                                    \
+    X(OTHER_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, COL_SHRINK)                                   \
+    X(APART, N_("today"), -5, COL_SHRINK)                                                                                      \
+    X(WEAK, NP_("head", "% weak"), -6, COL_SHRINK)                                                                             \
+    X(MEDIUM, NP_("head", "% medium"), -6, COL_SHRINK)                                                                         \
+    X(STRONG, NP_("head", "% strong"), -6, COL_SHRINK)                                                                         \
     X(RETURN_1, NULL, -17, 0)                                                                                                  \
     X(RETURN_2, NULL, -17, 0)                                                                                                  \
     X(RETURN_3, NULL, -17, 0)
@@ -104,17 +104,17 @@ static bool has_rates(const struct ceduo_report *report)
     return report->result->scene->blocks_count > 0 && report->verdict && report->verdict->accepted;
 }
 
-__attribute__((format(printf, 2, 3))) static const char *print(char room[CEDUO_WORDS_ROOM], const char *format, ...)
+__attribute__((format(printf, 2, 3))) static const char *print(char room[CEDUO_WORDS_SIZE], const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    vsnprintf(room, CEDUO_WORDS_ROOM, format, args);
+    vsnprintf(room, CEDUO_WORDS_SIZE, format, args);
     va_end(args);
     return room;
 }
 
 /* The years at a glance: a block for each year, or for the worst of several; as high as what gets through. */
-static const char *glance_of(const struct ceduo_subject *s, char room[CEDUO_WORDS_ROOM])
+static const char *glance_of(const struct ceduo_subject *s, char room[CEDUO_WORDS_SIZE])
 {
     const struct ceduo_years *years = s->report->ahead ? s->report->ahead[s->option] : NULL;
     int n = years ? (int)years->count : 0, blocks = n < YEARS_MAX ? n : YEARS_MAX;
@@ -131,7 +131,7 @@ static const char *glance_of(const struct ceduo_subject *s, char room[CEDUO_WORD
     return room;
 }
 
-static const char *to_first(const struct ceduo_subject *s, char room[CEDUO_WORDS_ROOM])
+static const char *to_first(const struct ceduo_subject *s, char room[CEDUO_WORDS_SIZE])
 {
     const struct ceduo_estimate e = ceduo_share_to_first(s->report->result, s->option);
     if (ceduo_pairs_are_equal(&e))
@@ -196,26 +196,26 @@ static enum ceduo_light light_of(enum column column, const struct ceduo_subject 
 
 /* A share with its error, or in rates the years from one rock to the next. */
 static const char *share_of(struct ceduo_measure share, struct ceduo_estimate rate, bool rates, const char *unknown,
-                            char room[CEDUO_WORDS_ROOM])
+                            char room[CEDUO_WORDS_SIZE])
 {
     if (isnan(rates ? rate.mean : share.value))
         return unknown;
-    return rates ? ceduo_words_years(rate, room) : ceduo_measure_error(share, "", room);
+    return rates ? ceduo_words_return_period_range(rate, room) : ceduo_measure_error(share, "", room);
 }
 
-static const char *cell_of(enum column column, const struct ceduo_subject *s, char room[CEDUO_WORDS_ROOM])
+static const char *cell_of(enum column column, const struct ceduo_subject *s, char room[CEDUO_WORDS_SIZE])
 {
     const struct ceduo_choice *c = s->choice && s->choice->over->years > 0 ? s->choice : NULL;
-    const struct ceduo_hazard *h = ceduo_hazard_at(s->wooded);
+    const struct ceduo_hazard *h = ceduo_hazard_find(s->wooded);
     const char *unknown = s->report->busy && !c && s->index ? PENDING : "-";
     bool rates = has_rates(s->report), judged = c && !c->over->nothing;
     double left = h && column >= WEAK && column <= STRONG ? h->intensity[column - WEAK].left : NAN;
     switch (column) {
     case TODAY:
-        return rates && s->wooded ? ceduo_words_interval_years(ceduo_feared(s->wooded), room)
+        return rates && s->wooded ? ceduo_words_return_period(ceduo_judged_rate(s->wooded), room)
                                   : share_of(s->today, CEDUO_NO_ESTIMATE, false, unknown, room);
     case APART:
-        return share_of(s->today, ceduo_feared(s->wooded), true, unknown, room);
+        return share_of(s->today, ceduo_judged_rate(s->wooded), true, unknown, room);
     case RANGE:
         return isnan(s->today.may_lo) || !isnan(s->mean.may_lo) || rates ? "" : ceduo_measure_plausible_range(s->today, room);
     case MEAN:
@@ -226,7 +226,7 @@ static const char *cell_of(enum column column, const struct ceduo_subject *s, ch
         return !c || c->over->simulated == 0
                    ? unknown
                    : print(room, "%s (%u)",
-                           rates ? WRITTEN(1 / (c->worst.mean * ceduo_hazard_at(s->bare)->per_year), 2)
+                           rates ? WRITTEN(1 / (c->worst.mean * ceduo_hazard_find(s->bare)->per_year), 2)
                                  : WRITTEN(1000 * c->worst.mean, 0),
                            c->over->worst_year);
     case ROTATION:
@@ -235,7 +235,7 @@ static const char *cell_of(enum column column, const struct ceduo_subject *s, ch
         return c ? print(room, "%s (%u)", WRITTEN(c->worst.mean, 3), c->over->worst_year) : unknown;
     case FAIL:
         if (rates)
-            return ceduo_words_decision(s->outcome.answer, room);
+            return ceduo_words_judgement_mark(s->outcome.answer, room);
         return c && c->energy_known ? print(room, "%zu/%zu", c->over->unprotected_energy, c->over->years) : unknown;
     case FAIL_CONTACT:
         return judged ? print(room, "%zu/%zu", c->over->unprotected_contact, c->over->years) : unknown;
@@ -264,13 +264,13 @@ static const char *cell_of(enum column column, const struct ceduo_subject *s, ch
     case WEAK:
     case MEDIUM:
     case STRONG:
-        return isnan(left) ? _("none") : ceduo_words_shown(s->index ? 100 * left : 100, s->index ? 2 : 3, room);
+        return isnan(left) ? _("none") : ceduo_words_sig(s->index ? 100 * left : 100, s->index ? 2 : 3, room);
     case LEFT:
         if (s->index && s->index->exhausted)
             return _("used up");
-        return ceduo_words_shown(value_of(column, s), 3, room);
+        return ceduo_words_sig(value_of(column, s), 3, room);
     default:
-        return ceduo_words_shown(value_of(column, s), column == FELLED ? 2 : 3, room);
+        return ceduo_words_sig(value_of(column, s), column == FELLED ? 2 : 3, room);
     }
 }
 
@@ -321,13 +321,13 @@ static void add_row(struct ceduo_page *page, const enum column *set, const struc
 {
     for (size_t i = 0; set[i]; i++) {
         enum column column = set[i];
-        char room[CEDUO_WORDS_ROOM] = "";
+        char room[CEDUO_WORDS_SIZE] = "";
         if (column == NAME)
             ceduo_page_cell_role(page, role, name);
         else if (column == BAR)
             add_bar(page, set[i + 1], s, scales[i].limit);
         else if (column >= RETURN_1)
-            ceduo_page_return(page, ceduo_hazard_at(s->wooded), (size_t)(1 + column - RETURN_1));
+            ceduo_page_return(page, ceduo_hazard_find(s->wooded), (size_t)(1 + column - RETURN_1));
         else if (!s->index && !(column == TODAY || column == MEAN_KJ || column == LEFT || column >= APART))
             ceduo_page_cell_format(page, "%s", "");
         else
@@ -428,7 +428,7 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
 void ceduo_page_shares(struct ceduo_page *page, const struct ceduo_report *report, bool years)
 {
     const struct ceduo_control *c = last_control(report->result);
-    const struct ceduo_choice *ahead = years ? ceduo_report_ahead(report, 0) : NULL;
+    const struct ceduo_choice *ahead = years ? ceduo_report_years_ahead(report, 0) : NULL;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     const char *name = NAMED(ceduo_measure_exceeding(c, NULL), CEDUO_SHORT_HEAD), *place = SHORTEST(c->x_given);
     if (has_rates(report))
@@ -466,7 +466,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (!v)
         return;
     bool known = false;
-    if (ceduo_report_ahead(report, 0)) {
+    if (ceduo_report_years_ahead(report, 0)) {
         ceduo_page_para(page, CEDUO_PAGE_CAPTION, _("Over years %u to %u, counted from today:"), v->choices[0].window.first,
                         v->choices[0].window.last);
         ceduo_page_options(page, report, CEDUO_OPTIONS_YEARS, r->last_control, SIZE_MAX, 0, SIZE_MAX);
@@ -495,11 +495,11 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     double felled = ceduo_years_felled(years);
-    ceduo_words_years_sum(line, r, years);
+    ceduo_words_years_summary(line, r, years);
     if (felled > 0)
         ceduo_text_append_joined(line, " ", _("Felled: %g m of forest along the slope."), felled);
     if (r->scene->options_count < 2) { /* otherwise it stands below the table of all */
-        ceduo_text_char(line, ' ');
+        ceduo_text_append_char(line, ' ');
         ceduo_words_year_numbering(line, years->rocks);
     }
 }
@@ -514,8 +514,8 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_text_cut(&page->last->cells[0].text, 0);
     ceduo_text_append(&page->last->cells[0].text, _("year"));
     for (const struct ceduo_year *y = years->years; y < years->years + years->count; y++) {
-        char name[CEDUO_WORDS_ROOM];
-        const struct ceduo_subject s = ceduo_subject_in(report, option, y);
+        char name[CEDUO_WORDS_SIZE];
+        const struct ceduo_subject s = ceduo_subject_find_year(report, option, y);
         add_row(page, set, &s, NULL, CEDUO_ROLE_TEXT, print(name, "%4u %s", y->year, y->cut ? P_("head", "cut") : ""));
     }
     ceduo_page_trim(page);
@@ -524,7 +524,7 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
 
 #define BESIDE_MAX 8 /* options in one table */
 
-void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report)
+void ceduo_page_years_all_options(struct ceduo_page *page, const struct ceduo_report *report)
 {
     static const struct ceduo_page_column beside[1 + BESIDE_MAX] = {{N_("year"), 15, 2, 0}, {"", -7, 0, 0}, {"", -7, 0, 0},
                                                                     {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0},
@@ -558,7 +558,7 @@ void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report 
         struct text *names = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
         for (size_t i = from; i < to; i++)
             ceduo_text_format(names, i == from ? "%zu %s" : ", %zu %s", i + 1, r->scene->options[i].name);
-        ceduo_text_char(names, '.');
+        ceduo_text_append_char(names, '.');
     }
 }
 

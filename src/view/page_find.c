@@ -31,13 +31,13 @@ void ceduo_find_reliable(struct text *text, const struct ceduo_search *s, const 
                          const struct field *field)
 {
     const struct ceduo_found *f = &sure->found;
-    char room[CEDUO_NUMBER_ROOM], from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE], from[CEDUO_NUMBER_SIZE], to[CEDUO_NUMBER_SIZE];
     double wanted = sure->sure * 100, reached = sure->share.value * 100, error = 196 * sure->share.se;
     if (sure->inputs == 0)
         ceduo_text_append(text, _("no other input is uncertain: the result holds if the scene does"));
     else if (!f->found)
         ceduo_text_format(text, _("no value holds in %g %% of plausible cases; nearest: %s, in %.0f %% (\xc2\xb1%.0f)"), wanted,
-                          ceduo_shown_number(field, f->nearest, room), reached, error);
+                          ceduo_format_number(field, f->nearest, room), reached, error);
     else if (f->whole_range)
         ceduo_text_format(text, _("every value of the range holds in %g %% of plausible cases"), wanted);
     else
@@ -45,14 +45,14 @@ void ceduo_find_reliable(struct text *text, const struct ceduo_search *s, const 
                           isnan(sure->lo) ? _("in %g %% of plausible cases: %s (reaches the goal in %.0f %%, \xc2\xb1%.0f)")
                                           : _("in %g %% of plausible cases: %s (reaches the goal in %.0f %%, \xc2\xb1%.0f; "
                                               "with this error the value is %s to %s)"),
-                          wanted, ceduo_shown_number(field, shown(s, f), room), reached, error,
-                          ceduo_shown_number(field, sure->lo, from), ceduo_shown_number(field, sure->hi, to));
+                          wanted, ceduo_format_number(field, shown(s, f), room), reached, error,
+                          ceduo_format_number(field, sure->lo, from), ceduo_format_number(field, sure->hi, to));
 }
 
 void ceduo_find_words(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f, const struct field *field,
                       bool wanted)
 {
-    char room[CEDUO_NUMBER_ROOM], most[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE], most[CEDUO_NUMBER_SIZE];
     const struct ceduo_goal_row *row = &ceduo_goals[s->goal];
     LOCAL_TEXT(goal);
     append_goal(&goal, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest, s->target);
@@ -63,10 +63,10 @@ void ceduo_find_words(struct text *text, const struct ceduo_search *s, const str
                                                       : _("the largest value that reaches the goal: %s"),
                           goal.bytes);
     else
-        ceduo_text_format(text, _("no value from %s to %s reaches the goal"), ceduo_shown_number(field, s->lo, room),
-                          ceduo_shown_number(field, s->hi, most));
+        ceduo_text_format(text, _("no value from %s to %s reaches the goal"), ceduo_format_number(field, s->lo, room),
+                          ceduo_format_number(field, s->hi, most));
     if (!f->found && !isnan(f->nearest))
-        ceduo_text_append_joined(text, "; ", _("nearest: %s, %s"), ceduo_shown_number(field, f->nearest, room), goal.bytes);
+        ceduo_text_append_joined(text, "; ", _("nearest: %s, %s"), ceduo_format_number(field, f->nearest, room), goal.bytes);
     if (wanted)
         ceduo_text_append_joined(text, " ", row->below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
                                  ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target, row->unit);
@@ -74,7 +74,7 @@ void ceduo_find_words(struct text *text, const struct ceduo_search *s, const str
 
 void ceduo_page_find(struct text *text, const struct ceduo_find_report *report)
 {
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     const struct ceduo_search *s = report->search;
     const struct ceduo_found *f = report->found;
     LOCAL_TEXT(option);
@@ -89,19 +89,19 @@ void ceduo_page_find(struct text *text, const struct ceduo_find_report *report)
                              !s->rotation                  ? _("worst control")
                              : ceduo_goal_is_mean(s->goal) ? _("worst control, in the mean of the years ahead")
                                                            : _("worst control, in the worst of the years ahead"));
-    ceduo_text_char(text, '\n');
+    ceduo_text_append_char(text, '\n');
     if (report->yield && !isnan(report->yield->cut_per_year)) {
         ceduo_text_append_joined(text, "  ",
                                  _("yield: %.3g m\xc2\xb3 felled per hectare and year, %.3g m\xc2\xb3 standing per hectare"),
                                  report->yield->cut_per_year, report->yield->standing);
         if (!report->yield_depends)
             ceduo_text_append_joined(text, "; ", "%s", _("the same for every value of the range"));
-        ceduo_text_char(text, '\n');
+        ceduo_text_append_char(text, '\n');
     }
     if (s->sure > 0) {
         ceduo_text_append(text, "  ");
         ceduo_find_reliable(text, s, report->sure, NULL);
-        ceduo_text_char(text, '\n');
+        ceduo_text_append_char(text, '\n');
     }
     if (!f->monotone)
         ceduo_text_append_joined(text, "  ! ", "%s\n", _("not monotone: there may be other values"));

@@ -12,7 +12,7 @@
 /* Without forest (item 0) and through the forest of each option. NULL: not known. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_result *r, size_t item, size_t control)
 {
-    return ceduo_hazard_at(item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control));
+    return ceduo_hazard_find(item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control));
 }
 
 static const char *name_of(const struct ceduo_result *r, size_t item)
@@ -22,21 +22,21 @@ static const char *name_of(const struct ceduo_result *r, size_t item)
 
 /* ---- in words ---- */
 
-const char *ceduo_words_interval_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM])
+const char *ceduo_words_return_period(struct ceduo_estimate rate, char room[CEDUO_WORDS_SIZE])
 {
     if (isnan(rate.mean) || rate.mean > 0)
-        return ceduo_words_shown(1 / rate.mean, 2, room);
-    snprintf(room, CEDUO_WORDS_ROOM, "> %s", WRITTEN(1 / rate.hi, 2));
+        return ceduo_words_sig(1 / rate.mean, 2, room);
+    snprintf(room, CEDUO_WORDS_SIZE, "> %s", WRITTEN(1 / rate.hi, 2));
     return room;
 }
 
-const char *ceduo_words_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM])
+const char *ceduo_words_return_period_range(struct ceduo_estimate rate, char room[CEDUO_WORDS_SIZE])
 {
     const char *lo = WRITTEN(1 / rate.hi, 2), *hi = WRITTEN(1 / rate.lo, 2), *every = EVERY(rate);
     if (rate.mean > 0 && !(rate.lo > 0))
-        snprintf(room, CEDUO_WORDS_ROOM, "%s (> %s)", every, lo);
+        snprintf(room, CEDUO_WORDS_SIZE, "%s (> %s)", every, lo);
     else
-        snprintf(room, CEDUO_WORDS_ROOM, rate.mean > 0 && strcmp(lo, hi) != 0 ? "%s (%s\xe2\x80\x93%s)" : "%s", every, lo, hi);
+        snprintf(room, CEDUO_WORDS_SIZE, rate.mean > 0 && strcmp(lo, hi) != 0 ? "%s (%s\xe2\x80\x93%s)" : "%s", every, lo, hi);
     return room;
 }
 
@@ -69,7 +69,7 @@ void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *h, si
 static void add_square(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
     static const struct ceduo_page_column columns[] = {
-        {NP_("head", "intensity"), 26, 4, CEDUO_WHOLE}, {"", 15, 0, CEDUO_WHOLE}, {"", 15, 0, CEDUO_WHOLE}, {"", 0, 0, 0}};
+        {NP_("head", "intensity"), 26, 4, COL_WRAP}, {"", 15, 0, COL_WRAP}, {"", 15, 0, COL_WRAP}, {"", 0, 0, 0}};
     static const char *const rows[] = {N_("none arrives"), N_("weak, below 30 kJ"), N_("medium, 30 to 300 kJ"),
                                        N_("strong, above 300 kJ")};
     ceduo_page_para(page, CEDUO_PAGE_CAPTION, _("Intensity by return period, in the classes of Swiss practice (BAFU 2016):"));
@@ -93,7 +93,7 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
     for (size_t i = 0; i <= r->scene->options_count; i++)
         if (hazard_of(r, i, control))
             ceduo_text_format(names, i == 0 ? "%zu %s" : ", %zu %s", i, name_of(r, i));
-    ceduo_text_char(names, '.');
+    ceduo_text_append_char(names, '.');
 }
 
 /* ---- at each control ---- */

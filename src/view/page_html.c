@@ -22,7 +22,7 @@ static void put_escaped(struct text *to, const char *string)
         if (sign)
             ceduo_text_append(to, names[sign - signs]);
         else if (string[n])
-            ceduo_text_char(to, string[n]);
+            ceduo_text_append_char(to, string[n]);
     }
 }
 
@@ -35,19 +35,19 @@ static void begin(struct ceduo_html *html, const char *name, va_list args)
             continue;
         ceduo_text_format(html->text, " %s=\"", key);
         put_escaped(html->text, value);
-        ceduo_text_char(html->text, '"');
+        ceduo_text_append_char(html->text, '"');
     }
 }
 
 void ceduo_html_open(struct ceduo_html *html, const char *name, ...)
 {
     va_list args;
-    assert(html->depth < CEDUO_HTML_DEEPEST);
+    assert(html->depth < CEDUO_HTML_DEPTH_MAX);
     html->open[html->depth++] = name;
     va_start(args, name);
     begin(html, name, args);
     va_end(args);
-    ceduo_text_char(html->text, '>');
+    ceduo_text_append_char(html->text, '>');
 }
 
 void ceduo_html_close(struct ceduo_html *html)
@@ -71,7 +71,7 @@ void ceduo_html_leaf(struct ceduo_html *html, const char *name, const char *text
     va_start(args, text);
     begin(html, name, args);
     va_end(args);
-    ceduo_text_char(html->text, '>');
+    ceduo_text_append_char(html->text, '>');
     put_escaped(html->text, text);
     ceduo_text_format(html->text, "</%s>\n", name);
 }
@@ -134,7 +134,7 @@ void ceduo_page_html_begin(struct ceduo_html *html, const char *title)
     ceduo_text_append(html->text, "<!DOCTYPE html>\n");
     /* Translators: the code of your language, as HTML has it. */
     ceduo_html_open(html, "html", "lang", _("en"), NULL);
-    ceduo_text_char(html->text, '\n');
+    ceduo_text_append_char(html->text, '\n');
     ceduo_html_open(html, "head", NULL);
     ceduo_html_empty(html, "meta", "charset", "utf-8", NULL);
     ceduo_html_empty(html, "meta", "name", "viewport", "content", "width=device-width, initial-scale=1", NULL);
@@ -145,7 +145,7 @@ void ceduo_page_html_begin(struct ceduo_html *html, const char *title)
     ceduo_html_close(html);
     ceduo_html_open(html, "body", NULL);
     ceduo_html_open(html, "main", NULL);
-    ceduo_text_char(html->text, '\n');
+    ceduo_text_append_char(html->text, '\n');
 }
 
 void ceduo_page_html_end(struct ceduo_html *html)
@@ -212,7 +212,7 @@ static void write_block(struct ceduo_html *html, const struct ceduo_page_block *
         ceduo_html_leaf(html, "pre", text, "class", line && line[1] ? NULL : "line", NULL);
     } else if (block->kind == CEDUO_PAGE_FACT || block->kind == CEDUO_PAGE_POINT || block->kind == CEDUO_PAGE_HEAD) {
         LOCAL_TEXT(label);
-        ceduo_text_add(&label, text, strcspn(text, "\t"));
+        ceduo_text_append_n(&label, text, strcspn(text, "\t"));
         text += label.length + 1;
         ceduo_html_leaf(html, "dt", ceduo_text_string(&label), NULL);
         ceduo_html_leaf(html, "dd", text, "class", text[0] ? NULL : "line", NULL);
@@ -233,7 +233,7 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
                                     [CEDUO_PAGE_ANSWER] = {"div", "answer"}};
     size_t pictures = 0;
     ceduo_html_open(html, "section", NULL);
-    ceduo_text_char(html->text, '\n');
+    ceduo_text_append_char(html->text, '\n');
     for (const struct ceduo_page_block *b = page->first, *last = NULL; b; last = b, b = b->next) {
         const char *list = lists[b->kind].element;
         bool follows = last && last->kind == b->kind, goes_on = b->next && b->next->kind == b->kind;

@@ -11,8 +11,8 @@
  * becomes over the years. Nothing where no place is asked for, or nothing can be said. */
 void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *result);
 void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *report);
-void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report);
-void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_certainty(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_over_time(struct ceduo_page *page, const struct ceduo_report *report);
 /* The option that is best over the years, or today if they are not known; by the index the one whose stems take most. `verdict` may
  * be NULL. */
 size_t ceduo_result_best(const struct ceduo_result *result, const struct ceduo_verdict *verdict);
@@ -59,7 +59,7 @@ void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *hazar
  * each year; all options side by side, today and over the years. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
-void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_years_all_options(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
 
 /* The energy law of the scene against the other one; nothing where that is not known. */
@@ -71,7 +71,7 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
 /* What arrives at a control through the forest of a subject and, `with_bare`, without it: as many figures as a screen of so many lines
  * has room for, or all of them. */
 #define CEDUO_LINES_SHORT 17 /* of the short page */
-#define CEDUO_LINES_WHOLE 1000
+#define CEDUO_LINES_ALL   1000
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *subject, int lines, bool with_bare);
 
 /* The three tests of an option with their limits, and what the index says. */
@@ -94,7 +94,7 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
 /* Write the head of a column of the share that a control is judged by: "> 50 kJ", or "arrive" without an accepted energy. */
 void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *control);
 void ceduo_page_free_run(struct ceduo_page *page, double share);
-void ceduo_page_yes(struct ceduo_page *page, bool yes); /* yes, NO */
+void ceduo_page_yes_no(struct ceduo_page *page, bool yes); /* yes, NO */
 
 /* Adds a warning, or a note; the context is the page. */
 void ceduo_page_warn(void *page, const char *sentence);

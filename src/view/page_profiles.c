@@ -28,7 +28,7 @@ struct ceduo_profile {
 
 static int rank_of(enum ceduo_judgement judgement)
 {
-    static const int ranks[] = {[CEDUO_UNANSWERED] = 0,  [CEDUO_YES] = 1,     [CEDUO_NOTHING] = 2,
+    static const int ranks[] = {[CEDUO_UNANSWERED] = 0,  [CEDUO_YES] = 1,     [CEDUO_CANNOT_JUDGE] = 2,
                                 [CEDUO_NOT_DECIDED] = 3, [CEDUO_DEPENDS] = 4, [CEDUO_NO] = 5};
     return ranks[judgement];
 }
@@ -133,7 +133,7 @@ static void say_whole(struct ceduo_page *page, const struct ceduo_profiles *p, s
 
 void ceduo_profiles_page(struct ceduo_page *page, const struct ceduo_profiles *p)
 {
-    static const struct ceduo_page_column columns[] = {{N_("scene"), SCENE_WIDTH, 0, CEDUO_WHOLE},
+    static const struct ceduo_page_column columns[] = {{N_("scene"), SCENE_WIDTH, 0, COL_WRAP},
                                                        {NP_("head", "answer"), 0, 1, 0}};
     bool whole = p->count > 1 && is_one_place(p);
     CEDUO_PAGE_TABLE_OF(page, columns);

@@ -248,8 +248,8 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     ceduo_page_question(page, report->result);
     ceduo_page_answer(page, report);
     add_unknown(page, report);
-    ceduo_page_sure(page, report);
-    ceduo_page_over(page, report);
+    ceduo_page_certainty(page, report);
+    ceduo_page_over_time(page, report);
     add_slope(page, report);
     add_percentiles(page, report);
     if (several && controls) {

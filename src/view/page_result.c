@@ -70,7 +70,7 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
     if (!isnan(c->accepted))
         ceduo_text_append_joined(place, ", ", _("limit %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
                                  ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
-    ceduo_words_topography(place, ceduo_topography_at(&report->result->bare.arrivals[i]), false);
+    ceduo_words_topography(place, ceduo_topography_find(&report->result->bare.arrivals[i]), false);
 }
 
 /* A row: name, through the forest, without it; each shorter where its column is narrow. */
@@ -94,13 +94,13 @@ static void add_figure(struct ceduo_page *page, struct ceduo_measure wood, struc
 
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s, int lines, bool with_bare)
 {
-    enum { LOW = 15, MIN = 18, ALL = 24, WHOLE = CEDUO_LINES_WHOLE };
+    enum { LOW = 15, MIN = 18, ALL = 24, WHOLE = CEDUO_LINES_ALL };
     static const int least[CEDUO_P95_TOP] = {LOW, MIN, MIN, LOW, LOW, LOW, WHOLE, ALL, WHOLE, WHOLE};
     const struct ceduo_arrivals *wood = s->index ? s->wooded : NULL, *bare = with_bare ? s->bare : NULL;
-    bool whole = lines >= WHOLE, nothing = !whole && ceduo_too_few_arrivals(s->bare), blocks = ceduo_hazard_at(s->bare);
+    bool whole = lines >= WHOLE, nothing = !whole && ceduo_too_few_arrivals(s->bare), blocks = ceduo_hazard_find(s->bare);
     int width = page->width >= CEDUO_PAGE_WIDTH ? 18 : page->width >= PANE_WIDE ? 14 : 7;
     const struct ceduo_page_column columns[] = {
-        {N_("of 1000"), 13, 2, CEDUO_FILLS}, {"", -width, 0, 0}, {"", width == 14 ? -8 : -width, 0, 0}};
+        {N_("of 1000"), 13, 2, COL_GROW}, {"", -width, 0, 0}, {"", width == 14 ? -8 : -width, 0, 0}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *heads = page->last->cells;
     ceduo_text_append(&heads[1].text, _("with forest"));
@@ -114,8 +114,8 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
         add_row(page, (const char *const[3][2]){{"", _("  90 % range")}, {MAY_BE(s->today), ""}, {"", ""}});
     if (blocks && !nothing) /* what matters if blocks of all sizes come down */
         add_row(page, (const char *const[3][2]){{_("return period of such a rock, years"), _("years apart")},
-                                                {YEARS(ceduo_feared(wood)), EVERY(ceduo_feared(wood))},
-                                                {YEARS(ceduo_feared(bare)), EVERY(ceduo_feared(bare))}});
+                                                {YEARS(ceduo_judged_rate(wood)), EVERY(ceduo_judged_rate(wood))},
+                                                {YEARS(ceduo_judged_rate(bare)), EVERY(ceduo_judged_rate(bare))}});
     for (enum ceduo_measured what = 0; what < CEDUO_P95_TOP; what++) {
         const struct ceduo_measure through = ceduo_measured(what, wood), without = ceduo_measured(what, bare);
         bool any = through.value > 0 || without.value > 0, mean = what >= CEDUO_MEAN_KJ;
@@ -133,7 +133,7 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
 static void add_test(struct ceduo_page *page, const struct ceduo_subject *s, const char *limit, enum ceduo_light today,
                      size_t failing, bool known)
 {
-    const struct ceduo_choice *c = s->choice ? ceduo_report_ahead(s->report, s->option) : NULL;
+    const struct ceduo_choice *c = s->choice ? ceduo_report_years_ahead(s->report, s->option) : NULL;
     ceduo_page_cell_format(page, "%s", limit);
     ceduo_page_light(page, today);
     if (c && page->width < CEDUO_PAGE_WIDTH)
@@ -161,7 +161,7 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     const struct ceduo_index *index = s->index;
     const struct ceduo_scene *scene = s->report->result->scene;
     const struct ceduo_choice none = {0}, *c = s->choice ? s->choice : &none;
-    const struct ceduo_page_column columns[] = {{"", 11, 2, CEDUO_FILLS},
+    const struct ceduo_page_column columns[] = {{"", 11, 2, COL_GROW},
                                                 {"", page->width < CEDUO_PAGE_WIDTH ? -6 : -18, 0, 0},
                                                 {"", -7, 0, 0},
                                                 {"", 1, 1, 0},
@@ -202,7 +202,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *rep
     const struct ceduo_subject s = ceduo_subject_find(report, forest || !with_bare ? option : SIZE_MAX, control);
     const double *ends = report->result->options[option].wooded.ends.share;
     if (s.wooded || with_bare)
-        ceduo_page_arrivals(page, &s, CEDUO_LINES_WHOLE, with_bare);
+        ceduo_page_arrivals(page, &s, CEDUO_LINES_ALL, with_bare);
     const struct ceduo_measure wood = ceduo_measured(CEDUO_MEAN_KJ, s.wooded), bare = ceduo_measured(CEDUO_MEAN_KJ, s.bare);
     if (forest && wood.value - bare.value > hypot(wood.hi - wood.value, bare.hi - bare.value)) /* reads as harm */
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
@@ -222,7 +222,7 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
     for (size_t i = 0; i < 3; i++)
         ceduo_words_test(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control, i);
     if (r->options[option].others[control].known && r->options[option].others[control].stems)
-        ceduo_words_other(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
+        ceduo_words_alternative_law(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
 }
 
 /* ---- belts, by the index ---- */
@@ -231,13 +231,13 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
                       const struct ceduo_option_result *found)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("stand"), 10, 2, CEDUO_FILLS},
-        {NP_("head", "m|from, to, m"), 1, 1, CEDUO_FITS | CEDUO_DROPPED(3)},
-        {N_("ADC m|ADC, m"), -5, 1, CEDUO_FITS},
-        {NULL, -5, 1, CEDUO_FITS},
-        {NP_("head", "free run|chance of a free run"), -7, 1, CEDUO_FITS | CEDUO_DROPPED(4)},
-        {NP_("head", "kJ|energy taken, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
-        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(6)}};
+        {N_("stand"), 10, 2, COL_GROW},
+        {NP_("head", "m|from, to, m"), 1, 1, COL_SHRINK | COL_PRIORITY(3)},
+        {N_("ADC m|ADC, m"), -5, 1, COL_SHRINK},
+        {NULL, -5, 1, COL_SHRINK},
+        {NP_("head", "free run|chance of a free run"), -7, 1, COL_SHRINK | COL_PRIORITY(4)},
+        {NP_("head", "kJ|energy taken, kJ"), -5, 1, COL_SHRINK | COL_PRIORITY(5)},
+        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, COL_SHRINK | COL_PRIORITY(6)}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *head = ceduo_page_head(page);
     ceduo_text_format(&head->text, "<%s m", SHORTEST(scene->simulation.threshold));
@@ -386,10 +386,10 @@ static void add_percentiles(struct ceduo_page *page, const char *name, const str
 
 void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool bare)
 {
-    static const struct ceduo_page_column columns[] = {{NULL, 22, 4, CEDUO_WHOLE},
-                                                       {N_("50 %"), -18, 0, CEDUO_WHOLE},
-                                                       {N_("95 %"), -18, 0, CEDUO_WHOLE},
-                                                       {N_("99 %"), -18, 0, CEDUO_WHOLE}};
+    static const struct ceduo_page_column columns[] = {{NULL, 22, 4, COL_WRAP},
+                                                       {N_("50 %"), -18, 0, COL_WRAP},
+                                                       {N_("95 %"), -18, 0, COL_WRAP},
+                                                       {N_("99 %"), -18, 0, COL_WRAP}};
     const struct ceduo_arrivals *runs[] = {option < SIZE_MAX ? ceduo_result_wooded(r, option, control) : NULL,
                                            bare ? &r->bare.arrivals[control] : NULL};
     if (!runs[0] && !runs[1])
@@ -402,9 +402,9 @@ void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *
         CEDUO_PAGE_TABLE_OF(page, columns);
         ceduo_text_format(&ceduo_page_head(page)->text, i == 0 ? _("forest, %llu of %llu") : _("without, %llu of %llu"),
                           (unsigned long long)ceduo_reached(a), (unsigned long long)ceduo_released(a));
-        add_percentiles(page, _("speed, m/s"), ceduo_spread(CEDUO_SPREAD_SPEED, a), 1);
-        add_percentiles(page, _("energy, kJ"), ceduo_spread(CEDUO_SPREAD_ENERGY, a), J_TO_KJ);
-        add_percentiles(page, _("underside, m up"), ceduo_spread(CEDUO_SPREAD_HEIGHT, a), 1);
+        add_percentiles(page, _("speed, m/s"), ceduo_spread(CEDUO_ARRIVAL_SPEED, a), 1);
+        add_percentiles(page, _("energy, kJ"), ceduo_spread(CEDUO_ARRIVAL_ENERGY, a), J_TO_KJ);
+        add_percentiles(page, _("underside, m up"), ceduo_spread(CEDUO_ARRIVAL_HEIGHT, a), 1);
     }
 }
 
@@ -429,7 +429,7 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height of the block's top %s m."),
                         a == bare ? _("without forest") : _("with the forest of this option"),
-                        WRITTEN(ceduo_spread(CEDUO_SPREAD_SPEED, a)->p95 * speed, 3),
+                        WRITTEN(ceduo_spread(CEDUO_ARRIVAL_SPEED, a)->p95 * speed, 3),
                         WRITTEN(ceduo_measured(CEDUO_P95_KJ, a).value * energy, 3),
                         SHOWN(ceduo_measured(CEDUO_P95_TOP, a).value));
     ceduo_page_para(
@@ -502,7 +502,7 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     const struct ceduo_scene *scene = report->result->scene;
     const char *dot = strncmp(note->path, "options[", 8) == 0 ? strchr(note->path, '.') : NULL;
     size_t option = dot ? strtoul(note->path + 8, NULL, 10) : SIZE_MAX;
-    ceduo_shown_path(dot ? dot + 1 : note->path, &where);
+    ceduo_format_path(dot ? dot + 1 : note->path, &where);
     if (!places) { /* the value, and the first clause of its source */
         const char *what = ceduo_text_string(&where);
         ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s%s%.*s", (int)strcspn(what, ","), what, where.length > 0 ? ": " : "",
@@ -557,14 +557,14 @@ static void add_whole(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_facts(page, report);
     ceduo_page_question(page, report->result);
     ceduo_page_answer(page, report);
-    ceduo_page_sure(page, report);
-    ceduo_page_over(page, report);
+    ceduo_page_certainty(page, report);
+    ceduo_page_over_time(page, report);
     if (scene->options_count > 1) /* what they share */
         ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
     for (size_t k = 0; scene->options_count > 1 && k < scene->controls_count; k++) {
         const struct ceduo_subject bare = ceduo_subject_find(report, SIZE_MAX, k);
         add_place(page, report, k);
-        ceduo_page_arrivals(page, &bare, CEDUO_LINES_WHOLE, true);
+        ceduo_page_arrivals(page, &bare, CEDUO_LINES_ALL, true);
         if (report->result->bare.rocks > 0)
             ceduo_page_percentiles(page, report->result, SIZE_MAX, k, true);
     }
@@ -577,7 +577,7 @@ static void add_whole(struct ceduo_page *page, const struct ceduo_report *report
     for (size_t c = 0; c < scene->controls_count; c++)
         ceduo_page_hazard(page, report, c, c == 0);
     if (report->years && scene->options_count > 1 && scene->controls_count > 0)
-        ceduo_page_years_beside(page, report);
+        ceduo_page_years_all_options(page, report);
     ceduo_page_notes(page, report);
 }
 

@@ -87,7 +87,7 @@ static void add_rule(struct ceduo_page *page, double is, item *asked, bool met, 
     if (!asked || isnan(is))
         ceduo_page_cell_format(page, "-");
     else
-        ceduo_page_yes(page, met);
+        ceduo_page_yes_no(page, met);
 }
 
 static void add_source(struct text *sources, item *asked)
@@ -103,8 +103,8 @@ static void add_source(struct text *sources, item *asked)
 void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("stand"), 26, 2, CEDUO_WHOLE}, {N_("standards/ha"), -13, 0, 0}, {N_("asked for"), -13, 0, 0}, {N_("kept"), 5, 1, 0},
-        {N_("rotation, y"), -12, 0, 0},    {N_("asked for"), -13, 0, 0},    {N_("kept"), 0, 1, 0}};
+        {N_("stand"), 26, 2, COL_WRAP}, {N_("standards/ha"), -13, 0, 0}, {N_("asked for"), -13, 0, 0}, {N_("kept"), 5, 1, 0},
+        {N_("rotation, y"), -12, 0, 0}, {N_("asked for"), -13, 0, 0},    {N_("kept"), 0, 1, 0}};
     const struct ceduo_regulation *rules = NULL;
     LOCAL_TEXT(sources);
     LOCAL_TEXT(note);

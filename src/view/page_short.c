@@ -47,7 +47,7 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     const struct ceduo_result *r = report->result;
     size_t n = r->scene->options_count;
     if (report->uncertainty && report->uncertainty->answer)
-        ceduo_uncertainty_outside(report->uncertainty, ceduo_page_warn_once, notes);
+        ceduo_uncertainty_warn_outside(report->uncertainty, ceduo_page_warn_once, notes);
     ceduo_words_thin_stems(r, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_rules(notes, r, i, false);
@@ -60,7 +60,7 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
         struct text *points = ceduo_page_add(notes, CEDUO_PAGE_WARNING);
         ceduo_text_append(points, _("Profile: "));
         ceduo_words_points(points, &r->scene->slope);
-        ceduo_text_char(points, '.');
+        ceduo_text_append_char(points, '.');
     }
 }
 
@@ -134,8 +134,8 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
         if (stems)
             ceduo_page_tests(page, &s, CEDUO_LINES_SHORT);
     }
-    ceduo_page_sure(page, report);
-    ceduo_page_over(page, report);
+    ceduo_page_certainty(page, report);
+    ceduo_page_over_time(page, report);
     size_t shared = LINES_SHARED + (r->scene->blocks_count > 0 ? LINES_BLOCKS : 0);
     bool noted = add_rest(page, report, n > 1 ? shared + LINES_OPTION * n : LINES);
     for (size_t i = 0; report->years && !nothing && i < n; i++) { /* they were asked for */
@@ -143,7 +143,7 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
         ceduo_page_years(page, report, i);
     }
     if (report->years && !nothing && n > 1)
-        ceduo_page_years_beside(page, report);
+        ceduo_page_years_all_options(page, report);
     ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_POINT, _("MORE")), "--details%s, --sensitivity, --report page.html; %s",
                       noted ? "" : _(" (notes)"), noted ? _("as screens: ceduo SCENE") : _("or ceduo SCENE"));
 }

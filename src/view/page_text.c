@@ -87,7 +87,7 @@ static void end_line(struct printer *p)
         begin_piece(p, p->drawing->role, p->drawing->bar);
         p->drawing->column = 0;
     } else {
-        ceduo_text_char(p->text, '\n');
+        ceduo_text_append_char(p->text, '\n');
     }
     p->line++;
 }
@@ -103,7 +103,7 @@ void ceduo_page_powers(struct text *text, const char *string)
         if (ceduo_is_power(string, at))
             ceduo_text_append(text, *at == '2' ? "\xc2\xb2" : "\xc2\xb3");
         else
-            ceduo_text_char(text, *at);
+            ceduo_text_append_char(text, *at);
     }
 }
 
@@ -162,7 +162,7 @@ static void print_wrapped(struct printer *p, const char *string, size_t column, 
             end_line(p);
             append_blanks(p->text, indent);
         }
-        ceduo_text_add(p->text, at, n);
+        ceduo_text_append_n(p->text, at, n);
         column = indent;
     }
 }
@@ -177,7 +177,7 @@ static void print_paragraph(struct printer *p, const struct ceduo_page_block *bl
     margin = margin > MARGIN ? MARGIN : margin;
     indent -= margin;
     ceduo_text_append(&first, begin + margin);
-    ceduo_text_add(&first, text, label);
+    ceduo_text_append_n(&first, text, label);
     size_t column = ceduo_utf8_width(ceduo_text_string(&first));
     if (label > 0) {
         append_blanks(&first, column < indent ? indent - column : 2);
@@ -211,7 +211,7 @@ static void print_padded(struct printer *p, const char *string, int width, bool 
         while (ceduo_utf8_width(end) > tail)
             end += ceduo_utf8_step(end);
         size_t n = ceduo_utf8_cut(string, want - 1 - ceduo_utf8_width(end));
-        ceduo_text_add(p->text, string, n);
+        ceduo_text_append_n(p->text, string, n);
         ceduo_text_append(p->text, p->plain ? "~" : "\xe2\x80\xa6");
         ceduo_text_append(p->text, end);
         have = ceduo_utf8_char_width(string, n) + 1 + ceduo_utf8_width(end);
@@ -258,7 +258,7 @@ static void write_cell(const struct printer *p, struct text *to, const struct ce
     else
         append_safe(p, to, ceduo_text_string(&cell->text));
     if (cell->kind != CEDUO_CELL_TEXT && to->bytes)
-        ceduo_number_spoken(to->bytes);
+        ceduo_number_localize(to->bytes);
     if (cell->shorter.length > 0 && !fits(to, width)) {
         ceduo_text_free(to);
         append_safe(p, to, ceduo_text_string(&cell->shorter));
@@ -281,19 +281,19 @@ static void print_cell(struct printer *p, const struct ceduo_page_column *column
         append_blanks(p->text, (size_t)width);
         return;
     }
-    size_t room = (size_t)abs(width) + ((column->flags & (CEDUO_FITS | CEDUO_FILLS)) != 0);
+    size_t room = (size_t)abs(width) + ((column->flags & (COL_SHRINK | COL_GROW)) != 0);
     write_cell(p, &text, cell, room);
     if (p->width >= CEDUO_PAGE_WIDE && !p->drawing && cell->written.length > 0 && (width == 0 || fits(&cell->written, room))) {
         ceduo_text_free(&text);
         append_safe(p, &text, cell->written.bytes);
     }
     begin_piece(p, cell->role ? cell->role : role, NULL);
-    if ((column->flags & CEDUO_WHOLE) && !fits(&text, room)) {
+    if ((column->flags & COL_WRAP) && !fits(&text, room)) {
         print_wrapped(p, ceduo_text_string(&text), (size_t)gap, (size_t)gap);
         end_line(p);
         append_blanks(p->text, (size_t)(gap + width));
     } else {
-        print_padded(p, ceduo_text_string(&text), width, column->flags & CEDUO_FILLS);
+        print_padded(p, ceduo_text_string(&text), width, column->flags & COL_GROW);
     }
 }
 
@@ -329,16 +329,16 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_page_column *c = &table->columns[i];
         int share = (int)p->width / 2; /* that a name may take of the page: rather it is cut than columns are left out */
-        natural[i] = c->flags & (CEDUO_FITS | CEDUO_FILLS) ? widest_cell(p, table, i, &has_bars[i]) : 0;
-        widths[i] = c->flags & CEDUO_FITS ? natural[i] : 0;
-        if (c->flags & CEDUO_FILLS && !has_bars[i])
+        natural[i] = c->flags & (COL_SHRINK | COL_GROW) ? widest_cell(p, table, i, &has_bars[i]) : 0;
+        widths[i] = c->flags & COL_SHRINK ? natural[i] : 0;
+        if (c->flags & COL_GROW && !has_bars[i])
             widths[i] = natural[i] < share ? natural[i] : share;
         widths[i] = widths[i] > abs(c->width) ? widths[i] : abs(c->width);
-        names += c->flags & CEDUO_FILLS ? widths[i] - abs(c->width) : 0; /* what they can be cut by */
+        names += c->flags & COL_GROW ? widths[i] - abs(c->width) : 0; /* what they can be cut by */
         rest -= gap_of(p, c, i) + widths[i];
     }
     for (size_t rank = 9; rest < 0 && rank > 0; rank--) {
-        bool dropped = rank >= CEDUO_MINOR || rest + names < 0;
+        bool dropped = rank >= COL_MINOR || rest + names < 0;
         for (size_t i = 0; i < n; i++)
             if (dropped && table->columns[i].flags >> 8 == rank) {
                 rest += gap_of(p, &table->columns[i], i) + widths[i];
@@ -350,7 +350,7 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
     for (size_t i = 0; i < n; i++) { /* names take what is missing, or what is left where there is no bar */
         int more = rest < natural[i] - widths[i] ? rest : natural[i] - widths[i],
             least = abs(table->columns[i].width) - widths[i];
-        if (!(table->columns[i].flags & CEDUO_FILLS) || widths[i] == 0 || has_bars[i] || (rest > 0 && bars > 0))
+        if (!(table->columns[i].flags & COL_GROW) || widths[i] == 0 || has_bars[i] || (rest > 0 && bars > 0))
             continue;
         more = more > least ? more : least;
         widths[i] += more;

@@ -22,7 +22,7 @@ bool ceduo_uncertainty_is_off(const struct ceduo_uncertainty_report *r)
     return ceduo_node_text(r->file->root, "uncertainty") != NULL;
 }
 
-const char *ceduo_uncertainty_none(const struct ceduo_uncertainty_report *r)
+const char *ceduo_uncertainty_missing_reason(const struct ceduo_uncertainty_report *r)
 {
     return ceduo_uncertainty_is_off(r) ? _("Uncertainty was not computed: the scene has 'uncertainty: none'")
                                        : _("Nothing in this scene is marked as assumed");
@@ -60,7 +60,7 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
         stand = ceduo_input_belt(&r->file->scene, input->places[k]) == belt ? stand : NULL;
     LOCAL_TEXT(material);
     if (strncmp(input->path, GROUND, sizeof GROUND - 1) == 0) {
-        ceduo_text_add(&material, ground, strcspn(ground, "]"));
+        ceduo_text_append_n(&material, ground, strcspn(ground, "]"));
         ceduo_text_format(text, ", %s", _(ceduo_text_string(&material)));
     } else if (stand && stand->name && input->kind != CEDUO_INPUT_WORDS) {
         ceduo_text_append(text, ", ");
@@ -88,7 +88,7 @@ void ceduo_uncertainty_input_end(struct text *text, const struct ceduo_uncertain
     const char *word;
     double value = ceduo_uncertainty_input_value(r, i, end, &word);
     if (word || !isnan(value))
-        ceduo_text_append(text, word ? word : ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0}));
+        ceduo_text_append(text, word ? word : ceduo_number_shortest(value, (char[CEDUO_NUMBER_SIZE]){0}));
 }
 
 /* A value, or a word, in the unit that people use, and short. */
@@ -96,7 +96,7 @@ static void append_value(struct text *text, const struct field *field, double va
 {
     value *= field->shown.per;
     if (word)
-        ceduo_shown_value(field, word, text);
+        ceduo_format_value(field, word, text);
     else if (!isnan(value)) /* 6.300 is 6300 in Italian */
         ceduo_text_append(text, fabs(value) < 1e4 ? ROUNDED(value, 4) : WRITTEN(value, 4));
 }
@@ -121,7 +121,7 @@ static bool is_outside(const struct ceduo_input *input, double value)
     return word || value < input->lo || value > input->hi;
 }
 
-void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *r, ceduo_sentence_sink *say, void *context)
+void ceduo_uncertainty_warn_outside(const struct ceduo_uncertainty_report *r, ceduo_sentence_sink *say, void *context)
 {
     for (size_t i = 0; i < r->inputs->n; i++) {
         const struct ceduo_input *input = &r->inputs->items[i];
@@ -154,7 +154,7 @@ static const struct range *range_of(const struct ceduo_uncertainty_report *r, co
     return ceduo_value_find(&r->file->scene, input->places[0], &v) ? ceduo_range_find(v.field) : NULL;
 }
 
-const char *ceduo_uncertainty_measured(const struct ceduo_uncertainty_report *r, size_t i)
+const char *ceduo_uncertainty_measured_by(const struct ceduo_uncertainty_report *r, size_t i)
 {
     const struct ceduo_input *input = &r->inputs->items[i];
     const struct range *range = range_of(r, input);
@@ -232,12 +232,12 @@ void ceduo_uncertainty_points(struct text *text, const struct ceduo_uncertainty_
  * what is not known leave open, to scale. */
 static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, bool bars, size_t first, size_t n)
 {
-    static const struct ceduo_page_column columns[] = {{NULL, 10, 2, CEDUO_FILLS},
-                                                       {"", 12, 1, CEDUO_FILLS},
-                                                       {"", -5, 1, CEDUO_FITS},
-                                                       {N_("sampling"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(2)},
-                                                       {N_("90 % range"), -5, 1, CEDUO_FITS},
-                                                       {N_("years fail"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(1)}};
+    static const struct ceduo_page_column columns[] = {{NULL, 10, 2, COL_GROW},
+                                                       {"", 12, 1, COL_GROW},
+                                                       {"", -5, 1, COL_SHRINK},
+                                                       {N_("sampling"), -5, 1, COL_SHRINK | COL_PRIORITY(2)},
+                                                       {N_("90 % range"), -5, 1, COL_SHRINK},
+                                                       {N_("years fail"), -5, 1, COL_SHRINK | COL_PRIORITY(1)}};
     const struct ceduo_scene *scene = &r->file->scene;
     const struct ceduo_measure judged = ceduo_measure_exceeding(&scene->controls[ceduo_scene_last_control(scene)], NULL);
     double end = 0; /* of the axis */
@@ -294,7 +294,7 @@ static void append_left(struct text *text, const struct ceduo_uncertainty_figure
     if (left > NOTHING_GAINED * (f->fit.p95 - f->fit.p5))
         ceduo_text_append(text, _("no gain"));
     else
-        ceduo_append_with(text, format, width.bytes);
+        ceduo_text_append_with(text, format, width.bytes);
 }
 
 static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_report *r,
@@ -341,7 +341,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
                         rest);
 }
 
-size_t ceduo_uncertainty_chosen(const struct ceduo_uncertainty_report *r)
+size_t ceduo_uncertainty_advised_option(const struct ceduo_uncertainty_report *r)
 {
     size_t chosen = SIZE_MAX;
     double least = INFINITY;
@@ -357,7 +357,7 @@ size_t ceduo_uncertainty_chosen(const struct ceduo_uncertainty_report *r)
 static bool is_advised(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f, size_t g)
 {
     const struct range *range = range_of(r, &r->inputs->items[g]);
-    return matters(f, g) && ceduo_uncertainty_measured(r, g) && !(range && range->research);
+    return matters(f, g) && ceduo_uncertainty_measured_by(r, g) && !(range && range->research);
 }
 
 /* True if one of the n inputs before it, which are advised, has the name of input i in the order of the figure. */
@@ -374,7 +374,8 @@ static bool is_named_before(const struct ceduo_uncertainty_report *r, const stru
     return named;
 }
 
-size_t ceduo_uncertainty_advised(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f, size_t n)
+size_t ceduo_uncertainty_advised_input(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f,
+                                       size_t n)
 {
     for (size_t i = 0; f->fit.enough && i < f->uses; i++)
         if (is_advised(r, f, f->order[i]) && !is_named_before(r, f, i) && n-- == 0)
@@ -385,11 +386,11 @@ size_t ceduo_uncertainty_advised(const struct ceduo_uncertainty_report *r, const
 void ceduo_uncertainty_advice(struct text *text, const struct ceduo_uncertainty_report *r,
                               const struct ceduo_uncertainty_figure *f, size_t most)
 {
-    for (size_t i = 0, g; i < most && (g = ceduo_uncertainty_advised(r, f, i)) != SIZE_MAX; i++) {
+    for (size_t i = 0, g; i < most && (g = ceduo_uncertainty_advised_input(r, f, i)) != SIZE_MAX; i++) {
         LOCAL_TEXT(name);
         ceduo_uncertainty_input_name(&name, r, g);
         ceduo_text_append_joined(text, text->length > 0 ? " " : "", i == 0 ? _("Measure first: %s (%s).") : _("Then: %s (%s)."),
-                                 ceduo_text_string(&name), _(ceduo_uncertainty_measured(r, g)));
+                                 ceduo_text_string(&name), _(ceduo_uncertainty_measured_by(r, g)));
     }
 }
 
@@ -480,8 +481,8 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     else
         ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"), place, c->x_given);
     add_options(page, r, false, 0, SIZE_MAX);
-    ceduo_uncertainty_outside(r, ceduo_page_warn, page);
-    size_t chosen = ceduo_uncertainty_chosen(r);
+    ceduo_uncertainty_warn_outside(r, ceduo_page_warn, page);
+    size_t chosen = ceduo_uncertainty_advised_option(r);
     const struct ceduo_uncertainty_figure *figure = ceduo_uncertainty_find_figure(r->answer, chosen, r->answer->main, false);
     add_inputs(page, r, figure);
     ceduo_page_add(page, CEDUO_PAGE_GAP);
@@ -526,7 +527,7 @@ void ceduo_uncertainty_page(struct text *text, const struct ceduo_uncertainty_re
     if (r->answer)
         ceduo_uncertainty_blocks(&page, r, true);
     else
-        ceduo_page_note(&page, ceduo_uncertainty_none(r));
+        ceduo_page_note(&page, ceduo_uncertainty_missing_reason(r));
     ceduo_page_print(text, &page, plain);
 }
 
@@ -550,7 +551,7 @@ static int add_option_bars(struct ceduo_page *page, const struct ceduo_uncertain
 static void add_input_bars(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, size_t option, int lines)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("it depends on"), 18, 0, CEDUO_FILLS}, {"", 6, 1, CEDUO_FILLS}, {"", -5, 1, CEDUO_FITS}, {"", -8, 2, CEDUO_FITS}};
+        {N_("it depends on"), 18, 0, COL_GROW}, {"", 6, 1, COL_GROW}, {"", -5, 1, COL_SHRINK}, {"", -8, 2, COL_SHRINK}};
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_main(r, option);
     if (lines < 2)
         return;
@@ -573,7 +574,7 @@ const char *ceduo_plot_uncertainty(struct ceduo_drawing *d)
     if (!r)
         return _("not computed yet");
     if (!r->answer)
-        return ceduo_uncertainty_none(r);
+        return ceduo_uncertainty_missing_reason(r);
     int used = add_option_bars(d->page, r, d->picture->option, d->height);
     add_input_bars(d->page, r, d->picture->option, d->height - used);
     return NULL;

@@ -44,7 +44,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
         return 0;
     }
-    const struct ceduo_subject s = pane->year ? ceduo_subject_in(pane->report, pane->option, pane->year)
+    const struct ceduo_subject s = pane->year ? ceduo_subject_find_year(pane->report, pane->option, pane->year)
                                               : ceduo_subject_find(pane->report, pane->option, r->last_control);
     const struct ceduo_control *c = s.place;
     bool nothing = ceduo_page_is_unassessable(r); /* why stands below, and takes the room */
@@ -53,13 +53,13 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     ceduo_page_para_role(page, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
     if (pane->height >= HEIGHT_ALL) {
         LOCAL_TEXT(angles);
-        ceduo_words_topography(&angles, ceduo_topography_at(s.bare), true);
+        ceduo_words_topography(&angles, ceduo_topography_find(s.bare), true);
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", ceduo_text_string(&angles));
     }
     ceduo_page_arrivals(page, &s, pane->height, true);
     if (!nothing)
         ceduo_page_tests(page, &s, pane->height);
-    if (!nothing && s.choice && ceduo_report_ahead(pane->report, pane->option) && pane->height >= HEIGHT_ALL)
+    if (!nothing && s.choice && ceduo_report_years_ahead(pane->report, pane->option) && pane->height >= HEIGHT_ALL)
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
     ceduo_page_para_role(page, CEDUO_ROLE_DIM, pane->report->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
                          (unsigned long long)ceduo_released(s.wooded ? s.wooded : s.bare));
@@ -73,7 +73,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     }
     const struct ceduo_page_block *last = page->last;
     size_t warnings = 0;
-    ceduo_words_still_moving(r, ceduo_page_warn, page);
+    ceduo_words_warn_no_answer(r, ceduo_page_warn, page);
     ceduo_page_stand_warnings(page, r, pane->option);
     ceduo_words_run_warnings(r, &pane->report->remarks, ceduo_page_warn, page);
     ceduo_page_stand_rules(page, r, pane->option, true);
@@ -90,7 +90,7 @@ void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (report->result->scene->options_count > 1)
         ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", report->result->scene->options[pane->option].name);
     ceduo_page_option(page, report, pane->option, true);
-    ceduo_words_still_moving(report->result, ceduo_page_warn, page);
+    ceduo_words_warn_no_answer(report->result, ceduo_page_warn, page);
     ceduo_words_run_warnings(report->result, &report->remarks, ceduo_page_warn, page);
 }
 

@@ -51,24 +51,24 @@ struct ceduo_picture {
  *   (marks); with the contact model index without forest alone.
  * The files of the others say what they show. */
 #define CEDUO_PLOT_LIST(X)                                                                                                     \
-    X(PROFILE, profile, CEDUO_PICTURE_OF_ROCKS, N_("slope, forest, and trajectories"))                                                 \
-    X(ENERGY, energy, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("energy of the rocks"))                                 \
-    X(HEIGHT, height, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("height of the rocks above the ground"))                \
-    X(HISTOGRAM, histogram, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_PAGE, N_("energy at %s"))                                   \
+    X(PROFILE, profile, CEDUO_PICTURE_ROCKS_RUN, N_("slope, forest, and trajectories"))                                        \
+    X(ENERGY, energy, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_CELLS, N_("energy of the rocks"))                                \
+    X(HEIGHT, height, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_CELLS, N_("height of the rocks above the ground"))               \
+    X(HISTOGRAM, histogram, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_PAGE, N_("energy at %s"))                                  \
     X(ROTATION, rotation, CEDUO_PICTURE_RUN, N_("year by year, up to %s"))                                                     \
     X(STAND, stand, 0, N_("%s, from above"))                                                                                   \
-    X(COMPARE, compare, CEDUO_PICTURE_OF_ALL | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))                       \
-    X(TRADEOFF, tradeoff, CEDUO_PICTURE_OF_ALL, N_("Protection and yield of the options, up to %s"))                           \
+    X(COMPARE, compare, CEDUO_PICTURE_ALL_OPTIONS_RUN | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))              \
+    X(TRADEOFF, tradeoff, CEDUO_PICTURE_ALL_OPTIONS_RUN, N_("Protection and yield of the options, up to %s"))                  \
     X(UNCERTAINTY, uncertainty, CEDUO_PICTURE_PAGE, N_("how sure it is at %s"))                                                \
-    X(HAZARD, hazard, CEDUO_PICTURE_OF_ALL, N_("How often, and with how much, at %s"))
+    X(HAZARD, hazard, CEDUO_PICTURE_ALL_OPTIONS_RUN, N_("How often, and with how much, at %s"))
 
 enum ceduo_picture_flag {
-    CEDUO_PICTURE_RUN = 1 << 0,   /* needs one */
-    CEDUO_PICTURE_CELLS = 1 << 1, /* needs envelopes of it */
-    CEDUO_PICTURE_WHOLE = 1 << 2, /* of all options at once: there is one, not one for each */
-    CEDUO_PICTURE_OF_ALL = CEDUO_PICTURE_WHOLE | CEDUO_PICTURE_RUN,
-    CEDUO_PICTURE_WAYS = 1 << 3, /* of rocks, without forest where none go through one */
-    CEDUO_PICTURE_OF_ROCKS = CEDUO_PICTURE_WAYS | CEDUO_PICTURE_RUN,
+    CEDUO_PICTURE_RUN = 1 << 0,         /* needs one */
+    CEDUO_PICTURE_CELLS = 1 << 1,       /* needs envelopes of it */
+    CEDUO_PICTURE_ALL_OPTIONS = 1 << 2, /* of all options at once: there is one, not one for each */
+    CEDUO_PICTURE_ALL_OPTIONS_RUN = CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_RUN,
+    CEDUO_PICTURE_ROCKS = 1 << 3, /* of rocks, without forest where none go through one */
+    CEDUO_PICTURE_ROCKS_RUN = CEDUO_PICTURE_ROCKS | CEDUO_PICTURE_RUN,
     CEDUO_PICTURE_PAGE = 1 << 4 /* rows of words and bars */
 };
 
@@ -147,7 +147,7 @@ const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_run_snapshot
 void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light);
 
 /* A text of at most `most` cells from a cell on, or, where `most` is negative, up to it; returns the cells it took. */
-int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
+int ceduo_plot_print(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
 /* The name of a stand with a star where something of it is assumed. */
@@ -157,7 +157,7 @@ void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt);
 bool ceduo_plot_has_stems(const struct ceduo_option *option);
 
 /* The axes of the frame in the user's coordinates, which begin at x, y: the left one, and the bottom one in `unit` (NULL: none). */
-struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, double y);
+struct ceduo_frame ceduo_plot_user_frame(const struct ceduo_frame *frame, double x, double y);
 void ceduo_plot_axes(const struct ceduo_drawing *drawing, double x, double y, const char *unit);
 
 /* The largest 1, 2 or 5 times a power of ten that is not above a value, or the least that is not below. */

@@ -60,7 +60,7 @@ static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_
 {
     const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_find(d->picture->snapshot, d->scene, item - 1);
     const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
-    const struct ceduo_hazard *h = ceduo_hazard_at(a);
+    const struct ceduo_hazard *h = ceduo_hazard_find(a);
     return h && h->curve ? h : NULL;
 }
 
@@ -75,7 +75,7 @@ static double logarithm(double value)
     return value > 0 ? log10(value) : 2 * RAREST;
 }
 
-static double log_kJ(const struct ceduo_exceeding *e)
+static double log_kJ(const struct ceduo_hazard_point *e)
 {
     return log10(e->energy * J_TO_KJ);
 }
@@ -86,12 +86,12 @@ static void draw_curve(const struct ceduo_drawing *d, size_t item)
     const struct ceduo_hazard *h = hazard_of(d, item);
     const struct ceduo_frame *f = &d->frame;
     for (size_t i = FIRST; h && i + 1 < h->curve->count && h->curve->at[i].rate.mean > 0; i++) {
-        const struct ceduo_exceeding *a = &h->curve->at[i], *b = a + 1;
+        const struct ceduo_hazard_point *a = &h->curve->at[i], *b = a + 1;
         ceduo_canvas_line(d->canvas, f, role_of(item), log_kJ(a), logarithm(a->rate.mean), log_kJ(b->rate.mean > 0 ? b : a),
                           logarithm(b->rate.mean));
     }
     for (size_t i = FIRST; h && item == d->picture->option + 1 && i < h->curve->count; i += 2) {
-        const struct ceduo_exceeding *e = &h->curve->at[i];
+        const struct ceduo_hazard_point *e = &h->curve->at[i];
         double x = log_kJ(e);
         if (x >= f->x0 && logarithm(e->rate.hi) > RAREST)
             ceduo_canvas_line(d->canvas, f, CEDUO_ROLE_MEAN, x, fmax(RAREST, logarithm(e->rate.lo)), x,
@@ -106,7 +106,7 @@ static void put_years(const struct ceduo_drawing *d, double years)
     if (!ceduo_frame_cell(f, d->canvas, f->x0, -log10(years), &column, &row))
         return;
     if (ceduo_canvas_is_blank(d->canvas, f->left - 2, row))
-        ceduo_plot_say(d->canvas, f->left - 2, row, 2 - hazard_size.axis, CEDUO_ROLE_AXIS, _("%g y"), years);
+        ceduo_plot_print(d->canvas, f->left - 2, row, 2 - hazard_size.axis, CEDUO_ROLE_AXIS, _("%g y"), years);
 }
 
 static void put_energy(const struct ceduo_drawing *d, double kJ)
@@ -115,7 +115,7 @@ static void put_energy(const struct ceduo_drawing *d, double kJ)
     int column, row;
     if (!ceduo_frame_cell(f, d->canvas, log10(kJ), RAREST, &column, &row))
         return;
-    ceduo_plot_say(d->canvas, column, f->top + f->height, 12, CEDUO_ROLE_AXIS, kJ == 1 ? _("%g kJ") : "%g", kJ);
+    ceduo_plot_print(d->canvas, column, f->top + f->height, 12, CEDUO_ROLE_AXIS, kJ == 1 ? _("%g kJ") : "%g", kJ);
 }
 
 const char *ceduo_plot_hazard(struct ceduo_drawing *d)
@@ -135,8 +135,8 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
     d->frame.y1 = ceil(logarithm(bare->reach.mean) + 1e-9);
     if (!(d->frame.x1 > 0 && d->frame.y1 > RAREST))
         return _("rocks arrive less than once in a thousand years");
-    ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
-                   _("return period of a rock above this energy, years"));
+    ceduo_plot_print(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
+                     _("return period of a rock above this energy, years"));
     for (int i = 0; i < 2; i++) {
         ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_AXIS, log10(energies[i]));
         put_energy(d, energies[i]);
@@ -161,8 +161,8 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
         if (h)
             put_sign(d, log_kJ(&h->curve->at[at]), logarithm(h->curve->at[at].rate.mean), false, role_of(i), sign);
         if ((int)i < d->legend.height)
-            ceduo_plot_say(d->canvas, d->legend.left, d->legend.top + (int)i, d->legend.width, role_of(i), "%zu %s", i,
-                           i == 0 ? _("without forest") : d->scene->options[i - 1].name);
+            ceduo_plot_print(d->canvas, d->legend.left, d->legend.top + (int)i, d->legend.width, role_of(i), "%zu %s", i,
+                             i == 0 ? _("without forest") : d->scene->options[i - 1].name);
     }
     return NULL;
 }
@@ -199,9 +199,9 @@ const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
         return isnan(v->choices[0].mean.mean) ? _("not computed yet") : _("no option has growth and cutting data");
     d->frame.x1 = yield > 0 ? 1.15 * yield : 1;
     d->frame.y1 = share > 0 ? 1.1 * share : 1;
-    ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
-                   v->accepted ? _("dangerous of 1000, against m\xc2\xb3 per ha and year")
-                               : _("arriving of 1000, against m\xc2\xb3 per ha and year"));
+    ceduo_plot_print(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
+                     v->accepted ? _("dangerous of 1000, against m\xc2\xb3 per ha and year")
+                                 : _("arriving of 1000, against m\xc2\xb3 per ha and year"));
     ceduo_plot_axes(d, 0, 0, _("m\xc2\xb3"));
     for (size_t i = 0; i < v->n; i++) {
         const struct ceduo_choice *c = &v->choices[i];
@@ -215,15 +215,15 @@ const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
         int row = d->legend.top + (int)i, width = (int)i < d->legend.height ? d->legend.width : 0;
         char sign[24];
         if (i == v->n) {
-            ceduo_plot_say(d->canvas, d->legend.left, row, width, CEDUO_ROLE_AXIS, _("( ) another is better in both"));
+            ceduo_plot_print(d->canvas, d->legend.left, row, width, CEDUO_ROLE_AXIS, _("( ) another is better in both"));
         } else if (is_known(c)) {
             enum ceduo_role role = c->beaten ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD;
             snprintf(sign, sizeof sign, c->beaten ? "(%zu)" : "%zu", i + 1);
             put_sign(d, c->yield.cut_per_year, 1000 * c->mean.mean, true, role, sign);
-            ceduo_plot_say(d->canvas, d->legend.left, row, width, role, "%s %s", sign, d->scene->options[i].name);
+            ceduo_plot_print(d->canvas, d->legend.left, row, width, role, "%s %s", sign, d->scene->options[i].name);
         } else {
-            ceduo_plot_say(d->canvas, d->legend.left, row, width, CEDUO_ROLE_AXIS, _("- %s: no yield known"),
-                           d->scene->options[i].name);
+            ceduo_plot_print(d->canvas, d->legend.left, row, width, CEDUO_ROLE_AXIS, _("- %s: no yield known"),
+                             d->scene->options[i].name);
         }
     }
     return NULL;

@@ -70,7 +70,7 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i)
 {
     char lo[CEDUO_TICK_LABEL_SIZE], hi[CEDUO_TICK_LABEL_SIZE];
     const struct bins *b = &h->bins;
-    const struct ceduo_distribution *e = ceduo_spread(CEDUO_SPREAD_ENERGY, h->rocks.arrivals);
+    const struct ceduo_distribution *e = ceduo_spread(CEDUO_ARRIVAL_ENERGY, h->rocks.arrivals);
     double from = b->first + i * b->width, end = b->first + b->count * b->width, share = per_1000(&h->rocks, i);
     enum ceduo_role role = isnan(h->accepted)               ? CEDUO_ROLE_MEAN
                            : from >= h->accepted            ? CEDUO_ROLE_BAD
@@ -151,11 +151,11 @@ static struct bins bins_of(const struct ceduo_energies *e, const struct ceduo_en
 
 const char *ceduo_plot_histogram(struct ceduo_drawing *d)
 {
-    static const struct ceduo_page_column columns[] = {{"", -6, 0, CEDUO_FITS},
-                                                       {"", 4, 1, CEDUO_FILLS},
-                                                       {"", -4, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
-                                                       {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
-                                                       {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(2)}};
+    static const struct ceduo_page_column columns[] = {{"", -6, 0, COL_SHRINK},
+                                                       {"", 4, 1, COL_GROW},
+                                                       {"", -4, 1, COL_SHRINK | COL_PRIORITY(1)},
+                                                       {"", -5, 1, COL_SHRINK | COL_PRIORITY(1)},
+                                                       {"", 1, 1, COL_SHRINK | COL_PRIORITY(2)}};
     size_t c = d->picture->control;
     bool wooded = d->wooded, said = d->height >= SAID_HEIGHT && !d->page->first;
     int rows = d->height - said - wooded;

@@ -215,7 +215,7 @@ static void name_forest(const struct ceduo_drawing *d)
         most = room > most ? room : most;
     }
     if (most == width || most >= FOREST_MIN)
-        ceduo_plot_say(d->canvas, end - 1, d->area.top + row, -most, CEDUO_ROLE_CLOUD, "%s", name.bytes);
+        ceduo_plot_print(d->canvas, end - 1, d->area.top + row, -most, CEDUO_ROLE_CLOUD, "%s", name.bytes);
 }
 
 /* ├── ADS 1 ──┤ below the axis. */
@@ -238,9 +238,9 @@ static void draw_belts(const struct ceduo_drawing *d)
                                : column == from   ? "\xe2\x94\x9c"
                                : column == to - 1 ? "\xe2\x94\xa4"
                                                   : "\xe2\x94\x80");
-        ceduo_text_char(&name, ' ');
+        ceduo_text_append_char(&name, ' ');
         ceduo_plot_belt_name(&name, belt);
-        ceduo_text_char(&name, ' ');
+        ceduo_text_append_char(&name, ' ');
         int width = ceduo_canvas_label_width(d->canvas, name.bytes), room = to - from - 2;
         int start = width < room ? from + 1 + (room - width) / 2 : from + 1;
         ceduo_canvas_draw_text(d->canvas, start, row, room, CEDUO_ROLE_BELT, name.bytes);
@@ -264,7 +264,7 @@ static double place_frame(struct ceduo_drawing *d, bool names, bool belts)
         factor = scale(&d->frame, d->canvas, &r, is_stretch(d));
         if (isnan(factor))
             break;
-        struct ceduo_frame given = ceduo_plot_given(&d->frame, d->scene->slope.origin_x, d->scene->slope.origin_z);
+        struct ceduo_frame given = ceduo_plot_user_frame(&d->frame, d->scene->slope.origin_x, d->scene->slope.origin_z);
         needed = ceduo_frame_axis_width(&given, d->canvas);
     }
     if (d->picture->span)
@@ -301,7 +301,7 @@ const char *ceduo_plot_profile(struct ceduo_drawing *d)
     ceduo_canvas_cloud_start(d->canvas);
     for (size_t i = 0; d->sight && i < d->sight->trajectories_count; i++) {
         const struct ceduo_polyline *t = &d->sight->trajectories[i];
-        ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, t->n, t->x, t->z);
+        ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_TRAJECTORY, t->n, t->x, t->z);
     }
     ceduo_canvas_cloud_show(d->canvas, RARE);
     if (way)
@@ -314,8 +314,8 @@ const char *ceduo_plot_profile(struct ceduo_drawing *d)
     if (d->picture->mark)
         ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_TITLE, *d->picture->mark);
     if (factor != 1) /* heights are not true to scale */
-        ceduo_plot_say(d->canvas, d->area.left + d->area.width - 1, d->area.top, -d->area.width / 2, CEDUO_ROLE_WARN,
-                       d->area.width >= 30 ? _("heights drawn %g times") : "\xc3\x97%g", factor);
+        ceduo_plot_print(d->canvas, d->area.left + d->area.width - 1, d->area.top, -d->area.width / 2, CEDUO_ROLE_WARN,
+                         d->area.width >= 30 ? _("heights drawn %g times") : "\xc3\x97%g", factor);
     for (size_t c = 0; names && c < d->scene->controls_count; c++)
         name_control(d, &d->scene->controls[c]);
     for (size_t c = 0; c < d->scene->controls_count; c++)

@@ -178,7 +178,7 @@ static void draw_way(struct plan *p, double from, struct text *words)
         ceduo_canvas_disc(p->d->canvas, &p->d->frame, stem->hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM, stem->x - from,
                           p->height / 2 + stem->y, stem->dbh / 2);
     }
-    struct ceduo_frame given = ceduo_plot_given(&p->d->frame, from + p->d->scene->slope.origin_x, 0);
+    struct ceduo_frame given = ceduo_plot_user_frame(&p->d->frame, from + p->d->scene->slope.origin_x, 0);
     ceduo_canvas_axis_bottom(p->d->canvas, &given, _("m"));
     ceduo_text_format(words,
                       ngettext("This trajectory: %zu stem hit in %.3g m", "This trajectory: %zu stems hit in %.3g m", hit), hit,
@@ -216,7 +216,7 @@ const char *ceduo_plot_stand(struct ceduo_drawing *d)
         draw_stems(&p, &words);
     ceduo_canvas_rule_y(d->canvas, &d->frame, CEDUO_ROLE_AXIS, (p.height - p.strip) / 2);
     ceduo_canvas_rule_y(d->canvas, &d->frame, CEDUO_ROLE_AXIS, (p.height + p.strip) / 2);
-    ceduo_plot_say(d->canvas, area->left, area->top + area->height - 1, has_words ? area->width : 0, CEDUO_ROLE_TEXT, "%s",
-                   words.bytes);
+    ceduo_plot_print(d->canvas, area->left, area->top + area->height - 1, has_words ? area->width : 0, CEDUO_ROLE_TEXT, "%s",
+                     words.bytes);
     return NULL;
 }

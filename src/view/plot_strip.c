@@ -131,7 +131,7 @@ static void draw_ways(const struct ceduo_drawing *d)
         double *heights = ceduo_check_memory(malloc((t->n + 1) * sizeof *heights));
         for (size_t k = 0; k < t->n; k++)
             heights[k] = fmax(t->z[k] - ceduo_slope_height(&d->scene->slope, t->x[k]), 0);
-        ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, t->n, t->x, heights);
+        ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_TRAJECTORY, t->n, t->x, heights);
         free(heights);
     }
     ceduo_canvas_cloud_show(d->canvas, 0);

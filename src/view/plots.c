@@ -111,7 +111,7 @@ void ceduo_plot_observed(struct ceduo_canvas *canvas, const struct ceduo_area *a
                                         .width = area->width,
                                         .height = area->height - 3,
                                         .x0 = s->x[0],
-                                        .x1 = s->x[CEDUO_SEEN_PLACES - 1],
+                                        .x1 = s->x[CEDUO_STOPS_PLACES - 1],
                                         .y1 = 1}};
     int axis = ceduo_frame_axis_width(&d.frame, canvas);
     if (canvas->words_alone)
@@ -124,11 +124,11 @@ void ceduo_plot_observed(struct ceduo_canvas *canvas, const struct ceduo_area *a
                            _("lies farther: line seen, shaded simulated"));
     d.frame.left += axis;
     d.frame.width -= axis;
-    for (size_t i = 0; i < CEDUO_SEEN_PLACES; i++)
+    for (size_t i = 0; i < CEDUO_STOPS_PLACES; i++)
         ceduo_canvas_line(canvas, &d.frame, CEDUO_ROLE_DIM, s->x[i], s->lo[i], s->x[i], s->hi[i]);
-    ceduo_canvas_polyline(canvas, &d.frame, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_PLAIN, CEDUO_SEEN_PLACES, s->x, s->lo);
-    ceduo_canvas_polyline(canvas, &d.frame, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_PLAIN, CEDUO_SEEN_PLACES, s->x, s->hi);
-    ceduo_canvas_stairs(canvas, &d.frame, CEDUO_ROLE_MEAN, CEDUO_SEEN_PLACES, s->x, s->seen);
+    ceduo_canvas_polyline(canvas, &d.frame, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_PLAIN, CEDUO_STOPS_PLACES, s->x, s->lo);
+    ceduo_canvas_polyline(canvas, &d.frame, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_PLAIN, CEDUO_STOPS_PLACES, s->x, s->hi);
+    ceduo_canvas_stairs(canvas, &d.frame, CEDUO_ROLE_MEAN, CEDUO_STOPS_PLACES, s->x, s->seen);
     ceduo_plot_axes(&d, origin, 0, "m");
 }
 
@@ -143,16 +143,16 @@ void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct cedu
         ceduo_words_place(&place, d.control);
     else
         ceduo_text_append(&place, _("no control"));
-    if (!(kind->flags & CEDUO_PICTURE_WHOLE))
+    if (!(kind->flags & CEDUO_PICTURE_ALL_OPTIONS))
         ceduo_text_format(text, "%s: ", d.option && d.option->name ? d.option->name : "");
-    ceduo_append_with(text, _(kind->title), ceduo_text_string(&place));
-    if ((kind->flags & CEDUO_PICTURE_WAYS) && !d.wooded)
+    ceduo_text_append_with(text, _(kind->title), ceduo_text_string(&place));
+    if ((kind->flags & CEDUO_PICTURE_ROCKS) && !d.wooded)
         ceduo_text_append_joined(text, ", ", _("without forest"));
 }
 
 /* ---- words ---- */
 
-int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
+int ceduo_plot_print(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
 {
     LOCAL_TEXT(text);
     va_list args;
@@ -197,7 +197,7 @@ bool ceduo_plot_has_stems(const struct ceduo_option *option)
 
 /* ---- frames ---- */
 
-struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, double y)
+struct ceduo_frame ceduo_plot_user_frame(const struct ceduo_frame *frame, double x, double y)
 {
     struct ceduo_frame given = *frame;
     given.x0 += x;
@@ -209,7 +209,7 @@ struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, d
 
 void ceduo_plot_axes(const struct ceduo_drawing *d, double x, double y, const char *unit)
 {
-    struct ceduo_frame given = ceduo_plot_given(&d->frame, x, y);
+    struct ceduo_frame given = ceduo_plot_user_frame(&d->frame, x, y);
     ceduo_canvas_axis_left(d->canvas, &given);
     if (unit)
         ceduo_canvas_axis_bottom(d->canvas, &given, unit);

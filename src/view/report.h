@@ -37,7 +37,7 @@ const struct ceduo_uncertainty_figure *ceduo_uncertainty_main(const struct ceduo
 
 /* Whether the scene asks for no answer; why there is none: that, or nothing is uncertain. */
 bool ceduo_uncertainty_is_off(const struct ceduo_uncertainty_report *report);
-const char *ceduo_uncertainty_none(const struct ceduo_uncertainty_report *report);
+const char *ceduo_uncertainty_missing_reason(const struct ceduo_uncertainty_report *report);
 
 void ceduo_uncertainty_value(struct text *text, enum ceduo_uncertainty_kind kind,
                              double value); /* shares of 1000, energies in kJ */
@@ -53,21 +53,21 @@ double ceduo_uncertainty_input_value(const struct ceduo_uncertainty_report *repo
 void ceduo_uncertainty_input_end(struct text *text, const struct ceduo_uncertainty_report *report, size_t group, int end);
 
 /* A warning for each input whose value in the scene is not among those that it may have. */
-void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *report, ceduo_sentence_sink *say, void *context);
+void ceduo_uncertainty_warn_outside(const struct ceduo_uncertainty_report *report, ceduo_sentence_sink *say, void *context);
 
 /* What would measure an input, marked for translation; NULL: nothing that is known. */
-const char *ceduo_uncertainty_measured(const struct ceduo_uncertainty_report *report, size_t group);
+const char *ceduo_uncertainty_measured_by(const struct ceduo_uncertainty_report *report, size_t group);
 
 /* Adds what was found as blocks: a section with tables and what to measure first; of `all` also the mean over a rotation, and how
  * sure the order of the options is. */
 void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncertainty_report *report, bool all);
 /* The option that advice is about: the one that lets least pass today in the mean of plausible cases. */
-size_t ceduo_uncertainty_chosen(const struct ceduo_uncertainty_report *report);
+size_t ceduo_uncertainty_advised_option(const struct ceduo_uncertainty_report *report);
 
 /* Input n of those to be measured first for a figure, in the order of what is left if they are known. Only inputs that a reader can
  * measure, each name once. SIZE_MAX: there are fewer. */
-size_t ceduo_uncertainty_advised(const struct ceduo_uncertainty_report *report, const struct ceduo_uncertainty_figure *figure,
-                                 size_t n);
+size_t ceduo_uncertainty_advised_input(const struct ceduo_uncertainty_report *report,
+                                       const struct ceduo_uncertainty_figure *figure, size_t n);
 
 /* Adds at most `most` of these inputs, each with what would measure it. */
 void ceduo_uncertainty_advice(struct text *text, const struct ceduo_uncertainty_report *report,
@@ -127,7 +127,7 @@ void ceduo_measure_uncertainty(struct ceduo_measure *measure, const struct ceduo
                                size_t control);
 
 /* The same of its mean over the years, which is known where that was asked for. */
-void ceduo_measure_uncertainty_over(struct ceduo_measure *measure, const struct ceduo_uncertainty_report *uncertainty,
+void ceduo_measure_mean_uncertainty(struct ceduo_measure *measure, const struct ceduo_uncertainty_report *uncertainty,
                                     size_t option);
 
 /* Of 1000 those that end before the control, by how they end; of those that arrive the mean and the 95th percentile of the energy,
@@ -144,7 +144,7 @@ enum ceduo_measured {
     CEDUO_SPEED,
     CEDUO_STEMS_HIT,
     CEDUO_P95_TOP, /* of the height of the rocks' tops */
-    CEDUO_MEASURED
+    CEDUO_MEASURE_KINDS
 };
 struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo_arrivals *arrivals);
 
@@ -154,32 +154,32 @@ uint64_t ceduo_reached(const struct ceduo_arrivals *arrivals);
 uint64_t ceduo_unfinished(const struct ceduo_arrivals *arrivals);
 
 /* Distribution of those that arrive: m/s, J, m above ground. */
-enum ceduo_spread { CEDUO_SPREAD_SPEED, CEDUO_SPREAD_ENERGY, CEDUO_SPREAD_HEIGHT };
+enum ceduo_spread { CEDUO_ARRIVAL_SPEED, CEDUO_ARRIVAL_ENERGY, CEDUO_ARRIVAL_HEIGHT };
 const struct ceduo_distribution *ceduo_spread(enum ceduo_spread what, const struct ceduo_arrivals *arrivals);
 
 /* True if more rocks may change the test of energy. `arrivals` may be NULL. */
 bool ceduo_is_close_call(const struct ceduo_arrivals *arrivals);
-const struct ceduo_topography *ceduo_topography_at(const struct ceduo_arrivals *arrivals);
+const struct ceduo_topography *ceduo_topography_find(const struct ceduo_arrivals *arrivals);
 
 /* How often, and with how much; the rate of what is feared. Without blocks, or of NULL, NULL and NaN. */
-const struct ceduo_hazard *ceduo_hazard_at(const struct ceduo_arrivals *arrivals);
-struct ceduo_estimate ceduo_feared(const struct ceduo_arrivals *arrivals);
+const struct ceduo_hazard *ceduo_hazard_find(const struct ceduo_arrivals *arrivals);
+struct ceduo_estimate ceduo_judged_rate(const struct ceduo_arrivals *arrivals);
 
 /* Strings of a measure, which live as long as the block that calls: a name; its value, "-" if it is not known; an interval, "453–501";
  * both, "480 (453–501)"; shorter, "480 ±27" or "480±27" with nothing `between`, and "480" of one rock, whose error is not known. MAY_BE:
  * the interval by both errors, as the uncertain inputs may leave less open than the number of rocks. */
-const char *ceduo_measure_name(struct ceduo_measure m, enum ceduo_measure_name name, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_value(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_interval(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_plausible_range(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
-#define NAMED(m, name)         ceduo_measure_name(m, name, (char[CEDUO_WORDS_ROOM]){0})
-#define VALUE_OF(m)            ceduo_measure_value(m, (char[CEDUO_WORDS_ROOM]){0})
-#define SPAN(m, lo, hi)        ceduo_measure_span(m, lo, hi, (char[CEDUO_WORDS_ROOM]){0})
-#define INTERVAL(m)            ceduo_measure_interval(m, (char[CEDUO_WORDS_ROOM]){0})
-#define WITH_ERROR(m, between) ceduo_measure_error(m, between, (char[CEDUO_WORDS_ROOM]){0})
-#define MAY_BE(m)              ceduo_measure_plausible_range(m, (char[CEDUO_WORDS_ROOM]){0})
+const char *ceduo_measure_name(struct ceduo_measure m, enum ceduo_measure_name name, char room[CEDUO_WORDS_SIZE]);
+const char *ceduo_measure_value(struct ceduo_measure m, char room[CEDUO_WORDS_SIZE]);
+const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, char room[CEDUO_WORDS_SIZE]);
+const char *ceduo_measure_interval(struct ceduo_measure m, char room[CEDUO_WORDS_SIZE]);
+const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char room[CEDUO_WORDS_SIZE]);
+const char *ceduo_measure_plausible_range(struct ceduo_measure m, char room[CEDUO_WORDS_SIZE]);
+#define NAMED(m, name)         ceduo_measure_name(m, name, (char[CEDUO_WORDS_SIZE]){0})
+#define VALUE_OF(m)            ceduo_measure_value(m, (char[CEDUO_WORDS_SIZE]){0})
+#define SPAN(m, lo, hi)        ceduo_measure_span(m, lo, hi, (char[CEDUO_WORDS_SIZE]){0})
+#define INTERVAL(m)            ceduo_measure_interval(m, (char[CEDUO_WORDS_SIZE]){0})
+#define WITH_ERROR(m, between) ceduo_measure_error(m, between, (char[CEDUO_WORDS_SIZE]){0})
+#define MAY_BE(m)              ceduo_measure_plausible_range(m, (char[CEDUO_WORDS_SIZE]){0})
 
 /* ---- the answer ---- */
 
@@ -225,10 +225,10 @@ struct ceduo_subject {
 /* `option` SIZE_MAX: without forest. */
 struct ceduo_subject ceduo_subject_find(const struct ceduo_report *report, size_t option, size_t control);
 /* In a year of an option, at the last control. */
-struct ceduo_subject ceduo_subject_in(const struct ceduo_report *report, size_t option, const struct ceduo_year *year);
+struct ceduo_subject ceduo_subject_find_year(const struct ceduo_report *report, size_t option, const struct ceduo_year *year);
 
 /* An option over the years ahead; NULL if they are not known, or are all as today. */
-static inline const struct ceduo_choice *ceduo_report_ahead(const struct ceduo_report *report, size_t option)
+static inline const struct ceduo_choice *ceduo_report_years_ahead(const struct ceduo_report *report, size_t option)
 {
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && option < v->n ? &v->choices[option] : NULL;

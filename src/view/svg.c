@@ -72,9 +72,9 @@ static void append_number(struct text *text, double value)
 
 static void append_point(struct text *path, char command, struct ceduo_position p)
 {
-    ceduo_text_char(path, command);
+    ceduo_text_append_char(path, command);
     append_number(path, p.x);
-    ceduo_text_char(path, ' ');
+    ceduo_text_append_char(path, ' ');
     append_number(path, p.y);
 }
 
@@ -149,7 +149,7 @@ static void draw_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, 
 {
     struct ceduo_svg *svg = to;
     struct stroke *s = &svg->stroke;
-    bool first = pen->last_x == INT_MIN, way = pen->stroke == CEDUO_STROKE_WAY;
+    bool first = pen->last_x == INT_MIN, way = pen->stroke == CEDUO_STROKE_TRAJECTORY;
     if (pen->role == CEDUO_ROLE_BLANK)
         return;
     ceduo_cells_surface.line(svg->cells, pen, a, b);
@@ -197,11 +197,11 @@ static void draw_bar(void *to, int column, int row, int width, double fraction, 
     struct text *path = &svg->paths[role][FILLED];
     double length = fmax(fraction * width * CELL, 1);
     append_point(path, 'M', (struct ceduo_position){column * CELL, row * HIGH + 3});
-    ceduo_text_char(path, 'h');
+    ceduo_text_append_char(path, 'h');
     append_number(path, length);
     ceduo_text_append(path, "v10h");
     append_number(path, -length);
-    ceduo_text_char(path, 'z');
+    ceduo_text_append_char(path, 'z');
     mark_drawn(svg, column, row, (int)ceil(length / CELL));
 }
 
@@ -294,7 +294,7 @@ static void write_path(struct ceduo_html *html, const struct look *look, const s
 
 static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
 {
-    static const char *const strokes[CEDUO_STROKES][2] = {[CEDUO_STROKE_WAY] = {"stroke-opacity", ".6"},
+    static const char *const strokes[CEDUO_STROKES][2] = {[CEDUO_STROKE_TRAJECTORY] = {"stroke-opacity", ".6"},
                                                           [CEDUO_STROKE_RULE] = {"stroke-dasharray", "4 4"},
                                                           [CEDUO_STROKE_DOTS] = {"stroke-dasharray", "0 8"},
                                                           [CEDUO_STROKE_FEW] = {"stroke-dasharray", "0 16"},
@@ -332,7 +332,7 @@ static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, 
             code = code == DRAWN || (code == 0 && !screen) ? ' ' : ceduo_cells_glyph(cells, end, row);
             if (code == ' ' && !reversed && (used == 0 || end > from + used))
                 break;
-            ceduo_text_add(&word, bytes, ceduo_utf8_encode(code, bytes));
+            ceduo_text_append_n(&word, bytes, ceduo_utf8_encode(code, bytes));
             if (code != ' ') {
                 used = end + 1 - from;
                 length = word.length;
@@ -377,7 +377,7 @@ void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const char 
     ceduo_html_leaf(html, "desc", description, "id", described, NULL);
     write_marks(html, svg);
     ceduo_html_open(html, "g", FONT, NULL);
-    ceduo_text_add(html->text, ceduo_text_string(&svg->numbers), svg->numbers.length);
+    ceduo_text_append_n(html->text, ceduo_text_string(&svg->numbers), svg->numbers.length);
     write_cells(html, svg->cells, false);
     ceduo_html_close(html);
     ceduo_html_close(html);

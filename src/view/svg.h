@@ -8,11 +8,11 @@
  * are escaped, control characters and bytes that are no UTF-8 become visible. Names of elements and attributes are the
  * program's own. */
 
-#define CEDUO_HTML_DEEPEST 24
+#define CEDUO_HTML_DEPTH_MAX 24
 
 struct ceduo_html {
     struct text *text;
-    const char *open[CEDUO_HTML_DEEPEST]; /* elements not yet closed; constant strings */
+    const char *open[CEDUO_HTML_DEPTH_MAX]; /* elements not yet closed; constant strings */
     size_t depth;
 };
 

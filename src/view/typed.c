@@ -17,7 +17,7 @@ static bool is_number(const struct field *f)
 
 /* ---- reading ---- */
 
-enum ceduo_number_reading ceduo_typed_number(const char *typed, double *value)
+enum ceduo_number_reading ceduo_input_parse_number(const char *typed, double *value)
 {
     char room[TYPED_MAX];
     typed += strspn(typed, " ");
@@ -35,9 +35,9 @@ enum ceduo_number_reading ceduo_typed_number(const char *typed, double *value)
 }
 
 /* A number of the file that is so many of what is shown; without what dividing adds. */
-static const char *as_file(const struct field *f, double shown, char room[CEDUO_NUMBER_ROOM])
+static const char *as_file(const struct field *f, double shown, char room[CEDUO_NUMBER_SIZE])
 {
-    char digits[CEDUO_NUMBER_ROOM];
+    char digits[CEDUO_NUMBER_SIZE];
     double value = shown / f->shown.per;
     snprintf(digits, sizeof digits, "%.14g", value);
     if (f->shown.per != 1)
@@ -56,16 +56,16 @@ static size_t read_numbers(const char *typed, bool commas_part, double *values, 
         while (used > 0 && typed[used - 1] == ',')
             used--;
         snprintf(room, sizeof room, "%.*s", (int)used, typed);
-        if (n == most || used == 0 || used >= sizeof room || ceduo_typed_number(room, &values[n]) != CEDUO_NUMBER_GOOD)
+        if (n == most || used == 0 || used >= sizeof room || ceduo_input_parse_number(room, &values[n]) != CEDUO_NUMBER_GOOD)
             return typed[strspn(typed, " \t;,[]")] == '\0' ? n : 0;
         typed += length;
     }
 }
 
-bool ceduo_typed_points(const char *typed, struct text *vertices, double *first, double *last)
+bool ceduo_input_parse_points(const char *typed, struct text *vertices, double *first, double *last)
 {
     double values[TYPED_MAX / 2];
-    char x[CEDUO_NUMBER_ROOM], z[CEDUO_NUMBER_ROOM];
+    char x[CEDUO_NUMBER_SIZE], z[CEDUO_NUMBER_SIZE];
     size_t n = strchr(typed, ';') ? 0 : read_numbers(typed, true, values, TYPED_MAX / 2);
     bool rises = true;
     for (size_t i = 2; i < n; i += 2)
@@ -89,16 +89,16 @@ static bool put_spread(const struct field *f, const char *typed, struct text *va
 {
     const char *sign = strstr(typed, "\xc2\xb1"), *plain = sign ? sign : strstr(typed, "+-");
     double mean, spread;
-    char room[TYPED_MAX], a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+    char room[TYPED_MAX], a[CEDUO_NUMBER_SIZE], b[CEDUO_NUMBER_SIZE];
     if (!plain || strlen(typed) >= sizeof room)
         return false;
     snprintf(room, sizeof room, "%.*s", (int)(plain - typed), typed);
-    bool good = ceduo_typed_number(room, &mean) == CEDUO_NUMBER_GOOD;
+    bool good = ceduo_input_parse_number(room, &mean) == CEDUO_NUMBER_GOOD;
     snprintf(room, sizeof room, "%s", plain + 2);
     char *uniform = strchr(room, 'u');
     if (uniform)
         *uniform = '\0';
-    if (!good || ceduo_typed_number(room, &spread) != CEDUO_NUMBER_GOOD)
+    if (!good || ceduo_input_parse_number(room, &spread) != CEDUO_NUMBER_GOOD)
         return false;
     ceduo_text_format(value, "{mean: %s, spread: %s%s}", as_file(f, mean, a), as_file(f, spread, b),
                       uniform ? ", kind: uniform" : "");
@@ -109,12 +109,12 @@ static bool put_spread(const struct field *f, const char *typed, struct text *va
 static bool put_place(const char *typed, struct text *value)
 {
     double back = 0;
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     typed += strspn(typed, " ");
     if (strncasecmp(typed, "end", 3) != 0)
         return false;
     typed += 3 + strspn(typed + 3, " ");
-    if (*typed && (*typed != '-' || ceduo_typed_number(typed + 1, &back) != CEDUO_NUMBER_GOOD || back < 0))
+    if (*typed && (*typed != '-' || ceduo_input_parse_number(typed + 1, &back) != CEDUO_NUMBER_GOOD || back < 0))
         return false;
     ceduo_text_format(value, back > 0 ? "end-%s" : "end", ceduo_number_shortest(back, room));
     return true;
@@ -123,14 +123,14 @@ static bool put_place(const char *typed, struct text *value)
 /* The same for a list of which some are places from the end: 60 end-10. */
 static bool put_places(const struct field *f, const char *typed, struct text *value)
 {
-    char word[64], room[CEDUO_NUMBER_ROOM];
+    char word[64], room[CEDUO_NUMBER_SIZE];
     double number;
     LOCAL_TEXT(list);
     for (size_t n; *(typed += strspn(typed, " ;")); typed += n) {
         n = strcspn(typed, " ;");
         snprintf(word, sizeof word, "%.*s", (int)n, typed);
         ceduo_text_append(&list, list.length > 0 ? ", " : "[");
-        if (ceduo_typed_number(word, &number) == CEDUO_NUMBER_GOOD)
+        if (ceduo_input_parse_number(word, &number) == CEDUO_NUMBER_GOOD)
             ceduo_text_append(&list, as_file(f, number, room));
         else if (!put_place(word, &list))
             return false;
@@ -143,7 +143,7 @@ static bool put_places(const struct field *f, const char *typed, struct text *va
 static bool put_numbers(const struct field *f, const char *typed, struct text *value)
 {
     double values[TYPED_MAX / 2];
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     if (typed[0] == '[')
         return false;
     size_t n = read_numbers(typed, false, values, TYPED_MAX / 2);
@@ -157,10 +157,10 @@ static bool put_numbers(const struct field *f, const char *typed, struct text *v
     return n > 0;
 }
 
-void ceduo_typed_value(const struct field *f, const char *typed, struct text *value)
+void ceduo_input_parse_value(const struct field *f, const char *typed, struct text *value)
 {
     double number;
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     if (ceduo_schema_is_place(f) && put_place(typed, value))
         return;
     bool list = f->type == FIELD_NUMBERS || f->type == FIELD_POINTS || f->type == FIELD_SPREADS;
@@ -170,21 +170,22 @@ void ceduo_typed_value(const struct field *f, const char *typed, struct text *va
         return;
     if (f->type == FIELD_FLAG && (strcmp(typed, _("true")) == 0 || strcmp(typed, _("false")) == 0))
         typed = strcmp(typed, _("true")) == 0 ? "true" : "false";
-    if (is_number(f) && (f->shown.per != 1 || strchr(typed, ',')) && ceduo_typed_number(typed, &number) == CEDUO_NUMBER_GOOD)
+    if (is_number(f) && (f->shown.per != 1 || strchr(typed, ',')) &&
+        ceduo_input_parse_number(typed, &number) == CEDUO_NUMBER_GOOD)
         typed = as_file(f, number, room);
     ceduo_text_append(value, typed);
 }
 
 /* ---- ranges ---- */
 
-bool ceduo_typed_in_range(const struct field *f, const char *typed, struct text *why)
+bool ceduo_input_is_in_range(const struct field *f, const char *typed, struct text *why)
 {
     double shown;
-    if (!is_number(f) || ceduo_typed_number(typed, &shown) != CEDUO_NUMBER_GOOD ||
+    if (!is_number(f) || ceduo_input_parse_number(typed, &shown) != CEDUO_NUMBER_GOOD ||
         ceduo_schema_in_range(f, shown / f->shown.per))
         return true;
     double lo = f->lo * f->shown.per, hi = f->hi * f->shown.per;
-    const char *unit = ceduo_shown_unit(f), *blank = unit[0] ? " " : "";
+    const char *unit = ceduo_format_unit(f), *blank = unit[0] ? " " : "";
     if (shown < lo)
         ceduo_text_format(why, _("%s: %s is below %.5g%s%s"), _(f->shown.label), typed, lo, blank, unit);
     else if (shown > hi)
@@ -194,14 +195,14 @@ bool ceduo_typed_in_range(const struct field *f, const char *typed, struct text 
     return false;
 }
 
-bool ceduo_typed_unusual(const struct field *f, const char *typed, struct text *question)
+bool ceduo_input_is_unusual(const struct field *f, const char *typed, struct text *question)
 {
     double shown;
-    if (!is_number(f) || ceduo_typed_number(typed, &shown) != CEDUO_NUMBER_GOOD)
+    if (!is_number(f) || ceduo_input_parse_number(typed, &shown) != CEDUO_NUMBER_GOOD)
         return false;
     if (ceduo_schema_is_usual(f, shown / f->shown.per))
         return false;
-    const char *unit = ceduo_shown_unit(f);
+    const char *unit = ceduo_format_unit(f);
     ceduo_text_format(question, _("%s: %g%s%s? Usual is %g to %g. Enter once more takes it."), _(f->shown.label), shown,
                       unit[0] ? " " : "", unit, f->shown.least * f->shown.per, f->shown.most * f->shown.per);
     return true;
@@ -209,12 +210,12 @@ bool ceduo_typed_unusual(const struct field *f, const char *typed, struct text *
 
 /* ---- showing ---- */
 
-const char *ceduo_shown_unit(const struct field *f)
+const char *ceduo_format_unit(const struct field *f)
 {
     return f->shown.unit ? _(f->shown.unit) : f->unit;
 }
 
-bool ceduo_shown_range(const struct field *f, struct text *text)
+bool ceduo_format_range(const struct field *f, struct text *text)
 {
     if (f->hi - f->lo >= EVERYWHERE)
         return false;
@@ -224,15 +225,15 @@ bool ceduo_shown_range(const struct field *f, struct text *text)
     return ceduo_schema_range_text(&shown, text);
 }
 
-const char *ceduo_shown_number(const struct field *f, double value, char room[CEDUO_NUMBER_ROOM])
+const char *ceduo_format_number(const struct field *f, double value, char room[CEDUO_NUMBER_SIZE])
 {
     if (!f)
-        return ceduo_number_spoken(ceduo_number_shortest(value, room));
-    snprintf(room, CEDUO_NUMBER_ROOM, "%.12g", value * f->shown.per);
-    return ceduo_number_spoken(room);
+        return ceduo_number_localize(ceduo_number_shortest(value, room));
+    snprintf(room, CEDUO_NUMBER_SIZE, "%.12g", value * f->shown.per);
+    return ceduo_number_localize(room);
 }
 
-void ceduo_shown_value(const struct field *f, const char *written, struct text *shown)
+void ceduo_format_value(const struct field *f, const char *written, struct text *shown)
 {
     /* words of files that are people's words, too; others stay as files have them */
     static const char *const known[] = {N_("simple coppice"),
@@ -259,18 +260,18 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
                                         N_("false")};
     double value;
     size_t n;
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     LOCAL_TEXT(words);
     if (!f || (f->type != FIELD_CHOICE && f->type != FIELD_FLAG)) {
         bool other = f && is_number(f) && f->shown.per != 1 && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD;
         size_t start = shown->length;
-        ceduo_text_append(shown, other ? ceduo_shown_number(f, value, room) : written);
+        ceduo_text_append(shown, other ? ceduo_format_number(f, value, room) : written);
         if (f && is_number(f) && shown->bytes)
-            ceduo_number_spoken(shown->bytes + start);
+            ceduo_number_localize(shown->bytes + start);
         return;
     }
     for (const char *c = written; *c; c++)
-        ceduo_text_char(&words, *c == '-' ? ' ' : *c);
+        ceduo_text_append_char(&words, *c == '-' ? ' ' : *c);
     const char *said = ceduo_text_string(&words);
     int species = f->choices == &ceduo_species_words ? ceduo_species_find(written) : -1;
     if (species >= 0) { /* "hop hornbeam (Ostrya carpinifolia)" */
@@ -287,7 +288,7 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
 
 /* ---- paths ---- */
 
-void ceduo_shown_path(const char *path, struct text *text)
+void ceduo_format_path(const char *path, struct text *text)
 {
     const struct object *object = ceduo_schema_scene();
     const struct field *f = NULL, *named = NULL;

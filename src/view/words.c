@@ -25,19 +25,19 @@ double ceduo_words_accepted(const struct ceduo_control *control)
     return control->accepted / 1000;
 }
 
-const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_ROOM])
+const char *ceduo_words_sig(double value, int digits, char room[CEDUO_NUMBER_SIZE])
 {
     double size = fabs(value);
     int decimals = size > 0 && isfinite(size) ? digits - (int)floor(log10(size)) - 1 : 0;
     if (isnan(value))
-        snprintf(room, CEDUO_NUMBER_ROOM, "-");
+        snprintf(room, CEDUO_NUMBER_SIZE, "-");
     else if (isinf(value))
-        snprintf(room, CEDUO_NUMBER_ROOM, "%s", P_("number", "none"));
+        snprintf(room, CEDUO_NUMBER_SIZE, "%s", P_("number", "none"));
     else if (size > 0 && (decimals > 6 || size >= 1e9))
-        snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
+        snprintf(room, CEDUO_NUMBER_SIZE, "%.*g", digits, value);
     else
-        snprintf(room, CEDUO_NUMBER_ROOM, "%.*f", decimals > 0 ? decimals : 0, size > 0 ? value : 0);
-    return ceduo_number_spoken(room);
+        snprintf(room, CEDUO_NUMBER_SIZE, "%.*f", decimals > 0 ? decimals : 0, size > 0 ? value : 0);
+    return ceduo_number_localize(room);
 }
 
 const char *ceduo_words_law(const char *word)
@@ -51,16 +51,16 @@ const char *ceduo_words_law(const char *word)
     return word;
 }
 
-const char *ceduo_words_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM])
+const char *ceduo_words_sig_trimmed(double value, int digits, char room[CEDUO_NUMBER_SIZE])
 {
-    snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
-    return ceduo_number_spoken(room);
+    snprintf(room, CEDUO_NUMBER_SIZE, "%.*g", digits, value);
+    return ceduo_number_localize(room);
 }
 
 /* As many digits, or decimals, as it takes to write a value on the side of a limit where it lies. */
 static int digits_beside(double value, double limit, int digits, bool decimals)
 {
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     for (; digits < 9; digits++) {
         snprintf(room, sizeof room, decimals ? "%.*f" : "%.*g", digits, value);
         double shown = strtod(room, NULL);
@@ -70,15 +70,15 @@ static int digits_beside(double value, double limit, int digits, bool decimals)
     return digits;
 }
 
-const char *ceduo_words_against_limit(double value, int digits, double limit, char room[CEDUO_NUMBER_ROOM])
+const char *ceduo_words_against_limit(double value, int digits, double limit, char room[CEDUO_NUMBER_SIZE])
 {
-    return ceduo_words_shown(value, digits_beside(value, limit, digits, false), room);
+    return ceduo_words_sig(value, digits_beside(value, limit, digits, false), room);
 }
 
-const char *ceduo_words_percent(double share, double limit, char room[CEDUO_NUMBER_ROOM])
+const char *ceduo_words_percent(double share, double limit, char room[CEDUO_NUMBER_SIZE])
 {
-    snprintf(room, CEDUO_NUMBER_ROOM, "%.*f", digits_beside(100 * share, 100 * limit, 1, true), 100 * share);
-    return ceduo_number_spoken(room);
+    snprintf(room, CEDUO_NUMBER_SIZE, "%.*f", digits_beside(100 * share, 100 * limit, 1, true), 100 * share);
+    return ceduo_number_localize(room);
 }
 
 void ceduo_words_number(struct text *text, double value, int digits)
@@ -94,11 +94,11 @@ void ceduo_words_place(struct text *text, const struct ceduo_control *control)
         ceduo_text_format(text, _("%s m"), SHORTEST(control->x_given));
 }
 
-void ceduo_append_with(struct text *text, const char *sentence, const char *string)
+void ceduo_text_append_with(struct text *text, const char *sentence, const char *string)
 {
     const char *at = strstr(sentence, "%s");
     size_t n = at ? (size_t)(at - sentence) : strlen(sentence);
-    ceduo_text_add(text, sentence, n);
+    ceduo_text_append_n(text, sentence, n);
     if (!at)
         return;
     ceduo_text_append(text, string);
@@ -124,13 +124,13 @@ static const struct ceduo_stems *stems_at(const struct ceduo_stand *s, size_t i)
 static const struct ceduo_stems *first_unlikely(const struct ceduo_stand *s, unsigned how)
 {
     size_t i = 0;
-    while (stems_at(s, i) && !(ceduo_stem_unlikely(s, stems_at(s, i)) & how))
+    while (stems_at(s, i) && !(ceduo_stem_warnings(s, stems_at(s, i)) & how))
         i++;
     return stems_at(s, i);
 }
 
-void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_sentence_sink *say,
-                          void *context)
+void ceduo_words_implausible(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_sentence_sink *say,
+                             void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
     const struct ceduo_stems *const odd[] = {first_unlikely(s, CEDUO_WARN_SLENDER), first_unlikely(s, CEDUO_WARN_STOUT)};
@@ -148,8 +148,8 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
                 _("%s: %.3g cm stems, %.3g m tall: unusual height/diameter ratio (usual %d\xe2\x80\x93%d). Check both."),
                 NAME_OF(belt), odd[i]->dbh * 100, odd[i]->height, CEDUO_SLENDERNESS_MIN, CEDUO_SLENDERNESS_MAX);
     for (size_t i = 0; stems_at(s, i); i++) {
-        const struct ceduo_beside_curve at = ceduo_stems_beside_curve(s, belt->cut_year, i);
-        if (fabs(at.basal_area - at.by_curve) > CEDUO_OFF_CURVE * at.by_curve)
+        const struct ceduo_curve_comparison at = ceduo_stems_compare_to_curve(s, belt->cut_year, i);
+        if (fabs(at.basal_area - at.by_curve) > CEDUO_CURVE_DEVIATION_MAX * at.by_curve)
             ceduo_words_format(say, context,
                                i < s->shoots_count
                                    ? _("%s: the shoots of %g years have %.1f m2/ha of basal area. The stand's own growth "
@@ -178,7 +178,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
     if ((!r->bare || r->felled) && r->trees_per_ha < scene->reserves_minimum)
         ceduo_words_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."),
                            NAME_OF(belt), r->trees_per_ha, scene->reserves_minimum);
-    ceduo_words_unlikely(belt, r, say, context);
+    ceduo_words_implausible(belt, r, say, context);
     ceduo_words_thick_stems(belt, say, context);
     double diameter = ceduo_rock_mean(&scene->rock).mean_diameter;
     if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
@@ -217,7 +217,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
         enum ceduo_volume_from from;
         ceduo_stem_volume(s, stems_at(s, i), &from);
         if (from == CEDUO_VOLUME_FORM_FACTOR && stems_at(s, i)->per_ha > 0 &&
-            !(ceduo_stem_unlikely(s, stems_at(s, i)) & CEDUO_WARN_THICK))
+            !(ceduo_stem_warnings(s, stems_at(s, i)) & CEDUO_WARN_THICK))
             first = n++ == 0 ? stems_at(s, i) : first;
     }
     if (n > 0)
@@ -273,10 +273,10 @@ void ceduo_words_test(struct text *text, const struct ceduo_result *result, size
     const struct ceduo_index *s = &result->options[option].controls[control];
     const enum ceduo_light lights[] = {s->contact, s->free_run, s->energy}, thick[] = {s->thick.contact, s->thick.free_run};
     double limit = result->scene->simulation.threshold, counted = result->scene->simulation.contact_dbh;
-    ceduo_append_with(text, _(sentences[test]), ceduo_words_verdict(lights[test]));
-    ceduo_text_char(text, ' ');
+    ceduo_text_append_with(text, _(sentences[test]), ceduo_words_verdict(lights[test]));
+    ceduo_text_append_char(text, ' ');
     if (test == 2) {
-        ceduo_words_because(text, result, control, ceduo_result_wooded(result, option, control));
+        ceduo_words_judgement_reason(text, result, control, ceduo_result_wooded(result, option, control));
         return;
     }
     say_reason(text, s, limit, test == 0);

@@ -18,7 +18,7 @@ static const struct {
                   [CEDUO_NO] = {"no", N_("NO"), CEDUO_FAIL},
                   [CEDUO_NOT_DECIDED] = {"not-decided", N_("NOT DECIDED"), CEDUO_UNKNOWN},
                   [CEDUO_DEPENDS] = {"depends", N_("IT DEPENDS"), CEDUO_UNKNOWN},
-                  [CEDUO_NOTHING] = {"nothing", N_("NOTHING CAN BE SAID"), CEDUO_UNKNOWN}};
+                  [CEDUO_CANNOT_JUDGE] = {"nothing", N_("NOTHING CAN BE SAID"), CEDUO_UNKNOWN}};
 
 const char *ceduo_words_judgement(enum ceduo_judgement judgement)
 {
@@ -30,7 +30,7 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement)
 /* Appends why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, what is usual, and what to check. */
 static void say_contradiction(struct text *text, const struct ceduo_arrivals *bare)
 {
-    double reach = ceduo_topography_at(bare)->reach * DEGREES, shadow = ceduo_topography_at(bare)->shadow * DEGREES;
+    double reach = ceduo_topography_find(bare)->reach * DEGREES, shadow = ceduo_topography_find(bare)->shadow * DEGREES;
     if (shadow > CEDUO_SHADOW_STEEP)
         ceduo_text_append_joined(
             text, " ",
@@ -47,7 +47,7 @@ static void say_contradiction(struct text *text, const struct ceduo_arrivals *ba
                              _("Check roughness and friction of the ground, the law of impact and the profile."));
 }
 
-void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t control)
+void ceduo_words_too_few_arrivals(struct text *text, const struct ceduo_result *r, size_t control)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     LOCAL_TEXT(where);
@@ -86,13 +86,13 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
         ceduo_text_append_joined(text, " ", "%s", _("If release and ground are right, rocks do not reach this place."));
 }
 
-void ceduo_words_still_moving(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
+void ceduo_words_warn_no_answer(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
 {
     for (size_t c = 0; c < r->scene->controls_count; c++) {
         LOCAL_TEXT(sentence);
         if (!ceduo_too_few_arrivals(&r->bare.arrivals[c]))
             continue;
-        ceduo_words_nothing(&sentence, r, c);
+        ceduo_words_too_few_arrivals(&sentence, r, c);
         say(context, ceduo_text_string(&sentence));
         return; /* what lies behind it is not reached either */
     }
@@ -100,14 +100,15 @@ void ceduo_words_still_moving(const struct ceduo_result *r, ceduo_sentence_sink 
 
 /* ---- why ---- */
 
-void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t control, const struct ceduo_arrivals *wooded)
+void ceduo_words_judgement_reason(struct text *text, const struct ceduo_result *r, size_t control,
+                                  const struct ceduo_arrivals *wooded)
 {
     const struct ceduo_control *c = &r->scene->controls[control];
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     enum ceduo_judgement judgement = ceduo_judge_control(bare, wooded);
     bool also_bare = ceduo_judge_control(bare, NULL) == CEDUO_YES;
-    if (judgement == CEDUO_NOTHING) {
-        ceduo_words_nothing(text, r, control);
+    if (judgement == CEDUO_CANNOT_JUDGE) {
+        ceduo_words_too_few_arrivals(text, r, control);
         return;
     }
     if (judgement == CEDUO_UNANSWERED) {
@@ -119,7 +120,8 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
     const struct ceduo_arrivals *shown = wooded ? wooded : bare;
     if (r->scene->blocks_count > 0)
         ceduo_text_format(text, _("A rock with more than %s kJ arrives every %s years (one in %s years is accepted)."),
-                          SHORTEST(ceduo_words_accepted(c)), YEARS(ceduo_feared(shown)), SHORTEST(ceduo_accepted_return(c)));
+                          SHORTEST(ceduo_words_accepted(c)), YEARS(ceduo_judged_rate(shown)),
+                          SHORTEST(ceduo_accepted_return(c)));
     else
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
                           INTERVAL(ceduo_measure_exceeding(c, shown)), ceduo_words_accepted(c), CEDUO_EXCEED_MAX * 1000);
@@ -161,12 +163,12 @@ struct ceduo_subject ceduo_subject_find(const struct ceduo_report *report, size_
     if (forest) {
         s.outcome = ceduo_report_outcome(report, option, control);
         ceduo_measure_uncertainty(&s.today, report->uncertainty, option, control);
-        ceduo_measure_uncertainty_over(&s.mean, report->uncertainty, option);
+        ceduo_measure_mean_uncertainty(&s.mean, report->uncertainty, option);
     }
     return s;
 }
 
-struct ceduo_subject ceduo_subject_in(const struct ceduo_report *report, size_t option, const struct ceduo_year *year)
+struct ceduo_subject ceduo_subject_find_year(const struct ceduo_report *report, size_t option, const struct ceduo_year *year)
 {
     struct ceduo_subject s = ceduo_subject_find(report, option, report->result->last_control);
     s.index = &year->controls[s.control];
@@ -176,16 +178,16 @@ struct ceduo_subject ceduo_subject_in(const struct ceduo_report *report, size_t 
     return s;
 }
 
-const char *ceduo_words_decided(enum ceduo_judgement judgement)
+const char *ceduo_words_judgement_name(enum ceduo_judgement judgement)
 {
     return _(judgements[judgement].verdict);
 }
 
-const char *ceduo_words_decision(enum ceduo_judgement judgement, char room[CEDUO_WORDS_ROOM])
+const char *ceduo_words_judgement_mark(enum ceduo_judgement judgement, char room[CEDUO_WORDS_SIZE])
 {
     if (judgement != CEDUO_UNANSWERED)
-        snprintf(room, CEDUO_WORDS_ROOM, "%s %s", ceduo_plot_light_mark(judgements[judgement].light),
-                 ceduo_words_decided(judgement));
+        snprintf(room, CEDUO_WORDS_SIZE, "%s %s", ceduo_plot_light_mark(judgements[judgement].light),
+                 ceduo_words_judgement_name(judgement));
     return room;
 }
 
@@ -197,7 +199,7 @@ static void say_today(struct text *text, const struct ceduo_outcome *o, double t
 {
     ceduo_text_format(text, _("; today %.0f"), today);
     if (word && o->today != CEDUO_UNANSWERED)
-        ceduo_text_format(text, " (%s)", ceduo_words_decided(o->today));
+        ceduo_text_format(text, " (%s)", ceduo_words_judgement_name(o->today));
 }
 
 /* Years above the limit: "17", or "0–12" if that leaves the answer open. */
@@ -266,7 +268,7 @@ static void say_rate(struct text *text, const struct ceduo_subject *s, enum leng
     if (length == FULL && ahead)
         ceduo_text_format(text, _(", mean of %zu years"), s->choice->ahead[s->control].years);
     if (length <= SHORT && ahead && s->wooded)
-        ceduo_text_format(text, _("; today every %s"), EVERY(ceduo_feared(s->wooded)));
+        ceduo_text_format(text, _("; today every %s"), EVERY(ceduo_judged_rate(s->wooded)));
 }
 
 /* "479 of 1000 arrive with more than 50 kJ (at most 50 rocks are accepted); may be 234–748" */
@@ -301,7 +303,7 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, size_t 
         if (o->impossible)
             ceduo_text_append(text,
                               i < BRIEF ? _("more stems than a forest can hold: check the stand") : _("impossible stand"));
-        else if (o->answer == CEDUO_NOTHING)
+        else if (o->answer == CEDUO_CANNOT_JUDGE)
             ceduo_text_format(text, _("of %llu rocks only %llu arrive, even without forest"),
                               (unsigned long long)ceduo_released(s->bare), (unsigned long long)ceduo_reached(s->bare));
         else if (!s->wooded && s->report->result->wooded)

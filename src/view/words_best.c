@@ -41,9 +41,9 @@ void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_sentence_sink *s
     }
 }
 
-void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, const struct ceduo_years *years)
+void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, const struct ceduo_years *years)
 {
-    const struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
+    const struct ceduo_years_summary s = ceduo_years_summarize(years, r->last_control);
     const struct ceduo_window *w = &years->window;
     bool says = !isnan(s.exceed.mean);
     if (w->kind == CEDUO_WINDOW_CONSTANT)
@@ -158,7 +158,7 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
     if (years)
         say_best(text, scene, v, true, when);
     if (years && today)
-        ceduo_text_char(text, '\n');
+        ceduo_text_append_char(text, '\n');
     if (today)
         say_best(text, scene, v, false, _("Today"));
 }
@@ -167,7 +167,7 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 
 #define TURNED_MAX 3 /* pairs of options that are named */
 
-void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
+void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
     const struct ceduo_alternative_energy *o = &r->options[option].others[control];
     const struct ceduo_arrivals *a = &o->arrivals;
@@ -198,7 +198,7 @@ static double of_1000(const struct ceduo_result *r, size_t option, bool other)
 {
     const struct ceduo_alternative_energy *o = &r->options[option].others[r->last_control];
     const struct ceduo_arrivals *by_other = o->known ? &o->arrivals : NULL;
-    return 1000 * ceduo_share_at(other ? by_other : ceduo_result_wooded(r, option, r->last_control)).mean;
+    return 1000 * ceduo_share_judged(other ? by_other : ceduo_result_wooded(r, option, r->last_control)).mean;
 }
 
 void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_sentence_sink *say,

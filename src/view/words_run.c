@@ -37,7 +37,7 @@ static void say_ground(const struct ceduo_result *r, ceduo_sentence_sink *say, v
     for (size_t c = 0; c < r->scene->controls_count; c++) {
         const struct ceduo_arrivals *bare = &r->bare.arrivals[c];
         double speed = ceduo_measured(CEDUO_SPEED, bare).value, height = ceduo_measured(CEDUO_P95_HEIGHT, bare).value;
-        const struct ceduo_topography *t = ceduo_topography_at(bare);
+        const struct ceduo_topography *t = ceduo_topography_find(bare);
         enum ceduo_terrain terrain = ceduo_terrain(bare);
         LOCAL_TEXT(name);
         ceduo_words_place(&name, &r->scene->controls[c]);

@@ -25,7 +25,7 @@ static void try_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint6
                                  .made_by = made_by,
                                  .seen = seen,
                                  .rocks = rocks,
-                                 .steps_most = made_by == CEDUO_LAW_LUMPED ? 0 : CUT};
+                                 .steps_max = made_by == CEDUO_LAW_LUMPED ? 0 : CUT};
     if (!quarry_try(&trial, truth, &a))
         return;
     printf("%zu,%s,%llu,%llu,%llu,%.1f,%d,%.0f", number, made_by == CEDUO_LAW_LUMPED ? "lumped" : "crsp",

@@ -98,7 +98,7 @@ struct ceduo_slope fine_slope(const struct ceduo_segment *ground, double metres,
 struct ceduo_rock plain_rock(const struct paper_site *site)
 {
     struct ceduo_rock rock;
-    if (ceduo_rock_of_means(&site->scene.rock, &rock) != CEDUO_OK)
+    if (ceduo_rock_from_means(&site->scene.rock, &rock) != CEDUO_OK)
         fail("bad rock");
     return rock;
 }

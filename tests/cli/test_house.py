@@ -187,7 +187,7 @@ def compiles_otherwise():
 def without_default():
     """Structs of the headers that a caller fills, without a function that returns one."""
     text = "".join(p.read_text(encoding="utf-8") for p in sorted((ROOT / "include/ceduo").glob("*.h")))
-    structs = re.findall(r"^struct (ceduo_(?:\w+_def|question|input|observation)) {", text, re.M)
+    structs = re.findall(r"^struct (ceduo_(?:\w+_def|request|input|observation)) {", text, re.M)
     return [name for name in structs if not re.search(rf"^struct {name} {name}_default\(", text, re.M)]
 
 

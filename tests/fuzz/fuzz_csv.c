@@ -15,7 +15,7 @@
 static void check_stand(struct arena *arena, const struct survey_file *survey, struct problems *problems)
 {
     struct text yaml = {0};
-    if (ceduo_survey_stand(survey, &yaml, problems)) {
+    if (ceduo_survey_print_stand(survey, &yaml, problems)) {
         struct ceduo_belt belt;
         struct invalid_values invalid = {0};
         const struct source_note *notes = NULL;

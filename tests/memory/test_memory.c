@@ -163,7 +163,7 @@ static bool question(void)
     struct ceduo_stand *stand = &site.belts[0].stand;
     stand->growth = paper_growth;
     static double stay = 50;
-    stand->cutting = (struct ceduo_cutting){.rotation = 20, .stay_count = 1, .stay_per_ha = &stay};
+    stand->cutting = (struct ceduo_cutting){.rotation = 20, .retained_count = 1, .stay_per_ha = &stay};
     site.belts[0].cut_year = 2;
     struct ceduo_request q = ceduo_request_default(&site.scene);
     LOCAL(ceduo_pool, pool) = NULL;
@@ -181,7 +181,7 @@ static bool question(void)
     if (status == CEDUO_OK)
         status = ceduo_compare_options(answer.result, answer.years, NULL, &verdict);
     if (status == CEDUO_OK) {
-        struct ceduo_years_summary s = ceduo_years_sum(answer.years[0], 0);
+        struct ceduo_years_summary s = ceduo_years_summarize(answer.years[0], 0);
         assert_int_equal(verdict.turned_count, 1);
         add(&verdict.choices[0].yield.volume_today, sizeof verdict.choices[0].yield.volume_today);
         add(ceduo_result_wooded(answer.result, 0, 0), sizeof(struct ceduo_arrivals));
@@ -218,7 +218,7 @@ static bool years_of_blocks(void)
     for (uint64_t rocks = 30; rocks <= 40 && status == CEDUO_OK; rocks += 10)
         status = ceduo_years_simulate(years, pool, &bare, rocks);
     if (status == CEDUO_OK) {
-        struct ceduo_years_summary s = ceduo_years_sum(years, 0);
+        struct ceduo_years_summary s = ceduo_years_summarize(years, 0);
         assert_true(s.exceed.se > 0);
         add(&s.exceed, sizeof s.exceed);
     }
@@ -248,7 +248,7 @@ static bool ask_years_apart(void)
     struct ceduo_request q = ceduo_request_default(&site.scene);
     q.years = true;
     q.window = (struct ceduo_window){.last = 2, .step = 1};
-    q.years_apart = true;
+    q.years_independent = true;
     q.year_rocks = 20;
     return ask(q);
 }
@@ -484,7 +484,7 @@ static void make_roll(void)
 
 static bool follow_seventh(struct ceduo_trajectory *way)
 {
-    enum ceduo_status status = ceduo_trajectory_follow(&site.scene, &site.option, 7, NULL, way, NULL);
+    enum ceduo_status status = ceduo_trajectory_run(&site.scene, &site.option, 7, NULL, way, NULL);
     if (status == CEDUO_OK)
         add(&way->x, sizeof way->x);
     return is_done(status);

@@ -145,7 +145,7 @@ static bool arena_fails(struct arena *arena)
     bool failed = arenas_fail && fails();
     arena->failed |= failed;
     if (failed)
-        ceduo_no_memory();
+        ceduo_oom_set_flag();
     return failed;
 }
 
@@ -280,7 +280,8 @@ static bool read_survey(void)
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     struct survey_file file;
     LOCAL_TEXT(yaml);
-    bool good = ceduo_survey_read(&file, &arena, survey_path, NULL, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
+    bool good =
+        ceduo_survey_read(&file, &arena, survey_path, NULL, &problems) && ceduo_survey_print_stand(&file, &yaml, &problems);
     ceduo_problems_print(&problems);
     assert_true(good || problems.memory);
     if (good)

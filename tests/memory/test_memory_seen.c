@@ -168,7 +168,7 @@ static enum ceduo_status fit_of(const struct ceduo_input *input, double x, struc
     const struct ceduo_calibration_scene scene = {&ground.of.scene, input, SEEN, seen}, scenes[2] = {scene, scene};
     struct ceduo_calibration a;
     def.scenes = scenes;
-    def.parameters_count = def.seed = def.steps_most = 1;
+    def.parameters_count = def.seed = def.steps_max = 1;
     enum ceduo_status status = ceduo_calibrate(&def, &a);
     if (status == CEDUO_OK) {
         add(&a.parameters[0].best, sizeof a.parameters[0].best);
@@ -296,7 +296,7 @@ static bool draw(void)
                                    .first_step = 1,
                                    .seed = 1,
                                    .threads = 2,
-                                   .steps_most = 201,
+                                   .steps_max = 201,
                                    .rhat_most = 1.01,
                                    .effective_least = 1e9,
                                    .density = normal,

@@ -229,15 +229,15 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     struct ceduo_crossing crossing = {0};
     struct watch w = {.scene = s, .smooth = is_smooth(s)};
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
-    assert_int_equal(ceduo_rock_of_means(&s->scene.rock, &w.rock), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&s->scene.rock, &w.rock), CEDUO_OK);
     if (s->scene.simulation.law == CEDUO_LAW_ARM) { /* whose section is drawn */
-        assert_int_equal(ceduo_trajectory_follow(&s->scene, NULL, number % 11, NULL, &way, NULL), CEDUO_OK);
+        assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11, NULL, &way, NULL), CEDUO_OK);
         w.rock = way.rock;
     }
     w.k = s->scene.simulation.law == CEDUO_LAW_LUMPED ? 0 : w.rock.k;
-    assert_int_equal(ceduo_trajectory_follow(&s->scene, NULL, number % 11,
-                                             &(struct ceduo_trajectory_callbacks){.piece = look_at_piece, .context = &w}, &way,
-                                             &crossing),
+    assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11,
+                                          &(struct ceduo_trajectory_callbacks){.piece = look_at_piece, .context = &w}, &way,
+                                          &crossing),
                      CEDUO_OK);
     if (w.bad || !isfinite(way.x + way.z) || (w.pieces > 0 && (way.x != w.last.x1 || way.z != w.last.z1)))
         fail_msg("scene %ju: not a number, or a gap in the way", (uintmax_t)number);

@@ -275,7 +275,7 @@ void line_keep_piece(void *context, const struct ceduo_trajectory_segment *piece
 enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to)
 {
     to->count = 0;
-    return ceduo_trajectory_follow(&s->scene, NULL, 0,
-                                   &(struct ceduo_trajectory_callbacks){.piece = line_keep_piece, .context = to}, &to->way,
-                                   &to->crossing);
+    return ceduo_trajectory_run(&s->scene, NULL, 0,
+                                &(struct ceduo_trajectory_callbacks){.piece = line_keep_piece, .context = to}, &to->way,
+                                &to->crossing);
 }

@@ -94,7 +94,7 @@ static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, con
                                         .rocks = trial->rocks,
                                         .seed = s->scene.simulation.seed,
                                         .threads = trial->threads > 0 ? trial->threads : 1,
-                                        .steps_most = trial->steps_most};
+                                        .steps_max = trial->steps_max};
     return ceduo_calibrate(&def, answer) == CEDUO_OK;
 }
 

@@ -30,7 +30,7 @@ struct quarry_trial {
     size_t values, kinds;   /* fitted: the first of quarry_names; seen: stops alone, or with speeds, or with heights as well */
     enum ceduo_law made_by; /* the fit is by lumped */
     uint64_t seen, rocks;   /* rocks released and seen; in each evaluation */
-    size_t steps_most;      /* of each chain; 0: as many as is usual */
+    size_t steps_max;       /* of each chain; 0: as many as is usual */
     unsigned threads;       /* 0: one */
 };
 

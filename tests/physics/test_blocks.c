@@ -89,8 +89,8 @@ TEST(every_description_keeps_shape_and_density)
     for (size_t i = 0; i < LENGTH(rocks); i++) {
         struct ceduo_rock_def def = def_of(&rocks[i]), other = ceduo_rock_scaled(&def, 2);
         struct ceduo_rock was, is;
-        assert_int_equal(ceduo_rock_of_means(&def, &was), CEDUO_OK);
-        assert_int_equal(ceduo_rock_of_means(&other, &is), CEDUO_OK);
+        assert_int_equal(ceduo_rock_from_means(&def, &was), CEDUO_OK);
+        assert_int_equal(ceduo_rock_from_means(&other, &is), CEDUO_OK);
         ROWS(expect_near, (rocks[i].name, is.mean_diameter, 2 * was.mean_diameter), (rocks[i].name, is.volume, 8 * was.volume),
              (rocks[i].name, is.mass, 8 * was.mass), (rocks[i].name, is.k, was.k));
         expect_near(rocks[i].name, is.moment, 32 * was.moment); /* mass times length squared */
@@ -109,9 +109,9 @@ static void drop(struct ceduo_rock_def rock, double accepted)
 
 static void size_up(const struct ceduo_arrivals *own, struct ceduo_size_result blocks[CEDUO_SIZES])
 {
-    const struct ceduo_blocks_def def = {
+    const struct ceduo_sizes_def def = {
         .scene = &scene.scene, .option = &scene.option, .rocks = BLOCKS_FLOWN, .effort = INFINITY, .own = own, .threads = 1};
-    assert_int_equal(ceduo_blocks(&def, blocks), CEDUO_OK);
+    assert_int_equal(ceduo_sizes_simulate(&def, blocks), CEDUO_OK);
 }
 
 /* A block of one size is as many of 1 m3 as it has: of 1 m by 1 m by so much, whose volume no rounding touches. */
@@ -156,7 +156,7 @@ TEST(blocks_have_the_mass_and_width_of_their_volume)
         struct ceduo_rock_def def = def_of(&rocks[i]);
         struct ceduo_size_result b[CEDUO_SIZES];
         struct ceduo_rock own;
-        assert_int_equal(ceduo_rock_of_means(&def, &own), CEDUO_OK);
+        assert_int_equal(ceduo_rock_from_means(&def, &own), CEDUO_OK);
         drop(def, NAN);
         scene.scene.simulation.contact_model = CEDUO_INDEX;
         size_up(NULL, b);

@@ -507,35 +507,35 @@ TEST(widths_of_few)
         EXPECT_NEAR(ceduo_half_width(2, (uint64_t)atof(row.at[0])), 2 * atof(row.at[1]), 1e-3);
     for (uint64_t n = 0; n < 10; n++) /* too few to say */
         assert_true(isnan(ceduo_half_width(1, n)));
-    expect_relative(ceduo_half_width_of_share(0.25, 0.1, 50), 0.1959963984540054, 1e-15);
-    EXPECT_NEAR(ceduo_half_width_of_share(0, 0, 20), .1611, .5e-4); /* Newcombe 1998, Table I */
-    EXPECT_NEAR(ceduo_half_width_of_share(1, 0, 29), .1170, .5e-4);
-    EXPECT_NEAR(ceduo_half_width_of_share(1, 0, 29), ceduo_half_width_of_share(0, 0, 29), 1e-15);
+    expect_relative(ceduo_share_half_width(0.25, 0.1, 50), 0.1959963984540054, 1e-15);
+    EXPECT_NEAR(ceduo_share_half_width(0, 0, 20), .1611, .5e-4); /* Newcombe 1998, Table I */
+    EXPECT_NEAR(ceduo_share_half_width(1, 0, 29), .1170, .5e-4);
+    EXPECT_NEAR(ceduo_share_half_width(1, 0, 29), ceduo_share_half_width(0, 0, 29), 1e-15);
 }
 
 /* Of n pairs that are all equal as many as 3.841/(n + 3.841) may differ: Wilson's upper end of 0 of n. */
 TEST(pairs_that_do_not_differ)
 {
     struct ceduo_moments m = {0};
-    struct ceduo_estimate p = ceduo_estimate_of_pairs(.5, &m, 100); /* of which no single rock is kept */
+    struct ceduo_estimate p = ceduo_estimate_from_pairs(.5, &m, 100); /* of which no single rock is kept */
     EXPECT(p.mean, ==, .5);
     assert_true(isnan(p.se));
     assert_false(ceduo_pairs_are_equal(&p));
     for (int i = 0; i < 999; i++)
         ceduo_moments_add(&m, 0);
-    p = ceduo_estimate_of_pairs(0, &m, 999);
+    p = ceduo_estimate_from_pairs(0, &m, 999);
     EXPECT(p.mean, ==, 0);
     assert_true(isnan(p.se));
     EXPECT_NEAR(p.hi, 3.841459 / (999 + 3.841459), 1e-9);
     ceduo_moments_add(&m, -1); /* one of 1000 */
-    p = ceduo_estimate_of_pairs(-1e-3, &m, 1000);
+    p = ceduo_estimate_from_pairs(-1e-3, &m, 1000);
     EXPECT(p.mean, ==, -1e-3);
     EXPECT_NEAR(p.se, 1e-3, 1e-6);
     assert_false(ceduo_pairs_are_equal(&p));
     m = (struct ceduo_moments){0};
     for (int i = 0; i < 20; i++)
         ceduo_moments_add(&m, 0.5); /* all differ, and alike */
-    p = ceduo_estimate_of_pairs(0.5, &m, 20);
+    p = ceduo_estimate_from_pairs(0.5, &m, 20);
     EXPECT_IS(p, (se, 0), (lo, .5), (hi, .5));
 }
 
@@ -731,16 +731,16 @@ TEST(a_normal_spread_is_cut)
     expect_cut_normal(.05, .1, 0, 1);
     expect_cut_normal(.5, .5, 0, 1);
     struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_NORMAL};
-    EXPECT(ceduo_number_lowest(n), ==, .5);
-    EXPECT(ceduo_number_highest(n), ==, 3.5);
+    EXPECT(ceduo_number_min(n), ==, .5);
+    EXPECT(ceduo_number_max(n), ==, 3.5);
     expect_relative(ceduo_number_draw(n, .5, -INFINITY, INFINITY), 2, 1e-14);
 }
 
 TEST(a_uniform_spread)
 {
     struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_UNIFORM};
-    EXPECT(ceduo_number_lowest(n), ==, 1.5);
-    EXPECT(ceduo_number_highest(n), ==, 2.5);
+    EXPECT(ceduo_number_min(n), ==, 1.5);
+    EXPECT(ceduo_number_max(n), ==, 2.5);
     struct seen all = draw_many(n, -INFINITY, INFINITY, 0), cut = draw_many(n, 0, 2, 0);
     EXPECT_NEAR(all.mean, 2, 4 * .5 / sqrt(3) / 1e3);
     EXPECT_NEAR(all.sd, .5 / sqrt(3), 1e-3);
@@ -750,7 +750,7 @@ TEST(a_uniform_spread)
     EXPECT(cut.lowest, >=, 1.5);
     struct ceduo_number fixed = ceduo_number(.3);
     EXPECT(ceduo_number_draw(fixed, .01, 0, 1), ==, .3);
-    EXPECT(ceduo_number_lowest(fixed), ==, .3);
+    EXPECT(ceduo_number_min(fixed), ==, .3);
 }
 
 /* ---- facet draws ---- */

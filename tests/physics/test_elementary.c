@@ -180,9 +180,9 @@ TEST(roots)
     EXPECT(ceduo_cbrt(0), ==, 0);
     EXPECT(ceduo_cbrt(-INFINITY), ==, -INFINITY);
     assert_true(isnan(ceduo_cbrt(NAN)));
-    EXPECT(ceduo_length(3, -4), ==, 5);
-    EXPECT(ceduo_length(3e-320, 4e-320), ==, 5e-320); /* their squares are 0 */
-    EXPECT(ceduo_length(0, 5e-324), ==, 5e-324);
+    EXPECT(ceduo_hypot(3, -4), ==, 5);
+    EXPECT(ceduo_hypot(3e-320, 4e-320), ==, 5e-320); /* their squares are 0 */
+    EXPECT(ceduo_hypot(0, 5e-324), ==, 5e-324);
 }
 
 TEST(normal_law)

@@ -50,7 +50,7 @@ static void expect_warned(const struct ceduo_stand *stand, unsigned set, unsigne
 TEST_WITH(rock_of_table_2, open_paper, NULL)
 {
     struct ceduo_rock rock;
-    assert_int_equal(ceduo_rock_of_means(&site.scene.rock, &rock), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&site.scene.rock, &rock), CEDUO_OK);
     expect_decimals(rock.mass, 512.3058, 4);
     ROWS(expect_exact, (rock.mean_diameter, 0.68), (rock.radius, 0.34), (rock.k, 0.5),
          (rock.axes[0] + 2 * rock.axes[1] + 4 * rock.axes[2], 3 * 0.56 + 4 * 0.8),
@@ -65,31 +65,31 @@ TEST_WITH(rock_shapes, open_paper, NULL)
     const double pi = acos(-1);
     struct ceduo_rock_def def = ceduo_scene_default().rock;
     struct ceduo_rock rock;
-    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_BAD_ROCK);
+    assert_int_equal(ceduo_rock_from_means(&def, &rock), CEDUO_BAD_ROCK);
     def.volume = ceduo_number(pi / 6);
-    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&def, &rock), CEDUO_OK);
     ROWS(expect_exact, (rock.mean_diameter, 1), (rock.k, 0.4), (rock.mass, 2600 * pi / 6));
     def = ceduo_scene_default().rock;
     def.mass = ceduo_number(2600 * pi / 6 * 8);
-    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&def, &rock), CEDUO_OK);
     expect_exact(rock.mean_diameter, 2);
     expect_exact(rock.moment, 0.4 * rock.mass);
     def = ceduo_scene_default().rock;
     def.shape = CEDUO_ELLIPSOID;
     for (int i = 0; i < 3; i++)
         def.axes[i] = ceduo_number((double[]){0.5, 1.5, 1}[i]);
-    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&def, &rock), CEDUO_OK);
     ROWS(expect_exact, (rock.volume, pi / 6 * 0.75), (rock.mean_diameter, 1), (rock.k, 0.4),
          (rock.axes[0] + 2 * rock.axes[1] + 4 * rock.axes[2], 0.5 + 2 * 1.5 + 4));
     def.shape = CEDUO_BLOCK;
     def.mass = ceduo_number(1000);
-    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&def, &rock), CEDUO_OK);
     expect_exact(rock.mass, 1000);
     expect_exact(rock.volume, 0.75);
     expect_exact(rock.moment, 1000 * (0.25 + 1) / 12); /* about the longest axis */
     expect_exact(rock.k, (0.25 + 1) / 12 / 0.25);
     def.axes[2] = ceduo_number(0);
-    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_BAD_ROCK);
+    assert_int_equal(ceduo_rock_from_means(&def, &rock), CEDUO_BAD_ROCK);
 }
 
 /* ---- impacts ---- */
@@ -220,9 +220,9 @@ TEST_WITH(two_contacts_on_the_slope_of_table_3, open_paper, NULL)
     site.scene.release.vx = ceduo_number(1);
     site.scene.release.vz = ceduo_number(0);
     walked.count = 0;
-    assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0,
-                                             &(struct ceduo_trajectory_callbacks){.piece = line_keep_piece, .context = &walked},
-                                             &walked.way, NULL),
+    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0,
+                                          &(struct ceduo_trajectory_callbacks){.piece = line_keep_piece, .context = &walked},
+                                          &walked.way, NULL),
                      CEDUO_OK);
     EXPECT(walked.count, >=, 3);
     const struct ceduo_trajectory_segment *p = walked.pieces;

@@ -113,7 +113,7 @@ TEST(a_rock_is_scaled_as_a_whole)
     def.diameter = ceduo_number(0.56);
     def.height = ceduo_number(0.80);
     def.density = ceduo_number(2600);
-    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&def, &rock), CEDUO_OK);
     double volume = rock.volume;
     ceduo_rock_resize(&rock, 8 * volume);
     ROWS(EXPECT_NEAR, (rock.mean_diameter, 2 * 0.68, 1e-15), (rock.radius, 0.68, 1e-15), (rock.mass, 8 * 512.3058, 1e-3),
@@ -249,7 +249,7 @@ TEST(few_rocks_bound_what_they_can)
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 3, 5e4, &h, NULL));
     ROWS(EXPECT_NEAR, (h.reach.mean, 0.0015, 1e-15), (h.accepted.mean, 0.001, 1e-15),
-         (ceduo_hazard_feared(&h).mean, 0.001, 1e-15));
+         (ceduo_hazard_judged_rate(&h).mean, 0.001, 1e-15));
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
         EXPECT_NEAR(h.intensity[i].within.mean, 0.0005, 1e-15);
     assert_true(isnan(h.returns[3].energy.mean) &&
@@ -258,7 +258,7 @@ TEST(few_rocks_bound_what_they_can)
     assert_true(isnan(h.returns[1].energy.hi));  /* one in 30 years is more than all three may be */
     assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h, NULL));
     assert_true(isnan(h.accepted.mean));
-    EXPECT_NEAR(ceduo_hazard_feared(&h).mean, 0.0015, 1e-15);
+    EXPECT_NEAR(ceduo_hazard_judged_rate(&h).mean, 0.0015, 1e-15);
     struct ceduo_hazard none = ceduo_hazard_none();
     ceduo_hazard_compare(&h, &none);
     assert_true(isnan(h.left) && isnan(h.intensity[0].left));

@@ -50,7 +50,7 @@ static void follow(uint64_t rock)
 {
     const struct ceduo_trajectory_callbacks watch = {.stem = note_stem, .context = &passed};
     passed.count = 0;
-    assert_int_equal(ceduo_trajectory_follow(&scene.scene, &scene.option, rock, &watch, &passed.way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_run(&scene.scene, &scene.option, rock, &watch, &passed.way, NULL), CEDUO_OK);
 }
 
 /* ---- diameters ---- */

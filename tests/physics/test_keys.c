@@ -262,14 +262,14 @@ static const struct field growth_fields[] = {
 static const struct field curve_fields[] = {
     FIELD(ceduo_curve, dbh_most, NUMBER, YEARS),
     FIELD(ceduo_curve, dbh_rate, NUMBER, YEARS),
-    FIELD(ceduo_curve, height_most, NUMBER, YEARS),
+    FIELD(ceduo_curve, height_max, NUMBER, YEARS),
     FIELD(ceduo_curve, height_rate, NUMBER, YEARS),
 };
 
 static const struct field cutting_fields[] = {
     FIELD(ceduo_cutting, rotation, WORD, YEARS),
     FIELD(ceduo_cutting, cohorts, WORD, YEARS),
-    FIELD(ceduo_cutting, stay_count, COUNT, YEARS),
+    FIELD(ceduo_cutting, retained_count, COUNT, YEARS),
 };
 
 /* ---- what is walked over ---- */
@@ -300,7 +300,7 @@ static void open_site(void)
         site.belts[i].stand.species = ceduo_species_find("fraxinus-ornus");
         site.plots[i].shoots.height = site.plots[i].trees.height = 8;
         site.belts[i].stand.cutting =
-            (struct ceduo_cutting){.rotation = 25, .cohorts = 3, .stay_count = LENGTH(stay), .stay_per_ha = stay};
+            (struct ceduo_cutting){.rotation = 25, .cohorts = 3, .retained_count = LENGTH(stay), .stay_per_ha = stay};
     }
 }
 

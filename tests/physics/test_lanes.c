@@ -436,7 +436,7 @@ static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
     struct ceduo_rock body;
     const struct ceduo_slope *slope = &scene->slope;
     const struct ceduo_release *r = &scene->release;
-    assert_int_equal(ceduo_rock_of_means(&scene->rock, &body), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&scene->rock, &body), CEDUO_OK);
     slow_segments(slope, body.radius, segments);
     const struct slow_def def = {.count = slope->vertices - 1,
                                  .segments = segments,

@@ -300,5 +300,5 @@ TEST(what_a_bare_slope_keeps_needs_no_forest)
     ROWS(assert_int_equal, (ceduo_judge_control(&many, NULL), CEDUO_UNANSWERED), (ceduo_judge_control(&many, &few), CEDUO_YES),
          (ceduo_judge_control(&many, &many), CEDUO_NO));
     assert_int_equal(ceduo_judge_control(&many, &none), CEDUO_YES); /* the forest stops all of them */
-    assert_int_equal(ceduo_judge_control(&none, &none), CEDUO_NOTHING);
+    assert_int_equal(ceduo_judge_control(&none, &none), CEDUO_CANNOT_JUDGE);
 }

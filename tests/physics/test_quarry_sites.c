@@ -32,7 +32,7 @@ TEST(ranges_hold_the_truth)
     for (size_t i = 0; i < SITES; i++) {
         struct ceduo_calibration a;
         double truth[QUARRY_VALUES_MAX];
-        struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = 2, .seen = 30, .rocks = 200, .steps_most = 300};
+        struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = 2, .seen = 30, .rocks = 200, .steps_max = 300};
         if (!quarry_try(&trial, truth, &a))
             continue;
         for (size_t k = 0; k < VALUES; k++) {
@@ -61,7 +61,7 @@ TEST(what_another_law_made_is_found_out)
                                      .made_by = CEDUO_LAW_CRSP,
                                      .seen = 200,
                                      .rocks = 200,
-                                     .steps_most = 110};
+                                     .steps_max = 110};
         if (!quarry_try(&trial, truth, &a))
             continue;
         flagged += a.misfit;

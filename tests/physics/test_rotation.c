@@ -209,10 +209,10 @@ TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
     LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(5, 30);
     expect_same_stems(grown.stand.trees, s.trees, 1);
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
-    s.stand.cutting.stay_count = 0;
+    s.stand.cutting.retained_count = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, 5), 5);
     struct ceduo_curve *shoots = &s.stand.growth.shoots;
-    double *const numbers[] = {&shoots->dbh_most, &shoots->dbh_rate, &shoots->height_most, &shoots->height_rate};
+    double *const numbers[] = {&shoots->dbh_most, &shoots->dbh_rate, &shoots->height_max, &shoots->height_rate};
     for (size_t i = 0; i < LENGTH(numbers); i++) {
         double was = *numbers[i];
         *numbers[i] = 0;
@@ -251,13 +251,13 @@ TEST_WITH(the_years_of_cuts, fresh, NULL)
         assert_int_equal(ceduo_first_cut(stand, given[i]), (unsigned)first[i]);
     EXPECT(ceduo_first_cut(stand, INFINITY), ==, CEDUO_NEVER);
     EXPECT(ceduo_first_cut(stand, 1e12), ==, CEDUO_NEVER);
-    assert_false(ceduo_is_cut_year(stand, INFINITY, CEDUO_NEVER));
+    assert_false(ceduo_stand_is_cut_year(stand, INFINITY, CEDUO_NEVER));
     for (unsigned year = 0; year < 120; year++)
-        EXPECT(ceduo_is_cut_year(stand, -5, year), ==, (year % 25 == 20));
-    assert_false(ceduo_is_cut_year(stand, 30, 5)); /* the first is the first */
+        EXPECT(ceduo_stand_is_cut_year(stand, -5, year), ==, (year % 25 == 20));
+    assert_false(ceduo_stand_is_cut_year(stand, 30, 5)); /* the first is the first */
     s.stand.cutting.rotation = 0;
     EXPECT(ceduo_first_cut(stand, 0), ==, CEDUO_NEVER);
-    assert_false(ceduo_is_cut_year(stand, 0, 0));
+    assert_false(ceduo_stand_is_cut_year(stand, 0, 0));
 }
 
 TEST_WITH(by_default_it_is_cut_when_it_is_old_enough, fresh, NULL)
@@ -282,7 +282,7 @@ TEST_WITH(by_default_it_is_cut_when_it_is_old_enough, fresh, NULL)
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(50 + log(1 - 20. / 45) / .014));
     s.stand.growth = (struct ceduo_growth){.sdi_most = 0};
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), CEDUO_NEVER);
-    s.stand.cutting.stay_count = 0;
+    s.stand.cutting.retained_count = 0;
     s.trees[0].age = 10; /* known without a curve */
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 15);
     s.stand.trees_count = 0;
@@ -349,7 +349,7 @@ TEST_WITH(a_cut_in_year_0_is_done, fresh, NULL)
     ceduo_grown_stand_release(&now);
     ceduo_grown_stand_release(&later);
     ceduo_grown_stand_release(&rhythm);
-    s.stand.cutting.stay_count = 0; /* nothing is left */
+    s.stand.cutting.retained_count = 0; /* nothing is left */
     now = at(0, 0);
     assert_true(ceduo_stand_is_bare(&now.stand));
     assert_false(now.stems);
@@ -399,7 +399,7 @@ TEST(the_density_index)
 
 TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
 {
-    s.stand.trees_count = s.stand.cutting.stay_count = 0;
+    s.stand.trees_count = s.stand.cutting.retained_count = 0;
     s.stand.growth.sdi_most = 250;
     unsigned thinned = 0, died = 0;
     for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index goes with the number */
@@ -471,13 +471,13 @@ static void random_stand(void)
         s.shoots[i] = paper_stems(stand->stools_per_ha * uniform(1, 6) / (double)stand->shoots_count, uniform(.01, .18), 5);
     for (size_t i = 0; i < stand->trees_count; i++)
         s.trees[i] = paper_stems(uniform(1, 300), uniform(.05, .7), 14);
-    for (size_t i = 0; i < stand->cutting.stay_count; i++)
+    for (size_t i = 0; i < stand->cutting.retained_count; i++)
         s.stay[i] = uniform(0, 1) < .3 ? 0 : uniform(0, 200);
 }
 
 static bool has_new_shoots(const struct ceduo_stand *stand, double first_cut, unsigned year)
 {
-    return year > 0 && (ceduo_is_cut_year(stand, first_cut, year) || ceduo_is_cut_year(stand, first_cut, year - 1));
+    return year > 0 && (ceduo_stand_is_cut_year(stand, first_cut, year) || ceduo_stand_is_cut_year(stand, first_cut, year - 1));
 }
 
 TEST(no_stand_gains_stems_by_growing)

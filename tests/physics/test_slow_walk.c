@@ -56,8 +56,8 @@ static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct tr
     struct ceduo_trajectory way;
     struct ceduo_crossing c;
     memset(t, 0, sizeof *t);
-    assert_int_equal(ceduo_trajectory_follow(scene, NULL, rock,
-                                             &(struct ceduo_trajectory_callbacks){.piece = note_piece, .context = t}, &way, &c),
+    assert_int_equal(ceduo_trajectory_run(scene, NULL, rock,
+                                          &(struct ceduo_trajectory_callbacks){.piece = note_piece, .context = t}, &way, &c),
                      CEDUO_OK);
     t->contacts = way.contacts;
     t->end = way.contacts > CONTACTS ? -1 : (int)way.end;
@@ -108,7 +108,7 @@ static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct li
     const struct ceduo_slope *slope = &scene->slope;
     const struct ceduo_release *r = &scene->release;
     struct ceduo_rock body;
-    assert_int_equal(ceduo_rock_of_means(&scene->rock, &body), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&scene->rock, &body), CEDUO_OK);
     slow_segments(slope, body.radius, segments);
     memset(t, 0, sizeof *t);
     struct slow_context context = {t, scene->simulation.seed, rock, 0, change};
@@ -253,7 +253,7 @@ static struct sizes sizes_of(const struct ceduo_scene *scene)
     const struct ceduo_slope *p = &scene->slope;
     struct ceduo_rock body;
     struct sizes s = {.length = 1};
-    assert_int_equal(ceduo_rock_of_means(&scene->rock, &body), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&scene->rock, &body), CEDUO_OK);
     double low = 0, high = 0;
     for (size_t i = 0; i < p->vertices; i++) {
         s.length = fmax(s.length, fmax(p->x[i], fabs(p->z[i])));

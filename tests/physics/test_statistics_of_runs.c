@@ -285,7 +285,7 @@ static struct drawn draw_releases(const struct ceduo_scene *scene, uint64_t rock
     struct drawn d = {0};
     for (uint64_t rock = 0; rock < rocks; rock++) {
         struct ceduo_trajectory w;
-        assert_int_equal(ceduo_trajectory_follow(scene, NULL, rock, NULL, &w, NULL), CEDUO_OK);
+        assert_int_equal(ceduo_trajectory_run(scene, NULL, rock, NULL, &w, NULL), CEDUO_OK);
         ceduo_moments_add(&d.x, w.x0);
         ceduo_moments_add(&d.height, w.z0 - ceduo_slope_height(&scene->slope, w.x0));
         ceduo_moments_add(&d.vx, w.vx0);
@@ -370,7 +370,7 @@ static struct first_contact first_contacts(const struct ceduo_scene *scene)
         const struct ceduo_trajectory_callbacks watch = {.piece = look_at_first_contact, .context = &f};
         struct ceduo_trajectory w;
         f.seen = false;
-        assert_int_equal(ceduo_trajectory_follow(scene, NULL, rock, &watch, &w, NULL), CEDUO_OK);
+        assert_int_equal(ceduo_trajectory_run(scene, NULL, rock, &watch, &w, NULL), CEDUO_OK);
         assert_true(f.seen);
     }
     return f;

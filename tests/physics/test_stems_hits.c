@@ -157,7 +157,7 @@ TEST(a_control_where_a_stem_stands_is_passed_before_the_hit)
             struct ceduo_trajectory way;
             struct ceduo_crossing c;
             cross_at(stem.x, rolls);
-            assert_int_equal(ceduo_trajectory_follow(&plane.line.scene, &plane.line.option, rock, NULL, &way, &c), CEDUO_OK);
+            assert_int_equal(ceduo_trajectory_run(&plane.line.scene, &plane.line.option, rock, NULL, &way, &c), CEDUO_OK);
             assert_true(c.reached);
             EXPECT(c.stems_hit, ==, i);
             expect_exact("energy at the control", way.rock.mass / 2 * (c.vx * c.vx + c.vz * c.vz), stem.before, 1e-12);

@@ -52,7 +52,7 @@ TEST(a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none)
     plant_plot(1, 10, 510);
     line_scene_release(&plane.line, 0, 0, 5000, 0, 0);
     expect_plot(&plot_rates[0], 1000, "rolling");
-    assert_int_equal(ceduo_trajectory_follow(&plane.line.scene, NULL, 0, NULL, &bare, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_run(&plane.line.scene, NULL, 0, NULL, &bare, NULL), CEDUO_OK);
     /* a hit leaves the rest of a roll's length R to go */
     assert_int_equal(sweep.way.contacts, bare.contacts);
     assert_int_equal(bare.contacts, ceil(520 / (B / 2)));

@@ -159,7 +159,7 @@ TEST(a_rock_that_is_given_up_has_arrived_before)
         assert_int_equal(ends_of(run).count[CEDUO_UNFINISHED], ROCKS);
         struct ceduo_trajectory way;
         struct ceduo_crossing c;
-        assert_int_equal(ceduo_trajectory_follow(&plane.line.scene, &plane.line.option, 0, NULL, &way, &c), CEDUO_OK);
+        assert_int_equal(ceduo_trajectory_run(&plane.line.scene, &plane.line.option, 0, NULL, &way, &c), CEDUO_OK);
         EXPECT_IS(way, (end, CEDUO_UNFINISHED), (contacts, contact));
         ROWS(EXPECT, (way.x, >, 10000), (way.x, <, 20000), (way.z, >, 2));
         assert_true(c.reached);

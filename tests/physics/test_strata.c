@@ -305,7 +305,7 @@ TEST(groups_of_trees_that_differ)
 TEST(stumps_and_groups_over_the_years)
 {
     static double stay[] = {40};
-    const struct ceduo_curve curve = {.dbh_most = .3, .dbh_rate = .03, .height_most = 15, .height_rate = .05};
+    const struct ceduo_curve curve = {.dbh_most = .3, .dbh_rate = .03, .height_max = 15, .height_rate = .05};
     struct ceduo_stems shoots = {.per_ha = 4000, .dbh = .06, .height = 6, .volume = NAN, .age = 4};
     struct ceduo_stems trees[] = {
         {.per_ha = 20, .dbh = .4, .height = 15, .volume = NAN, .age = 60},
@@ -319,7 +319,7 @@ TEST(stumps_and_groups_over_the_years)
         .trees = trees,
         .trees_count = 2,
         .growth = {.shoots = curve, .trees = curve, .shoots_young = 6, .shoots_old = 3, .stump_years = 7},
-        .cutting = {.rotation = 20, .stay_count = 1, .stay_per_ha = stay},
+        .cutting = {.rotation = 20, .retained_count = 1, .stay_per_ha = stay},
         .stumps = {.per_ha = 900, .diameter = .1, .height = .2, .energy = 1e3}};
     struct ceduo_grown_stand grown;
     for (unsigned year = 0; year < 40; year++) {

@@ -191,7 +191,7 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
         assert_int_equal(ceduo_stand_at(&wood.belts[i].stand, wood.belts[i].cut_year, y->year, &stands[i]), CEDUO_OK);
         belts[i] = wood.belts[i];
         belts[i].stand = stands[i].stand;
-        bool felled = ceduo_is_cut_year(&wood.belts[i].stand, wood.belts[i].cut_year, y->year);
+        bool felled = ceduo_stand_is_cut_year(&wood.belts[i].stand, wood.belts[i].cut_year, y->year);
         EXPECT(y->option.belts[i].felled, ==, felled);
         cut |= felled;
     }
@@ -367,7 +367,7 @@ static struct by_hand sum_by_hand(const struct ceduo_years *years, size_t c)
 
 static void expect_sum(const struct ceduo_years *years, size_t c)
 {
-    struct ceduo_years_summary s = ceduo_years_sum(years, c);
+    struct ceduo_years_summary s = ceduo_years_summarize(years, c);
     struct by_hand h = sum_by_hand(years, c);
     size_t contact = 0, free_run = 0, light = 0;
     for (size_t i = 0; i < years->count; i++) {
@@ -399,7 +399,7 @@ TEST(sums_over_the_years)
         LOCAL(ceduo_years, years) = flown(0, 22, 2, 2, SUMMED);
         for (size_t c = 0; c < CONTROLS; c++)
             expect_sum(years, c);
-        assert_true(isnan(ceduo_years_sum(years, 0).exceed.mean)); /* it does not say what it bears */
+        assert_true(isnan(ceduo_years_summarize(years, 0).exceed.mean)); /* it does not say what it bears */
     }
 }
 
@@ -440,8 +440,8 @@ TEST(years_of_blocks)
             wx += (weights[r] - w1) * (x[r] - x1);
             xx += (x[r] - x1) * (x[r] - x1);
         }
-        struct ceduo_estimate found =
-            of < 2 ? ceduo_years_sum(years[of], years[of]->last_control).exceed : ceduo_years_difference(years[0], years[1]);
+        struct ceduo_estimate found = of < 2 ? ceduo_years_summarize(years[of], years[of]->last_control).exceed
+                                             : ceduo_years_difference(years[0], years[1]);
         EXPECT_NEAR(found.mean, x1 / w1, 1e-12);
         EXPECT_NEAR(found.se, sqrt((xx - wx * wx / ww) / FEW / (FEW - 1)) / w1, 1e-12);
         EXPECT(fabs(found.mean), >, 0);
@@ -490,7 +490,7 @@ TEST_WITH(by_the_index_alone, fresh, NULL)
             worst_year = y->year;
         }
     }
-    struct ceduo_years_summary s = ceduo_years_sum(years, 1);
+    struct ceduo_years_summary s = ceduo_years_summarize(years, 1);
     EXPECT_IS(s, (years, 16), (simulated, 0), (worst_year, worst_year), (worst, worst));
     EXPECT(worst_year, ==, 4);
     EXPECT_NAN(s.reach.mean, s.exceed.mean, s.passes_per_year);
@@ -517,7 +517,7 @@ TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
 TEST_WITH(nothing_is_hit_in_a_bare_year, fresh, NULL)
 {
     wood.option.belts_count = 1;
-    wood.belts[0].stand.cutting.stay_count = 0;
+    wood.belts[0].stand.cutting.retained_count = 0;
     LOCAL(ceduo_years, years) = flown(3, 5, 1, 1, 200);
     const struct ceduo_year *y = &years->years[1];
     bool cut = y->cut && y->stands[0].bare && y->wooded.arrivals[1].reached > 0;
@@ -549,22 +549,22 @@ TEST_WITH(whole_rotations, fresh, NULL)
     expect_window(CEDUO_WINDOW_ROTATION, 40, 40 + 2 * ROTATION - 1);
     wood.site.scene.year_first = 3;
     wood.site.scene.year_last = NAN;
-    struct ceduo_window w = ceduo_window_in(&wood.site.scene);
+    struct ceduo_window w = ceduo_scene_window(&wood.site.scene);
     EXPECT_IS(w, (kind, CEDUO_WINDOW_GIVEN), (first, 3), (last, 3 + 20 - 1)); /* both rotations are shorter than 20 years */
     wood.site.scene.year_last = 5;
-    w = ceduo_window_in(&wood.site.scene);
+    w = ceduo_scene_window(&wood.site.scene);
     EXPECT(w.last, ==, 5);
     wood.site.scene.year_last = 2; /* before the first: that year alone */
-    w = ceduo_window_in(&wood.site.scene);
+    w = ceduo_scene_window(&wood.site.scene);
     EXPECT_IS(w, (first, 3), (last, 3));
     wood.site.scene.year_last = 3 + CEDUO_YEARS_MAX - 1;
-    EXPECT(ceduo_window_in(&wood.site.scene).step, ==, 1);
+    EXPECT(ceduo_scene_window(&wood.site.scene).step, ==, 1);
     wood.site.scene.year_last = 48700;
-    w = ceduo_window_in(&wood.site.scene);
+    w = ceduo_scene_window(&wood.site.scene);
     EXPECT(w.step, ==, 49); /* 48 698 years, 1000 at the most */
     EXPECT(w.last, ==, 48700);
     wood.belts[0].cut_year = wood.belts[1].cut_year = INFINITY; /* never */
-    expect_window(CEDUO_WINDOW_AHEAD, 1, CEDUO_YEARS_AHEAD);
+    expect_window(CEDUO_WINDOW_AHEAD, 1, CEDUO_YEARS_AHEAD_MIN);
     wood.belts[0].stand.growth = wood.belts[1].stand.growth = (struct ceduo_growth){0};
     expect_window(CEDUO_WINDOW_CONSTANT, 0, 0);
     wood.option.belts_count = 0;
@@ -573,7 +573,7 @@ TEST_WITH(whole_rotations, fresh, NULL)
 
 static void expect_ahead(enum ceduo_window_kind kind, unsigned first, unsigned last)
 {
-    struct ceduo_window w = ceduo_window_in(&wood.site.scene);
+    struct ceduo_window w = ceduo_scene_window(&wood.site.scene);
     EXPECT_IS(w, (kind, kind), (first, first), (last, last), (step, 1));
 }
 

@@ -14,9 +14,9 @@ static const char *const scenes[] = {"tests/unit/every_key/cylinder.yaml", "test
 static inline void first_place(const char *path, const struct field *f, const char *point, struct text *to)
 {
     for (; *path; path++) {
-        ceduo_text_char(to, *path);
+        ceduo_text_append_char(to, *path);
         if (*path == '[')
-            ceduo_text_char(to, '0');
+            ceduo_text_append_char(to, '0');
     }
     ceduo_text_append(to, f->type == FIELD_POINTS ? point : f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS ? "[0]" : "");
 }

@@ -27,7 +27,7 @@ static void draw_points(struct drawing *d, const char *name, size_t n, const dou
     else if (strcmp(name, "poly") == 0)
         ceduo_canvas_polyline(&d->cells->canvas, &d->frame, d->role, CEDUO_STROKE_PLAIN, n, x, y);
     else
-        ceduo_canvas_polyline(&d->cells->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, n, x, y);
+        ceduo_canvas_polyline(&d->cells->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_TRAJECTORY, n, x, y);
 }
 
 /* One command of a drawing, as unit/drawings.txt has them. */
@@ -89,7 +89,7 @@ static void draw(struct drawing *d, char *command)
     else if (IS("put"))
         d->taken += ceduo_canvas_draw_text(c, k[0], k[1], k[2], d->role, text);
     else if (IS("end"))
-        d->taken += ceduo_cells_put_end(d->cells, k[0], k[1], k[2], d->role, text);
+        d->taken += ceduo_cells_label_end(d->cells, k[0], k[1], k[2], d->role, text);
     else
         fail_msg("'%s' is no command", command);
 }

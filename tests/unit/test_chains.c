@@ -57,7 +57,7 @@ static struct chains_def two_dimensions(void)
                                .seed = 3,
                                .threads = 1,
                                .steps_least = 500,
-                               .steps_most = 40000,
+                               .steps_max = 40000,
                                .rhat_most = 1.01,
                                .effective_least = 4000,
                                .density = normal};
@@ -119,7 +119,7 @@ TEST(chains_begin_where_they_start)
     LOCAL_BY(ceduo_chains_release) struct chains c;
     def.density = at_its_start;
     def.context = begun;
-    def.steps_most = 500;
+    def.steps_max = 500;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     for (size_t k = 0; k < 4; k++)
         assert_true(begun[k]);
@@ -140,7 +140,7 @@ TEST(threads_change_no_bit)
     LOCAL_BY(ceduo_chains_release) struct chains one, four;
     def.guess = wrong_guess;
     def.learn = learn_nothing;
-    def.steps_most = 600;
+    def.steps_max = 600;
     EXPECT(ceduo_chains_run(&def, &one), ==, CEDUO_OK);
     def.threads = 4;
     EXPECT(ceduo_chains_run(&def, &four), ==, CEDUO_OK);
@@ -395,7 +395,7 @@ TEST(a_look_at_all_chains_is_ended)
     LOCAL_BY(ceduo_chains_release) struct chains c;
     struct chains_def def = two_dimensions();
     const atomic_bool cancel = true;
-    def.steps_most = 4 * CEDUO_CHAINS_ROUND;
+    def.steps_max = 4 * CEDUO_CHAINS_ROUND;
     def.cancel = &cancel;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     EXPECT(c.effective_size, ==, INFINITY);
@@ -470,7 +470,7 @@ TEST(chains_that_stand_still)
     struct chains_def def = two_dimensions();
     def.density = one_place;
     def.starts = nowhere;
-    def.steps_most = 5 * CEDUO_CHAINS_ROUND;
+    def.steps_max = 5 * CEDUO_CHAINS_ROUND;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     assert_true(isnan(c.rhat));
     assert_false(c.settled);

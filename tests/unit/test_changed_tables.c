@@ -78,10 +78,10 @@ static bool survey_figures(const char *path, struct text *to)
     LOCAL_PROBLEMS(problems);
     LOCAL_TEXT(yaml);
     struct survey_file file;
-    bool good = ceduo_survey_read(&file, &arena, path, NULL, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
+    bool good = ceduo_survey_read(&file, &arena, path, NULL, &problems) && ceduo_survey_print_stand(&file, &yaml, &problems);
     for (const char *p = ceduo_text_string(&yaml), *end; good && (end = strchr(p, '\n')); p = end + 1)
         if (*p != '#')
-            ceduo_text_add(to, p, (size_t)(end - p) + 1);
+            ceduo_text_append_n(to, p, (size_t)(end - p) + 1);
     return good;
 }
 

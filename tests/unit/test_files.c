@@ -148,7 +148,7 @@ static bool take(const char *path, struct text *text, size_t most)
     const struct source *source = ceduo_file_read(&arena, path, most, &problems);
     *text = (struct text){0};
     if (source)
-        ceduo_text_add(text, source->bytes, source->length);
+        ceduo_text_append_n(text, source->bytes, source->length);
     snprintf(told, sizeof told, "%s", ceduo_problems_print(&problems));
     assert_ptr_equal(arena.sources, source);
     return source != NULL;
@@ -213,18 +213,18 @@ TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
     in_folder(other, "other");
     in_folder(none, "none");
     assert_int_equal(symlink("some", link), 0);
-    assert_true(ceduo_file_same(path, path));
-    assert_true(ceduo_file_same(path, link));
-    assert_true(ceduo_file_same(link, path));
-    assert_false(ceduo_file_same(path, other) || ceduo_file_same(path, none) || ceduo_file_same(none, path));
-    assert_false(ceduo_file_same(folder, folder)); /* nothing is read from one, or written */
+    assert_true(ceduo_file_is_same(path, path));
+    assert_true(ceduo_file_is_same(path, link));
+    assert_true(ceduo_file_is_same(link, path));
+    assert_false(ceduo_file_is_same(path, other) || ceduo_file_is_same(path, none) || ceduo_file_is_same(none, path));
+    assert_false(ceduo_file_is_same(folder, folder)); /* nothing is read from one, or written */
     int was = dup(STDIN_FILENO), fd = open(path, O_RDONLY);
     assert_int_equal(dup2(fd, STDIN_FILENO), STDIN_FILENO);
     close(fd);
-    assert_true(ceduo_file_same(link, "-"));
-    assert_false(ceduo_file_same(other, "-"));
+    assert_true(ceduo_file_is_same(link, "-"));
+    assert_false(ceduo_file_is_same(other, "-"));
     close(STDIN_FILENO);
-    assert_false(ceduo_file_same(link, "-"));
+    assert_false(ceduo_file_is_same(link, "-"));
     expect_told("-", 9, "standard input: cannot read it: Bad file descriptor");
     dup2(was, STDIN_FILENO);
     close(was);

@@ -8,7 +8,7 @@
 TEST(as_it_stands)
 {
     for (int data = 0; data < 2; data++) {
-        ceduo_language_of_data(data);
+        ceduo_language_set_data(data);
         assert_string_equal(_("no such text"), "no such text");
         assert_string_equal(_(""), "");
         assert_string_equal(ngettext("%d rock", "%d rocks", 1), "%d rock");
@@ -16,5 +16,5 @@ TEST(as_it_stands)
         assert_string_equal(P_("head", "no such head"), "no such head");
         assert_string_equal(ceduo_translate_in(N_("no context")), "no context");
     }
-    ceduo_language_of_data(false);
+    ceduo_language_set_data(false);
 }

@@ -453,7 +453,7 @@ TEST(one_thread_at_a_time_calls_the_caller)
     q.rocks = 100;
     q.run.threads = 4;
     q.run.progress = on_rocks;
-    q.years = q.rotations = q.years_apart = true;
+    q.years = q.rotations = q.years_independent = true;
     EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_OK);
     ceduo_results_release(&a);
     expect_alone();
@@ -481,7 +481,7 @@ TEST(one_thread_at_a_time_calls_the_caller)
                                         .parameters_count = 1,
                                         .rocks = 20,
                                         .threads = 4,
-                                        .steps_most = 250,
+                                        .steps_max = 250,
                                         .progress = on_fit};
     EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_OK);
     ceduo_calibration_free(&fit);
@@ -500,7 +500,7 @@ static void take_years(const char *seed, double *energies)
     EXPECT(ceduo_scene_read("profiles/scenes/rotation.yaml", sets, &r), ==, CEDUO_OK);
     struct ceduo_request q = ceduo_request_default(&r.scene);
     q.rocks = 50;
-    q.years = q.years_apart = true;
+    q.years = q.years_independent = true;
     q.window = (struct ceduo_window){CEDUO_WINDOW_GIVEN, 1, YEARS, 1};
     for (size_t i = 0; i < r.scene.options_count; i++) /* with a forest no two years are equal */
         r.scene.options[i].belts_count = 0;

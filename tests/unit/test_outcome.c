@@ -180,7 +180,7 @@ TEST_WITH(an_impossible_stand_supports_no_yes, open_site, NULL)
     stand.warnings = CEDUO_WARN_BASAL_AREA;
     set_failing(0, 0, 0);
     struct ceduo_outcome o = judge(false);
-    EXPECT_IS(o, (answer, CEDUO_NOTHING), (impossible, true));
+    EXPECT_IS(o, (answer, CEDUO_CANNOT_JUDGE), (impossible, true));
     say_answer(&text, 0, 200);
     assert_non_null(strstr(text.bytes, "more stems than a forest can hold"));
     set_failing(17, 15, 19);

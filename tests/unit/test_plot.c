@@ -461,7 +461,7 @@ static void page_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, 
 {
     struct page *page = to;
     double right = pen->raster.nx - 0.5 + 1e-9, bottom = pen->raster.ny - 0.5 + 1e-9, edge = -0.5 - 1e-9;
-    *(pen->stroke == CEDUO_STROKE_WAY ? &page->ways : &page->lines) += 1;
+    *(pen->stroke == CEDUO_STROKE_TRAJECTORY ? &page->ways : &page->lines) += 1;
     page->strayed |= !(a.x >= edge && a.x <= right && b.x >= edge && b.x <= right && a.y >= edge && a.y <= bottom &&
                        b.y >= edge && b.y <= bottom);
 }

@@ -25,7 +25,7 @@ TEST(no_rocks_are_not_precise)
     q.tolerance = .1;
     q.years = true;
     q.window = (struct ceduo_window){.last = 2, .step = 1};
-    q.years_apart = true;
+    q.years_independent = true;
     assert_int_equal(ceduo_simulate_request(&q, NULL, &answer), CEDUO_OK);
     assert_int_equal(ceduo_result_rocks(answer.result), 0);
     assert_int_equal(answer.years[0]->rocks, 0);

@@ -142,11 +142,11 @@ TEST(blocks_are_refused)
 static void expect_no_blocks(void)
 {
     struct ceduo_size_result blocks[CEDUO_SIZES];
-    const struct ceduo_blocks_def def = {
+    const struct ceduo_sizes_def def = {
         .scene = &site.scene, .option = &site.option, .rocks = 10, .effort = INFINITY, .threads = 1};
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
-        assert_int_equal(ceduo_blocks(&def, blocks), CEDUO_BAD_ROCK);
+        assert_int_equal(ceduo_sizes_simulate(&def, blocks), CEDUO_BAD_ROCK);
     }
 }
 
@@ -156,7 +156,7 @@ TEST(no_rock_no_figures)
     paper_site_init(&site);
     struct ceduo_trajectory way;
     site.control.measured_speed = 10;
-    assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
     site.scene.rock.diameter.mean = 0;
     struct ceduo_stand_result stand = ceduo_assess_stand(&site.scene, &site.belts[0]);
     assert_true(isnan(stand.adc_m) && isnan(stand.contacts) && isnan(stand.dissipated));
@@ -164,7 +164,7 @@ TEST(no_rock_no_figures)
     struct ceduo_index index = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
     assert_true(isnan(index.measured));
     EXPECT(index.contact, !=, CEDUO_PASS);
-    assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
+    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
     assert_null(ceduo_tracer_create(&site.scene, NULL));
     expect_no_blocks();
     /* good itself, but too heavy when it is as large as the others */
@@ -178,7 +178,7 @@ TEST(no_rock_no_figures)
 static void expect_rock(const struct ceduo_rock_def *def, enum ceduo_status wanted)
 {
     struct ceduo_rock rock;
-    assert_int_equal(ceduo_rock_of_means(def, &rock), wanted);
+    assert_int_equal(ceduo_rock_from_means(def, &rock), wanted);
 }
 
 TEST(rocks_are_refused)
@@ -336,7 +336,7 @@ TEST(belts_beside_the_way)
     assert_false(second.exhausted);
     control.measured_speed = 10;
     struct ceduo_rock rock;
-    assert_int_equal(ceduo_rock_of_means(&site.scene.rock, &rock), CEDUO_OK);
+    assert_int_equal(ceduo_rock_from_means(&site.scene.rock, &rock), CEDUO_OK);
     second = ceduo_assess_index(&site.scene, &site.option, &control, NAN);
     EXPECT_NEAR(second.measured, 50 * rock.mass, 1e-6);
     assert_int_equal(ceduo_energy_light(NULL), CEDUO_UNKNOWN);

@@ -65,10 +65,10 @@ TEST(looking_on_changes_nothing)
     for (uint64_t rock = 0; rock < 60; rock++) {
         const struct ceduo_option *option = rock % 2 == 0 ? &site.option : NULL;
         struct ceduo_trajectory alone, way;
-        assert_int_equal(ceduo_trajectory_follow(&site.scene, option, rock, NULL, &alone, NULL), CEDUO_OK);
+        assert_int_equal(ceduo_trajectory_run(&site.scene, option, rock, NULL, &alone, NULL), CEDUO_OK);
         for (int i = 0; i < 4; i++) {
             seen = 0;
-            assert_int_equal(ceduo_trajectory_follow(&site.scene, option, rock, &watches[i], &way, NULL), CEDUO_OK);
+            assert_int_equal(ceduo_trajectory_run(&site.scene, option, rock, &watches[i], &way, NULL), CEDUO_OK);
             EXPECT(way.x, ==, alone.x);
             EXPECT(way.z, ==, alone.z);
             EXPECT(way.end, ==, alone.end);
@@ -241,7 +241,7 @@ TEST(years_before_they_are_flown)
     assert_int_equal(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 3, .step = 1}, &years),
                      CEDUO_OK);
     ceduo_years_assess(years, &site.scene, &bare);
-    struct ceduo_years_summary s = ceduo_years_sum(years, 0);
+    struct ceduo_years_summary s = ceduo_years_summarize(years, 0);
     EXPECT(s.years, ==, 4);
     EXPECT(s.simulated, ==, 0);
     assert_true(isnan(s.worst));

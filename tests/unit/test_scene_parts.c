@@ -385,7 +385,7 @@ TEST(problems_are_put_together)
     for (int shift = 0; shift < 3; shift++) {
         LOCAL_TEXT(word);
         for (int i = 0; i < shift; i++)
-            ceduo_text_char(&word, 'x');
+            ceduo_text_append_char(&word, 'x');
         for (int i = 0; i < 600; i++)
             ceduo_text_append(&word, "\xe2\x80\xa6");
         ceduo_problem(&problems, NULL, 0, 0, "%s end", word.bytes);

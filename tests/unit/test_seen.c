@@ -12,7 +12,7 @@
 #include "unit/ground.h"
 
 #define FIRST 0
-#define LAST  (CEDUO_SEEN_PLACES - 1)
+#define LAST  (CEDUO_STOPS_PLACES - 1)
 
 /* Of ten rocks that all stopped, half of the simulated lie beyond the middle: a binomial law of 10 and 1/2 has 0.0107 up to 1 and
  * 0.0547 up to 2, and is symmetric. */
@@ -22,7 +22,7 @@ TEST(half_of_ten)
     const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 10, .values = seen};
     struct ceduo_observed_stops s = {0};
     ceduo_observed_stops_find(&o, simulated, 4, 4, &s);
-    size_t middle = CEDUO_SEEN_PLACES / 2;
+    size_t middle = CEDUO_STOPS_PLACES / 2;
     EXPECT(s.known, ==, true);
     EXPECT_NEAR(s.x[FIRST], 0, 1e-12);
     EXPECT_NEAR(s.x[LAST], 10, 1e-12);
@@ -189,12 +189,12 @@ TEST(a_fit_of_few_steps)
     const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
     struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
     struct ceduo_calibration a;
-    def.steps_most = 2 * 50 + 1;
+    def.steps_max = 2 * 50 + 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     assert_false(a.settled);
     EXPECT(a.draws_count, ==, 4 * 51);
     ceduo_calibration_free(&a);
-    def.steps_most = 1;
+    def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     assert_false(a.settled);
     EXPECT(a.draws_count, ==, 0);
@@ -214,7 +214,7 @@ TEST(two_values_without_draws)
     const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, inputs, 1, &flights[0].seen};
     struct ceduo_calibration_def def = fit_of(&fitted, 1, 2);
     LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
-    def.steps_most = 1;
+    def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.correlation[0][0], ==, 1);
     EXPECT(a.correlation[1][1], ==, 1);
@@ -243,12 +243,12 @@ TEST(a_scene_that_does_not_fit_together)
     flights[1].ground.scene.slope =
         (struct ceduo_slope){.vertices = 4, .x = x, .z = z, .segments = segments, .segments_given = 3};
     struct ceduo_calibration_def def = fit_of(fitted, 2, 1);
-    def.steps_most = 1;
+    def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.parameters[0].best, <, 30);
     ceduo_calibration_free(&a);
     def = fit_of(&fitted[1], 1, 1);
-    def.steps_most = 1;
+    def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.parameters[0].best, >, 40);
     ceduo_calibration_free(&a);
@@ -265,7 +265,7 @@ TEST(half_of_the_draws_at_a_bound)
         const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
         struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
         LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
-        def.steps_most = 251;
+        def.steps_max = 251;
         EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
         EXPECT_NEAR(a.parameters[0].best, v[i], 0.02);
         assert_true(a.parameters[0].determined);

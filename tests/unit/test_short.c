@@ -42,7 +42,7 @@ static void check_scene(const char *path)
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict;
     question.rocks = question.run.rocks_most = ROCKS;
     question.years = true;
-    question.years_apart = true;
+    question.years_independent = true;
     question.year_rocks = 50;
     question.years_most = 60;
     assert_int_equal(ceduo_simulate_request(&question, NULL, &answer), CEDUO_OK);

@@ -248,7 +248,7 @@ TEST_WITH(trajectories_follow_the_rocks, wooded, NULL)
         const struct ceduo_option *option = i % 2 ? &s.options[0] : NULL;
         const struct ceduo_polyline t = (option ? o->wooded[0] : o->bare)->trajectories[i / 2];
         struct ceduo_trajectory way;
-        assert_int_equal(ceduo_trajectory_follow(&s.scene, option, i / 2, NULL, &way, NULL), CEDUO_OK);
+        assert_int_equal(ceduo_trajectory_run(&s.scene, option, i / 2, NULL, &way, NULL), CEDUO_OK);
         hit += way.stems_hit;
         EXPECT(t.n, >=, 2);
         EXPECT(t.x[0], ==, way.x0);
@@ -298,7 +298,7 @@ TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     struct ceduo_trajectory way;
-    assert_int_equal(ceduo_trajectory_follow(&s.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_run(&s.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
     assert_int_equal(way.contacts, CEDUO_CONTACTS_MAX);
     EXPECT(t.n, >, 10000);
     EXPECT(t.n, <=, 20001);

@@ -50,7 +50,7 @@ static void change_field(const struct field *f, char *item)
     char *at = item + f->offset, *items;
     size_t n;
     uint64_t count;
-    if (f->flags & (FIELD_NOWHERE | FIELD_DRAFT))
+    if (f->flags & (FIELD_NO_MEMBER | FIELD_FILE_ONLY))
         return;
     double number = any_number(f);
     struct ceduo_number spread = {number, draw(2) ? 0 : any_number(f), (enum ceduo_spread_kind)(draw(8) ? draw(2) : 77)};
@@ -161,8 +161,9 @@ static void change_counts(void)
     struct ceduo_stand *stand = &site.belts[draw(2)].stand;
     void *const lists[] = {&s->controls,   &s->options,   &s->options->belts,
                            &stand->shoots, &stand->trees, &stand->cutting.stay_per_ha};
-    size_t *const counts[] = {&s->controls_count,  &s->options_count,          &s->options->belts_count, &stand->shoots_count,
-                              &stand->trees_count, &stand->cutting.stay_count, &s->blocks_count};
+    size_t *const counts[] = {&s->controls_count,   &s->options_count,   &s->options->belts_count,
+                              &stand->shoots_count, &stand->trees_count, &stand->cutting.retained_count,
+                              &s->blocks_count};
     size_t *count = counts[draw(LENGTH(counts))];
     void *none = NULL;
     *count = *count > 0 && draw(2) ? draw(*count) : *count;
@@ -210,7 +211,7 @@ static enum ceduo_status ask_any(void)
     q.window = any_window();
     q.years = draw(3) == 0;
     q.rotations = draw(6) == 0;
-    q.years_apart = draw(2);
+    q.years_independent = draw(2);
     q.years_most = draw(2) ? 3 : (unsigned)any_count(4);
     q.year_rocks = 1 + draw(2);
     q.block_rocks = draw(4) ? 0 : any_count(5);
@@ -264,14 +265,14 @@ static enum ceduo_status ask_any_other(void)
                                      .kind = (enum ceduo_survey_kind)any_count(3)};
     struct ceduo_survey_result answer;
     enum ceduo_status status = CEDUO_OK;
-    struct ceduo_blocks_def sizes = ceduo_blocks_def_default(&site.scene);
+    struct ceduo_sizes_def sizes = ceduo_sizes_def_default(&site.scene);
     struct ceduo_record_def followed = ceduo_record_def_default(&site.scene);
     switch (draw(5)) {
     case 0:
         sizes.control = any_count(1);
         sizes.rocks = any_count(8);
         sizes.threads = any_threads();
-        return ceduo_blocks(&sizes, blocks);
+        return ceduo_sizes_simulate(&sizes, blocks);
     case 1:
         followed.rocks = any_count(8);
         followed.stretches_count = draw(4) ? 0 : any_count(2);
@@ -285,7 +286,7 @@ static enum ceduo_status ask_any_other(void)
     case 3:
         status = ceduo_years_create(&site.scene, &site.option, any_window(), &years);
         if (status == CEDUO_OK)
-            ceduo_years_sum(years, any_count(1));
+            ceduo_years_summarize(years, any_count(1));
         ceduo_years_free(years);
         return status;
     default:
@@ -387,10 +388,10 @@ TEST(each_bad_argument_is_refused)
     how.scenes_count = 1;
     how.parameters_count = CEDUO_CALIBRATION_MAX + 1;
     EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_BAD_ARGUMENT);
-    struct ceduo_blocks_def sizes = ceduo_blocks_def_default(&site.scene);
+    struct ceduo_sizes_def sizes = ceduo_sizes_def_default(&site.scene);
     struct ceduo_size_result blocks[CEDUO_SIZES];
     sizes.control = 7;
-    EXPECT(ceduo_blocks(&sizes, blocks), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_sizes_simulate(&sizes, blocks), ==, CEDUO_BAD_ARGUMENT);
     struct ceduo_found found;
     const struct ceduo_find_def search = ceduo_find_def_default(); /* without a goal */
     EXPECT(ceduo_find(&search, &found), ==, CEDUO_BAD_ARGUMENT);

@@ -143,7 +143,7 @@ TEST(ways_that_get_nowhere_are_short)
         }
         struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
         ceduo_canvas_cloud_start(canvas);
-        ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, (size_t)n, x, y);
+        ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_TRAJECTORY, (size_t)n, x, y);
         ceduo_canvas_cloud_show(canvas, 0);
         LOCAL_BYTES char *picture = put(svg);
         length[on] = strlen(picture);

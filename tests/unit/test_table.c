@@ -39,7 +39,7 @@ static void mark_rows(bool *seen, const struct object *object, size_t size)
         bool counted = f->type == FIELD_LIST || f->type == FIELD_NUMBERS || f->type == FIELD_POINTS;
         if (f->type == FIELD_GROUP && f->size == 0)
             mark_rows(seen, f->object, size);
-        if (f->flags & FIELD_NOWHERE || f->offset >= size) /* or of the draft */
+        if (f->flags & FIELD_NO_MEMBER || f->offset >= size) /* or of the draft */
             continue;
         mark(seen, f->offset, f->size);
         if (counted)

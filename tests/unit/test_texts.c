@@ -39,7 +39,7 @@ static int fewest_digits(double value)
 
 static void expect_shortest(double value)
 {
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     const char *text = ceduo_number_shortest(value, room);
     double back = 0;
     assert_int_equal(ceduo_number_read(text, &back), CEDUO_NUMBER_GOOD);
@@ -72,7 +72,7 @@ TEST(numbers_are_short)
             expect_shortest(value);
         expect_shortest(((double)(mixed >> 40) - 8e6 + .5) / (double)(1 + (mixed & 1023)));
     }
-    char room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_SIZE];
     assert_string_equal(ceduo_number_shortest(NAN, room), "null");
     assert_string_equal(ceduo_number_shortest(-INFINITY, room), "null");
     assert_string_equal(ceduo_number_shortest(-0., room), "0");
@@ -158,6 +158,6 @@ TEST(an_arena_says_that_it_is_full)
 TEST(quotes_for_a_shell)
 {
     LOCAL_TEXT(text);
-    ceduo_text_quoted(&text, "l'orto $x");
+    ceduo_text_append_quoted(&text, "l'orto $x");
     assert_string_equal(ceduo_text_string(&text), "'l'\\''orto $x'");
 }

@@ -197,7 +197,7 @@ TEST(years_of_a_point_are_of_all_its_years)
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
     struct ceduo_stand *stand = &file.scene.options[0].belts[0].stand;
-    stand->growth.trees = (struct ceduo_curve){.dbh_most = TREE_MAX, .dbh_rate = .01, .height_most = 20, .height_rate = .01};
+    stand->growth.trees = (struct ceduo_curve){.dbh_most = TREE_MAX, .dbh_rate = .01, .height_max = 20, .height_rate = .01};
     const struct ceduo_uncertainty_def def = over_long_years(&input);
     const struct points points = {.def = &def, .u = u, .read = read_year, .context = years};
     EXPECT(ceduo_points_years(&def), ==, CEDUO_UNCERTAINTY_YEARS_MAX);

@@ -63,7 +63,7 @@ static void look_at_point(struct input_scene *copy, const double *u, size_t poin
     q.years = true;
     EXPECT(ceduo_simulate_request(&q, NULL, &own), ==, CEDUO_OK);
     for (size_t i = 0; i < OPTIONS; i++) {
-        struct ceduo_years_summary s = ceduo_years_sum(own.years[i], own.years[i]->last_control);
+        struct ceduo_years_summary s = ceduo_years_summarize(own.years[i], own.years[i]->last_control);
         means[i][point] = s.exceed.mean;
         failing[i][point] = (double)s.unprotected_energy;
         failing_variance[i][point] = variance_of_failing(own.years[i]);

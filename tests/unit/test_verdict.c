@@ -199,8 +199,9 @@ static void make_alike(void)
         made.options[i] = file.scene.options[0];
         made.wooded[i] = (struct ceduo_arrivals){
             .released = ROCKS, .reached = ROCKS / 2, .reach.mean = .5, .exceed.mean = .5, .hazard = {.per_year = NAN}};
-        made.differences[i] = ceduo_no_difference(50e3);
-        made.others[i] = (struct ceduo_alternative_energy){.known = true, .stems = true, .to_first = ceduo_no_difference(50e3)};
+        made.differences[i] = ceduo_difference_zero(50e3);
+        made.others[i] =
+            (struct ceduo_alternative_energy){.known = true, .stems = true, .to_first = ceduo_difference_zero(50e3)};
         made.found[i] = (struct ceduo_option_result){.wooded = {.rocks = ROCKS, .controls = 1, .arrivals = &made.wooded[i]},
                                                      .stands = made.stands,
                                                      .differences = &made.differences[i],
@@ -249,16 +250,16 @@ TEST(half_of_a_share)
 {
     const double z = 1.959963984540054;
     struct ceduo_arrivals a = {.released = 400, .reach.mean = .5, .exceed.mean = .2, .hazard = {.per_year = NAN}};
-    EXPECT_NEAR(ceduo_share_at(&a).mean, .2, 0);
-    EXPECT_NEAR(ceduo_share_at(&a).half, z * .02, 1e-12); /* sqrt(.2·.8/400) */
+    EXPECT_NEAR(ceduo_share_judged(&a).mean, .2, 0);
+    EXPECT_NEAR(ceduo_share_judged(&a).half, z * .02, 1e-12); /* sqrt(.2·.8/400) */
     a.exceed.mean = 0;
-    EXPECT_NEAR(ceduo_share_at(&a).half, z * z / (400 + z * z), 1e-12);
+    EXPECT_NEAR(ceduo_share_judged(&a).half, z * z / (400 + z * z), 1e-12);
     a.hazard.per_year = 3;
     a.exceed.lo = .01, a.exceed.hi = .05, a.reach.lo = .4, a.reach.hi = .5;
-    EXPECT_NEAR(ceduo_share_at(&a).half, .02, 1e-12);
+    EXPECT_NEAR(ceduo_share_judged(&a).half, .02, 1e-12);
     a.exceed.mean = NAN;
-    EXPECT_NEAR(ceduo_share_at(&a).mean, .5, 0);
-    EXPECT_NEAR(ceduo_share_at(&a).half, .05, 1e-12);
+    EXPECT_NEAR(ceduo_share_judged(&a).mean, .5, 0);
+    EXPECT_NEAR(ceduo_share_judged(&a).half, .05, 1e-12);
 }
 
 /* Of two that are equal the first; the other is a rival, and equal. */

@@ -183,7 +183,7 @@ static enum ceduo_judgement judge_arrivals(const struct ceduo_arrivals *a)
 enum ceduo_judgement ceduo_judge_control(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded)
 {
     if (ceduo_too_few_arrivals(bare))
-        return CEDUO_NOTHING;
+        return CEDUO_CANNOT_JUDGE;
     if (wooded)
         return judge_arrivals(wooded);
     return judge_arrivals(bare) == CEDUO_YES ? CEDUO_YES : CEDUO_UNANSWERED;

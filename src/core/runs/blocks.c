@@ -38,7 +38,7 @@ struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double
 
 /* Sizes as variants of a scene. */
 struct sizes_run {
-    const struct ceduo_blocks_def *def;
+    const struct ceduo_sizes_def *def;
     struct ceduo_size_result *blocks;
     struct ceduo_scene scene; /* with the current size */
     double volume, contacts;  /* of the scene's own rock */
@@ -47,14 +47,14 @@ struct sizes_run {
 static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant *variant)
 {
     struct sizes_run *r = context;
-    const struct ceduo_blocks_def *def = r->def;
+    const struct ceduo_sizes_def *def = r->def;
     struct ceduo_size_result *b = &r->blocks[i];
     struct ceduo_rock rock;
     r->scene = *def->scene;
     r->scene.blocks_count = 0;
     if (!b->own)
         r->scene.rock = ceduo_rock_scaled(&def->scene->rock, ceduo_cbrt(b->volume / r->volume));
-    enum ceduo_status status = ceduo_rock_of_means(&r->scene.rock, &rock);
+    enum ceduo_status status = ceduo_rock_from_means(&r->scene.rock, &rock);
     if (status != CEDUO_OK)
         return status;
     struct ceduo_index index = ceduo_assess_index(&r->scene, def->option, &def->scene->controls[def->control], NAN);
@@ -81,7 +81,7 @@ static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant
 static enum ceduo_status read_size(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
 {
     struct sizes_run *r = context;
-    const struct ceduo_blocks_def *def = r->def;
+    const struct ceduo_sizes_def *def = r->def;
     double effort = (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn, max = fmin(def->effort, EFFORT_MAX);
     double n = effort > 0 ? max / effort * (double)ceduo_run_rocks(run) : INFINITY; /* by the work per rock so far */
     uint64_t affordable = (double)def->rocks < n ? def->rocks : (uint64_t)n;
@@ -91,24 +91,24 @@ static enum ceduo_status read_size(void *context, size_t i, struct ceduo_run *ru
     return ceduo_run_arrivals(run, def->control, &r->blocks[i].arrivals);
 }
 
-struct ceduo_blocks_def ceduo_blocks_def_default(const struct ceduo_scene *scene)
+struct ceduo_sizes_def ceduo_sizes_def_default(const struct ceduo_scene *scene)
 {
-    return (struct ceduo_blocks_def){.scene = scene,
-                                     .option = scene->options,
-                                     .control = ceduo_scene_last_control(scene),
-                                     .rocks = scene->simulation.rocks,
-                                     .effort = INFINITY,
-                                     .threads = 1};
+    return (struct ceduo_sizes_def){.scene = scene,
+                                    .option = scene->options,
+                                    .control = ceduo_scene_last_control(scene),
+                                    .rocks = scene->simulation.rocks,
+                                    .effort = INFINITY,
+                                    .threads = 1};
 }
 
-enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_size_result blocks[CEDUO_SIZES])
+enum ceduo_status ceduo_sizes_simulate(const struct ceduo_sizes_def *def, struct ceduo_size_result blocks[CEDUO_SIZES])
 {
     static const double volumes[CEDUO_SIZES - 1] = {0.05, 0.2, 1, 5};
     struct ceduo_rock mean;
     size_t own = 0; /* index among the sorted volumes */
-    enum ceduo_status status = ceduo_check_blocks_def(def);
+    enum ceduo_status status = ceduo_check_sizes_def(def);
     if (status == CEDUO_OK)
-        status = ceduo_rock_of_means(&def->scene->rock, &mean);
+        status = ceduo_rock_from_means(&def->scene->rock, &mean);
     if (status != CEDUO_OK)
         return status;
     while (own < CEDUO_SIZES - 1 && !(mean.volume <= volumes[own]))

@@ -34,7 +34,7 @@ enum ceduo_status ceduo_check_request(const struct ceduo_request *q)
     return good && (q->window.step == 0 || ceduo_check_window(q->window) == CEDUO_OK) ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
 }
 
-enum ceduo_status ceduo_check_blocks_def(const struct ceduo_blocks_def *def)
+enum ceduo_status ceduo_check_sizes_def(const struct ceduo_sizes_def *def)
 {
     enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
     bool good = def->option && status == CEDUO_OK && def->control < def->scene->controls_count &&

@@ -11,6 +11,6 @@
 enum ceduo_status ceduo_check_window(struct ceduo_window window);
 enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def);
 enum ceduo_status ceduo_check_request(const struct ceduo_request *question);
-enum ceduo_status ceduo_check_blocks_def(const struct ceduo_blocks_def *def);
+enum ceduo_status ceduo_check_sizes_def(const struct ceduo_sizes_def *def);
 
 #endif

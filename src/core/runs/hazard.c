@@ -44,7 +44,7 @@ struct ceduo_hazard ceduo_hazard_none(void)
     return h;
 }
 
-struct ceduo_estimate ceduo_hazard_feared(const struct ceduo_hazard *h)
+struct ceduo_estimate ceduo_hazard_judged_rate(const struct ceduo_hazard *h)
 {
     return isnan(h->accepted.mean) ? h->reach : h->accepted;
 }
@@ -56,7 +56,7 @@ static double rate_ratio(struct ceduo_estimate rate, struct ceduo_estimate bare)
 
 void ceduo_hazard_compare(struct ceduo_hazard *h, const struct ceduo_hazard *bare)
 {
-    h->left = rate_ratio(ceduo_hazard_feared(h), ceduo_hazard_feared(bare));
+    h->left = rate_ratio(ceduo_hazard_judged_rate(h), ceduo_hazard_judged_rate(bare));
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
         h->intensity[i].left = rate_ratio(h->intensity[i].within, bare->intensity[i].within);
 }
@@ -92,7 +92,7 @@ static void set_curve(const struct curve *c, struct ceduo_hazard_curve *to)
 {
     for (size_t i = 0; i < CEDUO_HAZARD_ENERGIES; i++) {
         double energy = ceduo_hazard_energy(i);
-        to->at[i] = (struct ceduo_exceeding){energy, make_exceedance(c, energy)};
+        to->at[i] = (struct ceduo_hazard_point){energy, make_exceedance(c, energy)};
         to->count = i + 1;
         if (!(to->at[i].rate.mean > 0))
             break;

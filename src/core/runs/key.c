@@ -8,7 +8,7 @@
 /* Ground, rock, release and controls are hashed by the table of keys, so that a new row is in the key unless a flag excludes
  * it. A forest is hashed in its prepared form. */
 
-#define NOT_HASHED (FIELD_NOWHERE | FIELD_DRAFT | FIELD_WOOD | FIELD_NO_RUN)
+#define NOT_HASHED (FIELD_NO_MEMBER | FIELD_FILE_ONLY | FIELD_FOREST | FIELD_NO_RUN)
 
 /* Hash the members of `object` that affect future years, or that affect trajectories now. */
 static void hash_fields(uint64_t *key, const struct object *object, const char *item, bool years)

@@ -181,7 +181,7 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
     /* under the other law only arrivals are needed */
     struct ceduo_run_def def = pool->def;
     def.arrivals_only = true;
-    def.rocks_most = def.rocks_most > CEDUO_OTHER_ROCKS ? CEDUO_OTHER_ROCKS : def.rocks_most;
+    def.rocks_most = def.rocks_most > CEDUO_ALT_LAW_ROCKS ? CEDUO_ALT_LAW_ROCKS : def.rocks_most;
     struct ceduo_scene alt_scene = {0};
     if (status == CEDUO_OK && !pool->filled && wooded && def.other_energy)
         status = ceduo_alternative_scene(&pool->scene, &alt_scene) ? CEDUO_OK : CEDUO_NO_MEMORY;

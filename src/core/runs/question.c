@@ -21,7 +21,8 @@ static enum ceduo_status simulate_years(const struct ceduo_request *q, struct ce
     const struct ceduo_simulated *bare = &a->result->bare;
     uint64_t rocks = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
     rocks = q->year_rocks > 0 && q->year_rocks < rocks ? q->year_rocks : rocks;
-    bool separate = q->years_apart && rocks > 0 && scene->blocks_count == 0 && scene->simulation.contact_model != CEDUO_INDEX;
+    bool separate =
+        q->years_independent && rocks > 0 && scene->blocks_count == 0 && scene->simulation.contact_model != CEDUO_INDEX;
     struct ceduo_years **years = calloc(scene->options_count + 1, sizeof *years);
     *(rotation ? &a->rotations : &a->years) = years;
     enum ceduo_status status = years ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -31,7 +32,7 @@ static enum ceduo_status simulate_years(const struct ceduo_request *q, struct ce
             continue;
         struct ceduo_window window = rotation             ? ceduo_window_compute(option)
                                      : q->window.step > 0 ? q->window
-                                                          : ceduo_window_in(scene);
+                                                          : ceduo_scene_window(scene);
         window = q->years_most > 0 ? ceduo_window_thinned(window, q->years_most) : window;
         status = ceduo_years_create(scene, option, window, &years[i]);
         if (status == CEDUO_OK) /* a constant window is year 0, today: its run exists */
@@ -57,15 +58,15 @@ static enum ceduo_status simulate_sizes(const struct ceduo_request *q, const str
     a->blocks = calloc(scene->options_count * CEDUO_SIZES + 1, sizeof *a->blocks);
     enum ceduo_status status = a->blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
-        status = ceduo_blocks(
-            &(const struct ceduo_blocks_def){.scene = scene,
-                                             .option = &scene->options[i],
-                                             .control = a->result->last_control,
-                                             .rocks = rocks,
-                                             .effort = get_effort(pool, NULL) + get_effort(pool, &scene->options[i]),
-                                             .own = ceduo_result_wooded(a->result, i, a->result->last_control),
-                                             .threads = q->run.threads,
-                                             .cancel = q->run.cancel},
+        status = ceduo_sizes_simulate(
+            &(const struct ceduo_sizes_def){.scene = scene,
+                                            .option = &scene->options[i],
+                                            .control = a->result->last_control,
+                                            .rocks = rocks,
+                                            .effort = get_effort(pool, NULL) + get_effort(pool, &scene->options[i]),
+                                            .own = ceduo_result_wooded(a->result, i, a->result->last_control),
+                                            .threads = q->run.threads,
+                                            .cancel = q->run.cancel},
             &a->blocks[i * CEDUO_SIZES]);
     if (status == CEDUO_OK || status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED)
         return status;
@@ -103,7 +104,7 @@ enum ceduo_status ceduo_simulate_request(const struct ceduo_request *q, struct c
         status = simulate_years(q, *pool, false, a);
     if (status == CEDUO_OK && q->rotations)
         status = simulate_years(q, *pool, true, a);
-    a->work = *pool && !q->years_apart ? ceduo_pool_work(*pool) : today;
+    a->work = *pool && !q->years_independent ? ceduo_pool_work(*pool) : today;
     if (status == CEDUO_OK && q->block_rocks > 0 && scene->controls_count > 0)
         status = simulate_sizes(q, *pool, a);
     ceduo_pool_free(own_pool);

@@ -56,7 +56,7 @@ void ceduo_simulated_free(struct ceduo_simulated *f)
 
 /* ---- results ---- */
 
-void ceduo_simulated_meets_nothing(struct ceduo_simulated *f)
+void ceduo_simulated_set_no_contacts(struct ceduo_simulated *f)
 {
     for (size_t c = 0; c < f->controls; c++) {
         struct ceduo_arrivals *a = &f->arrivals[c];
@@ -121,14 +121,14 @@ static enum ceduo_status assess_options(struct ceduo_result *r, enum ceduo_statu
     for (size_t i = 0; i < r->options_count && status == CEDUO_OK; i++) {
         struct ceduo_option_result *o = &r->options[i];
         if (r->wooded)
-            ceduo_simulated_meets_nothing(&o->wooded);
+            ceduo_simulated_set_no_contacts(&o->wooded);
         else
             status = copy_simulated(&r->bare, &o->wooded);
         ceduo_simulated_compare(&o->wooded, &r->bare);
         for (size_t c = 0; c < scene->controls_count; c++) {
             struct ceduo_alternative_energy *alt = &o->others[c];
             if (!r->wooded)
-                o->differences[c] = ceduo_no_difference(scene->controls[c].accepted);
+                o->differences[c] = ceduo_difference_zero(scene->controls[c].accepted);
             if (!r->wooded || !alt->known)
                 continue;
             enum ceduo_judgement judgement = ceduo_judge_control(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c));
@@ -136,7 +136,7 @@ static enum ceduo_status assess_options(struct ceduo_result *r, enum ceduo_statu
             enum ceduo_judgement alt_judgement = ceduo_judge_share(a->exceed, a->limit);
             bool differ =
                 (judgement == CEDUO_YES && alt_judgement == CEDUO_NO) || (judgement == CEDUO_NO && alt_judgement == CEDUO_YES);
-            alt->judgement = judgement == CEDUO_NOTHING ? judgement : differ ? CEDUO_DEPENDS : alt_judgement;
+            alt->judgement = judgement == CEDUO_CANNOT_JUDGE ? judgement : differ ? CEDUO_DEPENDS : alt_judgement;
         }
         ceduo_result_read(scene, &scene->options[i], &r->bare, r->wooded ? &o->wooded : &none, o->stands, o->controls);
     }

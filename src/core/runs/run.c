@@ -58,7 +58,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->def = *def;
     run->def.threads = def->threads > 0 ? def->threads : 1;
     run->controls = def->scene->controls_count;
-    run->stems_from = def->option ? ceduo_option_stems_from(def->option) : INFINITY;
+    run->stems_from = def->option ? ceduo_option_forest_begin(def->option) : INFINITY;
     run->weighted = def->scene->blocks_count > 0;
     bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_scene_rock_varies(def->scene);
     run->quantities = one_energy ? ENERGY + 1 : QUANTITIES;

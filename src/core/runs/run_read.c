@@ -32,14 +32,14 @@ static void bound_energies(const struct ceduo_run *run, struct weighted *max_ene
     const struct ceduo_number speeds[] = {start->vx, start->vz, start->spin};
     double squares[3], lowest = INFINITY;
     for (size_t i = 0; i < 3; i++) {
-        double fastest = fmax(fabs(ceduo_number_lowest(speeds[i])), fabs(ceduo_number_highest(speeds[i])));
+        double fastest = fmax(fabs(ceduo_number_min(speeds[i])), fabs(ceduo_number_max(speeds[i])));
         squares[i] = fastest * fastest;
     }
     for (size_t i = 0; i < scene->slope.vertices; i++)
         lowest = fmin(lowest, scene->slope.z[i]);
-    double drop = fmax(ceduo_slope_height(&scene->slope, ceduo_number_lowest(start->x)),
-                       ceduo_slope_height(&scene->slope, ceduo_number_highest(start->x))) +
-                  ceduo_number_highest(start->height) - lowest;
+    double drop = fmax(ceduo_slope_height(&scene->slope, ceduo_number_min(start->x)),
+                       ceduo_slope_height(&scene->slope, ceduo_number_max(start->x))) +
+                  ceduo_number_max(start->height) - lowest;
     for (uint64_t r = 0; r < run->rocks; r++) {
         struct ceduo_rock rock = {0};
         ceduo_prepared_rock(&run->prepared, r, &rock);
@@ -271,7 +271,7 @@ struct ceduo_estimate ceduo_run_energy(const struct ceduo_run *run, size_t contr
 
 /* ---- differences ---- */
 
-struct ceduo_difference ceduo_no_difference(double accepted)
+struct ceduo_difference ceduo_difference_zero(double accepted)
 {
     const struct ceduo_estimate none = {0};
     return (struct ceduo_difference){none, isnan(accepted) ? CEDUO_NO_ESTIMATE : none, none};
@@ -296,7 +296,7 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
     const struct ceduo_control *place = &run->prepared.scene.controls[control];
     bool equal_length = run->rocks == baseline->rocks;
     if (equal_length && (run == baseline || (run->stems_from >= place->x && baseline->stems_from >= place->x)))
-        return ceduo_no_difference(place->accepted);
+        return ceduo_difference_zero(place->accepted);
     const struct ceduo_run *shorter = run->rocks < baseline->rocks ? run : baseline;
     const double *a = get_samples(run, control, ENERGY), *b = get_samples(baseline, control, ENERGY);
     struct ceduo_moments moments[3] = {0}; /* of reach, exceed and energy, without weights */
@@ -318,7 +318,7 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
     struct ceduo_estimate estimates[3];
     for (size_t k = 0; k < 3; k++)
         estimates[k] = run->weighted ? ceduo_weighted_paired(&totals, &sums[k])
-                                     : ceduo_estimate_of_pairs(means[k], &moments[k], shorter->rocks);
+                                     : ceduo_estimate_from_pairs(means[k], &moments[k], shorter->rocks);
     return (struct ceduo_difference){estimates[0], isnan(place->accepted) ? CEDUO_NO_ESTIMATE : estimates[1], estimates[2]};
 }
 

@@ -45,7 +45,7 @@ struct ceduo_run {
     void (*walk_lanes)(const struct lanes_job *job); /* NULL: simulate rocks one by one */
     size_t lanes;                                    /* rocks simulated at once by a thread */
     size_t controls;
-    double stems_from;     /* ceduo_option_stems_from(), because the option may be freed before the run is read */
+    double stems_from;     /* ceduo_option_forest_begin(), because the option may be freed before the run is read */
     int quantities;        /* number of quantities with samples; without spin and spread all energy is translational */
     size_t columns;        /* columns of samples: controls × quantities, then the stops */
     uint64_t rocks;        /* finished */

@@ -54,7 +54,7 @@ double ceduo_half_width(double se, uint64_t n)
     return n < CEDUO_INTERVAL_MIN_N ? NAN : se * gsl_cdf_tdist_Pinv(0.975, (double)(n - 1));
 }
 
-double ceduo_half_width_of_share(double share, double se, uint64_t n)
+double ceduo_share_half_width(double share, double se, uint64_t n)
 {
     if (share > 0 && share < 1)
         return CEDUO_Z95 * se;
@@ -67,15 +67,15 @@ double ceduo_share_se(double share, double n)
     return sqrt(share * (1 - share) / n);
 }
 
-struct ceduo_estimate ceduo_estimate_by_se(double mean, double se)
+struct ceduo_estimate ceduo_estimate_from_se(double mean, double se)
 {
     return (struct ceduo_estimate){mean, se, mean - CEDUO_Z95 * se, mean + CEDUO_Z95 * se};
 }
 
-struct ceduo_estimate ceduo_estimate_of_pairs(double mean, const struct ceduo_moments *m, uint64_t rocks)
+struct ceduo_estimate ceduo_estimate_from_pairs(double mean, const struct ceduo_moments *m, uint64_t rocks)
 {
     if (m->n == 0 || m->mean != 0 || m->m2 > 0)
-        return ceduo_estimate_by_se(mean, ceduo_moments_sd(m) / sqrt((double)rocks));
+        return ceduo_estimate_from_se(mean, ceduo_moments_sd(m) / sqrt((double)rocks));
     double hi = ceduo_wilson(0, 0, (double)m->n).hi;
     return (struct ceduo_estimate){mean, NAN, mean - hi, mean + hi};
 }

@@ -69,7 +69,7 @@ struct ceduo_estimate ceduo_weighted_share(const struct weight_totals *totals, c
 struct ceduo_estimate ceduo_weighted_paired(const struct weight_totals *totals, const struct weighted_sum *s)
 {
     if (s->tt > 0)
-        return ceduo_estimate_by_se(s->t / totals->w, ceduo_weighted_se(totals, s));
+        return ceduo_estimate_from_se(s->t / totals->w, ceduo_weighted_se(totals, s));
     double hi = ceduo_wilson(0, 0, totals->w * totals->w / totals->ww).hi;
     return (struct ceduo_estimate){0, NAN, -hi, hi};
 }

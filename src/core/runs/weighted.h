@@ -45,7 +45,7 @@ static inline void weighted_sum_add(struct weighted_sum *s, double weight, doubl
 /* Return the standard error of a sum divided by the sum of all weights. */
 double ceduo_weighted_se(const struct weight_totals *totals, const struct weighted_sum *sum);
 
-/* Return the estimate of a mean difference between pairs, as ceduo_estimate_of_pairs(). */
+/* Return the estimate of a mean difference between pairs, as ceduo_estimate_from_pairs(). */
 struct ceduo_estimate ceduo_weighted_paired(const struct weight_totals *totals, const struct weighted_sum *sum);
 
 /* Sort n upper bounds of energies and accumulate their weights, for `max_energies`. */

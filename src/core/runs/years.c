@@ -34,7 +34,7 @@ struct ceduo_window ceduo_window_compute(const struct ceduo_option *option)
         period = common <= CEDUO_PERIOD_MAX ? common : period > rotation ? period : rotation;
     }
     if (w.kind == CEDUO_WINDOW_AHEAD)
-        return (struct ceduo_window){w.kind, 1, CEDUO_YEARS_AHEAD, 1};
+        return (struct ceduo_window){w.kind, 1, CEDUO_YEARS_AHEAD_MIN, 1};
     w.last = w.first + period - 1;
     return w;
 }
@@ -48,7 +48,7 @@ struct ceduo_window ceduo_window_thinned(struct ceduo_window w, unsigned max)
 
 static struct ceduo_window window_ahead(const struct ceduo_scene *scene)
 {
-    struct ceduo_window w = {CEDUO_WINDOW_AHEAD, 1, CEDUO_YEARS_AHEAD, 1};
+    struct ceduo_window w = {CEDUO_WINDOW_AHEAD, 1, CEDUO_YEARS_AHEAD_MIN, 1};
     bool identical = true;
     for (size_t i = 0; i < scene->options_count; i++)
         for (size_t k = 0; k < scene->options[i].belts_count; k++) {
@@ -64,7 +64,7 @@ static struct ceduo_window window_ahead(const struct ceduo_scene *scene)
     return identical ? (struct ceduo_window){CEDUO_WINDOW_CONSTANT, 0, 0, 1} : w;
 }
 
-struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene)
+struct ceduo_window ceduo_scene_window(const struct ceduo_scene *scene)
 {
     struct ceduo_window w = window_ahead(scene);
     double first = scene->year_first, last = scene->year_last;
@@ -98,7 +98,7 @@ static enum ceduo_status grow_year(const struct ceduo_option *option, size_t con
         status = ceduo_stand_at(&belt->stand, belt->cut_year, y->year, &y->grown[i]);
         *to = *belt;
         to->stand = y->grown[i].stand;
-        to->felled = ceduo_is_cut_year(&belt->stand, belt->cut_year, y->year);
+        to->felled = ceduo_stand_is_cut_year(&belt->stand, belt->cut_year, y->year);
         y->cut |= to->felled;
         y->option.belts_count = i + 1;
     }
@@ -216,7 +216,7 @@ static enum ceduo_status add_year(void *context, size_t i, struct ceduo_run *run
     enum ceduo_status status = ceduo_simulated_read(run, years->scene.controls_count, &y->wooded);
     if (status != CEDUO_OK)
         return status;
-    ceduo_simulated_meets_nothing(&y->wooded);
+    ceduo_simulated_set_no_contacts(&y->wooded);
     r->rocks = ceduo_run_rocks(run) < r->rocks ? ceduo_run_rocks(run) : r->rocks;
     const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
     const double *energies = ceduo_run_samples(run, years->last_control, CEDUO_SAMPLE_ENERGY);
@@ -260,10 +260,10 @@ enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_p
 static void report_year(void *context, uint64_t rocks)
 {
     struct years_run *r = context;
-    if (!ceduo_talk_begin(&r->talk))
+    if (!ceduo_guard_try_enter(&r->talk))
         return;
     r->def.progress(r->def.context, rocks);
-    ceduo_talk_end(&r->talk);
+    ceduo_guard_leave(&r->talk);
 }
 
 /* Options have the same rocks in years of the same index, so that their differences are caused by the forests. */
@@ -325,7 +325,7 @@ static struct ceduo_estimate weighted_difference(const struct ceduo_years *years
     return ceduo_weighted_paired(&totals, &sum);
 }
 
-struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
+struct ceduo_years_summary ceduo_years_summarize(const struct ceduo_years *years, size_t control)
 {
     struct ceduo_years_summary s = {.years = years->count, .worst = NAN};
     if (control >= years->scene.controls_count) {
@@ -346,7 +346,7 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
             const struct ceduo_arrivals *a = &y->wooded.arrivals[control];
             double n = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;
             double share = ceduo_judged_share(a).mean;
-            struct ceduo_estimate rate = ceduo_hazard_feared(&a->hazard);
+            struct ceduo_estimate rate = ceduo_hazard_judged_rate(&a->hazard);
             s.simulated++;
             s.failing_lo += a->exceed.lo > a->limit;
             s.failing_hi += a->exceed.hi > a->limit;
@@ -399,7 +399,7 @@ struct ceduo_estimate ceduo_years_difference(const struct ceduo_years *years, co
     struct ceduo_moments m = {0};
     for (uint64_t r = 0; r < rocks; r++)
         ceduo_moments_add(&m, marked_share(years, r) - marked_share(less, r));
-    return ceduo_estimate_of_pairs(m.mean, &m, rocks);
+    return ceduo_estimate_from_pairs(m.mean, &m, rocks);
 }
 
 double ceduo_years_felled(const struct ceduo_years *years)

@@ -166,7 +166,7 @@ double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ce
 
 #define ABOVE(value, limit) ((value) > (limit) * (1 + 1e-9)) /* a value typed as the limit is not above it */
 
-unsigned ceduo_stem_unlikely(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+unsigned ceduo_stem_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
     size_t n;
     double slender = stems->height / stems->dbh;
@@ -188,7 +188,7 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
         (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MAX * stand->stools_per_ha) ? CEDUO_WARN_MANY_SHOOTS : 0u);
     for (size_t i = 0; i < stand->shoots_count + stand->trees_count; i++) {
         const struct ceduo_stems *s = i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
-        warnings |= ceduo_stem_unlikely(stand, s) | (s->per_ha > 0 ? ceduo_stem_energy_warnings(stand, s) : 0);
+        warnings |= ceduo_stem_warnings(stand, s) | (s->per_ha > 0 ? ceduo_stem_energy_warnings(stand, s) : 0);
     }
     if (!(counted_shoots(stand) > 0))
         return warnings;

@@ -17,7 +17,7 @@
 
 static bool is_known(const struct ceduo_curve *c)
 {
-    return c->dbh_most > 0 && c->dbh_rate > 0 && c->height_most > 0 && c->height_rate > 0;
+    return c->dbh_most > 0 && c->dbh_rate > 0 && c->height_max > 0 && c->height_rate > 0;
 }
 
 /* Return the share of its limit that a curve has at an age. */
@@ -30,10 +30,10 @@ double ceduo_curve_height(const struct ceduo_curve *curve, double dbh)
 {
     double share = dbh / curve->dbh_most;
     bool reaches = is_known(curve) && share < 1;
-    return reaches ? curve->height_most * curve_share(curve->height_rate, -ceduo_log1p(-share) / curve->dbh_rate) : NAN;
+    return reaches ? curve->height_max * curve_share(curve->height_rate, -ceduo_log1p(-share) / curve->dbh_rate) : NAN;
 }
 
-struct ceduo_beside_curve ceduo_stems_beside_curve(const struct ceduo_stand *stand, double first_cut, size_t i)
+struct ceduo_curve_comparison ceduo_stems_compare_to_curve(const struct ceduo_stand *stand, double first_cut, size_t i)
 {
     bool shoots = i < stand->shoots_count;
     const struct ceduo_stems *stems = shoots ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
@@ -41,10 +41,10 @@ struct ceduo_beside_curve ceduo_stems_beside_curve(const struct ceduo_stand *sta
     double since = first_cut < 0 ? fmod(-first_cut, stand->cutting.rotation) : 0; /* NaN without a rotation */
     double age = stems->age > 0 ? stems->age : shoots && stand->shoots_count == 1 ? since : 0;
     double dbh = curve->dbh_most * curve_share(curve->dbh_rate, age);
-    return (struct ceduo_beside_curve){.age = age,
-                                       .basal_area = stems->per_ha * (M_PI / 4) *
-                                                     (stems->dbh * stems->dbh + stems->dbh_sd * stems->dbh_sd),
-                                       .by_curve = age > 0 && is_known(curve) ? stems->per_ha * (M_PI / 4) * dbh * dbh : NAN};
+    return (struct ceduo_curve_comparison){
+        .age = age,
+        .basal_area = stems->per_ha * (M_PI / 4) * (stems->dbh * stems->dbh + stems->dbh_sd * stems->dbh_sd),
+        .by_curve = age > 0 && is_known(curve) ? stems->per_ha * (M_PI / 4) * dbh * dbh : NAN};
 }
 
 /* Return the age of a stem, years; infinite if it no longer grows, NaN if unknown. */
@@ -121,7 +121,7 @@ static unsigned cohort_count(const struct ceduo_stand *stand)
 /* Return the age of the oldest retained trees, in rotations; 0 if none are retained. */
 static size_t oldest_retained(const struct ceduo_cutting *cutting)
 {
-    size_t n = cutting->stay_count;
+    size_t n = cutting->retained_count;
     while (n > 0 && !(cutting->stay_per_ha[n - 1] > 0))
         n--;
     return n;
@@ -173,7 +173,7 @@ unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut)
     return year < CEDUO_NEVER ? (unsigned)year : CEDUO_NEVER;
 }
 
-bool ceduo_is_cut_year(const struct ceduo_stand *stand, double first_cut, unsigned year)
+bool ceduo_stand_is_cut_year(const struct ceduo_stand *stand, double first_cut, unsigned year)
 {
     unsigned first = ceduo_first_cut(stand, first_cut);
     return first != CEDUO_NEVER && year >= first && (year - first) % stand->cutting.rotation == 0;
@@ -214,7 +214,7 @@ static struct ceduo_stems stems_of_age(const struct ceduo_curve *curve, double p
 {
     return (struct ceduo_stems){.per_ha = per_ha,
                                 .dbh = curve->dbh_most * curve_share(curve->dbh_rate, age),
-                                .height = curve->height_most * curve_share(curve->height_rate, age),
+                                .height = curve->height_max * curve_share(curve->height_rate, age),
                                 .volume = NAN,
                                 .age = age};
 }
@@ -288,7 +288,7 @@ static enum ceduo_status regrow(const struct ceduo_stand *stand, unsigned since,
     size_t grouped = 0; /* first grouped class of the inventory: retained trees are grouped like it */
     while (grouped < stand->trees_count && !(stand->trees[grouped].group > 1))
         grouped++;
-    for (size_t j = 0; j < cutting->stay_count; j++)
+    for (size_t j = 0; j < cutting->retained_count; j++)
         retained += cutting->stay_per_ha[j] > 0;
     enum ceduo_status status = make_grown_stand(stand, count, retained, out);
     if (status != CEDUO_OK)
@@ -298,7 +298,7 @@ static enum ceduo_status regrow(const struct ceduo_stand *stand, unsigned since,
         double per_ha = stand->stools_per_ha * shoots_on_stool(g, age) / cohorts_total;
         out->stand.shoots[i] = stems_of_age(&g->shoots, per_ha, age);
     }
-    for (size_t j = 0, i = 0; j < cutting->stay_count; j++)
+    for (size_t j = 0, i = 0; j < cutting->retained_count; j++)
         if (cutting->stay_per_ha[j] > 0) {
             struct ceduo_stems *trees = &out->stand.trees[i++];
             *trees = stems_of_age(&g->trees, cutting->stay_per_ha[j], (double)(j + 1) * rotation + since);

@@ -84,7 +84,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     double dx = g->vertices[j + 1].x - g->vertices[j].x, dz = g->vertices[j + 1].z - g->vertices[j].z;
     /* with a subnormal length c and s would not be a unit vector, and a contact would add energy */
     double shortest = DBL_MIN / DBL_EPSILON, scale = fabs(dx) < shortest && fabs(dz) < shortest ? 0x1p600 : 1;
-    double length = ceduo_length(dx * scale, dz * scale);
+    double length = ceduo_hypot(dx * scale, dz * scale);
     to->m = dz / dx;
     to->c = dx * scale / length;
     to->s = dz * scale / length;

@@ -97,7 +97,7 @@ enum ceduo_status ceduo_prepared_init(struct prepared_scene *to, const struct ce
                                       const struct ceduo_option *option)
 {
     *to = (struct prepared_scene){.scene = *scene, .varies = ceduo_rock_varies(&scene->rock)};
-    enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &to->mean);
+    enum ceduo_status status = ceduo_rock_from_means(&scene->rock, &to->mean);
     if (status != CEDUO_OK)
         return status;
     status = ceduo_slope_simplify(&scene->slope, scene->release.x.mean, &to->simplified);

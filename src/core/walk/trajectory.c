@@ -75,9 +75,9 @@ void ceduo_tracer_free(struct ceduo_tracer *f)
     free(f);
 }
 
-enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                          const struct ceduo_trajectory_callbacks *watch, struct ceduo_trajectory *to,
-                                          struct ceduo_crossing *crossings)
+enum ceduo_status ceduo_trajectory_run(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
+                                       const struct ceduo_trajectory_callbacks *watch, struct ceduo_trajectory *to,
+                                       struct ceduo_crossing *crossings)
 {
     if (isnan(ceduo_rock_mean(&scene->rock).mass))
         return CEDUO_BAD_ROCK;
