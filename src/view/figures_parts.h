@@ -2,7 +2,7 @@
 #ifndef CEDUO_FIGURES_PARTS_H
 #define CEDUO_FIGURES_PARTS_H
 
-/* How rows of figures are written. */
+/* Macros for rows of figures. */
 #include "figures.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static inline const void *member(const struct ceduo_figure *f, const void *objec
     return (const char *)object + f->offset;
 }
 
-/* For `value`: a member of type `type`, m; `kind` NUMBER, COUNT, FLAG or TEXT. */
+/* Define a reader for `value`: m is a member of type `type`; `kind` is NUMBER, COUNT, FLAG or TEXT. */
 #define READ(name, type, kind, result)                                                                                         \
     static inline struct ceduo_value name##_read(const struct ceduo_figure *f, const void *object)                             \
     {                                                                                                                          \
@@ -33,7 +33,7 @@ READ(flag_at, bool, FLAG, IS(m))
 READ(text_at, char *, TEXT, WORD(m))
 READ(fixed_text_at, char const *, TEXT, WORD(m))
 
-/* A member of a struct, read by its type; numbers in an object of their own there. */
+/* Row of a struct member, read by its type; a nested table. */
 #define AT(object, member)                                                                                                     \
     .value = _Generic(((struct ceduo_##object *)0)->member, double: number_at, uint64_t: count_at,                     \
                       unsigned: unsigned_at, bool: flag_at, char *: text_at, const char *: fixed_text_at),             \
@@ -44,7 +44,7 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
         .key = NULL                                                                                                            \
     }
 
-/* For `value`: o is the object, f the row. */
+/* Define a reader for `value`: o is the object, f the row. */
 #define VALUE(name, type, kind, result)                                                                                        \
     static struct ceduo_value name##_read(const struct ceduo_figure *f, const void *object)                                    \
     {                                                                                                                          \
@@ -54,7 +54,7 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
     }                                                                                                                          \
     static const struct ceduo_reader name[1] = {{name##_read, CEDUO_VALUE_##kind}};
 
-/* For `from`: o is the object that a row is read from, another one where it leads to. */
+/* Define a function for `from`: o is the current object, the result the object to read. */
 #define OBJECT(name, type, object)                                                                                             \
     static const void *name(const void *from)                                                                                  \
     {                                                                                                                          \
@@ -62,7 +62,7 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
         return object;                                                                                                         \
     }
 
-/* For `enter`: a member of the place, p, goes through n items. */
+/* Define a function for `enter`: p->member iterates over n items. */
 #define ENTER(name, member, n)                                                                                                 \
     static bool name(struct ceduo_place *p, size_t i)                                                                          \
     {                                                                                                                          \
@@ -76,7 +76,7 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
     }
 VALUE(version_of, place, TEXT, WORD(CEDUO_VERSION))
 
-/* Why something is not known. */
+/* Conditions for null. */
 #define NO_ROCK "no rock arrives"
 #define FEW     "fewer than two rocks arrive"
 #define UNSAID  "the control has no accepted_kJ"

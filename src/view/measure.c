@@ -44,7 +44,7 @@ struct ceduo_measure ceduo_measure_exceeding(const struct ceduo_control *c, cons
 
 void ceduo_measure_range(struct ceduo_measure *m, const struct ceduo_surface_fit *fit, double scale)
 {
-    bool known = !isnan(fit->p5), whole = m->digits == 0; /* without its value the range stays as it is */
+    bool known = !isnan(fit->p5), whole = m->digits == 0; /* the range is not rounded outside the value */
     m->may_lo = known ? fmin(whole ? round(fit->p5 * scale) : fit->p5 * scale, m->value) : NAN;
     m->may_hi = known ? fmax(whole ? round(fit->p95 * scale) : fit->p95 * scale, m->value) : NAN;
 }
