@@ -12,15 +12,15 @@
 #include "base/text.h"
 #include "base/utf8.h"
 
-/* ---- On cells: lines as dots, bars and axes as characters, clouds by how often a dot is passed ---- */
+/* ---- Surface of cells: lines as dots, bars and axes as characters, clouds by the passes of each dot ---- */
 
-/* The nearest of n dots. */
+/* Return the nearest of n dots. */
 static int nearest(double position, int n)
 {
     return (int)lround(fmin(fmax(position, 0.0), n - 1));
 }
 
-/* Dashes lie at the same columns for all lines of a frame; those of an upright line at the same rows. */
+/* Draw a line in dots. Dashes of all lines of a frame are aligned: at the same columns, or rows if upright. */
 static void put_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
 {
     static const struct {
@@ -43,7 +43,7 @@ static void put_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, s
             ceduo_cells_set_dot(to, at_x, at_y, pen->role);
             continue;
         }
-        bool again = at_x == pen->last_x && at_y == pen->last_y; /* where a part of a trajectory ends and the next begins */
+        bool again = at_x == pen->last_x && at_y == pen->last_y; /* end of one segment is start of the next: count it once */
         if (!cells->density || at_x < 0 || at_x >= across || at_y < 0 || at_y >= down || again)
             continue;
         pen->last_x = at_x;
@@ -53,13 +53,13 @@ static void put_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, s
     }
 }
 
-/* To an eighth of a cell, in ASCII to a cell. */
+/* Draw a bar with a resolution of 1/8 cell, or of a cell in ASCII. */
 static void put_bar(void *to, int column, int row, int width, double fraction, enum ceduo_role role)
 {
     enum { full_block = 0x2588, eighth_block = 0x258F };
     const struct ceduo_cells *cells = to;
     bool ascii = cells->charset == CEDUO_CHARSET_ASCII;
-    int parts = ascii ? 1 : 8; /* of a cell */
+    int parts = ascii ? 1 : 8; /* per cell */
     int length = (int)lround(fraction * width * parts);
     length = length < 1 ? 1 : length;
     for (int i = 0; i < length / parts; ++i)
@@ -68,7 +68,7 @@ static void put_bar(void *to, int column, int row, int width, double fraction, e
         ceduo_cells_set_code(to, column + length / parts, row, role, (uint32_t)(eighth_block + 1 - length % parts));
 }
 
-/* The bottom axis meets the left one in a corner if that was drawn before. */
+/* Draw an axis. The bottom axis joins a left axis drawn before. */
 static void put_axis(void *to, const struct ceduo_frame *frame, bool bottom, int count, const struct ceduo_tick *ticks)
 {
     int left = frame->left - 1, below = frame->top + frame->height;
@@ -110,14 +110,14 @@ static bool is_valid(const struct ceduo_frame *frame)
     return frame_cells_valid(frame) && range_valid(frame->x0, frame->x1) && range_valid(frame->y0, frame->y1);
 }
 
-/* Of a frame whose cells are valid: others are as large as they like. */
+/* Requires valid cells; an invalid frame may be arbitrarily large. */
 static struct ceduo_raster raster_of(const struct ceduo_canvas *canvas, const struct ceduo_frame *frame)
 {
     return (struct ceduo_raster){frame->left * canvas->dots_x, frame->top * canvas->dots_y, frame->width * canvas->dots_x,
                                  frame->height * canvas->dots_y};
 }
 
-/* False if the point is not finite, or too far off for its place to be. */
+/* Convert a data point to dots. Return false if the result is not finite. */
 static bool place(const struct ceduo_frame *frame, const struct ceduo_raster *raster, double x, double y,
                   struct ceduo_position *out)
 {
@@ -139,9 +139,9 @@ bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas
     if (!frame_cells_valid(frame) || !isfinite(x_range) || !isfinite(y_range) || x_range < 0.0 || y_range < 0.0)
         return false;
     struct ceduo_raster raster = raster_of(canvas, frame);
-    double x_length = (raster.nx - 1) * (2.0 / canvas->dots_x); /* halves of a cell's width */
+    double x_length = (raster.nx - 1) * (2.0 / canvas->dots_x); /* half cell widths */
     double y_length = (raster.ny - 1) * (4.0 / canvas->dots_y);
-    double metres = fmax(x_range / x_length, y_range / y_length); /* per unit of length */
+    double metres = fmax(x_range / x_length, y_range / y_length); /* m per unit of length */
     double x_spare = metres * x_length - x_range;
     double y_spare = metres * y_length - y_range;
     struct ceduo_frame scaled = *frame;
@@ -171,7 +171,7 @@ bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas
 
 /* ---- Lines ---- */
 
-/* One edge of Liang and Barsky's clipping (1984): keeps the part lo..hi of the line with p t <= q. */
+/* Clip the part lo..hi of a line to p t <= q: one edge of Liang and Barsky (1984). */
 static bool clip_edge(double p, double q, double *lo, double *hi)
 {
     if (p == 0.0)
@@ -212,7 +212,7 @@ void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame
     }
 }
 
-/* Both ends must be drawable: of a polyline a single end would stay as a dot. */
+/* Draw a straight line only if both ends are valid; a polyline would leave a dot. */
 static void draw_straight(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
                           enum ceduo_stroke stroke, double ax, double ay, double bx, double by)
 {
@@ -344,7 +344,8 @@ int ceduo_canvas_draw_text(struct ceduo_canvas *canvas, int column, int row, int
 
 /* ---- Ticks ---- */
 
-/* A multiple of the k-th round interval: …, 0.5, 1 (0), 2 (1), 5 (2), 10, … 3 / 10 is 0.3, but 3 * 0.1 is not. */
+/* Return a multiple of the k-th round interval: …, 0.5, 1 (k = 0), 2 (1), 5 (2), 10, … Divides, because 3 / 10 is 0.3 and 3
+ * * 0.1 is not. */
 static double tick_value(double index, int k)
 {
     static const int mantissas[] = {1, 2, 5};
@@ -353,10 +354,10 @@ static double tick_value(double index, int k)
     return exponent < 0 ? tens / pow(10.0, -exponent) : tens * pow(10.0, exponent);
 }
 
-/* The first multiple of the interval in lo..hi; returns how many there are. */
+/* Find the first multiple of the interval in lo..hi; return their number. */
 static double multiples(double lo, double hi, int k, double *first)
 {
-    const double slack = 1e-9; /* of an interval: 0.3 belongs to 0..3 * 0.1 */
+    const double slack = 1e-9; /* fraction of an interval: 0.3 belongs to 0..3 * 0.1 */
     double size = tick_value(1.0, k);
     *first = ceil(lo / size - slack);
     return floor(hi / size + slack) - *first + 1.0;
@@ -374,19 +375,19 @@ int ceduo_ticks(double lo, double hi, int max_count, double *out, double *interv
     }
     max_count = max_count < CEDUO_TICKS_MAX ? max_count : CEDUO_TICKS_MAX;
     int k = 3 * (int)floor(log10(range / max_count));
-    /* 6..8 has no multiple of 5; a tick at 6 alone is better than none */
+    /* 6..8 has no multiple of 5: keep the only tick 6 */
     while (multiples(from, to, k, &first) > max_count && multiples(from, to, k + 1, &first) >= 1.0)
         k++;
     int n = (int)fmin(multiples(from, to, k, &first), max_count);
     for (int i = 0; i < n; ++i)
-        out[i] = tick_value(first + i, k); /* ceil may have made first -0; -0 + 0 is 0 */
+        out[i] = tick_value(first + i, k); /* ceil() may return -0; -0 + 0 is 0 */
     *interval = tick_value(1.0, k);
     return n;
 }
 
 void ceduo_tick_label(double value, double interval, char label[CEDUO_TICK_LABEL_SIZE])
 {
-    double place = interval > 0.0 ? floor(log10(interval) + 1e-9) : 0.0; /* of the last digit */
+    double place = interval > 0.0 ? floor(log10(interval) + 1e-9) : 0.0; /* place of the last digit, power of 10 */
     double digits = value == 0.0 ? 1.0 : floor(log10(fabs(value)) + 1e-9) - place + 1.0;
     if (!(interval > 0.0))
         snprintf(label, CEDUO_TICK_LABEL_SIZE, "%.6g", value);
@@ -399,21 +400,21 @@ void ceduo_tick_label(double value, double interval, char label[CEDUO_TICK_LABEL
         char *to = exponent + 1 + (exponent[1] == '-'), *from = to + strspn(to, "+0");
         memmove(to, from, strlen(from) + 1);
     }
-    if (*label == '-' && strpbrk(label, "123456789") == NULL) /* rounded to "-0.0" */
+    if (*label == '-' && strpbrk(label, "123456789") == NULL) /* rounded to "-0.0": drop the sign */
         memmove(label, label + 1, strlen(label));
     ceduo_number_spoken(label);
 }
 
-/* ---- Axes: labels at round numbers, which never touch ---- */
+/* ---- Axes: labels at round numbers that do not touch ---- */
 
-/* The labels of an axis. */
+/* Ticks of an axis. */
 struct scale {
     int count;
     double interval;
-    struct ceduo_tick tick[CEDUO_TICKS_MAX + 1]; /* and the unit */
+    struct ceduo_tick tick[CEDUO_TICKS_MAX + 1]; /* one more for the unit */
 };
 
-/* At most n ticks, but for where their labels begin. False where one lies outside. */
+/* Set at most n ticks, without the position of labels. Return false if a tick is outside the frame. */
 static bool set_ticks(struct scale *scale, const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, bool bottom,
                       int n)
 {
@@ -435,7 +436,7 @@ static bool set_ticks(struct scale *scale, const struct ceduo_frame *frame, cons
     return true;
 }
 
-/* As many labels as stand clear of each other. */
+/* Return the scale with the most labels that do not touch. */
 static struct scale left_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
 {
     struct scale scale = {0};
@@ -452,7 +453,7 @@ static struct scale left_scale(const struct ceduo_frame *frame, const struct ced
 
 int ceduo_frame_axis_width(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
 {
-    /* The columns are still to be found: any valid ones, and any x, give the same labels. */
+    /* the columns are unknown yet; any valid columns and x range give the same labels */
     struct ceduo_frame rows = *frame;
     rows.left = 0;
     rows.width = 2;
@@ -488,7 +489,7 @@ static int end_of(const struct ceduo_tick *tick)
     return tick->start + (int)strlen(tick->label);
 }
 
-/* Sets where each label goes; false if two would collide or one leave the frame. */
+/* Set the position of each label. Return false if labels overlap or exceed the frame. */
 static bool bottom_scale_fits(struct scale *scale, const struct ceduo_frame *frame)
 {
     int least = frame->left > 0 ? frame->left - 1 : frame->left;
@@ -505,7 +506,7 @@ static bool bottom_scale_fits(struct scale *scale, const struct ceduo_frame *fra
     return true;
 }
 
-/* The most labels that leave room for the unit too, but two at least; the most of all if there is no such. */
+/* Return the scale with the most labels that leave space for the unit, at least 2; otherwise the one with the most labels. */
 static struct scale bottom_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, const char *unit)
 {
     struct scale most = {0};
@@ -517,7 +518,7 @@ static struct scale bottom_scale(const struct ceduo_frame *frame, const struct c
         if (between || !inside || !bottom_scale_fits(&scale, frame) || (scale.count < 2 && most.count > 1))
             continue;
         most = most.count == 0 ? scale : most;
-        /* the unit goes after the last number or else after the first, moving none */
+        /* the unit goes after the last label, otherwise after the first; labels do not move */
         struct ceduo_tick at = {.cell = -1, .start = -1};
         if (scale.count > 0 && end_of(&scale.tick[scale.count - 1]) + 1 + width <= frame->left + frame->width)
             at.start = end_of(&scale.tick[scale.count - 1]) + 1;

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The grid, text in it, and its output. */
 #include "cells.h"
 
 #include <ctype.h>
@@ -11,7 +10,7 @@
 #include "base/text.h"
 #include "base/utf8.h"
 
-/* ---- The grid ---- */
+/* ---- Grid ---- */
 
 static size_t cell_count(const struct ceduo_cells *cells)
 {
@@ -104,7 +103,7 @@ void ceduo_cells_set_code(struct ceduo_cells *cells, int column, int row, enum c
 
 /* ---- Text ---- */
 
-/* What stands for a character that is not ASCII; of the degree a blank, as "35o" reads like 350. */
+/* Return the replacement of a character in ASCII. A degree sign becomes a blank: "35o" reads as 350. */
 static const char *ascii_for(uint32_t code)
 {
     static const struct {
@@ -139,11 +138,11 @@ static const char *ascii_for(uint32_t code)
     return "?";
 }
 
-/* Walks through a text as it will be written, one cell after the other. */
+/* Iterator over a text, one cell at a time. */
 struct reader {
     enum ceduo_charset charset;
     const char *begin, *text;
-    const char *pending; /* the rest of an ASCII equivalent, in a constant table */
+    const char *pending; /* rest of an ASCII replacement, in a constant table */
 };
 
 bool ceduo_is_power(const char *string, const char *at)
@@ -152,7 +151,7 @@ bool ceduo_is_power(const char *string, const char *at)
            !isalnum((unsigned char)at[1]) && !(at[1] && strchr("_.=[", at[1]) && at[2] > ' ');
 }
 
-/* 0 at the end. */
+/* Return the next code point; 0 at the end. */
 static uint32_t next_code(struct reader *reader)
 {
     if (*reader->pending != '\0')
@@ -161,7 +160,7 @@ static uint32_t next_code(struct reader *reader)
         return 0;
     if (reader->charset != CEDUO_CHARSET_ASCII && ceduo_is_power(reader->begin, reader->text))
         return *reader->text++ == '2' ? 0xB2 : 0xB3;
-    if (*reader->text >= ' ' && *reader->text <= '~') /* most texts are of these alone */
+    if (*reader->text >= ' ' && *reader->text <= '~') /* fast path */
         return (uint32_t)*reader->text++;
     uint32_t code;
     size_t n = ceduo_utf8_decode(reader->text, strnlen(reader->text, 4), &code);
@@ -217,7 +216,7 @@ int ceduo_cells_label_width(enum ceduo_charset charset, const char *text)
 
 uint32_t ceduo_cells_glyph(const struct ceduo_cells *cells, int column, int row)
 {
-    /* Braille counts its upper six dots column by column, and the lowest two after them. */
+    /* Unicode Braille: the upper six dots column by column, then the lowest two. */
     static const uint8_t braille[8] = {0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80};
     /* Bits: 1 upper left, 2 upper right, 4 lower left, 8 lower right. */
     static const uint16_t blocks[16] = {' ',    0x2598, 0x259D, 0x2580, 0x2596, 0x258C, 0x259E, 0x259B,

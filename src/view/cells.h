@@ -80,7 +80,7 @@ struct ceduo_cells {
     enum ceduo_charset charset;
     struct ceduo_canvas canvas; /* for pictures */
     struct ceduo_cell *cell;    /* width * height, row by row */
-    uint32_t *density;          /* of trajectories, one count per dot, row by row; NULL before a cloud is started */
+    uint32_t *density;          /* passes of trajectories, one count per dot, row by row; NULL before a cloud is started */
 };
 
 /* Create a blank grid (1..CEDUO_CANVAS_MAX_WIDTH x 1..CEDUO_CANVAS_MAX_HEIGHT); caller frees. NULL if a size is out of

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes tables of figures as JSON and CSV. What they say in sentences is English in every language. */
+/* Write tables of figures as JSON and CSV. Sentences are English in every language. */
 #include "figures.h"
 
 #include <inttypes.h>
@@ -13,7 +13,7 @@ static double scale_of(const struct ceduo_figure *f, double scale)
     return f->scale > 0 ? scale * f->scale : scale;
 }
 
-/* What a row is read from; NULL: there is none. */
+/* Return the object of a row; NULL: none. */
 static const void *source_of(const struct ceduo_figure *f, const void *object)
 {
     return object && f->from ? f->from(object) : object;
@@ -48,7 +48,7 @@ static void say(const struct ceduo_figure *f, const struct ceduo_place *place, c
 struct writer {
     struct json json;
     bool details;
-    const char *key; /* of a sentence; NULL: an item of a list */
+    const char *key; /* key of a sentence; NULL: item of a list */
 };
 
 static void write_sentence(void *context, const char *sentence)
@@ -71,7 +71,7 @@ static void write_value(struct json *j, const char *key, struct ceduo_value v)
 
 static void write_figures(struct writer *w, const struct ceduo_figure *f, const void *object, double scale);
 
-/* `brackets`: none where its figures stand in what is written already. */
+/* Write an object. `brackets` false: its figures belong to the enclosing object. */
 static void write_object(struct writer *w, const char *key, const struct ceduo_figure *of, const void *object, double scale,
                          bool brackets)
 {
@@ -82,7 +82,7 @@ static void write_object(struct writer *w, const char *key, const struct ceduo_f
         ceduo_json_close(&w->json, '}');
 }
 
-/* Goes to item i of a list; NULL after the last. */
+/* Return item i of a list; NULL after the last. */
 static const void *item_of(const struct ceduo_figure *f, const void *object, size_t i, struct ceduo_place *place)
 {
     if (f->item)
@@ -150,7 +150,7 @@ static void append_value(struct text *text, struct ceduo_value v)
         ceduo_text_csv(text, v.text);
 }
 
-/* Sentences joined by "; ". */
+/* Append a sentence, separated by "; ". */
 static void join(void *context, const char *sentence)
 {
     struct text *all = context;
@@ -158,7 +158,7 @@ static void join(void *context, const char *sentence)
     ceduo_text_append(all, sentence);
 }
 
-/* A cell, and a comma behind it. */
+/* Append a cell and a comma. */
 static void append_cell(struct text *row, const struct ceduo_figure *f, const void *object, double scale)
 {
     LOCAL_TEXT(all);
@@ -172,7 +172,7 @@ static void append_cell(struct text *row, const struct ceduo_figure *f, const vo
     ceduo_text_char(row, ',');
 }
 
-/* In the order of ceduo_figures_columns(). `object` NULL: empty cells. */
+/* Append cells in the order of ceduo_figures_columns(). `object` NULL: empty cells. */
 static void append_cells(struct text *row, const struct ceduo_figure *f, const void *object, double scale)
 {
     for (; !ceduo_figure_is_end(f); f++) {

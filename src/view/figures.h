@@ -35,7 +35,7 @@ struct ceduo_place {
     size_t option, belt, control, felling;
     size_t item, column, figure, input; /* item, column: in a list of the last two reports */
     const struct ceduo_year *year;      /* NULL: the stands of the file */
-    struct ceduo_years_summary sum;     /* of the option's years, if requested */
+    struct ceduo_years_summary sum;     /* summary of the option's years, if requested */
 };
 
 struct ceduo_figure;
@@ -60,11 +60,11 @@ struct ceduo_figure {
     const struct ceduo_figure *of;
     bool (*enter)(struct ceduo_place *place, size_t i); /* list: selects item i; false after the last */
     const void *(*item)(const void *object, size_t i);  /* list inside any object: item i; NULL after the last */
-    size_t columns;                                     /* of such a list: its items in CSV, with heads name[0] and so on */
+    size_t columns;                                     /* CSV: items of such a list, with heads name[0] and so on */
     void (*say)(const struct ceduo_place *place, ceduo_sentence_sink *say, void *context);
     bool one;     /* one sentence, in JSON a text and not a list */
-    bool details; /* of a list: null unless details are requested */
-    bool plain;   /* of a list: items are values, not objects */
+    bool details; /* a list that is null unless details are requested */
+    bool plain;   /* a list of values, not objects */
 };
 
 static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)

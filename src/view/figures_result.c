@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The figures of a result, of its years and of a search: each is named once. */
+/* Figures of a result, of its years and of a search. */
 #include "figures_parts.h"
 
 #include "ceduo/status.h"
@@ -18,7 +18,7 @@ static const struct ceduo_result *result_of(const struct ceduo_place *p)
     return p->report->result;
 }
 
-/* The option as it is filed, or in a year. */
+/* Return the option today, or in the year of the place. */
 static const struct ceduo_option *forest_of(const struct ceduo_place *p)
 {
     return p->year ? &p->year->option : &result_of(p)->scene->options[p->option];
@@ -41,14 +41,14 @@ static const struct ceduo_arrivals *through_the_wood(const struct ceduo_place *p
     return p->year->wooded.rocks > 0 ? &p->year->wooded.arrivals[p->control] : NULL;
 }
 
-/* Of today alone; NULL where no stem stands. */
+/* Return the result by the other law, today only; NULL if no stem stands. */
 static const struct ceduo_alternative_energy *other_law(const struct ceduo_place *p)
 {
     const struct ceduo_alternative_energy *other = &result_of(p)->options[p->option].others[p->control];
     return !p->year && other->known && other->stems ? other : NULL;
 }
 
-/* NULL where growth or cuts are not known. */
+/* NULL if growth or cuts are unknown. */
 static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
 {
     const struct ceduo_verdict *v = p->report->verdict;
@@ -56,7 +56,7 @@ static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
     return yield && !isnan(yield->cut_per_year) ? yield : NULL;
 }
 
-/* NULL if the window is today alone, or its years were not simulated. */
+/* NULL if the window is only today, or if its years were not simulated. */
 static const struct ceduo_choice *window_at(const struct ceduo_place *p)
 {
     const struct ceduo_choice *c = ceduo_report_ahead(p->report, p->option);
@@ -98,7 +98,8 @@ OBJECT(standards_of, compliance, o->standards_item)
 OBJECT(turn_of, compliance, o->turn_item)
 OBJECT(search_of, find_report, o->search)
 OBJECT(found_of, find_report, o->found)
-OBJECT(sure_of, find_report, o->sure && o->sure->inputs > 0 ? o->sure : NULL) /* nothing uncertain: nothing was computed */
+OBJECT(sure_of, find_report,
+       o->sure && o->sure->inputs > 0 ? o->sure : NULL) /* NULL: no input is uncertain, nothing was computed */
 OBJECT(nearest_of, find_report, o->found->found ? NULL : o->found)
 OBJECT(sure_found_of, reliability, o->found.found ? o : NULL)
 OBJECT(sure_nearest_of, reliability, o->found.found ? NULL : o)
@@ -126,7 +127,7 @@ static bool enter_year(struct ceduo_place *p, size_t i)
     return p->year != NULL;
 }
 
-/* Up to the end of the first whole rotation, whichever years are asked for. */
+/* Stop at the end of the first rotation, independently of the requested years. */
 static bool enter_felling(struct ceduo_place *p, size_t i)
 {
     const struct ceduo_yield *yield = yield_at(p);
@@ -156,7 +157,7 @@ static void say_of_stand(const struct ceduo_place *p, ceduo_sentence_sink *say, 
     ceduo_words_stand_warnings(result_of(p)->scene, belt_of(p), stand_of(p), say, context);
 }
 
-/* What is said of a control, by the sampling error alone; of a year by its own rocks. */
+/* Return the judgement of a control by sampling error only; in a year by its own rocks. */
 static struct ceduo_outcome outcome_of(const struct ceduo_place *p)
 {
     if (p->year) {
@@ -186,7 +187,7 @@ static void say_of_all(const struct ceduo_place *place, ceduo_sentence_sink *say
         say_of_stand(&p, say, context);
 }
 
-/* ---- what is more than a member ---- */
+/* ---- computed values ---- */
 
 VALUE(format_of, place, TEXT, WORD("ceduo-result-1"))
 VALUE(path_of, report, TEXT, WORD(o->file->name))
@@ -541,7 +542,7 @@ static const struct ceduo_figure stops[] = {
     {"max", "m", "farthest", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_max)},
     END};
 
-/* Rows that stand in several objects. */
+/* Rows used in several objects. */
 static const struct ceduo_figure summary_row[] = {
     {"summary", "", "the forest between the release and the last control", .from = last_index_of, .of = summary}, END};
 static const struct ceduo_figure forest_rows[] = {

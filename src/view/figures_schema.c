@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an output looks like, from the tables that write it: JSON Schema, and the columns of CSV. */
+/* JSON Schema and CSV columns of an output, derived from its tables. */
 #include "base/json.h"
 #include "figures.h"
 
@@ -11,7 +11,7 @@ static const char *const types[] = {[CEDUO_VALUE_NUMBER] = "number",
 
 /* ---- JSON Schema ---- */
 
-/* "type": what it is, and null where it may be that. */
+/* Write "type", with null if allowed. */
 static void write_type(struct json *j, enum ceduo_value_kind kind, bool null)
 {
     if (kind != CEDUO_VALUE_ANY && !null) {
@@ -48,7 +48,7 @@ static void write_container(struct json *j, const char *type, bool null)
     ceduo_json_close(j, ']');
 }
 
-/* The cells that --each copies: no other output has this object. */
+/* Write the object of cells that --each copies. */
 static void write_row(struct json *j)
 {
     ceduo_json_open(j, "row", '{');
@@ -61,7 +61,7 @@ static void write_row(struct json *j)
     ceduo_json_close(j, '}');
 }
 
-/* `row`: the object also has the cells that --each copies. */
+/* `row`: the object includes the cells that --each copies. */
 static void write_object(struct json *j, const struct ceduo_figure *of, bool null, bool row)
 {
     write_container(j, "object", null);
@@ -130,7 +130,7 @@ void ceduo_figures_schema(struct text *text, const char *format, const struct ce
 
 struct group {
     const struct group *before;
-    const char *key, *unit, *null; /* unit: of what stands in it, "" where that says it itself */
+    const char *key, *unit, *null; /* unit: of the group's members; "": each has its own */
 };
 
 static void append_path(struct text *text, const struct group *group)

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The figures of a sensitivity and of a calibration. */
+/* Figures of an uncertainty report and of a calibration. */
 #include "figures_parts.h"
 
 #include <string.h>
 
 #include "ceduo/status.h"
 
-/* ---- a sensitivity ---- */
+/* ---- uncertainty ---- */
 
 static const struct ceduo_uncertainty_figure *figure_of(const struct ceduo_place *p)
 {
@@ -18,7 +18,7 @@ static const struct ceduo_scene *scene_of(const struct ceduo_place *p)
     return &p->uncertainty->file->scene;
 }
 
-/* Energies are shown in kJ. */
+/* Convert energies to kJ. */
 static double shown(const struct ceduo_place *p, double value)
 {
     return figure_of(p)->kind == CEDUO_UNCERTAINTY_ENERGY ? value * J_TO_KJ : value;
@@ -38,14 +38,14 @@ static bool enter_figure(struct ceduo_place *p, size_t i)
     return false;
 }
 
-/* By what is left of the uncertainty if they are known, least first. */
+/* Select an input, sorted by the width that remains if it is known, smallest first. */
 static bool enter_input(struct ceduo_place *p, size_t i)
 {
     p->input = i < figure_of(p)->uses ? figure_of(p)->order[i] : 0;
     return i < figure_of(p)->uses;
 }
 
-/* What to measure first, for the figure that pages advise on. */
+/* Select an input to measure first, for the figure of the advice. */
 static bool enter_first(struct ceduo_place *p, size_t i)
 {
     const struct ceduo_uncertainty_result *a = p->uncertainty->answer;
@@ -68,7 +68,7 @@ static struct ceduo_value end_of(const struct ceduo_place *p, int end)
     return word ? WORD(word) : NUMBER(value);
 }
 
-/* The share of a rotation is the one by which the place is judged. */
+/* Return the key of a figure. The rotation's figure is the judged share. */
 static const char *figure_key(const struct ceduo_place *p)
 {
     static const char *const keys[CEDUO_UNCERTAINTY_SHOWN] = {
@@ -101,7 +101,7 @@ VALUE(uncertainty_x, place, NUMBER, NUMBER(scene_of(o)->controls[ceduo_scene_las
 VALUE(uncertainty_figure, place, TEXT, WORD(figure_key(o)))
 VALUE(figure_number, place, NUMBER, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
 #define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_uncertainty_figure, member)
-/* Paths that set the input: its own, or those of all its places, if no path means just these. */
+/* Report the paths that set the input: its own, or those of all its places if no single path selects them. */
 static void say_paths(const struct ceduo_place *p, ceduo_sentence_sink *say, void *context)
 {
     const struct ceduo_input *input = &p->uncertainty->inputs->items[p->input];
@@ -231,7 +231,7 @@ static const struct ceduo_figure uncertainty_columns[] = {{.of = uncertainty_sce
 
 const struct ceduo_csv ceduo_uncertainty_csv = {uncertainty_columns, {enter_figure, enter_input}};
 
-/* ---- a calibration ---- */
+/* ---- calibration ---- */
 
 static const struct ceduo_calibration *answer_of(const struct ceduo_place *p)
 {

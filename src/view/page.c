@@ -116,7 +116,7 @@ void ceduo_page_scale(struct ceduo_page *page, size_t column, double lo, double 
         double *const ends[] = {&b->from, &b->to, &b->least, &b->most, &b->limit};
         for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
             double value = *ends[k], share = lo > 0 && isfinite(value) ? log(value / lo) / log(hi / lo) : value / hi;
-            bool limit = ends[k] == &b->limit; /* one beyond the scale is not drawn */
+            bool limit = ends[k] == &b->limit; /* a limit beyond the scale is not clamped, so it is not drawn */
             if (!isnan(value))
                 *ends[k] = limit ? share : fmin(1, fmax(0, share));
         }

@@ -15,7 +15,7 @@ enum ceduo_page_kind {
     CEDUO_PAGE_FACT,     /* value after its label */
     CEDUO_PAGE_SECTION,  /* heading of an option or of a comparison */
     CEDUO_PAGE_PLACE,    /* heading of a control */
-    CEDUO_PAGE_CAPTION,  /* of the table that follows */
+    CEDUO_PAGE_CAPTION,  /* caption of the next table */
     CEDUO_PAGE_TABLE,    /* a row of empty heads is not shown */
     CEDUO_PAGE_SENTENCE, /* about a control */
     CEDUO_PAGE_DETAIL,   /* detail of the previous block */
@@ -60,10 +60,10 @@ struct ceduo_page_bar {
 
 struct ceduo_page_cell {
     enum ceduo_page_cell_kind kind;
-    enum ceduo_role role;      /* of the text, or of the bar; BLANK: default */
+    enum ceduo_role role;      /* role of text or bar; BLANK: default */
     struct text text, shorter; /* shorter: used if `text` does not fit; may be empty */
     struct text written;       /* long form of a head for wide pages; may be empty */
-    double value;              /* of a number cell */
+    double value;              /* value of a number cell */
     int digits;                /* significant digits, if they fit */
     struct ceduo_page_bar bar;
 };
@@ -135,7 +135,7 @@ void ceduo_page_free(struct ceduo_page *page);
 /* Return the number of printed lines. */
 size_t ceduo_page_lines(const struct ceduo_page *page);
 
-/* Append the text of a cell, with as many digits as fit. `plain`: ASCII. */
+/* Append the text of a cell, with the digits that fit. `plain`: ASCII. */
 void ceduo_page_write_cell(struct text *text, const struct ceduo_page_cell *cell, size_t width, bool plain);
 
 /* Append a text with powers of metres as signs, "m³", "m²/ha"; not inside a word, key or number. */

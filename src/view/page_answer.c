@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is read first, on the short page as in the whole one and in the report: the question that a scene asks, its answer, how
- * sure that is, which more rocks and which only measuring makes surer, and what it becomes over the years. */
+/* First part of the short page, the full page and the report: question, answer, its certainty, what would improve it, and
+ * its development over the years. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "page_parts.h"
 #include "plot.h"
 
-/* The last control, up to which all is compared. */
+/* Return the last control, at which options are compared. */
 static const struct ceduo_control *place_of(const struct ceduo_result *r)
 {
     return &r->scene->controls[r->last_control];
@@ -55,7 +55,7 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
 
 /* ---- the answer ---- */
 
-/* Which options get one judgement, "none" or their names: today, or over the years. */
+/* Append the names of options with a judgement, today or over the years; "none" if there are none. */
 static void append_judged(struct text *text, const struct ceduo_report *report, bool today, enum ceduo_judgement judgement)
 {
     const struct ceduo_result *r = report->result;
@@ -112,7 +112,7 @@ size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdic
     return best;
 }
 
-/* Below the answer over years: "mean 190 ±9 of 1000, worst 489 in year 1; today 31 (YES)". */
+/* Append "mean 190 ±9 of 1000, worst 489 in year 1; today 31 (YES)" below the answer over years. */
 static void say_mean(struct ceduo_page *page, const struct ceduo_subject *s)
 {
     const struct ceduo_choice *c = ceduo_report_ahead(s->report, 0);
@@ -135,13 +135,13 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
     size_t n = r->scene->options_count;
     if (r->scene->controls_count == 0)
         return;
-    if (ceduo_page_is_unassessable(r)) /* neither error changes that */
+    if (ceduo_page_is_unassessable(r)) /* holds whatever the errors are */
         ceduo_words_nothing(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, r->last_control);
     else if (n > 1 && !r->wooded)
         ceduo_text_append(ceduo_page_add(page, CEDUO_PAGE_ANSWER), _(ceduo_words_by_index));
     else if (n > 1 && report->verdict)
         answer_many(page, report);
-    /* of one option a line for each place that is judged, and for the last one */
+    /* one option: a line for each judged control and for the last one */
     for (size_t k = 0; n == 1 && !ceduo_page_is_unassessable(r) && k < r->scene->controls_count; k++) {
         if (k != r->last_control && isnan(r->scene->controls[k].accepted))
             continue;
@@ -153,9 +153,9 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
     }
 }
 
-/* ---- how sure ---- */
+/* ---- certainty ---- */
 
-/* "447–510 by the number of rocks (999)" */
+/* Append "447–510 by the number of rocks (999)". */
 static void say_sampling(struct text *text, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
@@ -184,7 +184,7 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
         ceduo_text_format(text, _("%s by the number of rocks (%llu)"), error.bytes, rocks);
 }
 
-/* Of the best option; over the rotation where its uncertainty is known. */
+/* Append the uncertainty of the best option, over the rotation if known. */
 static void say_uncertainty(struct text *text, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
@@ -208,7 +208,7 @@ static void say_uncertainty(struct text *text, const struct ceduo_report *report
     ceduo_text_char(text, '.');
     if (uncertainty->answer->orders_count > 0) {
         ceduo_text_char(text, ' ');
-        ceduo_uncertainty_order_words(text, uncertainty, 0); /* how sure the best option is */
+        ceduo_uncertainty_order_words(text, uncertainty, 0); /* certainty of the ranking */
     }
     const struct ceduo_uncertainty_result *a = uncertainty->answer;
     ceduo_uncertainty_advice(text, uncertainty,
@@ -232,7 +232,7 @@ void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)
 void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_verdict *v = report->verdict;
-    const struct ceduo_choice *c = v && v->n == 1 ? &v->choices[0] : NULL; /* of several a table says it */
+    const struct ceduo_choice *c = v && v->n == 1 ? &v->choices[0] : NULL; /* several options have a table */
     const struct ceduo_option *option = report->result->scene->options;
     if (!c || c->over->years == 0 || ceduo_page_is_unassessable(report->result))
         return;
@@ -240,7 +240,7 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
         ceduo_words_window(ceduo_page_item(page, CEDUO_PAGE_POINT, _("OVER TIME")), option);
         return;
     }
-    if (c->over->simulated > 0) /* the answer says it */
+    if (c->over->simulated > 0) /* included in the answer */
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
     ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->over->years), c->over->years);
@@ -249,7 +249,7 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
                       c->over->worst_year, c->over->unprotected_contact, c->over->years);
 }
 
-/* ---- words and cells that several pages use ---- */
+/* ---- sentences and cells shared by pages ---- */
 
 void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *c)
 {

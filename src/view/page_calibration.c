@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What people call what was fitted and what it was fitted to, and the draws. The page of --calibrate: what was seen beside what the fit says of it, the fitted values with what is not refuted, and in
- * words what is not determined, what lies at a bound, and whether the model can give what was seen at all. */
+/* Names of fitted values and observations, the draws, and the page of --calibrate. It compares observations with
+ * predictions. It reports fitted values with their ranges, unidentified values, values at a bound, and misfit. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "page_parts.h"
 #include "report.h"
 
-#define TOGETHER 0.7 /* correlation that is worth a sentence */
+#define TOGETHER 0.7 /* correlation from which a pair is reported */
 #define GROUND   "slope.materials["
 
 void ceduo_calibration_name(struct text *text, const char *path)
@@ -21,7 +21,7 @@ void ceduo_calibration_name(struct text *text, const char *path)
         ceduo_text_format(text, " [%.*s]", (int)strcspn(bracket + 1, "]"), bracket + 1);
 }
 
-/* In the unit that people use. */
+/* Convert to the display unit. */
 static double shown(const char *path, double value)
 {
     return value * ceduo_schema_fitted(path)->shown.per;
@@ -95,7 +95,7 @@ static void append_range(struct text *t, double lo, double hi)
         ceduo_text_format(t, "%s\xe2\x80\x93%s", WRITTEN(lo, 3), WRITTEN(hi, 3));
 }
 
-/* Two scenes may call alike what was seen there. */
+/* Append the name of an observation, with its scene if there are several scenes. */
 static void append_name(struct text *name, const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)
 {
     ceduo_text_append_escaped(name, ceduo_observed_find(r, p)->name);
@@ -103,7 +103,7 @@ static void append_name(struct text *name, const struct ceduo_calibration_report
         ceduo_text_append_joined(name, ", ", _("scene %zu"), p->scene + 1);
 }
 
-/* ---- in words ---- */
+/* ---- sentences ---- */
 
 static void say_values(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
@@ -152,7 +152,7 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
                             : _("This model cannot give what was seen here: %s."),
                 ceduo_text_string(&name));
         if (o->use == CEDUO_OBSERVED_CHECK && o->values && !isnan(p->one_lo)) {
-            LOCAL_TEXT(range); /* of those that were kept back, which lie where single rocks are predicted */
+            LOCAL_TEXT(range); /* 95 % range of single rocks, compared with observations held back */
             append_range(&range, ceduo_observed_shown(file, p, p->one_lo), ceduo_observed_shown(file, p, p->one_hi));
             ceduo_page_para(page, CEDUO_PAGE_ITEM,
                             _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
@@ -168,7 +168,7 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         ceduo_page_note(page, _("The model can give all that it was fitted to."));
 }
 
-/* Which values to leave as they are where the chains do not agree; of those that only their width tells apart the widest. */
+/* Report which values to fix because the chains have not converged. If none stands out, suggest the widest. */
 static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;

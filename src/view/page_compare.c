@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one table of options: every page, pane and picture shows some of its columns. A row is an option, a year of an option, or the
+/* Table of options: every page, pane and picture shows some of its columns. A row is an option, a year of an option, or the
  * slope without forest. */
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 #include "scene/choices.h"
 #include "study/verdict.h"
 
-/* Name, head, width, flags. BAR is a bar of the column after it. */
+/* Name, head, width, flags. BAR draws the column after it. */
 #define COLUMN_LIST(X)                                                                                                         \
     X(NAME, N_("option"), 10, CEDUO_FILLS)                                                                                     \
     X(BAR, "", 6, CEDUO_FILLS | CEDUO_DROPPED(5))                                                                              \
@@ -74,7 +74,7 @@ static const struct ceduo_control *last_control(const struct ceduo_result *r)
 
 #define COLUMNS_SHOWN 14
 
-/* What the tables show, by the index and through the forest. A column that is empty in all rows is left out. */
+/* Columns of each table, by the index and with rocks through the forest. Columns that are empty in all rows are dropped. */
 static const enum column shown[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
     [CEDUO_OPTIONS_SHORT] = {{NAME, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M, LEFT},
                              {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, ADC, FELLED}},
@@ -95,10 +95,10 @@ static const enum column shown[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
 
 /* ---- cells ---- */
 
-#define YEARS_MAX 26 /* columns of the years at a glance */
+#define YEARS_MAX 26 /* columns of the sparkline of years */
 #define PENDING   "\xe2\x80\xa6"
 
-/* With blocks options are judged by the years from one rock above the limit to the next. */
+/* True if options are judged by return periods, because the scene has blocks. */
 static bool has_rates(const struct ceduo_report *report)
 {
     return report->result->scene->blocks_count > 0 && report->verdict && report->verdict->accepted;
@@ -113,7 +113,7 @@ __attribute__((format(printf, 2, 3))) static const char *print(char room[CEDUO_W
     return room;
 }
 
-/* The years at a glance: a block for each year, or for the worst of several; as high as what gets through. */
+/* Write a sparkline: a character per year, or per group of years with the maximum; its height is the judged share. */
 static const char *glance_of(const struct ceduo_subject *s, char room[CEDUO_WORDS_ROOM])
 {
     const struct ceduo_years *years = s->report->ahead ? s->report->ahead[s->option] : NULL;
@@ -143,7 +143,7 @@ static const char *to_first(const struct ceduo_subject *s, char room[CEDUO_WORDS
     return print(room, isnan(e.se) ? "%+.0f" : "%+.0f\xc2\xb1%.0f", e.mean * 1000, ceil(CEDUO_Z95 * e.se * 1000));
 }
 
-/* "best" if an option is clearly better than all others over the years, "worst" if it is clearly worse than all. */
+/* Return "best" if an option is clearly better than all others over the years, "worst" if it is clearly worse. */
 static const char *mark_of(const struct ceduo_verdict *v, size_t i)
 {
     bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;
@@ -153,7 +153,7 @@ static const char *mark_of(const struct ceduo_verdict *v, size_t i)
     return known && i == v->rotation.best && v->rotation.rivals == 0 ? _("best") : worst ? _("worst") : "";
 }
 
-/* The law of the scene, or that its stands have several. */
+/* Return the law of the option's stands, or "several". */
 static const char *law_of(const struct ceduo_option *option)
 {
     const char *law = NULL;
@@ -167,7 +167,7 @@ static const char *law_of(const struct ceduo_option *option)
     return law ? law : "-";
 }
 
-/* The figure of a column that a bar may show; NaN: not known. */
+/* Return the figure of a column for its bar; NaN: unknown. */
 static double value_of(enum column column, const struct ceduo_subject *s)
 {
     const struct ceduo_index none = {.worst_adc = NAN, .per_100m = NAN}, *index = s->index ? s->index : &none;
@@ -194,7 +194,7 @@ static enum ceduo_light light_of(enum column column, const struct ceduo_subject 
                                 : CEDUO_UNKNOWN;
 }
 
-/* A share with its error, or in rates the years from one rock to the next. */
+/* Return a share with its error, or the return period if `rates`. */
 static const char *share_of(struct ceduo_measure share, struct ceduo_estimate rate, bool rates, const char *unknown,
                             char room[CEDUO_WORDS_ROOM])
 {
@@ -223,11 +223,12 @@ static const char *cell_of(enum column column, const struct ceduo_subject *s, ch
     case MEAN_RANGE:
         return isnan(s->mean.may_lo) || rates ? "" : ceduo_measure_plausible_range(s->mean, room);
     case WORST:
-        return !c || c->over->simulated == 0 ? unknown
-                                            : print(room, "%s (%u)",
-                                                    rates ? WRITTEN(1 / (c->worst.mean * ceduo_hazard_at(s->bare)->per_year), 2)
-                                                          : WRITTEN(1000 * c->worst.mean, 0),
-                                                    c->over->worst_year);
+        return !c || c->over->simulated == 0
+                   ? unknown
+                   : print(room, "%s (%u)",
+                           rates ? WRITTEN(1 / (c->worst.mean * ceduo_hazard_at(s->bare)->per_year), 2)
+                                 : WRITTEN(1000 * c->worst.mean, 0),
+                           c->over->worst_year);
     case ROTATION:
         return c ? ceduo_measure_error(ceduo_share(c->rotation), "", room) : "-";
     case WORST_ADC:
@@ -276,7 +277,7 @@ static const char *cell_of(enum column column, const struct ceduo_subject *s, ch
 /* ---- bars ---- */
 
 struct scale {
-    double lo, hi, limit; /* lo: 0: not logarithmic; limit: NaN: none */
+    double lo, hi, limit; /* lo 0: linear; limit NaN: none */
 };
 
 static struct scale scale_of(enum column column, const struct ceduo_subject *s)
@@ -314,7 +315,7 @@ static void add_bar(struct ceduo_page *page, enum column column, const struct ce
 
 /* ---- tables ---- */
 
-/* A row; `name` of its option, its year, or of what arrives without forest. */
+/* Append a row with the name of its option or year, or "without forest". */
 static void add_row(struct ceduo_page *page, const enum column *set, const struct ceduo_subject *s, const struct scale *scales,
                     enum ceduo_role role, const char *name)
 {
@@ -385,7 +386,7 @@ void ceduo_page_options(struct ceduo_page *page, const struct ceduo_report *repo
     if (kind != CEDUO_OPTIONS_TODAY && kind != CEDUO_OPTIONS_YEARS && kind != CEDUO_OPTIONS_PANE && kind != CEDUO_OPTIONS_LAWS)
         add_row(page, set, &bare, scales, CEDUO_ROLE_TEXT, _("without forest"));
     for (size_t k = 0; set[k]; k++)
-        if (set[k] == BAR) { /* a limit stands above its bars */
+        if (set[k] == BAR) { /* the limit is the head of its bars */
             struct scale *scale = &scales[k];
             if (scale->limit <= 2 * scale->hi)
                 scale->hi = fmax(scale->hi, scale->limit);
@@ -423,7 +424,6 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     return NULL;
 }
 
-/* What the shares of a table are of, at the last control; with `years` also which years. */
 void ceduo_page_shares(struct ceduo_page *page, const struct ceduo_report *report, bool years)
 {
     const struct ceduo_control *c = last_control(report->result);
@@ -455,7 +455,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
         for (size_t k = 0; k < 3; k++)
             passes[k] += lights[k] == CEDUO_PASS;
     }
-    /* a test that all options pass, or none, says nothing about which to choose */
+    /* a test with the same result for all options does not help to choose */
     for (size_t k = 0; k < (r->wooded && !isnan(last_control(r)->accepted) ? 3u : 2u); k++)
         if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
             ceduo_page_para(page, CEDUO_PAGE_NOTE,
@@ -470,7 +470,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
                         v->choices[0].window.last);
         ceduo_page_options(page, report, CEDUO_OPTIONS_YEARS, r->last_control, SIZE_MAX, 0, SIZE_MAX);
     }
-    for (size_t i = 0; v->choices[0].over->years > 0 && i < v->n; i++) { /* what a yield leaves out */
+    for (size_t i = 0; v->choices[0].over->years > 0 && i < v->n; i++) { /* limits of the yield model */
         known |= !isnan(v->choices[i].yield.cut_per_year);
         if (v->choices[i].yield.space > 1)
             ceduo_page_para(
@@ -481,7 +481,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (known)
         ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
                                 "quality of the wood are not modelled."));
-    ceduo_words_rank_reversals(r, v, ceduo_page_note, page); /* which is best stands at the head of the page */
+    ceduo_words_rank_reversals(r, v, ceduo_page_note, page); /* the best option is named at the top of the page */
     if (v->choices[0].over->years > 0)
         ceduo_words_windows(r->scene, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
@@ -497,7 +497,7 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
     ceduo_words_years_sum(line, r, years);
     if (felled > 0)
         ceduo_text_append_joined(line, " ", _("Felled: %g m of forest along the slope."), felled);
-    if (r->scene->options_count < 2) { /* otherwise it stands below the table of all */
+    if (r->scene->options_count < 2) { /* otherwise printed below the table of all options */
         ceduo_text_char(line, ' ');
         ceduo_words_year_numbering(line, years->rocks);
     }
@@ -521,7 +521,7 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_years_words(page, r, years);
 }
 
-#define BESIDE_MAX 8 /* options in one table */
+#define BESIDE_MAX 8 /* options per table */
 
 void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report)
 {
@@ -561,12 +561,12 @@ void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report 
     }
 }
 
-/* ---- one energy law of stems against the other ---- */
+/* ---- comparison of energy laws ---- */
 
 void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
-    bool any = false; /* in the terminal program the figures by the other law may be there before those of the scene's own */
+    bool any = false; /* in the terminal program results by the other law may arrive first */
     for (size_t i = 0; r->wooded && i < r->scene->options_count; i++)
         any |= ceduo_subject_find(report, i, r->last_control).other && ceduo_result_wooded(r, i, r->last_control);
     if (!any)

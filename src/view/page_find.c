@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a search found, in sentences. */
+/* Result of a search as sentences. */
 #include <math.h>
 
 #include "base/language.h"
@@ -17,7 +17,7 @@ static void append_goal(struct text *text, enum ceduo_goal goal, double value, d
         ceduo_text_format(text, "%s %s", BESIDE(value, 4, target), ceduo_goals[goal].unit);
 }
 
-/* With four digits, on the side that reaches the goal; JSON has them all. */
+/* Round to four digits, on the side that reaches the goal; JSON has all digits. */
 static double shown(const struct ceduo_search *s, const struct ceduo_found *f)
 {
     double scale = pow(10, fmax(0, 3 - floor(log10(fabs(f->value)))));

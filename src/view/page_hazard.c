@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How often, and with how much, where the scene has blocks: in words, the energies of return periods, and the square of
- * intensity and return period, with all options beside the slope without forest. */
+/* Frequency and energy of scenes with blocks: sentences, energies of return periods, and the matrix of intensity and return
+ * period, for all options and without forest. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "page_parts.h"
 #include "plot.h"
 
-/* Without forest (item 0) and through the forest of each option. NULL: not known. */
+/* Return the hazard without forest (item 0) or of option item - 1; NULL: unknown. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_result *r, size_t item, size_t control)
 {
     return ceduo_hazard_at(item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control));
@@ -20,7 +20,7 @@ static const char *name_of(const struct ceduo_result *r, size_t item)
     return item == 0 ? _("without forest") : r->scene->options_count == 1 ? _("with forest") : r->scene->options[item - 1].name;
 }
 
-/* ---- in words ---- */
+/* ---- return periods as text ---- */
 
 const char *ceduo_words_interval_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM])
 {
@@ -48,7 +48,7 @@ void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *h, si
     const struct ceduo_estimate e = h ? h->returns[i].energy : CEDUO_NO_ESTIMATE;
     struct text *const texts[] = {&cell->text, &cell->shorter};
     int power = e.mean > 0 ? (int)floor(log10(e.mean * J_TO_KJ)) : 0;
-    for (int k = 0; k < (isnan(e.mean) ? 0 : 2); k++) { /* 1.2 (1.1–1.3)e7 is shorter */
+    for (int k = 0; k < (isnan(e.mean) ? 0 : 2); k++) { /* short form: 1.2 (1.1–1.3)e7 */
         double scale = J_TO_KJ / (k == 0 ? 1 : pow(10, power));
         int digits = 3 - k;
         ceduo_text_append(texts[k], WRITTEN(e.mean * scale, digits));
@@ -64,7 +64,7 @@ void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *h, si
         ceduo_text_format(&cell->shorter, "e%d", power);
 }
 
-/* ---- the square ---- */
+/* ---- matrix ---- */
 
 static void add_square(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
@@ -76,10 +76,10 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t t = 1; t < CEDUO_RETURNS; t++)
         ceduo_text_format(&page->last->cells[t].text, _("to %u years"), ceduo_return_years[t]);
-    for (int i = CEDUO_INTENSITIES - 1; i >= -1; i--) { /* -1: none arrives so often */
+    for (int i = CEDUO_INTENSITIES - 1; i >= -1; i--) { /* -1: none arrives within the return period */
         ceduo_page_cell_format(page, "%s", _(rows[i + 1]));
         for (size_t t = 1; t < CEDUO_RETURNS; t++) {
-            struct text *cell = ceduo_page_text(page); /* which of all have it at that return period, by their numbers */
+            struct text *cell = ceduo_page_text(page); /* numbers of the options in this class */
             for (size_t k = 0; k <= r->scene->options_count; k++) {
                 const struct ceduo_hazard *h = hazard_of(r, k, control);
                 const struct ceduo_estimate energy = h ? h->returns[t].energy : CEDUO_NO_ESTIMATE;

@@ -42,7 +42,7 @@ enum ceduo_options {
     CEDUO_OPTIONS_PANE,
     CEDUO_OPTIONS_BARS,
     CEDUO_OPTIONS_LAWS,    /* by both energy laws */
-    CEDUO_OPTIONS_RATES,   /* of rocks, by intensity */
+    CEDUO_OPTIONS_RATES,   /* rates of rocks, by intensity */
     CEDUO_OPTIONS_RETURNS, /* energies of return periods */
     CEDUO_OPTIONS_OF_YEARS,
     CEDUO_OPTIONS_KINDS
@@ -69,7 +69,7 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
 
 /* Append arrivals at a control with forest and, if `with_bare`, without. The number of figures fits a screen of `lines`
  * lines. */
-#define CEDUO_LINES_SHORT 17 /* of the short page */
+#define CEDUO_LINES_SHORT 17 /* lines of the short page */
 #define CEDUO_LINES_WHOLE 1000
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *subject, int lines, bool with_bare);
 

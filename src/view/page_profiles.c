@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Several scenes, as profiles of one slope: what is said of each, the worst first, and of the place below as a whole. */
+/* Several scenes as profiles of one slope: the answer for each, the worst first, and for the place below as a whole. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,20 +9,20 @@
 #include "page_parts.h"
 #include "report.h"
 
-#define SCENE_WIDTH 32 /* columns of a scene's name */
+#define SCENE_WIDTH 32 /* columns of the scene's name */
 
-/* What is said of an option of a profile; a larger rank is worse. */
+/* Answer for an option of a profile; a higher rank is worse. */
 struct profile_option {
     const char *name, *answer;
     enum ceduo_judgement judgement;
     int rank;
-    double share; /* by which the place is judged; NaN: not known */
+    double share; /* judged share; NaN: unknown */
 };
 
 struct ceduo_profile {
     const char *title, *place;
     double accepted;
-    size_t number, n; /* number: as it was given; n: options */
+    size_t number, n; /* number: order of addition; n: options */
     struct profile_option *options;
 };
 
@@ -66,7 +66,7 @@ void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *rep
     }
 }
 
-/* The option that is best there: what a profile is worth. */
+/* Return the best option, which determines the rank of a profile. */
 static const struct profile_option *best_of(const struct ceduo_profile *p)
 {
     const struct profile_option *best = p->options;
@@ -78,7 +78,7 @@ static const struct profile_option *best_of(const struct ceduo_profile *p)
     return best;
 }
 
-/* The worst first; the same ones as they were given. */
+/* Sort the worst first; equal profiles keep their order. */
 static int by_worst(const void *a, const void *b)
 {
     const struct ceduo_profile *p = a, *q = b;
@@ -99,7 +99,7 @@ size_t ceduo_profiles_sort(struct ceduo_profiles *p, size_t *order)
     return p->count;
 }
 
-/* Whether all are about one place, and about the same options for it. */
+/* True if all profiles have the same control and the same options. */
 static bool is_one_place(const struct ceduo_profiles *p)
 {
     const struct ceduo_profile *a = p->items;
@@ -116,7 +116,7 @@ static bool is_one_place(const struct ceduo_profiles *p)
     return true;
 }
 
-/* An option at all profiles: what is said of the worst of them. */
+/* Append the worst judgement of an option over all profiles. */
 static void say_whole(struct ceduo_page *page, const struct ceduo_profiles *p, size_t option)
 {
     enum ceduo_judgement worst = CEDUO_YES;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A chapter of the report: the blocks of the page in the terminal, with pictures between them. */
+/* Chapter of the report: blocks of the terminal page with pictures between them. */
 
 #include <string.h>
 
@@ -12,12 +12,11 @@
 
 /* ---- pictures ---- */
 
-#define WHOLE 92  /* cells of a picture across the page */
-#define HALF  46  /* of one that has another beside it */
-#define WIDE  112 /* of one whose rows are few in many columns */
-#define CROWD 4   /* options; more are a page full */
+#define WHOLE 92  /* cells of a picture of full width */
+#define HALF  46  /* cells of a picture of half width */
+#define WIDE  112 /* cells of a wide picture with few rows */
+#define CROWD 4   /* max options of a page with all pictures */
 
-/* Adds one, so many cells large. */
 static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int columns, int rows,
                         const struct ceduo_picture *picture, const char *description)
 {
@@ -41,7 +40,7 @@ static struct ceduo_picture picture_of(const struct ceduo_report *report, size_t
                                   .year = SIZE_MAX};
 }
 
-/* Whether the scene asks for more than fits on four sheets: then what other commands show is left to them. */
+/* True if the scene would exceed four pages; sections that other commands show are dropped. */
 static bool is_crowded(const struct ceduo_report *report)
 {
     return ceduo_report_has_hazard(report) && report->result->scene->options_count > CROWD;
@@ -49,7 +48,7 @@ static bool is_crowded(const struct ceduo_report *report)
 
 /* ---- sections ---- */
 
-/* What uncertain inputs make of the answer, for a reader who decides; of several options for the best. */
+/* Append the effect of uncertain inputs on the answer, for the best option. */
 static void add_unknown(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
@@ -59,7 +58,7 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     const struct ceduo_control *place = &r->scene->controls[r->last_control];
     size_t option = ceduo_result_best(r, report->verdict);
     const struct ceduo_outcome o = ceduo_report_outcome(report, option, r->last_control);
-    struct ceduo_measure m = ceduo_measure_exceeding(place, NULL); /* without its value the range stays as it is */
+    struct ceduo_measure m = ceduo_measure_exceeding(place, NULL); /* NaN value: the range is not widened */
     ceduo_measure_uncertainty(&m, uncertainty, option, r->last_control);
     if (isnan(m.may_lo)) {
         if (!uncertainty || ceduo_uncertainty_is_off(uncertainty) || !uncertainty->inputs || uncertainty->inputs->n > 0)
@@ -90,7 +89,7 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
         ceduo_text_append_joined(text, " ", "%s", _("The answer is the same in all of these cases."));
 }
 
-/* What the scene says for it; there is always room to date and to sign. */
+/* Append the head of the scene. Date and signature are always present. */
 static void add_head(struct ceduo_page *page, const struct ceduo_report_head *head)
 {
     const char *const lines[][2] = {{_("Place"), head->place},   {_("Owner"), head->owner}, {_("Parcel"), head->parcel},
@@ -102,7 +101,7 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
 }
 
 #define SLOPE_ROWS 19
-#define SLOPE_MIN  12 /* where tables of several options follow */
+#define SLOPE_MIN  12 /* if tables of several options follow */
 #define STRIP_ROWS 10
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
@@ -126,7 +125,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
                       "through the forest and without it."));
 }
 
-/* Of one option they stand with all its figures; of several those of the one that is drawn. */
+/* Append percentiles of the drawn option. A single option has them with its other figures. */
 static void add_percentiles(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
@@ -145,13 +144,13 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_report *
 
 #define YEARS_ROWS 10
 
-/* The option that is best over the years. */
+/* Append the option that is best over the years. */
 static void add_years(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_verdict *v = report->verdict;
     size_t option = v && v->rotation.known ? v->rotation.best : ceduo_result_best(report->result, report->verdict);
     if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_CONSTANT || !report->ahead ||
-        !report->ahead[option] || report->ahead[option]->count < 2) /* they do not differ at all */
+        !report->ahead[option] || report->ahead[option]->count < 2) /* all years are equal */
         return;
     struct ceduo_picture picture = picture_of(report, option);
     const struct ceduo_scene *scene = report->result->scene;
@@ -203,7 +202,7 @@ static void add_limits(struct ceduo_page *page, const struct ceduo_result *resul
                 "can tell."));
 }
 
-/* The tree with the kinds of its sources alone: their texts fill a sheet, and no figure depends on them. */
+/* Copy the tree without the texts of sources: they fill a page, and no figure depends on them. */
 static const struct node *without_texts(struct arena *arena, const struct node *node)
 {
     bool source = node->key && strcmp(node->key, "source") == 0;
@@ -224,7 +223,7 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_report *repor
                                  : _("This command computes the page again:"));
     ceduo_page_para(page, CEDUO_PAGE_CODE, "%s", report->command);
     ceduo_page_para(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene, as its file says it, without the texts of sources:"));
-    /* with what the command line changed, and the names of other files */
+    /* includes changes of the command line, and references to files */
     struct arena arena = {0};
     const struct node *root = ceduo_emit_restore_references(&arena, report->file->root);
     ceduo_emit(ceduo_page_add(page, CEDUO_PAGE_CODE), without_texts(&arena, root));
@@ -233,7 +232,7 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_report *repor
 
 #define HAZARD_ROWS 9
 
-/* How often at each place, and at the last one as curves. */
+/* Append frequencies at each control, and curves at the last one. */
 static void add_hazard(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_scene *scene = report->result->scene;
@@ -267,7 +266,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     if (several && controls) {
         struct ceduo_picture picture = picture_of(report, 0);
         ceduo_page_comparison(page, report);
-        if (!ceduo_report_has_hazard(report) && scene->options_count <= CROWD) /* the table says it all */
+        if (!ceduo_report_has_hazard(report) && scene->options_count <= CROWD) /* the table of frequencies replaces it */
             add_picture(page, CEDUO_PLOT_COMPARE, WIDE, 2 + (int)scene->options_count, &picture,
                         _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too "
                           "much energy, and their mean energy."));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page of a result: what was simulated, then each option at each control, then the options side by side; below, warnings of
- * the whole run, and each assumption with the first place that makes it. */
+/* Page of a result: input, each option at each control, all options together; then warnings of the run, and each assumption
+ * with its first place. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 
 /* ---- head ---- */
 
-/* Words of files, as they are shown. */
+/* Display names of words in files. */
 static const char *const shapes[] = {[CEDUO_SPHERE] = N_("sphere"),
                                      [CEDUO_CYLINDER] = N_("cylinder"),
                                      [CEDUO_ELLIPSOID] = N_("ellipsoid"),
@@ -56,7 +56,7 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
                       (unsigned long long)ceduo_result_rocks(r), (unsigned long long)s->simulation.seed);
 }
 
-/* ---- what arrives at a control ---- */
+/* ---- arrivals at a control ---- */
 
 static void add_place(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
 {
@@ -73,12 +73,12 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_words_topography(place, ceduo_topography_at(&report->result->bare.arrivals[i]), false);
 }
 
-/* A row: name, through the forest, without it; each shorter where its column is narrow. */
+/* Append a row: name, with forest, without forest. Each has a short form for narrow columns. */
 static void add_row(struct ceduo_page *page, const char *const texts[3][2])
 {
     for (int i = 0; i < 3; i++) {
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
-        ceduo_text_append(&cell->text, texts[i][i == 0 && page->width < CEDUO_PAGE_WIDTH]); /* names of a pane are all brief */
+        ceduo_text_append(&cell->text, texts[i][i == 0 && page->width < CEDUO_PAGE_WIDTH]); /* panes use short names only */
         ceduo_text_append(&cell->shorter, texts[i][1]);
     }
 }
@@ -90,7 +90,7 @@ static void add_figure(struct ceduo_page *page, struct ceduo_measure wood, struc
                                             {INTERVAL(bare), VALUE_OF(bare)}});
 }
 
-#define PANE_WIDE 34 /* columns that hold an interval */
+#define PANE_WIDE 34 /* columns needed for an interval */
 
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s, int lines, bool with_bare)
 {
@@ -104,7 +104,7 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *heads = page->last->cells;
     ceduo_text_append(&heads[1].text, _("with forest"));
-    ceduo_text_format(&heads[1].shorter, "%s ", _("forest")); /* apart from the next one */
+    ceduo_text_format(&heads[1].shorter, "%s ", _("forest")); /* gap to the next head */
     ceduo_text_append(&heads[2].text, _("without forest"));
     ceduo_text_append(&heads[2].shorter, _("without"));
     add_figure(page, ceduo_measure_arriving(wood), ceduo_measure_arriving(bare));
@@ -112,7 +112,7 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
         add_figure(page, ceduo_measure_exceeding(s->place, wood), ceduo_measure_exceeding(s->place, bare));
     if (!whole && !nothing && wood && !isnan(s->today.may_lo) && page->width < CEDUO_PAGE_WIDTH)
         add_row(page, (const char *const[3][2]){{"", _("  90 % range")}, {MAY_BE(s->today), ""}, {"", ""}});
-    if (blocks && !nothing) /* what matters if blocks of all sizes come down */
+    if (blocks && !nothing) /* with block sizes the return period is the relevant figure */
         add_row(page, (const char *const[3][2]){{_("years from one such rock to the next"), _("years apart")},
                                                 {YEARS(ceduo_feared(wood)), EVERY(ceduo_feared(wood))},
                                                 {YEARS(ceduo_feared(bare)), EVERY(ceduo_feared(bare))}});
@@ -120,16 +120,16 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
         const struct ceduo_measure through = ceduo_measured(what, wood), without = ceduo_measured(what, bare);
         bool any = through.value > 0 || without.value > 0, mean = what >= CEDUO_MEAN_KJ;
         int from = least[what];
-        if (blocks && !whole && mean) /* the large arrive: a mean of those would read as if the forest did harm */
+        if (blocks && !whole && mean) /* mostly large blocks arrive: their mean would make the forest look harmful */
             from = what == CEDUO_RELEASED_KJ ? LOW : WHOLE;
         if (lines >= from && (any || what == CEDUO_STOPPED || what == CEDUO_RESTED || mean) && !(nothing && mean))
             add_figure(page, through, without);
     }
-    if (page->width >= CEDUO_PAGE_WIDTH) /* a pane keeps its columns while rocks fall */
+    if (page->width >= CEDUO_PAGE_WIDTH) /* a pane keeps its columns during the simulation */
         ceduo_page_trim(page);
 }
 
-/* Signs of a test today and in the worst year ahead: it fails if it does so in any of n years. */
+/* Append the lights of a test, today and over the years ahead. The latter fails if any year fails. */
 static void add_test(struct ceduo_page *page, const struct ceduo_subject *s, const char *limit, enum ceduo_light today,
                      size_t failing, bool known)
 {
@@ -175,7 +175,7 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     ceduo_text_format(&most, "\xe2\x89\xa4 %g", CEDUO_FREE_RUN_MAX * 100);
     ceduo_text_format(&accepted, judged ? "\xe2\x89\xa4 %s" : "", ROUNDED(limit * 100, 3));
     CEDUO_PAGE_TABLE_OF(page, columns);
-    bool gap = index->length > 0 && index->longest_gap > threshold; /* the reason why neither is kept */
+    bool gap = index->length > 0 && index->longest_gap > threshold; /* the gap is why both tests fail */
     add_name(page, gap ? _("gap without forest, m") : _("distance between contacts (ADC), m"), gap ? _("gap m") : _("ADC m"));
     ceduo_page_cell_format(page, "%s", gap ? ROUNDED(index->longest_gap, 6) : BESIDE(index->worst_adc, 3, threshold));
     add_test(page, s, below.bytes, index->contact, c->over->unprotected_contact, true);
@@ -204,7 +204,9 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *rep
     if (s.wooded || with_bare)
         ceduo_page_arrivals(page, &s, CEDUO_LINES_WHOLE, with_bare);
     const struct ceduo_measure wood = ceduo_measured(CEDUO_MEAN_KJ, s.wooded), bare = ceduo_measured(CEDUO_MEAN_KJ, s.bare);
-    if (forest && wood.value - bare.value > hypot(wood.hi - wood.value, bare.hi - bare.value)) /* reads as harm */
+    if (forest && wood.value - bare.value >
+                      hypot(wood.hi - wood.value,
+                            bare.hi - bare.value)) /* a higher mean is selection, not harm: stems stop slow rocks first */
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("Fewer arrive through the forest, but larger or faster ones, as stems stop the others first: their "
                           "mean is higher."));
@@ -216,7 +218,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *rep
 
 static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
-    if (ceduo_too_few_arrivals(&r->bare.arrivals[control])) { /* why stands at the head of the page */
+    if (ceduo_too_few_arrivals(&r->bare.arrivals[control])) { /* the reason is at the top of the page */
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy: nothing can be said."));
         return;
     }
@@ -258,7 +260,7 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
     }
 }
 
-/* Length of the ground between two places, m. */
+/* Return the length of the ground between two positions, m. */
 static double ground_length(const struct ceduo_slope *s, double from, double to)
 {
     double length = 0;
@@ -270,7 +272,7 @@ static double ground_length(const struct ceduo_slope *s, double from, double to)
     return length;
 }
 
-/* The ADC by the other rules, of each belt, and how long the threshold, which is of the map, is on its ground. */
+/* Append each belt's ADC by other forms, and the length on the ground of the threshold, which is horizontal. */
 static void say_other_forms(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
                             const struct ceduo_option_result *found)
 {
@@ -301,7 +303,7 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
     const struct ceduo_index *index = &r->options[option].controls[control];
     double mean = ceduo_measured(CEDUO_MEAN_KJ, &r->bare.arrivals[control]).value, taken = index->dissipated * J_TO_KJ;
     double left = index->residual * J_TO_KJ;
-    int decimals = mean > 0 ? (int)fmax(0, 3 - floor(log10(mean))) : 1; /* of all three, so that what is written is true */
+    int decimals = mean > 0 ? (int)fmax(0, 3 - floor(log10(mean))) : 1; /* equal decimals, so that the numbers add up */
     LOCAL_TEXT(rest);
     if (index->exhausted)
         ceduo_text_append(&rest, _("nothing is left on average, some rocks still pass"));
@@ -316,7 +318,7 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
                         WRITTEN(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
 }
 
-/* ---- blocks of other sizes ---- */
+/* ---- other block sizes ---- */
 
 static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_size_result *blocks)
 {
@@ -340,7 +342,7 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
     for (size_t i = 0; i < CEDUO_SIZES; i++) {
         const struct ceduo_size_result *b = &blocks[i];
         if (!b->own && b->volume < 2 * own && 2 * b->volume > own)
-            continue; /* less than an octave apart the order would be chance: the scene's own stands for it */
+            continue; /* skip sizes within a factor 2 of the scene's own */
         ceduo_page_cell_format(page, "%s", b->own ? "  >" : "");
         ceduo_page_number(page, b->volume, 3);
         ceduo_page_number(page, b->mass, 3);
@@ -357,9 +359,9 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
                           "those of the scene."));
 }
 
-/* ---- what an office expects: percentiles of speed, energy and height with their intervals, and design values ---- */
+/* ---- percentiles of speed, energy and height ---- */
 
-/* Heights below a metre have no third digit, those below a decimetre no second. */
+/* Fewer digits for heights below 1 m and 0.1 m. */
 #define SHOWN(value) WRITTEN(value, (value) < 0.1 ? 1 : (value) < 1 ? 2 : 3)
 
 static void add_percentile(struct ceduo_page *page, double value, double lo, double hi)
@@ -369,7 +371,7 @@ static void add_percentile(struct ceduo_page *page, double value, double lo, dou
     ceduo_text_append(cell, SHOWN(value));
     if (isnan(value))
         return;
-    ceduo_text_append(&both->shorter, SHOWN(value)); /* where the interval has no room */
+    ceduo_text_append(&both->shorter, SHOWN(value)); /* without the interval */
     if (!isnan(lo) && !isnan(hi))
         ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", SHOWN(lo), SHOWN(hi));
     else if (!isnan(lo))
@@ -413,11 +415,11 @@ void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *
 
 /* ---- design values ---- */
 
-/* The factors of speed and energy of UNI 11211-4, 1.02 where it was done well, otherwise 1.10. */
+/* Factors of speed and energy in UNI 11211-4: 1.02 for a good survey or model, otherwise 1.10. */
 #define FACTOR(good) ((good) ? 1.02 : 1.10)
 
-/* No factor of the height was found in a text that could be opened: it is printed without one, and that is said. The height is
- * that of the blocks' tops: a work as high as their undersides would stop none. */
+/* Append design values. No source for a height factor could be obtained: the percentile is printed without one. It is the
+ * height of the block's top, because a barrier only as high as the underside stops nothing. */
 void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control)
 {
     const struct ceduo_result *r = report->result;
@@ -443,7 +445,7 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
         survey, model, calibrated ? _("fitted to what was seen") : _("not fitted here"), blocks);
 }
 
-/* ---- an option ---- */
+/* ---- option ---- */
 
 void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *r, size_t option)
 {
@@ -456,7 +458,7 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_option *option = &r->scene->options[i];
-    bool whole = page->width >= CEDUO_PAGE_WIDTH; /* a pane stands beside pictures and a column that say the rest */
+    bool whole = page->width >= CEDUO_PAGE_WIDTH; /* a pane is next to pictures and a column with the other figures */
     if (option->belts_count > 0 && r->scene->controls_count > 0)
         add_belts(page, r->scene, option, &r->options[i]);
     for (size_t k = 0; k < r->scene->controls_count; k++) {
@@ -485,13 +487,13 @@ static bool is_shown(const struct ceduo_report *report, const struct source_note
     return strcmp(note->kind, "assumed") == 0 && (report->years || !ceduo_note_years(note));
 }
 
-/* The notes are kept last first. */
+/* Append notes in order; the list has the last first. */
 static void add_assumed(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note, bool places)
 {
     if (!note)
         return;
     add_assumed(page, report, note->before, places);
-    const struct source_note *first_same = NULL; /* in the files, that is, the last in the list: said there, how often */
+    const struct source_note *first_same = NULL; /* first in the files, last in the list; printed here with the count */
     size_t times = 0;
     for (const struct source_note *n = report->file->notes; n; n = n->before)
         if (strcmp(n->kind, "assumed") == 0 && strcmp(n->text, note->text) == 0) {
@@ -503,7 +505,7 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     const char *said = ceduo_in_language(note->text, note->text_it);
     LOCAL_TEXT(where);
     if (!places) {
-        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(said, ";"), said); /* its first clause */
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(said, ";"), said); /* first clause */
         return;
     }
     const struct ceduo_scene *scene = report->result->scene;
@@ -560,7 +562,7 @@ static void add_whole(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_answer(page, report);
     ceduo_page_sure(page, report);
     ceduo_page_over(page, report);
-    if (scene->options_count > 1) /* what they share */
+    if (scene->options_count > 1) /* shared by all options */
         ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
     for (size_t k = 0; scene->options_count > 1 && k < scene->controls_count; k++) {
         const struct ceduo_subject bare = ceduo_subject_find(report, SIZE_MAX, k);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the law asks of the stands of all options: a row for each stand, the articles below; and the same in sentences. */
+/* Rules for the stands of all options: a table with a row per stand and the articles below; the same as sentences. */
 #include <math.h>
 #include <string.h>
 
@@ -16,14 +16,14 @@ static const char *note_of(const struct ceduo_regulation *rules, struct text *te
     return text->bytes;
 }
 
-/* "≥ 50", "20–30" */
+/* Append "≥ 50" or "20–30". */
 static void append_asked(struct text *text, item *asked)
 {
     ceduo_text_format(text, isnan(asked->most) ? "\xe2\x89\xa5 %s" : "%s\xe2\x80\x93%s", SHORTEST(asked->least),
                       SHORTEST(asked->most));
 }
 
-/* The number of standards or the turn of a belt. */
+/* Append the rule of standards or of the rotation of a belt. */
 static void say_rule(struct ceduo_page *page, const struct ceduo_belt *belt, const struct ceduo_compliance *c, bool turn,
                      bool all)
 {
@@ -73,7 +73,7 @@ void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *
 
 /* ---- the table ---- */
 
-/* What is, what is asked for, and whether it is kept. */
+/* Append the value of the stand, the rule, and whether it is met. */
 static void add_rule(struct ceduo_page *page, double is, item *asked, bool met, bool species)
 {
     if (isnan(is))
@@ -118,7 +118,7 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
                 ceduo_page_para(page, CEDUO_PAGE_SECTION, _("What the rules of %s ask"), rules->name);
                 CEDUO_PAGE_TABLE_OF(page, columns);
             }
-            bool listed = false; /* an earlier belt of any option has the same stand */
+            bool listed = false; /* an earlier belt has the same stand */
             for (size_t a = 0; a <= i; a++)
                 for (size_t b = 0; b < (a < i ? r->scene->options[a].belts_count : k); b++)
                     listed |= strcmp(r->scene->options[a].belts[b].name, r->scene->options[i].belts[k].name) == 0;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page that --batch prints: the answer, how sure it is, what it becomes over the years, what was assumed, on one screen.
- * Of several options a table comes first. What is assumed and what is to be noted takes the lines that are left; how much more
- * there is is said. */
+/* Page of --batch on one screen: answer, certainty, development, assumptions; with several options their table first. Notes
+ * and assumptions fill the remaining lines, with a count of the rest. */
 #include <math.h>
 #include <string.h>
 
@@ -10,14 +9,14 @@
 #include "page_parts.h"
 #include "plot.h"
 
-#define LINES        24 /* of one option */
-#define LINES_SHARED 14 /* of several … */
-#define LINES_OPTION 2  /* … and for each */
-#define LINES_BLOCKS 2  /* … and to say how often, where that is known */
+#define LINES        24 /* lines for one option */
+#define LINES_SHARED 14 /* lines for several options … */
+#define LINES_OPTION 2  /* … plus lines per option */
+#define LINES_BLOCKS 2  /* … plus lines for frequencies */
 
 /* ---- head ---- */
 
-/* With as much of the rocks as keeps it in one line. */
+/* Append the title, with details of the rocks that fit in its line. */
 static void add_title(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
@@ -38,9 +37,7 @@ static void add_title(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_text_append(text, rocks.bytes);
 }
 
-/* ---- one option ---- */
-
-/* ---- what is assumed, and what is to be noted ---- */
+/* ---- assumptions and notes ---- */
 
 static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *report)
 {
@@ -64,7 +61,7 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     }
 }
 
-/* A point of sentences (warnings) or of other texts, and how many more there are. */
+/* Append a point with its sentences or items, and the number left out. */
 static void add_point(struct ceduo_page *page, const char *label, const struct text *said, size_t more)
 {
     struct text *text = ceduo_page_item(page, CEDUO_PAGE_POINT, label);
@@ -73,7 +70,7 @@ static void add_point(struct ceduo_page *page, const char *label, const struct t
         ceduo_text_append_joined(text, said->length > 0 ? " " : "", _("(%zu more)"), more);
 }
 
-/* Adds those of the sentences, whole ones, that keep within so many lines. False where none has room, or not even how many more. */
+/* Append the sentences that fit in `lines`. Return false if none fits, or if the number left out does not fit. */
 static bool add_sentences(struct ceduo_page *page, const char *label, const struct ceduo_page *sentences, size_t lines)
 {
     LOCAL_PAGE(tried, page->width);
@@ -82,7 +79,7 @@ static bool add_sentences(struct ceduo_page *page, const char *label, const stru
     for (const struct ceduo_page_block *b = sentences->first; b; b = b->next)
         more++;
     for (const struct ceduo_page_block *b = sentences->first; b; b = b->next) {
-        size_t before = said.length; /* the first goes before how many more */
+        size_t before = said.length; /* the first sentence has priority over the count */
         ceduo_text_append_joined(&said, before == 0 ? "" : b->kind == CEDUO_PAGE_WARNING ? " " : "; ", "%s", b->text.bytes);
         add_point(&tried, label, &said, before == 0 ? 0 : more - 1);
         if (ceduo_page_lines(&tried) > lines)
@@ -99,13 +96,13 @@ static bool add_sentences(struct ceduo_page *page, const char *label, const stru
     return counted;
 }
 
-/* What is to be noted goes before what is assumed, but for a line or two. False where not all of it, or how much more, is said. */
+/* Fill the remaining lines with notes, keeping two for assumptions. Return false if something was left out uncounted. */
 static bool add_rest(struct ceduo_page *page, const struct ceduo_report *report, size_t lines)
 {
     LOCAL_PAGE(assumed, 0);
     LOCAL_PAGE(notes, 0);
     LOCAL_PAGE(tried, page->width);
-    size_t taken = ceduo_page_lines(page) + 1; /* and a last one for what more there is */
+    size_t taken = ceduo_page_lines(page) + 1; /* plus the last line */
     size_t left = lines > taken + 1 ? lines - taken : 1;
     ceduo_page_assumed(&assumed, report, false);
     gather_notes(&notes, report);
@@ -138,7 +135,7 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_over(page, report);
     size_t shared = LINES_SHARED + (r->scene->blocks_count > 0 ? LINES_BLOCKS : 0);
     bool noted = add_rest(page, report, n > 1 ? shared + LINES_OPTION * n : LINES);
-    for (size_t i = 0; report->years && !nothing && i < n; i++) { /* they were asked for */
+    for (size_t i = 0; report->years && !nothing && i < n; i++) { /* requested with --years */
         ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", r->scene->options[i].name);
         ceduo_page_years(page, report, i);
     }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints a page at a width, or draws it on a canvas: paragraphs are wrapped, cells set below one another, numbers written with as
- * many digits as their column has room for. Of a page that is drawn a piece is printed, up to where a line, a role or a bar ends,
- * and put on the canvas. */
+/* Print a page at a width, or draw it on a canvas. Paragraphs are wrapped, columns aligned, numbers shortened to fit. To
+ * draw, text is collected in a piece until the line, role or bar ends, then drawn. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,24 +12,24 @@
 #include "page.h"
 #include "words.h"
 
-#define MARGIN   4 /* columns at the left of a page that a pane does without */
-#define TAIL_MIN 8 /* columns that hold a beginning and an end */
+#define MARGIN   4 /* columns at the left of a printed page; a pane has none */
+#define TAIL_MIN 8 /* columns for text shortened in the middle */
 
-/* Where a page is drawn, and the piece that is being printed. */
+/* Target of drawing, and the current piece. */
 struct drawing {
     struct ceduo_canvas *canvas;
     struct ceduo_area area;
-    int first, column; /* the line at the top of the area; where the piece begins */
+    int first, column; /* top line of the area; start column of the piece */
     enum ceduo_role role;
-    const struct ceduo_page_bar *bar; /* that the piece is; NULL: text */
+    const struct ceduo_page_bar *bar; /* the piece is a bar; NULL: text */
 };
 
 struct printer {
     struct text *text;
     size_t width;
-    bool plain;              /* ASCII alone */
-    struct drawing *drawing; /* NULL: it is printed */
-    int line;                /* how many have ended */
+    bool plain;              /* ASCII only */
+    struct drawing *drawing; /* NULL: print */
+    int line;                /* finished lines */
 };
 
 static void draw_bar(const struct drawing *d, int column, int row, int width)
@@ -51,7 +50,7 @@ static void draw_bar(const struct drawing *d, int column, int row, int width)
         ceduo_canvas_label(d->canvas, column + (int)fmin(round(b->limit * width), width - 1), row, b->own, "\xe2\x94\x82");
 }
 
-/* In `room` columns; blanks at its ends are drawn only where they are seen. */
+/* Draw a piece in at most `width` columns; leading and trailing blanks only if reversed by the cursor role. */
 static void draw_text(const struct drawing *d, int column, int row, int room, struct text *piece)
 {
     char *string = piece->bytes, *end = string + piece->length;
@@ -62,7 +61,7 @@ static void draw_text(const struct drawing *d, int column, int row, int room, st
         ceduo_canvas_draw_text(d->canvas, column + (int)blanks, row, room - (int)blanks, d->role, string + blanks);
 }
 
-/* Draws the piece that was printed, if that is to be done; the next one is a text, or a bar, in a role. */
+/* Draw the previous piece, if drawing. Start a text or bar in a role. */
 static void begin_piece(struct printer *p, enum ceduo_role role, const struct ceduo_page_bar *bar)
 {
     struct drawing *d = p->drawing;
@@ -107,7 +106,7 @@ void ceduo_page_powers(struct text *text, const char *string)
     }
 }
 
-/* What may be printed: no control characters, and where the terminal knows no other ASCII alone, so that its width is known. */
+/* Append printable text: without control characters, and ASCII only if `plain`, so that its width is known. */
 static void append_safe(const struct printer *p, struct text *to, const char *string)
 {
     LOCAL_TEXT(powers);
@@ -125,7 +124,7 @@ static void append_safe(const struct printer *p, struct text *to, const char *st
 
 /* ---- paragraphs ---- */
 
-/* How a kind of block begins, how far its other lines are indented, and its role. */
+/* Prefix, indent of continuation lines, and role of each kind of block. */
 static const struct {
     const char *first;
     size_t indent;
@@ -139,7 +138,7 @@ static const struct {
     [CEDUO_PAGE_QUESTION] = {"", 0, CEDUO_ROLE_TITLE},   [CEDUO_PAGE_ANSWER] = {"  ", CEDUO_ANSWER_INDENT, CEDUO_ROLE_TEXT},
     [CEDUO_PAGE_POINT] = {"", 10, CEDUO_ROLE_TEXT}};
 
-/* Of several blanks one is left, of those at the end none. */
+/* Collapse blanks; remove trailing ones. */
 static void squeeze(struct text *text)
 {
     size_t n = 0;
@@ -153,7 +152,7 @@ static void squeeze(struct text *text)
         text->bytes[n] = '\0';
 }
 
-/* A text that begins at `column`; its other lines are indented. */
+/* Print a text from `column` on; continuation lines are indented. */
 static void print_wrapped(struct printer *p, const char *string, size_t column, size_t indent)
 {
     for (const char *at = string, *next; *at; at = next) {
@@ -170,7 +169,7 @@ static void print_wrapped(struct printer *p, const char *string, size_t column, 
 static void print_paragraph(struct printer *p, const struct ceduo_page_block *block)
 {
     const char *begin = styles[block->kind].first, *text = ceduo_text_string(&block->text);
-    size_t indent = styles[block->kind].indent, margin = p->drawing ? strspn(begin, " ") : 0; /* panes are narrow */
+    size_t indent = styles[block->kind].indent, margin = p->drawing ? strspn(begin, " ") : 0; /* panes have no margin */
     size_t label = block->kind == CEDUO_PAGE_FACT || block->kind == CEDUO_PAGE_POINT ? strcspn(text, "\t") : 0;
     LOCAL_TEXT(first);
     LOCAL_TEXT(rest);
@@ -197,7 +196,7 @@ static void print_paragraph(struct printer *p, const struct ceduo_page_block *bl
 
 /* ---- cells ---- */
 
-/* Set into so many columns and cut where it is longer, at its end or in its middle; negative: to the right; 0: as it comes. */
+/* Pad or truncate to `width` columns, at the end or in the middle; negative: right-aligned; 0: unlimited. */
 static void print_padded(struct printer *p, const char *string, int width, bool ends)
 {
     size_t want = (size_t)abs(width), have = ceduo_utf8_width(string);
@@ -220,13 +219,13 @@ static void print_padded(struct printer *p, const char *string, int width, bool 
         append_blanks(p->text, want - have);
 }
 
-/* Whether it has room in a column, with a blank before it. */
+/* True if a cell fits in a column with a blank before it. */
 static bool fits(const struct text *cell, size_t width)
 {
     return ceduo_utf8_width(ceduo_text_string(cell)) < width;
 }
 
-/* A number; in thousands or millions (134e3) where it has no room, or with fewer digits. */
+/* Append a number. If it does not fit, use powers of 1000 (134e3), then fewer digits. */
 static void write_number(struct text *cell, double value, int digits, size_t width)
 {
     ceduo_words_number(cell, value, digits);
@@ -240,7 +239,7 @@ static void write_number(struct text *cell, double value, int digits, size_t wid
     }
     if (!isfinite(value) || fits(cell, width))
         return;
-    /* as short as can be: 3e26, 7e-3; where that has no more room either, what is small as 0.00 */
+    /* shortest form: 3e26, 7e-3; if it does not fit, small values as 0.00 */
     char power[16];
     snprintf(power, sizeof power, "%.0e", value);
     ceduo_text_free(cell);
@@ -298,9 +297,9 @@ static void print_cell(struct printer *p, const struct ceduo_page_column *column
 }
 
 #define COLUMNS_MAX 24
-#define ANY_WIDTH   400 /* a cell without limits */
+#define ANY_WIDTH   400 /* no limit */
 
-/* The widest cell of a column; `*bars`: there is a bar in it. */
+/* Return the width of the widest cell in a column; set `*bars` if it has a bar. */
 static int widest_cell(const struct printer *p, const struct ceduo_page_block *table, size_t column, bool *bars)
 {
     int widest = 0;
@@ -314,13 +313,13 @@ static int widest_cell(const struct printer *p, const struct ceduo_page_block *t
     return widest;
 }
 
-/* A pane has no margin. */
+/* Return the gap before a column; a pane has no left margin. */
 static int gap_of(const struct printer *p, const struct ceduo_page_column *column, size_t i)
 {
     return i == 0 && p->drawing ? 0 : column->gap;
 }
 
-/* Sets the width of each column: 0 for one that has no room. */
+/* Set the width of each column; 0: dropped. */
 static void place_columns(const struct printer *p, const struct ceduo_page_block *table, int *widths)
 {
     size_t n = table->columns_count;
@@ -328,13 +327,13 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
     bool has_bars[COLUMNS_MAX] = {false};
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_page_column *c = &table->columns[i];
-        int share = (int)p->width / 2; /* that a name may take of the page: rather it is cut than columns are left out */
+        int share = (int)p->width / 2; /* max width of a name: truncate names before dropping columns */
         natural[i] = c->flags & (CEDUO_FITS | CEDUO_FILLS) ? widest_cell(p, table, i, &has_bars[i]) : 0;
         widths[i] = c->flags & CEDUO_FITS ? natural[i] : 0;
         if (c->flags & CEDUO_FILLS && !has_bars[i])
             widths[i] = natural[i] < share ? natural[i] : share;
         widths[i] = widths[i] > abs(c->width) ? widths[i] : abs(c->width);
-        names += c->flags & CEDUO_FILLS ? widths[i] - abs(c->width) : 0; /* what they can be cut by */
+        names += c->flags & CEDUO_FILLS ? widths[i] - abs(c->width) : 0; /* columns that truncating names can save */
         rest -= gap_of(p, c, i) + widths[i];
     }
     for (size_t rank = 9; rest < 0 && rank > 0; rank--) {
@@ -347,7 +346,7 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
     }
     for (size_t i = 0; i < n; i++)
         bars += has_bars[i] && widths[i] > 0;
-    for (size_t i = 0; i < n; i++) { /* names take what is missing, or what is left where there is no bar */
+    for (size_t i = 0; i < n; i++) { /* names absorb the deficit, or the surplus if no bar does */
         int more = rest < natural[i] - widths[i] ? rest : natural[i] - widths[i],
             least = abs(table->columns[i].width) - widths[i];
         if (!(table->columns[i].flags & CEDUO_FILLS) || widths[i] == 0 || has_bars[i] || (rest > 0 && bars > 0))
@@ -356,8 +355,7 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
         widths[i] += more;
         rest -= more;
     }
-    for (size_t i = 0; i < n && p->width >= CEDUO_PAGE_WIDE && !p->drawing;
-         i++) { /* heads that are written out, as far as they have room */
+    for (size_t i = 0; i < n && p->width >= CEDUO_PAGE_WIDE && !p->drawing; i++) { /* long heads, if they fit */
         int more = (int)ceduo_utf8_width(ceduo_text_string(&table->cells[i].written)) + 1 - widths[i];
         if (widths[i] == 0 || more <= 0 || more > rest)
             continue;
@@ -387,7 +385,7 @@ static void print_table(struct printer *p, const struct ceduo_page_block *table)
                 continue;
             if (c->width < 0)
                 width = -width;
-            else if (row == 0 && i == n - 1 && c->width > 0) /* the last head is never cut */
+            else if (row == 0 && i == n - 1 && c->width > 0) /* the last head is never truncated */
                 width = 0;
             print_cell(p, c, &table->cells[row + i], gap_of(p, c, i), width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
         }
@@ -397,7 +395,7 @@ static void print_table(struct printer *p, const struct ceduo_page_block *table)
     }
 }
 
-/* Returns the number of lines. */
+/* Print or draw all blocks; return the number of lines. */
 static int print_page(const struct ceduo_page *page, struct text *text, bool plain, struct drawing *drawing)
 {
     struct printer p = {.text = text, .width = page->width, .plain = plain, .drawing = drawing};

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page of --sensitivity: how far each option may be off, what that depends on, whether the order of the options
- * holds, and what to measure first; and the picture of it: for each option the range of what may be true, in it the error of the rocks,
- * below them the inputs that matter, as bars of their shares. */
+/* Page of --sensitivity: the 90 % range of each option, the inputs that cause it, the ranking, and what to measure first.
+ * Its picture shows the range and sampling error of each option, and the shares of inputs as bars. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +13,7 @@
 #include "scene/value.h"
 #include "typed.h"
 
-#define SHOWN          0.01 /* shares from this on are shown */
+#define SHOWN          0.01 /* min share of a listed input */
 #define NOTHING_GAINED 0.995
 
 bool ceduo_uncertainty_is_off(const struct ceduo_uncertainty_report *r)
@@ -28,7 +27,7 @@ const char *ceduo_uncertainty_none(const struct ceduo_uncertainty_report *r)
                                        : _("nothing in this scene is marked as assumed");
 }
 
-/* ---- what people and files call the inputs ---- */
+/* ---- names of inputs ---- */
 
 #define GROUND "slope.materials["
 
@@ -45,7 +44,7 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
         ceduo_text_append_escaped(text, input->path);
         return;
     }
-    /* a value of stems with whose it is, for several may have one: "trees 2: diameter, cm" */
+    /* values of stems are named with their class if there are several: "trees 2: diameter, cm" */
     const struct ceduo_belt *belt = ceduo_input_belt(&r->file->scene, place), *stand = belt;
     const char *label = _(v.field->shown.label), *shoots = strstr(place, ".shoots["), *trees = strstr(place, ".trees[");
     size_t count = !belt ? 0 : shoots ? belt->stand.shoots_count : belt->stand.trees_count;
@@ -56,7 +55,7 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
     else
         ceduo_text_format(text, shoots ? _("shoots %lu: %s") : _("trees %lu: %s"),
                           strtoul(strchr(shoots ? shoots : trees, '[') + 1, NULL, 10) + 1, label);
-    for (size_t k = 1; stand && k < input->places_count; k++) /* of the stand that all places are in */
+    for (size_t k = 1; stand && k < input->places_count; k++) /* stand shared by all places */
         stand = ceduo_input_belt(&r->file->scene, input->places[k]) == belt ? stand : NULL;
     LOCAL_TEXT(material);
     if (strncmp(input->path, GROUND, sizeof GROUND - 1) == 0) {
@@ -91,13 +90,13 @@ void ceduo_uncertainty_input_end(struct text *text, const struct ceduo_uncertain
         ceduo_text_append(text, word ? word : ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0}));
 }
 
-/* A value, or a word, in the unit that people use, and short. */
+/* Append a value or a word in the display unit, briefly. */
 static void append_value(struct text *text, const struct field *field, double value, const char *word)
 {
     value *= field->shown.per;
     if (word)
         ceduo_shown_value(field, word, text);
-    else if (!isnan(value)) /* 6.300 is 6300 in Italian */
+    else if (!isnan(value)) /* up to 4 digits; avoids 6.300, which is 6300 in Italian */
         ceduo_text_append(text, fabs(value) < 1e4 ? ROUNDED(value, 4) : WRITTEN(value, 4));
 }
 
@@ -113,7 +112,8 @@ static void append_input_end(struct text *text, const struct ceduo_uncertainty_r
 static bool is_outside(const struct ceduo_input *input, double value)
 {
     bool word = input->kind == CEDUO_INPUT_WORDS;
-    if (input->kind == CEDUO_INPUT_FACTOR || input->kind == CEDUO_INPUT_DRAWS) /* relative to the value; rows, no range */
+    if (input->kind == CEDUO_INPUT_FACTOR ||
+        input->kind == CEDUO_INPUT_DRAWS) /* factors are relative to the value; draws have no range */
         return false;
     for (size_t k = 0; word && k < input->words_count; k++)
         if (input->words[k] == (int)value)
@@ -170,24 +170,22 @@ const struct ceduo_uncertainty_figure *ceduo_uncertainty_main(const struct ceduo
     return ceduo_uncertainty_find_figure(r->answer, option, r->over ? CEDUO_UNCERTAINTY_MEAN : r->answer->main, false);
 }
 
-/* Factor that shows the main figure of 1000 rocks, or in kJ. */
+/* Return the factor of the main figure: per 1000 rocks, or kJ. */
 static double scale_of(const struct ceduo_uncertainty_report *r)
 {
     return ceduo_uncertainty_main(r, 0)->kind == CEDUO_UNCERTAINTY_ENERGY ? J_TO_KJ : 1000;
 }
 
-/* A value of a kind of figure: shares of 1000, energies in kJ. */
 void ceduo_uncertainty_value(struct text *t, enum ceduo_uncertainty_kind kind, double value)
 {
     bool energy = kind == CEDUO_UNCERTAINTY_ENERGY;
     ceduo_words_number(t, energy ? value * J_TO_KJ : round(value * 1000), energy ? 3 : 0);
 }
 
-/* ---- what an option may be ---- */
+/* ---- figures of an option ---- */
 
-/* Return the main figure of 1000 rocks, or in kJ per released rock: in the scene as it is, with the error of the rocks, and what may be
- * true (NaN if perhaps one option alone was asked for). Sets `*rocks`, if given, to the number of rocks; over a rotation of each
- * year. */
+/* Return the main figure, per 1000 or in kJ per released rock, with sampling error and 90 % range (NaN: computed for another
+ * option only). `*rocks`: number of rocks, over a rotation per year; may be NULL. */
 static struct ceduo_measure measure_of(const struct ceduo_uncertainty_report *r, size_t option, uint64_t *rocks)
 {
     const struct ceduo_scene *s = &r->file->scene;
@@ -228,8 +226,8 @@ void ceduo_uncertainty_points(struct text *text, const struct ceduo_uncertainty_
         ceduo_text_format(text, ngettext("Uncertainty from %zu point.", "Uncertainty from %zu points.", n), n);
 }
 
-/* The options from `first` on, at most n, today, or in the mean of the years with the years that fail; `bars`: what the rocks and
- * what is not known leave open, to scale. */
+/* Append at most n options from `first` on: today, or mean of the years and failing years. `bars`: draw sampling error and
+ * 90 % range. */
 static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, bool bars, size_t first, size_t n)
 {
     static const struct ceduo_page_column columns[] = {{NULL, 10, 2, CEDUO_FILLS},
@@ -240,7 +238,7 @@ static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_
                                                        {N_("years fail"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(1)}};
     const struct ceduo_scene *scene = &r->file->scene;
     const struct ceduo_measure judged = ceduo_measure_exceeding(&scene->controls[ceduo_scene_last_control(scene)], NULL);
-    double end = 0; /* of the axis */
+    double end = 0; /* end of the axis */
     CEDUO_PAGE_TABLE_OF(page, columns);
     ceduo_text_append(&page->last->cells[0].text, scale_of(r) > 1 ? NAMED(judged, CEDUO_HEAD) : _("kJ a rock"));
     ceduo_text_append(&page->last->cells[2].text, r->over ? _("mean") : _("today"));
@@ -248,13 +246,13 @@ static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_
         const struct ceduo_measure m = measure_of(r, i, NULL);
         const struct ceduo_uncertainty_figure *years =
             ceduo_uncertainty_find_figure(r->answer, i, CEDUO_UNCERTAINTY_FAILING, false);
-        double lo = floor(years->fit.p5), hi = ceil(years->fit.p95); /* outwards */
+        double lo = floor(years->fit.p5), hi = ceil(years->fit.p95); /* round outwards */
         end = fmax(end, fmax(m.may_hi, m.hi));
         if (i < first || i - first >= n)
             continue;
         ceduo_page_cell_format(page, "%s", scene->options[i].name);
         struct ceduo_page_bar *bar = ceduo_page_bar(page, bars ? m.hi : NAN, CEDUO_ROLE_TITLE);
-        bar->from = fmax(1e-9, m.lo); /* what the rocks leave open takes at least one cell, at 0, too */
+        bar->from = fmax(1e-9, m.lo); /* the sampling error is at least one cell wide, also at 0 */
         bar->least = m.may_lo;
         bar->most = m.may_hi;
         ceduo_page_cell_format(page, "%s", VALUE_OF(m));
@@ -272,20 +270,20 @@ static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_
     ceduo_page_trim(page);
 }
 
-/* ---- what it depends on ---- */
+/* ---- inputs ---- */
 
 double ceduo_uncertainty_share(const struct ceduo_uncertainty_figure *figure, size_t group)
 {
     return fmin(1, fmax(0, figure->fit.total[group].value));
 }
 
-/* An input matters where its share is more than its error. */
+/* True if the share of an input is significant and large enough. */
 static bool matters(const struct ceduo_uncertainty_figure *f, size_t g)
 {
     return f->fit.total[g].value > 2 * f->fit.total[g].se && f->fit.total[g].value >= SHOWN;
 }
 
-/* Adds the width of a figure's range if an input is known, in `format`; "no gain" if that is all of it. */
+/* Append the width of a figure's range if an input is known, in `format`; "no gain" if it hardly changes. */
 static void append_left(struct text *text, const struct ceduo_uncertainty_figure *f, size_t input, const char *format)
 {
     double left = f->fit.left[input];
@@ -353,14 +351,14 @@ size_t ceduo_uncertainty_chosen(const struct ceduo_uncertainty_report *r)
     return chosen;
 }
 
-/* True if a reader can measure an input, and the result matters for the figure. */
+/* True if a reader can measure the input, and it matters for the figure. */
 static bool is_advised(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f, size_t g)
 {
     const struct range *range = range_of(r, &r->inputs->items[g]);
     return matters(f, g) && ceduo_uncertainty_measured(r, g) && !(range && range->research);
 }
 
-/* True if one of the n inputs before it, which are advised, has the name of input i in the order of the figure. */
+/* True if an advised input ranked before i has the same name. */
 static bool is_named_before(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f, size_t i)
 {
     bool named = false;
@@ -393,7 +391,6 @@ void ceduo_uncertainty_advice(struct text *text, const struct ceduo_uncertainty_
     }
 }
 
-/* "dbh, ADS 1 and per hectare, ADS 1" */
 bool ceduo_uncertainty_causes(struct text *text, const struct ceduo_uncertainty_report *r, size_t option,
                               enum ceduo_uncertainty_kind light)
 {
@@ -423,7 +420,7 @@ void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncerta
                           ceduo_text_string(&causes));
 }
 
-/* ---- the order of the options ---- */
+/* ---- ranking of options ---- */
 
 #define SURE   0.95
 #define LIKELY 0.8
@@ -438,7 +435,7 @@ void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncerta
                       s->options[o->better].name, s->options[o->than].name, o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
-    ceduo_text_format(text, ": %s.", /* of two that differ in few cases the order is not sure, but neither is it open */
+    ceduo_text_format(text, ": %s.", /* options that rarely differ are neither ranked nor undecided */
                       o->probability >= SURE              ? _("clear")
                       : o->probability >= LIKELY          ? _("likely")
                       : o->equal >= SURE                  ? _("no difference")
@@ -446,7 +443,7 @@ void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncerta
                                                           : _("undecided"));
 }
 
-/* Each option and the next one, and how far apart they may lie. */
+/* Append the comparison of each option with the next one, and the range of their difference. */
 static void add_orders(struct ceduo_page *page, const struct ceduo_uncertainty_report *r)
 {
     enum ceduo_uncertainty_kind kind = r->answer->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
@@ -489,7 +486,7 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     ceduo_uncertainty_advice(&advice, r, figure, 3);
     if (advice.length > 0)
         ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
-    for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change within what may be true */
+    for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change in plausible cases */
         LOCAL_TEXT(words);
         ceduo_uncertainty_light_words(&words, r, i / 3, i % 3);
         if (words.length > 0)
@@ -530,12 +527,12 @@ void ceduo_uncertainty_page(struct text *text, const struct ceduo_uncertainty_re
     ceduo_page_print(text, &page, plain);
 }
 
-/* ---- the picture ---- */
+/* ---- picture ---- */
 
-#define SHOWN_MIN  0.005 /* of the share of an input */
-#define INPUTS_MIN 2     /* lines: a head and one input */
+#define SHOWN_MIN  0.005 /* min share of an input with a bar */
+#define INPUTS_MIN 2     /* lines: head and one input */
 
-/* Returns the lines that it takes. */
+/* Append the options; return the number of lines. */
 static int add_option_bars(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, size_t option, int height)
 {
     size_t n = r->file->scene.options_count, lines = height > 4 ? (size_t)height - 1 : 3;

@@ -28,12 +28,12 @@ struct ceduo_picture {
     double from, to;                          /* part of the slope to show, m, relative; from == to: all */
     const struct ceduo_stem_encounter *stems; /* encountered by the selected rock, in its order; NULL: unknown */
     size_t stems_count;
-    const struct ceduo_years *years;     /* of the option; NULL: not computed */
+    const struct ceduo_years *years;     /* years of the option; NULL: not computed */
     size_t year;                         /* index of the year under the cursor; out of range: none */
-    const struct ceduo_verdict *verdict; /* of all options; NULL: not computed */
+    const struct ceduo_verdict *verdict; /* verdict on all options; NULL: not computed */
     struct ceduo_span *span;             /* columns of the slope: set by the profile, used by strips; NULL: from the area */
     const struct ceduo_uncertainty_report *uncertainty; /* NULL: not computed */
-    bool no_x_axis;                                     /* of a strip with another strip below it */
+    bool no_x_axis;                                     /* strip with another strip below it */
     bool ways;                                          /* the strip of heights shows each trajectory, too */
 };
 
@@ -118,7 +118,7 @@ struct ceduo_drawing {
     struct ceduo_page *page;  /* target of the picture's blocks … */
     int height;               /* … with about n lines */
     struct ceduo_frame frame; /* set by the picture */
-    struct ceduo_area legend; /* of a chart; height 0 if it does not fit */
+    struct ceduo_area legend; /* legend of a chart; height 0 if it does not fit */
     const struct ceduo_picture *picture;
     const struct ceduo_scene *scene;
     const struct ceduo_option *option;

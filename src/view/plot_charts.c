@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two charts of all options with a legend: how often which energy arrives, and protection against yield. */
+/* Charts of all options with a legend: frequency of energies, and protection against yield. */
 #include <math.h>
 #include <stdio.h>
 
@@ -10,11 +10,11 @@
 struct chart_size {
     int axis, below;   /* columns of the left axis, rows of the bottom axis */
     int legend;        /* columns */
-    int width, height; /* the least of the picture */
+    int width, height; /* minimum size of the picture */
 };
 
-/* Places the frame of a chart, whose ranges stay 0, and its legend of so many lines: beside it where the area is wide, otherwise
- * below it, and nowhere where that leaves no `height`. False where there is no room. */
+/* Place the frame of a chart (ranges stay 0) and its legend of `lines` lines: on the right of a wide area, otherwise below,
+ * or nowhere if the chart would be lower than `height`. False if the area is too small. */
 static bool place_chart(struct ceduo_drawing *d, const struct chart_size *size, size_t lines)
 {
     const struct ceduo_area *a = &d->area;
@@ -30,7 +30,7 @@ static bool place_chart(struct ceduo_drawing *d, const struct chart_size *size, 
     return a->width >= size->width && a->height >= size->height;
 }
 
-/* A sign at a point, or beside it; a little lower where another stands there. */
+/* Draw a sign at a point or next to it; lower if the cell is occupied. */
 static void put_sign(const struct ceduo_drawing *d, double x, double y, bool beside, enum ceduo_role role, const char *sign)
 {
     const struct ceduo_frame *f = &d->frame;
@@ -44,18 +44,18 @@ static void put_sign(const struct ceduo_drawing *d, double x, double y, bool bes
     ceduo_canvas_label(d->canvas, column, row, role, sign);
 }
 
-/* ---- how often ---- */
+/* ---- frequency ---- */
 
-/* How often which energy is exceeded at a control: years from one such rock to the next, upwards the more often, against
- * energy, both by decades. The slope without forest and each option by its number; the limits of Swiss practice are rules.
- * Rarer than once in a thousand years nothing is shown. */
+/* Return period of exceeding an energy at a control, upwards the more frequent, both axes logarithmic. Curves of the slope
+ * without forest and of each option by number; the limits of Swiss practice are rules. Return periods above 1000 years are
+ * not shown. */
 
-#define RAREST (-3) /* log10 of the lowest rate shown, 1/y */
-#define FIRST  10   /* of the energies: 1 kJ */
+#define RAREST (-3) /* log10 of the lowest rate shown, 1/year */
+#define FIRST  10   /* index of 1 kJ in the energies */
 
 static const struct chart_size hazard_size = {.axis = 8, .below = 1, .legend = 30, .width = 24, .height = 8};
 
-/* Item 0: without forest. NULL: not known. */
+/* Return the hazard without forest (item 0) or of option item - 1; NULL: unknown. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_t item)
 {
     const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_find(d->picture->snapshot, d->scene, item - 1);
@@ -69,7 +69,7 @@ static enum ceduo_role role_of(size_t item)
     return item == 0 ? CEDUO_ROLE_BARE : CEDUO_ROLE_WOOD;
 }
 
-/* log10, of a rate of 0 as if it lay below the frame. */
+/* Return log10; a rate of 0 is below the frame. */
 static double logarithm(double value)
 {
     return value > 0 ? log10(value) : 2 * RAREST;
@@ -80,7 +80,7 @@ static double log_kJ(const struct ceduo_exceeding *e)
     return log10(e->energy * J_TO_KJ);
 }
 
-/* The curve, upright down to 0; with intervals, if the picture is of this option. */
+/* Draw a curve, vertical down to 0; with intervals for the picture's option. */
 static void draw_curve(const struct ceduo_drawing *d, size_t item)
 {
     const struct ceduo_hazard *h = hazard_of(d, item);
@@ -154,7 +154,7 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
     for (size_t i = 0; i < items; i++) {
         const struct ceduo_hazard *h = hazard_of(d, i);
         char sign[24];
-        size_t at = 14 + 4 * i; /* its number on the curve */
+        size_t at = 14 + 4 * i; /* label with the option's number */
         snprintf(sign, sizeof sign, "%zu", i);
         while (h && at > 0 && (at >= h->curve->count || logarithm(h->curve->at[at].rate.mean) < RAREST))
             at--;
@@ -169,8 +169,8 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
 
 /* ---- protection against yield ---- */
 
-/* Protection against yield: what an option lets through over its rotation, upwards, and the wood it gives a year, to the right.
- * The best corner is below on the right. An option that another beats in both stands in brackets. */
+/* Judged share of an option over its rotation (y) against its yield per year (x). The lower right corner is best. Options
+ * dominated by another one are in brackets. */
 
 static bool is_known(const struct ceduo_choice *c)
 {
@@ -210,7 +210,7 @@ const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
                               1000 * (c->mean.mean - c->mean.half), c->yield.cut_per_year,
                               1000 * (c->mean.mean + c->mean.half));
     }
-    for (size_t i = 0; i <= v->n; i++) { /* signs and names, after all errors */
+    for (size_t i = 0; i <= v->n; i++) { /* signs and names over all error bars */
         const struct ceduo_choice *c = &v->choices[i];
         int row = d->legend.top + (int)i, width = (int)i < d->legend.height ? d->legend.width : 0;
         char sign[24];

@@ -8,17 +8,17 @@
 #include "plot.h"
 #include "report.h"
 
-/* Energies at a control as horizontal bars. */
+/* Histogram of energies at a control. */
 
-#define MARKS_WIDTH 60 /* columns that leave room for a word in a mark */
+#define MARKS_WIDTH 60 /* columns needed for words in marks */
 
 struct bins {
-    double first, width; /* kJ: edge of the first, width of all */
+    double first, width; /* kJ: start of the first bin, width of each */
     int count;
-    bool over; /* the last one holds all that is larger */
+    bool over; /* the last bin is open-ended */
 };
 
-/* Bins from the least to the largest energy, at most `most`; a long tail goes into the last one. */
+/* Return at most `max` bins over the range; a long tail goes to the last one. */
 static struct bins bins_for(double least, double p99, double largest, int most)
 {
     struct bins b = {.over = largest > 1.5 * p99 && p99 > least};
@@ -39,21 +39,21 @@ static int bin_of(const struct bins *b, double kj)
     return i < 0 ? 0 : i < b->count ? (int)i : b->count - 1;
 }
 
-/* The rocks that arrive, in bins. */
+/* Arriving rocks, in bins. */
 struct counted {
     const struct ceduo_arrivals *arrivals;
     size_t n, *counts;
 };
 
 struct histogram {
-    struct counted rocks, bare; /* of bare no arrivals: there is nothing to be held against */
+    struct counted rocks, bare; /* bare.arrivals NULL: no comparison */
     double accepted;            /* kJ */
     struct bins bins;
 };
 
-/* ---- what stands in a row ---- */
+/* ---- rows ---- */
 
-/* Of 1000 released, those in bin i. */
+/* Return the rocks in bin i per 1000 released. */
 static double per_1000(const struct counted *c, int i)
 {
     return c->n > 0 ? ceduo_measure_arriving(c->arrivals).value * (double)c->counts[i] / (double)c->n : 0;
@@ -99,7 +99,7 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i)
     add_mark(h, i, e->p95 * J_TO_KJ, "p95", &marks->text);
 }
 
-/* "500 (│ 800) arrive": a share of the rocks, and that without forest. */
+/* Append "500 (│ 800) arrive": a share, and that without forest. */
 static void say_share(struct text *text, const struct histogram *h, const struct ceduo_measure *m,
                       const struct ceduo_measure *bare)
 {
@@ -107,7 +107,7 @@ static void say_share(struct text *text, const struct histogram *h, const struct
     ceduo_text_append(text, NAMED(*m, CEDUO_SHORT_HEAD));
 }
 
-/* What all rows add up to. */
+/* Append the totals of all rows. */
 static void say_all(struct ceduo_page *page, const struct histogram *h, const struct ceduo_control *c)
 {
     const struct ceduo_arrivals *a = h->rocks.arrivals, *bare = h->bare.arrivals;
@@ -134,7 +134,7 @@ static void count(struct counted *c, const struct bins *bins, const struct ceduo
         c->counts[bin_of(bins, e->values[i] * J_TO_KJ)]++;
 }
 
-/* Bins that both kinds of rocks share. */
+/* Return bins for both runs. */
 static struct bins bins_of(const struct ceduo_energies *e, const struct ceduo_energies *bare, int rows)
 {
     size_t n = e->n + bare->n;
@@ -147,7 +147,7 @@ static struct bins bins_of(const struct ceduo_energies *e, const struct ceduo_en
     return bins_for(least * J_TO_KJ, p99 * J_TO_KJ, most * J_TO_KJ, rows);
 }
 
-#define SAID_HEIGHT 6 /* lines that leave room for a line above the rows; what stands before them says it, too */
+#define SAID_HEIGHT 6 /* min lines for totals above the rows */
 
 const char *ceduo_plot_histogram(struct ceduo_drawing *d)
 {

@@ -4,10 +4,10 @@
 #include "base/language.h"
 #include "plot.h"
 
-/* ---- the scale ---- */
+/* ---- scale ---- */
 
-#define RARE       0.2  /* share of the passed dots that so few trajectories pass that they are left out */
-#define LEAST_USED 0.45 /* share of the area that the slope should take at true scale */
+#define RARE       0.2  /* quantile of passed dots below which they are not drawn */
+#define LEAST_USED 0.45 /* min share of the area for the slope at true scale */
 
 struct range {
     double x_lo, x_hi, y_lo, y_hi;
@@ -26,7 +26,7 @@ static void widen_by_line(struct range *r, const struct ceduo_polyline *t)
             widen(r, t->z[i]);
 }
 
-/* By the ground from x to x, and what stands on it. */
+/* Widen by the ground between two positions, plus the height of stems. */
 static void widen_by_ground(struct range *r, const struct ceduo_slope *slope, double from, double to, double tall)
 {
     from = fmax(from, r->x_lo);
@@ -56,7 +56,7 @@ static double tallest_of(const struct ceduo_stand *stand)
     return tallest;
 }
 
-/* All that is to be seen: ground, release, trajectories, stems; of a stretch stems may reach beyond the top. */
+/* Return the extent of ground, release, trajectories and stems. In a part of the slope stems may exceed the top. */
 static struct range range_of(const struct ceduo_drawing *d)
 {
     const struct ceduo_release *release = &d->scene->release;
@@ -75,7 +75,7 @@ static struct range range_of(const struct ceduo_drawing *d)
     return r;
 }
 
-/* Sets the frame's ranges with heights drawn `factor` times as long as lengths. */
+/* Set the frame's ranges with heights scaled by `factor`. */
 static bool fit(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct range *r, double factor)
 {
     if (!ceduo_frame_true_scale(f, canvas, r->x_lo, r->x_hi, factor * r->y_lo, factor * r->y_hi))
@@ -85,7 +85,7 @@ static bool fit(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const 
     return true;
 }
 
-/* 1 where true scale makes use of the area, otherwise a round factor with which the slope does. */
+/* Return 1 if true scale uses the area well, otherwise a round factor that does. */
 static double height_factor(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, const struct range *r)
 {
     static const double round[] = {0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10};
@@ -104,8 +104,8 @@ static double height_factor(const struct ceduo_frame *frame, const struct ceduo_
     return round[i];
 }
 
-/* Fits the ranges, the ground at the bottom, the slope's start at the left; gives up columns without slope. A stretch is always
- * true to scale. Returns the factor of heights, NaN where nothing can be drawn. */
+/* Fit the ranges: ground at the bottom, start of the slope at the left; drops empty columns. A part of the slope is always
+ * true to scale. Return the factor of heights, NaN if the frame is too small. */
 static double scale(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct range *r, bool stretch)
 {
     double factor = stretch ? 1 : height_factor(f, canvas, r);
@@ -123,9 +123,9 @@ static double scale(struct ceduo_frame *f, const struct ceduo_canvas *canvas, co
     return factor;
 }
 
-/* ---- what stands on the slope ---- */
+/* ---- objects on the slope ---- */
 
-/* A row of stems at their mean distance in the stand, but no closer than can be told apart. */
+/* Draw a row of stems at their mean distance, or at the smallest distinguishable one. */
 static void draw_stems(const struct ceduo_drawing *d, const struct ceduo_belt *belt, const struct ceduo_stems *stems,
                        enum ceduo_role role)
 {
@@ -140,7 +140,7 @@ static void draw_stems(const struct ceduo_drawing *d, const struct ceduo_belt *b
     }
 }
 
-/* The stems that the selected rock came to, where they stand, or those of the belts. */
+/* Draw the stems that the selected rock encountered, or those of the belts. */
 static void draw_forest(const struct ceduo_drawing *d)
 {
     const struct ceduo_slope *slope = &d->scene->slope;
@@ -165,9 +165,9 @@ static void draw_forest(const struct ceduo_drawing *d)
 /* ---- names ---- */
 
 #define NAME_ROWS  4
-#define FOREST_MIN 12 /* columns that make the name of a forest worth while */
+#define FOREST_MIN 12 /* min columns for the name of a forest */
 
-/* Whether a text has room in an area, and a blank on either side, so that it is no part of a curve. */
+/* True if a text fits in free cells with a blank on either side. */
 static bool is_free(const struct ceduo_canvas *canvas, const struct ceduo_area *area, int column, int row, int width)
 {
     bool free = row >= area->top && row < area->top + area->height && column >= area->left &&
@@ -177,7 +177,7 @@ static bool is_free(const struct ceduo_canvas *canvas, const struct ceduo_area *
     return free;
 }
 
-/* Beside its rule, to the right or the left, in the highest row that has room; nowhere where none has. */
+/* Write the name of a control right or left of its rule, in the highest free row, if there is one. */
 static void name_control(const struct ceduo_drawing *d, const struct ceduo_control *control)
 {
     int column, row;
@@ -191,13 +191,13 @@ static void name_control(const struct ceduo_drawing *d, const struct ceduo_contr
         if (!is_free(d->canvas, &d->area, start, y, width))
             continue;
         ceduo_canvas_label(d->canvas, start, y, CEDUO_ROLE_CONTROL, name.bytes);
-        if (i < 2 && ceduo_canvas_is_blank(d->canvas, column, y)) /* another word may stand there */
+        if (i < 2 && ceduo_canvas_is_blank(d->canvas, column, y)) /* another name may occupy the cell */
             ceduo_canvas_label(d->canvas, column, y, CEDUO_ROLE_CONTROL, "\xe2\x96\xbc");
         break;
     }
 }
 
-/* Writes whose forest the trajectories go through at the right end of the highest row that has most room. */
+/* Write the forest of the trajectories right-aligned in the row with the most free cells. */
 static void name_forest(const struct ceduo_drawing *d)
 {
     if (!d->sight || !d->option || !d->option->name)
@@ -206,7 +206,7 @@ static void name_forest(const struct ceduo_drawing *d)
     ceduo_text_format(&name, _("ways: %s"), d->wooded ? d->option->name : _("without forest"));
     int end = d->area.left + d->area.width, width = ceduo_canvas_label_width(d->canvas, name.bytes), most = 0, row = 0;
     for (int i = 0; i < NAME_ROWS && i < d->area.height; i++) {
-        int column = end; /* where the blank columns at the right end begin, but for one */
+        int column = end; /* first blank column at the right end */
         while (column > d->area.left && ceduo_canvas_is_blank(d->canvas, column - 1, d->area.top + i))
             column--;
         int room = end - column - 1;
@@ -218,7 +218,7 @@ static void name_forest(const struct ceduo_drawing *d)
         ceduo_plot_say(d->canvas, end - 1, d->area.top + row, -most, CEDUO_ROLE_CLOUD, "%s", name.bytes);
 }
 
-/* ├── ADS 1 ──┤ below the axis. */
+/* Draw ├── ADS 1 ──┤ below the axis. */
 static void draw_belts(const struct ceduo_drawing *d)
 {
     const struct ceduo_frame *f = &d->frame;
@@ -247,15 +247,15 @@ static void draw_belts(const struct ceduo_drawing *d)
     }
 }
 
-/* ---- the picture ---- */
+/* ---- picture ---- */
 
-/* Returns the factor of heights, NaN where nothing can be drawn. */
+/* Place the frame; return the factor of heights, NaN if it is too small. */
 static double place_frame(struct ceduo_drawing *d, bool names, bool belts)
 {
     struct range r = range_of(d);
     double factor = NAN;
     int axis = 0, needed = 1;
-    while (axis < needed) { /* the axis takes columns, and they decide its labels */
+    while (axis < needed) { /* the axis takes columns, and the columns determine its labels */
         axis = needed;
         d->frame = (struct ceduo_frame){.left = d->area.left + axis,
                                         .top = d->area.top + names,
@@ -272,9 +272,9 @@ static double place_frame(struct ceduo_drawing *d, bool names, bool belts)
     return factor;
 }
 
-#define MARKS_APART 3 /* columns: nearer marks would hide the ground */
+#define MARKS_APART 3 /* columns; closer marks would hide the ground */
 
-/* Mark the points that simplifying keeps, if it leaves out others and there is room. */
+/* Mark the points kept by simplification, if others were dropped and the marks fit. */
 static void mark_points(struct ceduo_drawing *d, const struct ceduo_slope *slope)
 {
     int column, row, last = -MARKS_APART;
@@ -313,7 +313,7 @@ const char *ceduo_plot_profile(struct ceduo_drawing *d)
                                _("\xe2\x96\xbc release"));
     if (d->picture->mark)
         ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_TITLE, *d->picture->mark);
-    if (factor != 1) /* heights are not true to scale */
+    if (factor != 1) /* not true to scale */
         ceduo_plot_say(d->canvas, d->area.left + d->area.width - 1, d->area.top, -d->area.width / 2, CEDUO_ROLE_WARN,
                        d->area.width >= 30 ? _("heights drawn %g times") : "\xc3\x97%g", factor);
     for (size_t c = 0; names && c < d->scene->controls_count; c++)

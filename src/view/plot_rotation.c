@@ -7,14 +7,13 @@
 #include "base/utf8.h"
 #include "plot.h"
 
-/* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on one
- * axis. */
+/* An option over the years: ADC and limit, judged share, lights and cuts on one axis. */
 
 #define LIGHTS    3
-#define ADC_TOP   2.0 /* of the scale, in limits: how far beyond the limit a bad year lies says nothing more */
+#define ADC_TOP   2.0 /* top of the scale in limits; larger values are clipped */
 #define STRIP_MIN 3
 
-/* Stairs of a value of each year, under a caption. */
+/* Draw stairs of a value per year, under a caption. */
 static void draw_strip(struct ceduo_drawing *d, int top, int height, double most, double limit, const char *caption,
                        const double *x, const double *y)
 {
@@ -32,7 +31,7 @@ static void draw_strip(struct ceduo_drawing *d, int top, int height, double most
     ceduo_canvas_axis_left(d->canvas, &d->frame);
 }
 
-/* What gets through over the years, and where there is room for two strips, above it the ADC. */
+/* Draw the judged share over the years, and above it the ADC if both strips fit. */
 static void draw_strips(struct ceduo_drawing *d, int height, const double *x, double *y)
 {
     const struct ceduo_years *years = d->picture->years;
@@ -76,7 +75,7 @@ const char *ceduo_plot_rotation(struct ceduo_drawing *d)
     static const char *const names[LIGHTS] = {NP_("light", "C"), NP_("light", "F"), NP_("light", "E")};
     const struct ceduo_years *years = d->picture->years;
     const struct ceduo_area *a = &d->area;
-    int lights = a->height >= 1 + STRIP_MIN + 2 + LIGHTS ? LIGHTS : 0; /* no room: the curve alone */
+    int lights = a->height >= 1 + STRIP_MIN + 2 + LIGHTS ? LIGHTS : 0; /* 0 if only the curves fit */
     if (!years || !d->control)
         return !d->control ? _("no control") : _("not computed yet");
     if (a->height < 1 + STRIP_MIN + 2 || a->width < 24)
@@ -88,13 +87,13 @@ const char *ceduo_plot_rotation(struct ceduo_drawing *d)
     double last = x[years->count - 1];
     d->frame = (struct ceduo_frame){
         .left = a->left + 6, .width = a->width - 8, .x0 = x[0], .x_whole = true, .x1 = last > x[0] ? last : x[0] + 1};
-    /* a whole number of columns for each year, where there are as many, so that marks stand at even distances */
+    /* use an integer number of columns per year, if possible, for evenly spaced marks */
     int steps = (int)years->count - 1, step = steps > 0 ? (d->frame.width - 1) / steps : 0;
     if (step > 0)
         d->frame.width = step * steps + 1;
     draw_strips(d, a->height - 3 - lights, x, y);
     ceduo_canvas_axis_bottom(d->canvas, &d->frame, _("years"));
-    for (int k = 0; k < lights; k++) { /* a mark for each year; of years that share a column the worst is shown */
+    for (int k = 0; k < lights; k++) { /* one mark per year; years in one column show the worst */
         int row = a->top + a->height - lights + k;
         ceduo_canvas_label(d->canvas, a->left, row, CEDUO_ROLE_AXIS, ceduo_translate_in(names[k]));
         for (size_t i = 0; i < 2 * years->count; i++) {
@@ -106,7 +105,7 @@ const char *ceduo_plot_rotation(struct ceduo_drawing *d)
                 ceduo_canvas_label(d->canvas, column, row, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));
         }
     }
-    /* a mark above each year of a cut, and a word behind it where that does not run into the next */
+    /* mark each year of a cut, with a label if it does not touch the next mark */
     const char *word = _("cut");
     int room = (int)ceduo_utf8_width(word) + 2, next = a->left + a->width;
     for (size_t i = years->count; i-- > 0;) {

@@ -4,18 +4,18 @@
 #include "base/language.h"
 #include "plot.h"
 
-/* A stand from above, or a rock's trajectory through it. The stems of a stand are spread evenly and without chance, each kind
- * for itself: when a number changes, the stems that stay do not move. */
+/* A stand from above, or a rock's trajectory through it. Stems are spread evenly without randomness, each kind on its own.
+ * If a number changes, the remaining stems do not move. */
 
-#define PATCH_M     20.0 /* along the fall */
-#define STEMS_MAX   8000 /* of one kind in a patch */
-#define SHOOTS_MAX  200  /* of a stool */
-#define JOINED_DOTS 6    /* shoots closer than this are joined */
+#define PATCH_M     20.0 /* along the fall line */
+#define STEMS_MAX   8000 /* per kind and patch */
+#define SHOOTS_MAX  200  /* per stool */
+#define JOINED_DOTS 6    /* shoots closer than this are connected */
 
-#define GOLDEN  0.61803398874989485 /* its multiples fill a circle evenly */
-#define PLASTIC 1.32471795724474603 /* those of 1 / it and 1 / its square a square (Roberts 2018) */
+#define GOLDEN  0.61803398874989485 /* multiples fill a circle evenly */
+#define PLASTIC 1.32471795724474603 /* multiples of 1 / PLASTIC and 1 / PLASTIC² fill a square evenly (Roberts 2018) */
 
-enum { STOOLS, STUMPS, LOGS, TREES }; /* kinds; of trees each class is one */
+enum { STOOLS, STUMPS, LOGS, TREES }; /* kinds; each class of trees is one */
 
 struct spot {
     double x, y; /* m */
@@ -24,19 +24,19 @@ struct spot {
 struct plan {
     struct ceduo_drawing *d;
     const struct ceduo_stand *stand;
-    double width, height, strip; /* m: the patch, and the rock's strip in its middle */
-    double dot;                  /* m */
-    size_t met;                  /* stools and trees in the way of the rock */
+    double width, height, strip; /* m; the patch, and the rock's strip in its middle */
+    double dot;                  /* size of a dot, m */
+    size_t met;                  /* stools and trees in the rock's path */
 };
 
-/* How many of `per_ha` stand in the patch. */
+/* Return the number of stems in the patch. */
 static size_t count_in(const struct plan *p, double per_ha)
 {
     double n = per_ha * p->width * p->height / 1e4;
     return n < STEMS_MAX ? (size_t)lround(n) : STEMS_MAX;
 }
 
-/* The place of the i-th of a kind. */
+/* Return the position of stem i of a kind. */
 static struct spot spot_of(const struct plan *p, size_t kind, size_t i)
 {
     double part = (double)i + 1, start = (double)kind;
@@ -44,7 +44,7 @@ static struct spot spot_of(const struct plan *p, size_t kind, size_t i)
                          fmod(start * M_E + part / (PLASTIC * PLASTIC), 1) * p->height};
 }
 
-/* Counts what stands in the way of the rock; returns its role. */
+/* Return the role of a stem; count those in the rock's path. */
 static enum ceduo_role role_at(struct plan *p, double y, double radius, enum ceduo_role otherwise)
 {
     bool met = fabs(y - p->height / 2) < p->strip / 2 + radius;
@@ -52,10 +52,10 @@ static enum ceduo_role role_at(struct plan *p, double y, double radius, enum ced
     return met ? CEDUO_ROLE_WAY : otherwise;
 }
 
-/* ---- a stand ---- */
+/* ---- stand ---- */
 
-/* Stool i: a ring of whole shoots, now one more, now one less, so that the mean comes out. Where the picture is so small that
- * the ring would fall apart into dots, neighbours are joined. */
+/* Draw stool i as a ring of shoots. Integer shoots per stool are dithered to the mean. Neighbours are connected if the ring
+ * would become single dots. */
 static void draw_stool(struct plan *p, size_t i)
 {
     const struct ceduo_stand *s = p->stand;
@@ -70,7 +70,7 @@ static void draw_stool(struct plan *p, size_t i)
     for (int j = 0; j < n; j++) {
         double angle = 2 * M_PI * ((double)i * GOLDEN + (double)j / n), next = angle + 2 * M_PI / n;
         double x = at.x + ring * cos(angle), y = at.y + ring * sin(angle);
-        double rank = fmod((first + j) * GOLDEN, 1) * all; /* among all shoots, cohort by cohort */
+        double rank = fmod((first + j) * GOLDEN, 1) * all; /* index over all shoots, cohort by cohort */
         size_t k = 0;
         while (k + 1 < s->shoots_count && rank >= s->shoots[k].per_ha)
             rank -= s->shoots[k++].per_ha;
@@ -80,7 +80,7 @@ static void draw_stool(struct plan *p, size_t i)
     }
 }
 
-/* Tree i of class k; those of a group stand evenly around a place of their own. */
+/* Draw tree i of class k; trees of a group are spread evenly around its centre. */
 static void draw_tree(struct plan *p, size_t k, size_t i)
 {
     const struct ceduo_stems *stems = &p->stand->trees[k];
@@ -95,7 +95,7 @@ static void draw_tree(struct plan *p, size_t k, size_t i)
     ceduo_canvas_disc(p->d->canvas, &p->d->frame, role, at.x, at.y, stems->dbh / 2);
 }
 
-/* Stumps and logs lie under what stands. */
+/* Draw all stems; stumps and logs first. */
 static void draw_stems(struct plan *p, struct text *words)
 {
     const struct ceduo_stand *s = p->stand;
@@ -121,16 +121,16 @@ static void draw_stems(struct plan *p, struct text *words)
     ceduo_text_format(words, _("One pattern of many: %zu met"), p->met);
 }
 
-/* ---- the trajectory of the selected rock ---- */
+/* ---- trajectory of the selected rock ---- */
 
-/* A stem of the belt whose place in the plane is known. */
+/* True if the stem is in the belt and its lateral position is known. */
 static bool is_in(const struct ceduo_belt *belt, const struct ceduo_stem_encounter *stem)
 {
     return stem->x >= belt->from && stem->x <= belt->to && isfinite(stem->y);
 }
 
-/* Where the patch starts that shows the trajectory: around the last stem if that stands in the belt, otherwise at the first one
- * in it. False where there is none. */
+/* Find the start of the patch that shows the trajectory: around the last stem if it is in the belt, otherwise at the first
+ * one in it. False if there is none. */
 static bool find_patch(const struct ceduo_drawing *d, double *from)
 {
     const struct ceduo_stem_encounter *stems = d->picture->stems;
@@ -150,8 +150,7 @@ static bool is_shown(const struct plan *p, double from, const struct ceduo_stem_
     return is_in(p->d->belt, stem) && stem->x >= from && stem->x <= from + p->width;
 }
 
-/* A strip less than a metre wide would be a line on 20 m: it fills the height, and offsets are stretched. Returns the
- * factor. */
+/* Stretch a narrow strip to the full height. Return the factor of offsets. */
 static double stretch_across(struct plan *p, double from)
 {
     const struct ceduo_picture *picture = p->d->picture;
@@ -164,7 +163,7 @@ static double stretch_across(struct plan *p, double from)
     return true_height / p->height;
 }
 
-/* The stems that the rock came to from `from` on, at their places along and beside its trajectory. */
+/* Draw the stems that the rock encountered from `from` on, at their positions along and across its trajectory. */
 static void draw_way(struct plan *p, double from, struct text *words)
 {
     const struct ceduo_picture *picture = p->d->picture;
@@ -188,7 +187,7 @@ static void draw_way(struct plan *p, double from, struct text *words)
         ceduo_text_append_joined(words, "; ", _("%zu flown over"), flown_over);
 }
 
-/* ---- the picture ---- */
+/* ---- picture ---- */
 
 const char *ceduo_plot_stand(struct ceduo_drawing *d)
 {

@@ -8,17 +8,17 @@
 #include "base/must.h"
 #include "plot.h"
 
-/* Strips along the slope: curves of what the rocks that pass each place have in height or energy. */
+/* Strips along the slope: curves of height or energy of the passing rocks. */
 
 #define CURVES_MAX 4
 
-/* Each pair is of heights and of energies. */
+/* Curve; each pair is for heights and energies. */
 struct curve {
-    const char *names[2]; /* NULL: there is none */
+    const char *names[2]; /* NULL: none */
     enum ceduo_role role;
     enum ceduo_stroke stroke;
-    bool bare;         /* of the rocks without forest */
-    size_t offsets[2]; /* of its value in a cell */
+    bool bare;         /* without forest */
+    size_t offsets[2]; /* offsets of the value in an envelope */
 };
 
 struct content {
@@ -29,20 +29,20 @@ struct content {
 struct strip {
     struct ceduo_drawing *d;
     bool energy;
-    double from, to; /* the stretch */
+    double from, to; /* part of the slope */
     size_t n;        /* cells along the slope, … */
-    const double *x; /* … and where they are, m */
+    const double *x; /* … and their positions, m */
     int count;
     const struct curve *curves[CURVES_MAX];
-    double *y[CURVES_MAX]; /* of each curve, m or kJ; NaN where no rock passes */
-    double peak, peak_x;   /* the largest value, where it is, … */
-    const char *peak_name; /* … and of which curve */
+    double *y[CURVES_MAX]; /* per curve, m or kJ; NaN: no rock passes */
+    double peak, peak_x;   /* largest value, its position … */
+    const char *peak_name; /* … and its curve */
 };
 
 #define OF(heights, energies) offsetof(struct ceduo_envelope, heights), offsetof(struct ceduo_envelope, energies)
 
-/* Without forest alone; both; both where there is no room to tell four curves apart. Curves through the forest are strokes,
- * those without it dots, so that the two differ without colour. */
+/* Curves without forest only; both; both in a small area. Curves with forest are strokes, those without are dots, so that
+ * they differ without colour. */
 static const struct content contents[3] = {
     {{N_("underside above the ground, m"), N_("energy, kJ")},
      {{{N_("max"), N_("p50")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, false, {OF(height.max, energy.p50)}},
@@ -58,7 +58,7 @@ static const struct content contents[3] = {
      {{{N_("bare"), N_("bare")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OF(height.p95, mean_energy)}},
       {{N_("wood"), N_("wood")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, {OF(height.p95, mean_energy)}}}}};
 
-/* Columns for the names of the curves and a blank on either side. */
+/* Return the columns for names of curves, with a blank on either side. */
 static int name_columns(const struct ceduo_canvas *canvas, const struct content *content, bool energy)
 {
     int widest = 4;
@@ -70,14 +70,14 @@ static int name_columns(const struct ceduo_canvas *canvas, const struct content 
     return widest + 2;
 }
 
-/* ---- the curves ---- */
+/* ---- curves ---- */
 
 static bool in_stretch(const struct strip *s, size_t cell)
 {
     return s->x[cell] >= s->from && s->x[cell] <= s->to;
 }
 
-/* Reads a curve; returns what 85 % of its cells in the stretch do not exceed, NaN where no rock passes. */
+/* Read a curve; return the 85th percentile of its cells, NaN if no rock passes. */
 static double read_curve(struct strip *s, const struct curve *curve)
 {
     const struct ceduo_envelope *cells = (curve->bare ? s->d->bare : s->d->sight)->envelopes;
@@ -103,8 +103,8 @@ static double read_curve(struct strip *s, const struct curve *curve)
     return usual;
 }
 
-/* Reads all of them and sets the scale: its top is what is usual, where a few places (the foot of a wall) would flatten all the
- * rest. False where no rock passes. */
+/* Read all curves and set the scale: to the 85th percentile, so that single peaks do not flatten the curves. False if no
+ * rock passes. */
 static bool read_curves(struct strip *s, const struct content *content)
 {
     double usual = NAN;
@@ -113,7 +113,7 @@ static bool read_curves(struct strip *s, const struct content *content)
             usual = fmax(usual, read_curve(s, &content->curves[i]));
     bool cut = s->peak > 1.5 * 1.15 * usual && usual > 0;
     double top = cut ? 1.15 * usual : 1.05 * s->peak;
-    double most = s->energy ? 2 * top : 0; /* what the things at risk bear, as far as the strip can show it */
+    double most = s->energy ? 2 * top : 0; /* include accepted energies up to twice the top */
     for (size_t c = 0; c < s->d->scene->controls_count; c++) {
         double accepted = s->d->scene->controls[c].accepted * J_TO_KJ;
         top = accepted <= most ? fmax(top, 1.1 * accepted) : top;
@@ -122,7 +122,7 @@ static bool read_curves(struct strip *s, const struct content *content)
     return !isnan(usual);
 }
 
-/* The trajectories above the ground that they pass over. */
+/* Draw trajectories as heights above the ground. */
 static void draw_ways(const struct ceduo_drawing *d)
 {
     ceduo_canvas_cloud_start(d->canvas);
@@ -137,7 +137,7 @@ static void draw_ways(const struct ceduo_drawing *d)
     ceduo_canvas_cloud_show(d->canvas, 0);
 }
 
-/* Where a curve ends inside the frame: its value, cut at the top; NaN where no rock passes or it lies below. */
+/* Return the last value of a curve, clipped at the top; NaN if no rock passes or it is below the frame. */
 static double end_of(const struct strip *s, int curve)
 {
     int column, row;
@@ -148,7 +148,7 @@ static double end_of(const struct strip *s, int curve)
     return i > 0 && ceduo_frame_cell(&s->d->frame, s->d->canvas, s->x[i - 1], y, &column, &row) ? y : NAN;
 }
 
-/* The name of each curve that ends inside the frame to the right of its end, the highest first, none in the row of another. */
+/* Write the name of each curve to the right of its end, the highest first, each in its own row. */
 static void name_curves(const struct strip *s)
 {
     const struct ceduo_frame *f = &s->d->frame;
@@ -169,7 +169,7 @@ static void name_curves(const struct strip *s)
     }
 }
 
-/* ---- the strip ---- */
+/* ---- strip ---- */
 
 static void place_frame(struct strip *s, const struct content *content)
 {
@@ -188,7 +188,7 @@ static void place_frame(struct strip *s, const struct content *content)
     f->x1 = s->to;
 }
 
-/* What is shown, how strokes tell the wooded curves from the bare ones, and what lies beyond the top. */
+/* Draw the caption, the legend of strokes, and the peak if it is clipped. */
 static void put_caption(const struct strip *s, const struct content *content)
 {
     static const struct {
@@ -212,8 +212,8 @@ static void put_caption(const struct strip *s, const struct content *content)
     ceduo_canvas_draw_text(canvas, column, row, end - column, CEDUO_ROLE_WARN, words.bytes);
 }
 
-#define FULL_ROWS  8  /* four curves need so many rows, */
-#define FULL_WIDTH 56 /* so many columns, and names beside them */
+#define FULL_ROWS  8  /* min rows for four curves */
+#define FULL_WIDTH 56 /* min columns, next to the names */
 
 static const char *draw_strip(struct ceduo_drawing *d, bool energy)
 {
@@ -240,7 +240,7 @@ static const char *draw_strip(struct ceduo_drawing *d, bool energy)
             draw_ways(d);
         for (int i = 0; i < s.count; i++)
             ceduo_canvas_polyline(d->canvas, &d->frame, s.curves[i]->role, s.curves[i]->stroke, s.n, s.x, s.y[i]);
-        for (size_t c = 0; c < d->scene->controls_count; c++) { /* with a mark at what it bears; how much stands beside */
+        for (size_t c = 0; c < d->scene->controls_count; c++) { /* rule with a mark at the accepted energy */
             double x = d->scene->controls[c].x, accepted = d->scene->controls[c].accepted * J_TO_KJ;
             double reach = 0.03 * (d->frame.x1 - d->frame.x0);
             ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_CONTROL, x);

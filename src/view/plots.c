@@ -6,7 +6,7 @@
 #include "base/language.h"
 #include "plot.h"
 
-/* ---- the pictures ---- */
+/* ---- pictures ---- */
 
 const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS] = {
 #define X(NAME, name, flags, title) [CEDUO_PLOT_##NAME] = {#name, title, flags},
@@ -73,7 +73,7 @@ bool ceduo_plot_add(enum ceduo_plot plot, struct ceduo_page *page, const struct 
     return !why;
 }
 
-#define PAGE_WIDTH_MIN 30 /* columns below which words and bars have no room beside one another */
+#define PAGE_WIDTH_MIN 30 /* min columns for text next to bars */
 
 void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
                      const struct ceduo_picture *picture)
@@ -98,7 +98,7 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
     ceduo_canvas_draw_text(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT, why);
 }
 
-/* The share of the rocks that lie farther down, as it was seen, over the band of the simulated rocks. */
+/* Share of rocks that stop farther down: observed curve over the band of simulated rocks. */
 #define SEEN_WIDTH  30
 #define SEEN_HEIGHT 6
 
@@ -150,7 +150,7 @@ void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct cedu
         ceduo_text_append_joined(text, ", ", _("without forest"));
 }
 
-/* ---- words ---- */
+/* ---- text ---- */
 
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
 {

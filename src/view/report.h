@@ -131,8 +131,8 @@ void ceduo_measure_uncertainty(struct ceduo_measure *measure, const struct ceduo
 void ceduo_measure_uncertainty_over(struct ceduo_measure *measure, const struct ceduo_uncertainty_report *uncertainty,
                                     size_t option);
 
-/* Figures of arrivals. Per 1000 released: rocks that end before the control, by kind of end. Of arriving rocks: mean energy,
- * percentiles 95 of energy and height, mean speed, mean number of stems hit. Of released rocks: mean energy. */
+/* Figures of arrivals. Rocks that end before the control, per 1000 released, by kind of end. For arriving rocks: mean energy,
+ * 95th percentiles of energy and height, mean speed, mean number of stems hit. For released rocks: mean energy. */
 enum ceduo_measured {
     CEDUO_STOPPED,
     CEDUO_RESTED,
@@ -189,7 +189,7 @@ const char *ceduo_measure_plausible_range(struct ceduo_measure m, char room[CEDU
 struct ceduo_report {
     const struct scene_file *file;
     const struct ceduo_result *result;   /* NULL: not computed yet */
-    const struct ceduo_verdict *verdict; /* of all options; NULL: unknown */
+    const struct ceduo_verdict *verdict; /* verdict on all options; NULL: unknown */
     const struct ceduo_uncertainty_report
         *uncertainty;                       /* NULL: not computed; in the terminal program perhaps of one option only */
     struct ceduo_years *const *years;       /* one per option; NULL: not requested */
@@ -253,7 +253,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
 struct ceduo_profiles {
     size_t count;
     struct ceduo_profile *items;
-    struct arena arena; /* of the items */
+    struct arena arena; /* memory of the items */
 };
 /* Add a scene. `name` NULL: its title. */
 void ceduo_profiles_add(struct ceduo_profiles *profiles, const struct ceduo_report *report, const char *name);

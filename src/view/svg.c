@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draws pictures as vectors. Lines that follow one another become one path, from which points are left out as long as the path
- * stays within TOLERANCE of them; paths are written in the order of their roles' ranks. A grid of cells is drawn on along with
- * it: it holds the text, and knows what is taken. All characters, also those of a screen, are <text> in the reader's monospace
- * font, set to the width of their cells. */
+/* Draw pictures as vectors. Connected lines become one path, simplified within TOLERANCE. Paths are written in order of the
+ * roles' ranks. A grid of cells is drawn in parallel: it holds text and occupied cells. Characters, also of a screen, are
+ * monospace <text> set to the width of their cells. */
 #include "svg.h"
 
 #include <limits.h>
@@ -13,44 +12,44 @@
 #include "base/must.h"
 #include "base/utf8.h"
 
-#define CELL       8            /* units across a cell */
-#define HIGH       (2 * CELL)   /* and down */
-#define BASELINE   12           /* of the text in a cell */
-#define DRAWN      0xE000       /* code of a cell whose content is a vector */
+#define CELL       8            /* width of a cell, units */
+#define HIGH       (2 * CELL)   /* height of a cell */
+#define BASELINE   12           /* baseline of text in a cell */
+#define DRAWN      0xE000       /* code of a cell drawn as a vector */
 #define DOT        (CELL / 2.0) /* cells have 2 x 4 dots */
 #define TOLERANCE  0.3          /* units */
-#define TO_AND_FRO 400          /* lines of a way that gets no farther: by then all of it is to be seen */
-#define BELOW      19           /* units from the top of the bottom axis to the foot of its labels */
+#define TO_AND_FRO 400          /* max lines of a trajectory without progress */
+#define BELOW      19           /* units from the bottom axis to the baseline of its labels */
 
-enum { FILLED = CEDUO_STROKES, STYLES }; /* paths beside those of strokes */
+enum { FILLED = CEDUO_STROKES, STYLES }; /* path styles after the strokes */
 
-/* The path that is being drawn. Points from `start` to `last` lie within the tolerance of a straight line, as do all that go on
- * from `start` between the directions lo and hi. */
+/* Current path. Points from `start` to `last` are within TOLERANCE of a straight line, and so is any point between the
+ * directions lo and hi. */
 struct stroke {
     bool open;
     enum ceduo_role role;
     unsigned style;
     struct ceduo_position start, last;
     double lo, hi;
-    bool straight; /* lo and hi are set */
+    bool straight; /* lo and hi are valid */
 };
 
 struct ceduo_svg {
     struct ceduo_cells *cells;
     struct text paths[CEDUO_ROLE_COUNT][STYLES];
-    struct text axes, numbers; /* numbers: labels of the axes, elements */
+    struct text axes, numbers; /* numbers: labels of axes as elements */
     struct stroke stroke;
-    double way_lo, way_hi; /* the stretch that the way drawn now has come through */
-    int idle;              /* its lines since that grew by a unit */
+    double way_lo, way_hi; /* x range of the current trajectory */
+    int idle;              /* lines since the range grew by a unit */
 };
 
-/* On paper lightness and the width of lines tell roles apart, too; a dark terminal shows some in bold. Text has a contrast of 4.5
- * to what is behind it at least. */
+/* On paper, lightness and width distinguish roles; a dark terminal uses bold. Text has a contrast of at least 4.5 to its
+ * background. */
 #define DARK "#15181c"
 static const struct look {
     const char *colour;
-    double width;                 /* of lines, units */
-    const char *on_dark, *weight; /* weight: of text; NULL: normal */
+    double width;                 /* width of lines, units */
+    const char *on_dark, *weight; /* weight of text; NULL: normal */
 } looks[CEDUO_ROLE_COUNT] = {
     [CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, "#d6dbe1", NULL},    [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, "#d6dbe1", NULL},
     [CEDUO_ROLE_DIM] = {"#595959", 1, "#8d96a0", NULL},      [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, "#f2f5f8", "bold"},
@@ -91,17 +90,17 @@ static void end_stroke(struct ceduo_svg *svg)
     if (s->straight)
         append_point(path_of(svg), 'L', s->last);
     else
-        ceduo_text_append(path_of(svg), "h0"); /* a dot */
+        ceduo_text_append(path_of(svg), "h0"); /* dot */
     s->open = false;
 }
 
-/* An angle seen from another, -pi..pi. */
+/* Return the angle between two directions, -pi..pi. */
 static double turn(double from, double to)
 {
     return remainder(to - from, 2 * M_PI);
 }
 
-/* Goes on to a point: the last one is left out where a straight line to this one passes all left out near enough. */
+/* Extend the path; drop points within TOLERANCE of a straight line (cone test). */
 static void go_on(struct ceduo_svg *svg, struct ceduo_position to)
 {
     struct stroke *s = &svg->stroke;
@@ -131,9 +130,9 @@ static struct ceduo_position unit_of(const struct ceduo_raster *raster, struct c
     return (struct ceduo_position){(raster->left + p.x + 0.5) * DOT, (raster->top + p.y + 0.5) * DOT};
 }
 
-/* ---- the surface ---- */
+/* ---- surface ---- */
 
-/* Whether a way adds something to see: a rock in a pit goes to and fro without end. */
+/* True if the trajectory makes progress. A rock in a pit oscillates without end. */
 static bool gets_on(struct ceduo_svg *svg, bool first, double from, double to)
 {
     if (first)
@@ -184,7 +183,7 @@ static void draw_disc(void *to, const struct ceduo_raster *raster, enum ceduo_ro
             ceduo_cells_set_dot(svg->cells, (int)(x / DOT), (int)(y / DOT), role);
 }
 
-/* Cells of which the vectors show the content. */
+/* Mark cells as drawn by vectors. */
 static void mark_drawn(struct ceduo_svg *svg, int column, int row, int width)
 {
     for (int i = 0; i < width; i++)
@@ -205,7 +204,7 @@ static void draw_bar(void *to, int column, int row, int width, double fraction, 
     mark_drawn(svg, column, row, (int)ceil(length / CELL));
 }
 
-/* The label of a tick; `anchor`: as SVG names it. */
+/* Append the label of a tick; `anchor`: SVG's text-anchor. */
 static void append_label(struct ceduo_svg *svg, double x, double y, const char *anchor, const char *label)
 {
     struct ceduo_html html = {.text = &svg->numbers};
@@ -254,7 +253,7 @@ static const struct ceduo_surface surface = {
     .disc = draw_disc,
 };
 
-/* ---- the picture ---- */
+/* ---- picture ---- */
 
 struct ceduo_svg *ceduo_svg_create(int width, int height)
 {
@@ -314,7 +313,7 @@ static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
 
 /* ---- characters ---- */
 
-/* Writes the text of a row: one element for each run of a role, which two blanks end. The cursor is written reversed. */
+/* Write a row: one element per run of a role, ended by two blanks. The cursor is reversed. */
 static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, bool screen, int row)
 {
     for (int from = 0, end; from < cells->width; from = end) {
@@ -324,11 +323,11 @@ static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, 
         bool reversed = role == CEDUO_ROLE_CURSOR && ceduo_cells_at(cells, from, row)->code != 0;
         LOCAL_TEXT(word);
         char x[16], y[16], width[16];
-        size_t length = 0; /* up to the last that is no blank */
+        size_t length = 0; /* up to the last non-blank */
         int used = 0;
         for (end = from; end < cells->width && ceduo_cells_role(cells, end, row) == role; end++) {
             char bytes[4];
-            uint32_t code = ceduo_cells_at(cells, end, row)->code; /* of a picture no dots, which are vectors there */
+            uint32_t code = ceduo_cells_at(cells, end, row)->code; /* dots of a picture are vectors */
             code = code == DRAWN || (code == 0 && !screen) ? ' ' : ceduo_cells_glyph(cells, end, row);
             if (code == ' ' && !reversed && (used == 0 || end > from + used))
                 break;

@@ -7,8 +7,8 @@
 #include "base/language.h"
 #include "words.h"
 
-#define TYPED_MAX  1024 /* bytes of what is typed in a line */
-#define EVERYWHERE 2e9  /* a range so wide tells a person nothing */
+#define TYPED_MAX  1024 /* bytes of a typed line */
+#define EVERYWHERE 2e9  /* wider ranges are not worth showing */
 
 static bool is_number(const struct field *f)
 {
@@ -34,7 +34,7 @@ enum ceduo_number_reading ceduo_typed_number(const char *typed, double *value)
     return ceduo_number_read(room, value);
 }
 
-/* A number of the file that is so many of what is shown; without what dividing adds. */
+/* Convert a displayed number to the file's unit, without rounding noise. */
 static const char *as_file(const struct field *f, double shown, char room[CEDUO_NUMBER_ROOM])
 {
     char digits[CEDUO_NUMBER_ROOM];
@@ -45,7 +45,7 @@ static const char *as_file(const struct field *f, double shown, char room[CEDUO_
     return ceduo_number_shortest(value, room);
 }
 
-/* Numbers with blanks or semicolons between, and commas where they are none of a number; 0 where something else is among them. */
+/* Parse numbers separated by blanks or semicolons; also by commas if `commas_separate`. Return 0 if any is invalid. */
 static size_t read_numbers(const char *typed, bool commas_part, double *values, size_t most)
 {
     const char *between = commas_part ? " \t;,[]" : " \t;[]";
@@ -84,7 +84,7 @@ bool ceduo_typed_points(const char *typed, struct text *vertices, double *first,
     return true;
 }
 
-/* "2,6 ± 0,1", with u behind it where all between is alike. */
+/* Convert "2,6 ± 0,1"; with u appended: uniform. */
 static bool put_spread(const struct field *f, const char *typed, struct text *value)
 {
     const char *sign = strstr(typed, "\xc2\xb1"), *plain = sign ? sign : strstr(typed, "+-");
@@ -105,7 +105,7 @@ static bool put_spread(const struct field *f, const char *typed, struct text *va
     return true;
 }
 
-/* "End - 10,5" as "end-10.5". */
+/* Convert "End - 10,5" to "end-10.5". */
 static bool put_place(const char *typed, struct text *value)
 {
     double back = 0;
@@ -120,7 +120,7 @@ static bool put_place(const char *typed, struct text *value)
     return true;
 }
 
-/* The same for a list of which some are places from the end: 60 end-10. */
+/* Convert a list that contains places from the end: 60 end-10. */
 static bool put_places(const struct field *f, const char *typed, struct text *value)
 {
     char word[64], room[CEDUO_NUMBER_ROOM];
@@ -139,7 +139,7 @@ static bool put_places(const struct field *f, const char *typed, struct text *va
     return true;
 }
 
-/* Numbers with blanks between as a list; what is in brackets already is YAML. */
+/* Convert numbers separated by blanks to a list; text in brackets is already YAML. */
 static bool put_numbers(const struct field *f, const char *typed, struct text *value)
 {
     double values[TYPED_MAX / 2];
@@ -147,7 +147,7 @@ static bool put_numbers(const struct field *f, const char *typed, struct text *v
     if (typed[0] == '[')
         return false;
     size_t n = read_numbers(typed, false, values, TYPED_MAX / 2);
-    if (n == 0) /* no decimal commas: they part */
+    if (n == 0) /* commas are separators, not decimal */
         n = read_numbers(typed, true, values, TYPED_MAX / 2);
     if (n == 0 && ceduo_schema_is_place(f))
         return put_places(f, typed, value);
@@ -234,7 +234,7 @@ const char *ceduo_shown_number(const struct field *f, double value, char room[CE
 
 void ceduo_shown_value(const struct field *f, const char *written, struct text *shown)
 {
-    /* words of files that are people's words, too; others stay as files have them */
+    /* words of files that have a translation; other words are unchanged */
     static const char *const known[] = {N_("simple coppice"),
                                         N_("coppice with standards"),
                                         N_("selection coppice"),

@@ -57,7 +57,7 @@ const char *ceduo_words_rounded(double value, int digits, char room[CEDUO_NUMBER
     return ceduo_number_spoken(room);
 }
 
-/* As many digits, or decimals, as it takes to write a value on the side of a limit where it lies. */
+/* Return the digits, or decimals, needed to keep a value on its side of the limit. */
 static int digits_beside(double value, double limit, int digits, bool decimals)
 {
     char room[CEDUO_NUMBER_ROOM];
@@ -115,7 +115,7 @@ void ceduo_words_format(ceduo_sentence_sink *say, void *context, const char *for
     say(context, sentence.bytes);
 }
 
-/* Shoots, then trees; NULL behind the last. */
+/* Return shoots, then trees; NULL after the last. */
 static const struct ceduo_stems *stems_at(const struct ceduo_stand *s, size_t i)
 {
     return i < s->shoots_count ? &s->shoots[i] : i < s->shoots_count + s->trees_count ? &s->trees[i - s->shoots_count] : NULL;
@@ -211,7 +211,8 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
             _("%s: stumps and logs are among the contacts of the index, but the lights of contact and free run do "
               "not count them: a rock flies over them."),
             NAME_OF(belt));
-    const struct ceduo_stems *first = NULL; /* kind of stem with a volume by form factor; of those too thick it is said above */
+    const struct ceduo_stems *first =
+        NULL; /* first kind of stem with a volume by form factor; too thick ones are reported above */
     size_t n = 0;
     for (size_t i = 0; r->warnings & CEDUO_WARN_FORM_FACTOR && stems_at(s, i); i++) {
         enum ceduo_volume_from from;
@@ -247,7 +248,7 @@ const char *ceduo_words_verdict(enum ceduo_light light)
     return light == CEDUO_PASS ? _("passes") : light == CEDUO_FAIL ? _("FAILS") : _("unknown");
 }
 
-/* Why contact or free run holds, or not. */
+/* Append why contact or free run passes or fails. */
 static void say_reason(struct text *text, const struct ceduo_index *s, double limit, bool contact)
 {
     const char *adc = BESIDE(s->worst_adc, 3, limit);
@@ -295,7 +296,7 @@ void ceduo_words_test(struct text *text, const struct ceduo_result *result, size
                                          : " %");
 }
 
-#define NAMED_MAX 2 /* options; more are counted */
+#define NAMED_MAX 2 /* more options are only counted */
 
 void ceduo_words_thin_stems(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
 {
@@ -314,7 +315,7 @@ void ceduo_words_thin_stems(const struct ceduo_result *r, ceduo_sentence_sink *s
                        CEDUO_THICK_DBH * 100, ceduo_text_string(&where));
 }
 
-/* ---- the profile ---- */
+/* ---- profile ---- */
 
 void ceduo_words_points(struct text *text, const struct ceduo_slope *slope)
 {

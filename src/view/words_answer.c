@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What can be said of a control, and why: yes, no, not decided, or nothing. */
+/* Judgement of a control, with the reason. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,7 +9,7 @@
 #include "report.h"
 #include "words.h"
 
-/* What files and people call it. */
+/* Word in files, text for people, and light of each judgement. */
 static const struct {
     const char *word, *verdict;
     enum ceduo_light light;
@@ -25,9 +25,9 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement)
     return judgements[judgement].word;
 }
 
-/* ---- nothing ---- */
+/* ---- cannot be judged ---- */
 
-/* Appends why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, what is usual, and what to check. */
+/* Append why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, the usual one, and what to check. */
 static void say_contradiction(struct text *text, const struct ceduo_arrivals *bare)
 {
     double reach = ceduo_topography_at(bare)->reach * DEGREES, shadow = ceduo_topography_at(bare)->shadow * DEGREES;
@@ -55,10 +55,10 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
     ceduo_text_format(text, _("Nothing can be said of the forest above %s: of %llu rocks %llu arrive, even without forest."),
                       ceduo_text_string(&where), (unsigned long long)ceduo_released(bare),
                       (unsigned long long)ceduo_reached(bare));
-    /* where rocks start without forest, and how far they come */
+    /* start and reach of the rocks without forest */
     const struct ceduo_slope *s = &r->scene->slope;
     double start = r->scene->release.x.mean, falls = atan(ceduo_slope_fall(s, start)) * 180 / M_PI;
-    double farthest = r->bare.ends.stop_max, way = farthest - start; /* NaN: none comes to rest */
+    double farthest = r->bare.ends.stop_max, way = farthest - start; /* NaN: no rock stops */
     double face = ceduo_slope_face(s);
     ceduo_text_append_joined(text, " ",
                              falls < 0 ? _("They start at %.10g m, where the ground rises by %.0f\xc2\xb0.")
@@ -70,7 +70,7 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
         ceduo_text_append_joined(text, " ", _("They come to rest within %s m of it."), WRITTEN(way < 0.05 ? 0 : way, 2));
     if (falls < 0)
         ceduo_text_append_joined(text, " ", "%s", _("The profile may have been drawn upward."));
-    /* what to do: a face that they do not reach is where they should start */
+    /* remedy: an unreached face is probably the release area */
     if (face > start && !(farthest > face))
         ceduo_text_append_joined(
             text, " ",
@@ -95,11 +95,11 @@ void ceduo_words_still_moving(const struct ceduo_result *r, ceduo_sentence_sink 
             continue;
         ceduo_words_nothing(&sentence, r, c);
         say(context, ceduo_text_string(&sentence));
-        return; /* what lies behind it is not reached either */
+        return; /* controls farther down are not reached either */
     }
 }
 
-/* ---- why ---- */
+/* ---- reason ---- */
 
 void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t control, const struct ceduo_arrivals *wooded)
 {
@@ -134,7 +134,7 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
         ceduo_text_append_joined(text, " ", "%s", _("The slope keeps to that without forest, too."));
 }
 
-/* ---- in one line ---- */
+/* ---- single line ---- */
 
 struct ceduo_outcome ceduo_report_outcome(const struct ceduo_report *report, size_t option, size_t control)
 {
@@ -190,10 +190,10 @@ const char *ceduo_words_decision(enum ceduo_judgement judgement, char room[CEDUO
     return room;
 }
 
-/* From the longest to the shortest; a line takes the first that fits. */
+/* From the longest to the shortest; the first that fits is used. */
 enum length { FULL, LONG, MIDDLE, SHORT, BRIEF, LENGTHS };
 
-/* "; today 31 of 1000 (YES)" */
+/* Append "; today 31 (YES)". */
 static void say_today(struct text *text, const struct ceduo_outcome *o, double today, bool word)
 {
     ceduo_text_format(text, _("; today %.0f"), today);
@@ -201,7 +201,7 @@ static void say_today(struct text *text, const struct ceduo_outcome *o, double t
         ceduo_text_format(text, " (%s)", ceduo_words_decided(o->today));
 }
 
-/* Years above the limit: "17", or "0–12" if that leaves the answer open. */
+/* Append years above the limit: "17", or "0–12" if the answer is open. */
 static void say_count(struct text *text, const struct ceduo_outcome *o)
 {
     if (o->answer == CEDUO_NO || !(o->failing_lo < o->failing_hi))
@@ -217,7 +217,7 @@ static bool is_due(const struct ceduo_subject *s)
     return o->ahead && s->choice && s->choice->cut > 0 && o->today != o->answer && !o->impossible;
 }
 
-/* Over the years: in how many the limit is exceeded, and by how much. */
+/* Append the years in which the limit is exceeded, and by how much. */
 static void say_years(struct text *text, const struct ceduo_subject *s, enum length length)
 {
     const struct ceduo_outcome *o = &s->outcome;
@@ -253,7 +253,7 @@ static void say_years(struct text *text, const struct ceduo_subject *s, enum len
         say_today(text, o, s->today.value, length <= LONG || (length == SHORT && o->today != o->answer));
 }
 
-/* With blocks: how often, beside what is accepted. */
+/* Append the return period and the accepted one, for scenes with blocks. */
 static void say_rate(struct text *text, const struct ceduo_subject *s, enum length length)
 {
     bool ahead = s->outcome.ahead;
@@ -270,7 +270,7 @@ static void say_rate(struct text *text, const struct ceduo_subject *s, enum leng
         ceduo_text_format(text, _("; today every %s"), EVERY(ceduo_feared(s->wooded)));
 }
 
-/* "479 of 1000 arrive with more than 50 kJ (at most 50 rocks are accepted); may be 234–748" */
+/* Append "479 of 1000 arrive with more than 50 kJ (at most 50 rocks are accepted); may be 234–748". */
 static void say_shares(struct text *text, const struct ceduo_measure *m, const struct ceduo_measure *bare, enum length length)
 {
     if (length == BRIEF) {
@@ -289,7 +289,7 @@ static void say_shares(struct text *text, const struct ceduo_measure *m, const s
                       uncertain ? MAY_BE(*m) : SPAN(*m, m->lo, m->hi));
 }
 
-/* What follows the verdict, in so many columns; nothing where it has no room. */
+/* Append the reason in at most `width` columns; nothing if no form fits. */
 static void say_reason(struct text *text, const struct ceduo_subject *s, size_t width)
 {
     const struct ceduo_scene *scene = s->report->result->scene;
@@ -348,7 +348,7 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
     if (o->answer == CEDUO_YES && o->also_bare)
         ceduo_text_append(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
-    if (s->report->result->scene->controls_count > 1) { /* the one that it is about */
+    if (s->report->result->scene->controls_count > 1) { /* name the control */
         ceduo_words_place(&place, s->place);
         ceduo_text_append(&place, ": ");
         if (ceduo_utf8_width(place.bytes) + taken <= width) {

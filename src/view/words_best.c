@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which option is best, in sentences, and what the other energy law of stems makes of that. */
+/* Best option in sentences, and the effect of the other energy law. */
 #include <math.h>
 
 #include "base/language.h"
@@ -7,9 +7,9 @@
 #include "scene/choices.h"
 #include "words.h"
 
-/* ---- the years that are compared ---- */
+/* ---- compared years ---- */
 
-/* The window, which all options have. */
+/* Return the window, which is common to all options. */
 static const struct ceduo_window *window_of(const struct ceduo_verdict *v)
 {
     return &v->choices[0].window;
@@ -82,15 +82,14 @@ void ceduo_words_year_numbering(struct text *text, uint64_t rocks)
         ceduo_text_append(text, _("Years are counted from today."));
 }
 
-/* ---- the best ---- */
+/* ---- best option ---- */
 
 static double mean_of(const struct ceduo_verdict *v, bool rotation, size_t i)
 {
     return 1000 * (rotation ? v->choices[i].mean.mean : v->choices[i].today.mean);
 }
 
-/* The best and those that it does not clearly beat, in their order: their names, "'large reserves' and 'selection
- * coppice'", or their numbers. */
+/* Append the best option and its rivals in order: names, "'large reserves' and 'selection coppice'", or numbers. */
 static void append_leaders(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v,
                            const struct ceduo_leader *leader, bool rotation, bool names)
 {
@@ -113,7 +112,7 @@ static void append_leaders(struct text *text, const struct ceduo_scene *scene, c
         ceduo_text_append(text, ceduo_text_string(&said));
 }
 
-/* "In years 1 to 25 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
+/* Append "In years 1 to 25 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
 static void say_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, bool rotation,
                      const char *when)
 {
@@ -149,7 +148,7 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
     bool today = v->today.known && !v->today.uneven;
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
     if (years && today && a->best == b->best && a->rivals == 0 && b->rivals == 0) {
-        /* one sentence where the same option is clearly best over the years and today */
+        /* one option is clearly best over the years and today */
         ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), when,
                           NAME_OF(&scene->options[a->best]), v->accepted ? _("dangerous rocks") : _("rocks"),
                           mean_of(v, true, a->best), mean_of(v, false, a->best));
@@ -163,9 +162,9 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
         say_best(text, scene, v, false, _("Today"));
 }
 
-/* ---- by the other energy law of stems ---- */
+/* ---- other energy law ---- */
 
-#define TURNED_MAX 3 /* pairs of options that are named */
+#define TURNED_MAX 3 /* max pairs that are named */
 
 void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
@@ -207,7 +206,7 @@ void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo
     for (size_t i = 0; i < v->turned_count; i++) {
         size_t a = v->turned[i].better, b = v->turned[i].than, left = v->turned_count - i;
         LOCAL_TEXT(sentence);
-        if (isnan(of_1000(r, a, true) + of_1000(r, b, true))) /* the rocks of that law still fall */
+        if (isnan(of_1000(r, a, true) + of_1000(r, b, true))) /* not computed yet */
             continue;
         if (i >= TURNED_MAX) {
             ceduo_text_format(&sentence,

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is to be said of a run as a whole: what is unusual, lost, unfinished or too close to call. */
+/* Warnings about a whole run: unusual, lost or unfinished rocks, and tests too close to call. */
 #include <math.h>
 
 #include "base/language.h"
 #include "report.h"
 #include "words.h"
 
-/* Rocks that leave the slope over its upper end, which would lie above it or come down again; and those that stems stop just below
- * the release, in the option where they are most. */
+/* Warn about rocks that leave over the upper end of the slope, and about stems that stop rocks just below the release, in
+ * the worst option. */
 static void say_lost(const struct ceduo_result *result, ceduo_sentence_sink *say, void *context)
 {
     const struct ceduo_simulated *uphill = &result->bare;
@@ -33,7 +33,7 @@ static void say_lost(const struct ceduo_result *result, ceduo_sentence_sink *say
             NAME_OF(&result->scene->options[option]), most * 1000, CEDUO_EARLY_M);
 }
 
-/* Warns of controls with unusual rocks: more or fewer than the terrain suggests, faster or higher than on slopes. */
+/* Warn about controls with unusual rocks: more or fewer than the terrain suggests, faster or higher than usual. */
 static void say_ground(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
 {
     for (size_t c = 0; c < r->scene->controls_count; c++) {
