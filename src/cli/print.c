@@ -166,7 +166,7 @@ static void print_plots(const struct arguments *a, const struct ceduo_scene *sce
                                     .uncertainty = q->uncertainty.file ? &q->uncertainty : NULL,
                                     .control = ceduo_scene_last_control(scene)};
     size_t start = out->length;
-    size_t options = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_WHOLE ? 1 : scene->options_count;
+    size_t options = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_ALL_OPTIONS ? 1 : scene->options_count;
     for (size_t o = 0; o < options; o++) {
         size_t belts = a->plot == CEDUO_PLOT_STAND ? scene->options[o].belts_count : 0;
         size_t controls = a->plot == CEDUO_PLOT_HISTOGRAM ? scene->controls_count : 0;
@@ -267,7 +267,7 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
                                       .ahead = q.answer.years,
                                       .snapshot = q.snapshot,
                                       .command = ceduo_text_string(&command),
-                                      .same = true};
+                                      .reproducible = true};
         q.uncertainty.years = &q.verdict;
         ceduo_page_chapter(&page, &report);
         ceduo_page_html(&(struct ceduo_html){.text = out}, &page, a->profiles->count + 1);

@@ -154,7 +154,7 @@ static void warn_stands(const struct ceduo_result *result, struct warnings *warn
 {
     for (size_t i = 0; i < result->options_count; i++)
         for (size_t k = 0; k < result->scene->options[i].belts_count; k++)
-            ceduo_words_unlikely(&result->scene->options[i].belts[k], &result->options[i].stands[k], warn, warnings);
+            ceduo_words_implausible(&result->scene->options[i].belts[k], &result->options[i].stands[k], warn, warnings);
 }
 
 void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file, bool stands)
@@ -169,7 +169,7 @@ void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file, 
     question.run.threads = (unsigned)a->threads;
     question.run.cancel = ceduo_interrupt_flag();
     if (ceduo_simulate_request(&question, NULL, &answer) == CEDUO_OK) {
-        ceduo_words_still_moving(answer.result, warn, &warnings);
+        ceduo_words_warn_no_answer(answer.result, warn, &warnings);
         if (stands)
             warn_stands(answer.result, &warnings);
     }

@@ -24,7 +24,7 @@ char *ceduo_app_format(const struct app *app, const char *format, ...)
 const char *ceduo_app_path(const struct app *app, const char *path)
 {
     LOCAL_TEXT(words);
-    ceduo_shown_path(path, &words);
+    ceduo_format_path(path, &words);
     return ceduo_arena_string(app->scratch, ceduo_text_string(&words));
 }
 
@@ -123,14 +123,15 @@ bool ceduo_app_uncertainty(const struct app *app, struct ceduo_uncertainty_repor
     struct uncertainty *own = (struct uncertainty *)(uintptr_t)d; /* its scene is only read */
     if (!d)
         return false;
-    *report = (struct ceduo_uncertainty_report){.file = &own->file,
-                                                .inputs = &own->inputs,
-                                                .answer = own->inputs.n > 0 ? &own->answer : NULL,
-                                                .points = own->answer.points,
-                                                .rocks = own->answer.rocks,
-                                                .finer = app->live.result,
-                                                .years = &app->live.verdict,
-                                                .over = app->over && app->view == VIEW_UNCERTAINTY && own->answer.rotation};
+    *report =
+        (struct ceduo_uncertainty_report){.file = &own->file,
+                                          .inputs = &own->inputs,
+                                          .answer = own->inputs.n > 0 ? &own->answer : NULL,
+                                          .points = own->answer.points,
+                                          .rocks = own->answer.rocks,
+                                          .finer = app->live.result,
+                                          .years = &app->live.verdict,
+                                          .rotation_mean = app->over && app->view == VIEW_UNCERTAINTY && own->answer.rotation};
     return true;
 }
 

@@ -18,7 +18,7 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
     if (field->type == FIELD_TEXT || field->type == FIELD_FILE)
         ceduo_emit_scalar(&written, value, true);
     else
-        ceduo_typed_value(field, value, &written);
+        ceduo_input_parse_value(field, value, &written);
     if (ceduo_app_set(app, path, ceduo_text_string(&written)))
         return true;
     const struct problem *p = app->document.problems.wrong.items; /* the label of the field stands for its path */
@@ -50,7 +50,7 @@ void ceduo_edit_start(struct app *app)
     for (size_t i = 0; plain && i < node->n; i++)
         plain = node->items[i]->kind == NODE_SCALAR;
     if (node && node->kind == NODE_SCALAR)
-        ceduo_shown_value(cell->field, node->text, &text);
+        ceduo_format_value(cell->field, node->text, &text);
     else if (node && cell->field->type != FIELD_SPREAD && !plain)
         ceduo_emit_flow(&text, node);
     else

@@ -52,7 +52,7 @@ static void show_node(struct text *to, const struct node *node, const struct fie
     } else if (node->written && node->written->kind == NODE_SCALAR) {
         ceduo_text_append(to, node->written->text);
     } else if (node->kind == NODE_SCALAR) {
-        ceduo_shown_value(field, node->text, to);
+        ceduo_format_value(field, node->text, to);
     } else if (node->kind == NODE_MAP && field->type == FIELD_SPREAD) {
         const char *mean = ceduo_node_text(node, "mean"), *spread = ceduo_node_text(node, "spread");
         const char *kind = ceduo_node_text(node, "kind");
@@ -84,7 +84,7 @@ static void add_cell(struct form *form, struct form_row *row, const struct field
     else if (node)
         show_node(&shown, node, field);
     else
-        ceduo_shown_value(field, usual, &shown);
+        ceduo_format_value(field, usual, &shown);
     if ((field->type == FIELD_NUMBERS || field->type == FIELD_SPREADS || field->type == FIELD_SPREAD) && shown.bytes)
         ceduo_number_spoken(shown.bytes);
     cell->text = ceduo_arena_string(&form->arena, ceduo_text_string(&shown));
@@ -290,14 +290,14 @@ static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, i
     char shown[4 * COLUMNS_MAX + 2];
     LOCAL_TEXT(words);
     if (cell->given && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
-        ceduo_shown_path(cell->text, &words);
+        ceduo_format_path(cell->text, &words);
     else
         ceduo_text_append(&words, cell->text[0] ? cell->text : "-");
     size_t length = ceduo_utf8_cut(ceduo_text_string(&words), COLUMNS_MAX);
     snprintf(shown, sizeof shown, "%.*s%s", (int)length, ceduo_text_string(&words), cell->assumed ? "*" : "");
     double number;
     bool fine = digits_of(shown) > DIGITS_MAX || (int)ceduo_utf8_width(shown) > span;
-    if (fine && strpbrk(shown, ".,") && ceduo_typed_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
+    if (fine && strpbrk(shown, ".,") && ceduo_input_parse_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
         snprintf(shown, sizeof shown, fabs(number) < 1e4 || fabs(number) >= 1e9 ? "%.4g%s" : "%.0f%s", number,
                  cell->assumed ? "*" : "");
     if (strspn(shown, "0123456789.+-e *") == strlen(shown))
@@ -309,7 +309,7 @@ static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, i
         for (int i = 0; i < span; i++)
             ceduo_cells_label(cells, x + i, y, CEDUO_ROLE_CURSOR, " ");
     if (cursor && edit) {
-        int n = ceduo_cells_put_end(cells, x, y, span - 1, CEDUO_ROLE_CURSOR, edit);
+        int n = ceduo_cells_label_end(cells, x, y, span - 1, CEDUO_ROLE_CURSOR, edit);
         ceduo_cells_label(cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
         return;
     }
@@ -390,16 +390,16 @@ void ceduo_form_explain(struct form *form, struct text *text)
     if (!cell)
         return;
     const struct field *f = cell->field;
-    const char *unit = ceduo_shown_unit(f);
+    const char *unit = ceduo_format_unit(f);
     LOCAL_TEXT(range);
     LOCAL_TEXT(usual);
     ceduo_text_format(text, "%s: %s", _(f->shown.label), _(f->meaning));
     if (unit[0])
         ceduo_text_format(text, "; %s", unit);
-    if (ceduo_shown_range(f, &range))
+    if (ceduo_format_range(f, &range))
         ceduo_text_format(text, ", %s", ceduo_text_string(&range));
     if (f->value) {
-        ceduo_shown_value(f, f->value, &usual);
+        ceduo_format_value(f, f->value, &usual);
         ceduo_text_append_joined(text, " ", _("(default %s)"), ceduo_text_string(&usual));
     }
     const struct source_note *note = ceduo_notes_find(form->document->file.notes, cell->path);
@@ -440,7 +440,7 @@ bool ceduo_form_step(struct form *form, int direction, struct text *value)
     const struct node *node = ceduo_document_node(form->document, cell->path);
     bool scalar = !node || node->kind == NODE_SCALAR;
     if (!scalar || (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT) ||
-        ceduo_typed_number(cell->text, &now) != CEDUO_NUMBER_GOOD)
+        ceduo_input_parse_number(cell->text, &now) != CEDUO_NUMBER_GOOD)
         return false;
     double step = step_of(now, f), lo = f->lo * f->shown.per, hi = f->hi * f->shown.per;
     if (direction < 0 && now != 0 && fabs(now) < 10.5 * step && step_of(now - step, f) < step && now > 0)

@@ -109,8 +109,8 @@ struct field *ceduo_popup_value(struct popup *p, const char *label, const char *
 bool ceduo_popup_confirm_unusual(struct app *app, const struct field *field, struct line *line)
 {
     LOCAL_TEXT(why);
-    bool good = ceduo_typed_in_range(field, line->text, &why);
-    bool asks = good && !line->asked && ceduo_typed_unusual(field, line->text, &why);
+    bool good = ceduo_input_is_in_range(field, line->text, &why);
+    bool asks = good && !line->asked && ceduo_input_is_unusual(field, line->text, &why);
     line->asked |= asks;
     if (why.bytes)
         ceduo_app_warn(app, "%s", why.bytes);
@@ -129,7 +129,7 @@ bool ceduo_popup_read(struct app *app, const struct field *field, struct line *l
             ceduo_app_warn(app, _("%s: it is needed; %s"), label, _(field->meaning));
         return !needed;
     }
-    ceduo_typed_value(field, line->text, value);
+    ceduo_input_parse_value(field, line->text, value);
     const char *written = ceduo_text_string(value);
     if (list ? written[0] == '[' : written[0] == '{' || ceduo_number_read(written, &number) == CEDUO_NUMBER_GOOD)
         return true;
@@ -364,7 +364,7 @@ static void draw_picks(struct app *app, struct popup *p, struct ceduo_area area)
 /* A line that is typed into, its end in sight. */
 static void draw_line(struct app *app, const struct line *line, int x, int y, int width, bool cursor)
 {
-    int n = ceduo_cells_put_end(app->cells, x, y, width - 1, cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, line->text);
+    int n = ceduo_cells_label_end(app->cells, x, y, width - 1, cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, line->text);
     if (cursor)
         ceduo_cells_label(app->cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
 }

@@ -121,7 +121,7 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
     const struct field *field = ceduo_search_field(app->scratch, p->path);
     char room[CEDUO_NUMBER_ROOM];
     if (f->found && !f->whole_range) /* otherwise the field keeps its value */
-        ceduo_text_format(text, "%s = %s: ", ceduo_app_path(app, p->path), ceduo_shown_number(field, f->value, room));
+        ceduo_text_format(text, "%s = %s: ", ceduo_app_path(app, p->path), ceduo_format_number(field, f->value, room));
     ceduo_find_words(text, s, f, field, s->sure == 0); /* otherwise there is no room, and it was typed */
     if (!f->monotone)
         ceduo_text_append_joined(text, "; ", _("not monotone: there may be other values"));
@@ -227,7 +227,7 @@ static void ask(struct app *app, const char *path, const char *written)
     cases->hi = 100;
     cases->flags = FIELD_ABOVE;
     for (int i = 0; i < 2; i++) {
-        const char *end = ceduo_shown_number(f, i == 0 ? lo : hi, room);
+        const char *end = ceduo_format_number(f, i == 0 ? lo : hi, room);
         struct field *own = ceduo_popup_value(p, i == 0 ? _("values from") : _("to"), end, f);
         own->shown.least = -INFINITY; /* no end is unusual */
         own->shown.most = INFINITY;

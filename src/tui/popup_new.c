@@ -76,7 +76,7 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
             append_quoted(&a->slope, "\n  layer: ", mark + 1);
     } else {
         ceduo_text_append(&a->slope, "vertices_m: ");
-        if (!ceduo_typed_points(typed, &a->slope, &a->first, &a->last))
+        if (!ceduo_input_parse_points(typed, &a->slope, &a->first, &a->last))
             wrong = _("the profile: a file that ends in .csv, or points x z, x z, … with x rising");
     }
     if (!wrong && !make_profile(a, "") && !make_profile(a, "  reversed: true\n"))
@@ -90,7 +90,7 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
 static void put_place(struct popup *p, size_t field, double x)
 {
     char room[CEDUO_NUMBER_ROOM];
-    ceduo_line_set(&p->fields[field].line, ceduo_shown_number(NULL, round(x * 100) / 100, room));
+    ceduo_line_set(&p->fields[field].line, ceduo_format_number(NULL, round(x * 100) / 100, room));
 }
 
 /* The edge of the first face and its lower end, unless another is typed already. */
@@ -314,7 +314,7 @@ static void ask(struct app *app)
     ceduo_popup_value(p, _("rocks start at x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
     ceduo_popup_value(p, _("face from the top to x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
     ceduo_popup_choice(p, _("ground below it"), _(ceduo_material_talus()->name), ceduo_popup_offer_grounds);
-    ceduo_popup_value(p, _("rock: diameter, m"), ceduo_shown_number(NULL, 0.6, room), ceduo_schema_at("rock.diameter_m"));
+    ceduo_popup_value(p, _("rock: diameter, m"), ceduo_format_number(NULL, 0.6, room), ceduo_schema_at("rock.diameter_m"));
     ceduo_popup_value(p, _("counted at x, m"), "", ceduo_schema_at("controls[0].x_m"))->flags = FIELD_ABOVE;
     ceduo_popup_value(p, _("the place withstands, kJ"), "50", ceduo_schema_at("controls[0].accepted_kJ"));
     ceduo_popup_choice(p, _("stand on the way"), "simple-coppice", ceduo_popup_offer_stands);

@@ -298,7 +298,7 @@ static void add_word(struct popup *p, const struct field *f, const char *word, c
 {
     LOCAL_TEXT(shown);
     const struct ceduo_material *ground = find_material(f, word);
-    ceduo_shown_value(f, word, &shown);
+    ceduo_format_value(f, word, &shown);
     const char *name = ceduo_arena_string(&p->arena, ceduo_text_string(&shown));
     if (ground)
         ceduo_text_format(&shown, ": %s", _(ground->what));

@@ -25,10 +25,10 @@ static void append_number(struct text *text, const struct scene_file *file, cons
 
 static void add_rows(struct ceduo_page *page, const struct scene_file *file, const struct ceduo_predicted *predicted)
 {
-    static const struct ceduo_page_column columns[] = {{N_("mean or count"), 13, 0, CEDUO_FILLS | CEDUO_WHOLE},
-                                                       {N_("seen"), -8, 1, CEDUO_FITS},
-                                                       {N_("sim., 95 %"), -11, 1, CEDUO_FITS},
-                                                       {"", 10, 1, CEDUO_FITS}};
+    static const struct ceduo_page_column columns[] = {{N_("mean or count"), 13, 0, COL_GROW | COL_WRAP},
+                                                       {N_("seen"), -8, 1, COL_SHRINK},
+                                                       {N_("sim., 95 %"), -11, 1, COL_SHRINK},
+                                                       {"", 10, 1, COL_SHRINK}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t i = 0; i < file->observations_count; i++) {
         const struct ceduo_predicted *p = &predicted[i];
@@ -77,7 +77,7 @@ static void say_as_it_is(struct app *app, struct ceduo_page *page)
             continue;
         ceduo_text_append(&bad, bad.length > 0 ? "; " : "");
         ceduo_text_append_escaped(&bad, file->observations[i].name);
-        const char *chance = p->p_value < 0.001 ? "<.001" : WRITTEN(p->p_value, 2);
+        const char *chance = p->p_value < 0.001 ? "<.001" : SIG(p->p_value, 2);
         if (isnan(p->p_value))
             ceduo_text_format(&bad, " (%s)", _("no simulated rock does that"));
         else
@@ -288,7 +288,7 @@ static void append_bounds(struct text *text, const struct fit_value *value)
 {
     const struct field *field = ceduo_schema_fitted(value->path);
     char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(text, "%s:%s", ceduo_shown_number(field, value->lo, lo), ceduo_shown_number(field, value->hi, hi));
+    ceduo_text_format(text, "%s:%s", ceduo_format_number(field, value->lo, lo), ceduo_format_number(field, value->hi, hi));
 }
 
 /* Both ends in the unit that is shown; false where they are none, which is said. */

@@ -41,7 +41,7 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         }
     for (const struct ceduo_belt *belt = y->option.belts; belt < y->option.belts + y->option.belts_count; belt++) {
         const struct ceduo_stand *s = &belt->stand;
-        ceduo_text_format(text, "%s\xe2\x80\x93%s m: ", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
+        ceduo_text_format(text, "%s\xe2\x80\x93%s m: ", LOCALIZED(belt->from_given), LOCALIZED(belt->to_given));
         if (ceduo_stand_is_bare(s))
             ceduo_text_append(text, _("no stems"));
         if (s->shoots_count > 0)
@@ -61,7 +61,7 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     const struct ceduo_verdict *v = &app->live.verdict;
     ceduo_words_window(text, ceduo_app_option(app));
     ceduo_text_append(text, text->length > 0 ? " " : "");
-    ceduo_words_years_sum(text, app->live.result, years);
+    ceduo_words_years_summary(text, app->live.result, years);
     if (app->option < v->n && !isnan(v->choices[app->option].yield.cut_per_year))
         ceduo_text_append_joined(text, " ", _("Yield %.2g m\xc2\xb3 per ha and year."),
                                  v->choices[app->option].yield.cut_per_year);

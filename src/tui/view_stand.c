@@ -79,7 +79,7 @@ static int draw_figures(struct app *app, struct ceduo_area area)
     if (!belt)
         return 0;
     struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, belt);
-    ceduo_words_unlikely(belt, &r, add_warning, &unlikely);
+    ceduo_words_implausible(belt, &r, add_warning, &unlikely);
     ceduo_words_thick_stems(belt, add_warning, &unlikely);
     int lines = unlikely.length > 0 ? ceduo_app_text_lines(app, unlikely.bytes, area.width) : 0;
     lines = lines > area.height / 3 ? area.height / 3 : lines;

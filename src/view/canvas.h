@@ -16,7 +16,7 @@ struct ceduo_frame {
     int left, top;     /* upper left cell; may be outside the surface */
     int width, height; /* cells; 2..CEDUO_CANVAS_MAX_WIDTH, 1..CEDUO_CANVAS_MAX_HEIGHT */
     double x0, x1;     /* data at the left and the right edge */
-    bool x_whole;      /* labels at the bottom are integers (years) */
+    bool x_integer;    /* labels at the bottom are integers (years) */
     double y0, y1;     /* data at the bottom and the top edge */
 };
 
@@ -39,7 +39,7 @@ struct ceduo_position {
 
 /* Stroke styles in drawing order. RULE and DOTS draw every 2nd dot, FEW every 4th, DASHES 4 of 6. */
 enum ceduo_stroke {
-    CEDUO_STROKE_WAY, /* one of many trajectories of a cloud */
+    CEDUO_STROKE_TRAJECTORY, /* one of many trajectories of a cloud */
     CEDUO_STROKE_RULE,
     CEDUO_STROKE_DOTS,
     CEDUO_STROKE_FEW,
@@ -58,9 +58,9 @@ struct ceduo_pen {
 
 /* A tick of an axis. */
 struct ceduo_tick {
-    int cell;  /* column or row; -1: the unit among the bottom labels */
-    double at; /* fractional cell: 3.5 is the middle of cell 3 */
-    int start; /* first column of the label; -1: does not fit */
+    int cell;        /* column or row; -1: the unit among the bottom labels */
+    double position; /* fractional cell: 3.5 is the middle of cell 3 */
+    int start;       /* first column of the label; -1: does not fit */
     char label[CEDUO_TICK_LABEL_SIZE];
 };
 
@@ -112,7 +112,7 @@ void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *fr
 /* Draw a bar of `fraction` (0..1, clamped) of `width` cells. <= 0 or NaN: nothing; > 0: always visible. */
 void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int width, double fraction, enum ceduo_role role);
 
-/* Cloud of trajectories: start it, draw trajectories with CEDUO_STROKE_WAY, show it. Shows dots passed at least as often as
+/* Cloud of trajectories: start it, draw trajectories with CEDUO_STROKE_TRAJECTORY, show it. Shows dots passed at least as often as
  * the given quantile (0..1) of all passed dots. 0: all dots; 0.9: the top tenth; 1: the maximum. */
 void ceduo_canvas_cloud_start(struct ceduo_canvas *canvas);
 void ceduo_canvas_cloud_show(struct ceduo_canvas *canvas, double quantile);
@@ -132,7 +132,7 @@ int ceduo_canvas_label_width(const struct ceduo_canvas *canvas, const char *text
 bool ceduo_canvas_is_blank(const struct ceduo_canvas *canvas, int column, int row);
 
 /* Draw a text of at most `max` cells, cut with a mark. Return its cells. */
-int ceduo_canvas_draw_text(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text);
+int ceduo_canvas_draw_text(struct ceduo_canvas *canvas, int column, int row, int max, enum ceduo_role role, const char *text);
 
 /* ---- Axes ---- */
 

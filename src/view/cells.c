@@ -104,7 +104,7 @@ void ceduo_cells_set_code(struct ceduo_cells *cells, int column, int row, enum c
 /* ---- Text ---- */
 
 /* Return the replacement of a character in ASCII. A degree sign becomes a blank: "35o" reads as 350. */
-static const char *ascii_for(uint32_t code)
+static const char *find_ascii(uint32_t code)
 {
     static const struct {
         uint16_t first, last;
@@ -145,10 +145,11 @@ struct reader {
     const char *pending; /* rest of an ASCII replacement, in a constant table */
 };
 
-bool ceduo_is_power(const char *string, const char *at)
+bool ceduo_is_power(const char *string, const char *digit)
 {
-    return (*at == '2' || *at == '3') && at > string && at[-1] == 'm' && (at == string + 1 || strchr(" /(", at[-2])) &&
-           !isalnum((unsigned char)at[1]) && !(at[1] && strchr("_.=[", at[1]) && at[2] > ' ');
+    return (*digit == '2' || *digit == '3') && digit > string && digit[-1] == 'm' &&
+           (digit == string + 1 || strchr(" /(", digit[-2])) && !isalnum((unsigned char)digit[1]) &&
+           !(digit[1] && strchr("_.=[", digit[1]) && digit[2] > ' ');
 }
 
 /* Return the next code point; 0 at the end. */
@@ -169,7 +170,7 @@ static uint32_t next_code(struct reader *reader)
         return '?';
     if (reader->charset != CEDUO_CHARSET_ASCII || code < 0x80)
         return code;
-    reader->pending = ascii_for(code);
+    reader->pending = find_ascii(code);
     return (uint32_t)*reader->pending++;
 }
 
@@ -186,14 +187,14 @@ int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo
     return count;
 }
 
-int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text)
+int ceduo_cells_label_end(struct ceduo_cells *cells, int column, int row, int max, enum ceduo_role role, const char *text)
 {
     const char *mark = cells->charset == CEDUO_CHARSET_ASCII ? "~" : "\xe2\x80\xa6";
-    bool cut = most > 0 && ceduo_cells_label_width(cells->charset, text) > most;
-    int sign = cut ? ceduo_cells_label(cells, column, row, role, mark) : 0;
-    while (*text && ceduo_cells_label_width(cells->charset, text) > most - sign)
+    bool cut = max > 0 && ceduo_cells_label_width(cells->charset, text) > max;
+    int mark_width = cut ? ceduo_cells_label(cells, column, row, role, mark) : 0;
+    while (*text && ceduo_cells_label_width(cells->charset, text) > max - mark_width)
         text += ceduo_utf8_step(text);
-    return sign + ceduo_cells_label(cells, column + sign, row, role, text);
+    return mark_width + ceduo_cells_label(cells, column + mark_width, row, role, text);
 }
 
 void ceduo_cells_ascii(struct text *text, const char *string)

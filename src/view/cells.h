@@ -23,7 +23,7 @@
     X(CLOUD, 'c', 3)    /* all trajectories together */                                                                        \
     X(ENVELOPE, 'e', 8) /* quantiles of the trajectories */                                                                    \
     X(MEAN, 'm', 11)                                                                                                           \
-    X(WAY, 'w', 16) /* trajectory of the selected rock */                                                                      \
+    X(TRAJECTORY, 'w', 16) /* trajectory of the selected rock */                                                               \
     X(STEM, 's', 7)                                                                                                            \
     X(STOOL, 'S', 6)                                                                                                           \
     X(BELT, 'b', 5) /* stretch of forest along the slope */                                                                    \
@@ -31,8 +31,8 @@
     X(GOOD, 'G', 12)                                                                                                           \
     X(BAD, 'B', 14)                                                                                                            \
     X(WARN, 'W', 13)                                                                                                           \
-    X(BARE, 'r', 9)  /* curve of the bare slope */                                                                             \
-    X(WOOD, 'o', 10) /* curve of the forested slope */                                                                         \
+    X(BARE, 'r', 9)    /* curve of the bare slope */                                                                           \
+    X(FOREST, 'o', 10) /* curve of the forested slope */                                                                       \
     X(CURSOR, 'x', 17)
 
 enum ceduo_role {
@@ -55,7 +55,7 @@ struct ceduo_canvas {
     struct ceduo_cells *cells; /* text and occupied cells */
     void *to;                  /* argument of the surface's functions */
     int dots_x, dots_y;        /* dots per cell: the finest resolution */
-    bool words_alone;          /* pictures leave their area blank */
+    bool text_only;            /* pictures leave their area blank */
 };
 
 enum {
@@ -101,10 +101,10 @@ void ceduo_cells_clear_area(struct ceduo_cells *cells, struct ceduo_area area); 
 int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text);
 
 /* Draw the end of a text that fits into `max` cells; return its cells. */
-int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text);
+int ceduo_cells_label_end(struct ceduo_cells *cells, int column, int row, int max, enum ceduo_role role, const char *text);
 
 /* True if a digit is the power of a metre, as in m3 and m2/ha, and not part of a key. Outside ASCII cells show m³. */
-bool ceduo_is_power(const char *string, const char *at);
+bool ceduo_is_power(const char *string, const char *digit);
 
 /* Append a text converted to ASCII. */
 void ceduo_cells_ascii(struct text *text, const char *string);

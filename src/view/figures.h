@@ -57,19 +57,19 @@ struct ceduo_figure {
     const struct ceduo_reader *value;
     size_t offset; /* in the object */
     double scale;  /* factor of numbers, also of all numbers in `table`; 0: 1 */
-    const struct ceduo_figure *of;
+    const struct ceduo_figure *table;
     bool (*enter)(struct ceduo_place *place, size_t i); /* list: selects item i; false after the last */
     const void *(*item)(const void *object, size_t i);  /* list inside any object: item i; NULL after the last */
     size_t columns;                                     /* CSV: items of such a list, with heads name[0] and so on */
-    void (*say)(const struct ceduo_place *place, ceduo_sentence_sink *say, void *context);
-    bool one;     /* one sentence, in JSON a text and not a list */
+    void (*sentences)(const struct ceduo_place *place, ceduo_sentence_sink *sink, void *context);
+    bool single;  /* one sentence, in JSON a text and not a list */
     bool details; /* a list that is null unless details are requested */
     bool plain;   /* a list of values, not objects */
 };
 
 static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)
 {
-    return !f->value && !f->of && !f->say;
+    return !f->value && !f->table && !f->sentences;
 }
 
 /* Append an object as one line of JSON; `details`: with long lists. */

@@ -39,30 +39,30 @@ struct ceduo_page_column {
 };
 
 enum ceduo_page_flag {
-    CEDUO_WHOLE = 1 << 1, /* never cut: wraps into the next line */
-    CEDUO_FITS = 1 << 2,  /* as wide as its widest cell, at least `width` */
-    CEDUO_FILLS = 1 << 3, /* at least `width`, takes the remaining width; longer text is shortened in the middle */
+    COL_WRAP = 1 << 1,   /* never cut: wraps into the next line */
+    COL_SHRINK = 1 << 2, /* as wide as its widest cell, at least `width` */
+    COL_GROW = 1 << 3,   /* at least `width`, takes the remaining width; longer text is shortened in the middle */
 };
 
 /* Columns that do not fit are dropped before names are cut, highest rank first (COL_MINOR to 9). */
-#define CEDUO_DROPPED(rank) ((unsigned)(rank) << 8)
-#define CEDUO_MINOR         7
+#define COL_PRIORITY(rank) ((unsigned)(rank) << 8)
+#define COL_MINOR          7
 
 enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_BAR };
 
 /* A bar in shares of its column, see ceduo_page_scale(). Shown by drawing outputs only. NaN: not drawn. */
 struct ceduo_page_bar {
-    double from, to;     /* ends of the bar; from 0, `to` has sub-cell resolution */
-    double least, most;  /* error line with end marks */
-    double limit;        /* mark across the bar … */
-    enum ceduo_role own; /* … in this role */
+    double from, to;            /* ends of the bar; from 0, `to` has sub-cell resolution */
+    double error_lo, error_hi;  /* error line with end marks */
+    double limit;               /* mark across the bar … */
+    enum ceduo_role limit_role; /* … in this role */
 };
 
 struct ceduo_page_cell {
     enum ceduo_page_cell_kind kind;
     enum ceduo_role role;      /* role of text or bar; BLANK: default */
     struct text text, shorter; /* shorter: used if `text` does not fit; may be empty */
-    struct text written;       /* long form of a head for wide pages; may be empty */
+    struct text long_text;     /* long form of a head for wide pages; may be empty */
     double value;              /* value of a number cell */
     int digits;                /* significant digits, if they fit */
     struct ceduo_page_bar bar;
@@ -74,10 +74,10 @@ struct ceduo_page_block {
     struct text text;     /* UTF-8 with typographic – − ±; outputs make it safe to print. A label ends in a tab. */
     struct ceduo_page_column *columns;
     size_t columns_count;
-    size_t cells_count, cells_room; /* row by row, heads first */
+    size_t cells_count, cells_capacity; /* row by row, heads first */
     struct ceduo_page_cell *cells;
     struct ceduo_svg *svg;   /* owned by the page */
-    bool half;               /* two such pictures stand next to each other */
+    bool side_by_side;       /* two such pictures stand next to each other */
     struct text description; /* text alternative of a picture */
     struct ceduo_page_block *next;
 };
@@ -126,7 +126,7 @@ void ceduo_page_scale(struct ceduo_page *page, size_t column, double lo, double 
 void ceduo_page_cell_role(struct ceduo_page *page, enum ceduo_role role, const char *string);
 
 /* Append a picture, owned by the page. The caller fills its title (`text`) and description. */
-struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half);
+struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool side_by_side);
 
 /* Remove the last block. */
 void ceduo_page_drop(struct ceduo_page *page);

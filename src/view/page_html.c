@@ -11,7 +11,7 @@
 /* ---- elements ---- */
 
 /* Escape for HTML. Newlines and tabs stay; other control characters become \xHH. */
-static void put_escaped(struct text *to, const char *string)
+static void append_html(struct text *to, const char *string)
 {
     static const char signs[] = "&<>\"'", *const names[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
     for (size_t n; *string; string += n + (string[n] != '\0')) {
@@ -25,7 +25,7 @@ static void put_escaped(struct text *to, const char *string)
     }
 }
 
-static void begin(struct ceduo_html *html, const char *name, va_list args)
+static void begin_tag(struct ceduo_html *html, const char *name, va_list args)
 {
     ceduo_text_format(html->text, "<%s", name);
     for (const char *key; (key = va_arg(args, const char *)) != NULL;) {
@@ -33,7 +33,7 @@ static void begin(struct ceduo_html *html, const char *name, va_list args)
         if (!value)
             continue;
         ceduo_text_format(html->text, " %s=\"", key);
-        put_escaped(html->text, value);
+        append_html(html->text, value);
         ceduo_text_char(html->text, '"');
     }
 }
@@ -41,10 +41,10 @@ static void begin(struct ceduo_html *html, const char *name, va_list args)
 void ceduo_html_open(struct ceduo_html *html, const char *name, ...)
 {
     va_list args;
-    assert(html->depth < CEDUO_HTML_DEEPEST);
+    assert(html->depth < CEDUO_HTML_DEPTH_MAX);
     html->open[html->depth++] = name;
     va_start(args, name);
-    begin(html, name, args);
+    begin_tag(html, name, args);
     va_end(args);
     ceduo_text_char(html->text, '>');
 }
@@ -59,7 +59,7 @@ void ceduo_html_empty(struct ceduo_html *html, const char *name, ...)
 {
     va_list args;
     va_start(args, name);
-    begin(html, name, args);
+    begin_tag(html, name, args);
     va_end(args);
     ceduo_text_append(html->text, "/>\n");
 }
@@ -68,10 +68,10 @@ void ceduo_html_leaf(struct ceduo_html *html, const char *name, const char *text
 {
     va_list args;
     va_start(args, text);
-    begin(html, name, args);
+    begin_tag(html, name, args);
     va_end(args);
     ceduo_text_char(html->text, '>');
-    put_escaped(html->text, text);
+    append_html(html->text, text);
     ceduo_text_format(html->text, "</%s>\n", name);
 }
 
@@ -154,7 +154,7 @@ void ceduo_page_html_end(struct ceduo_html *html)
 
 /* ---- tables ---- */
 
-#define WIDTH 60 /* characters; fits all digits */
+#define CELL_WIDTH 60 /* characters; fits all digits */
 
 /* Write a table; nothing if it has only heads. */
 static void write_table(struct ceduo_html *html, const struct ceduo_page_block *table, const struct ceduo_page_block *caption)
@@ -171,10 +171,10 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
         ceduo_html_open(html, "tr", NULL);
         for (size_t i = 0; i < n; i++) {
             LOCAL_TEXT(text);
-            if (row == 0 && table->cells[i].written.length > 0)
-                ceduo_page_powers(&text, table->cells[i].written.bytes);
+            if (row == 0 && table->cells[i].long_text.length > 0)
+                ceduo_page_powers(&text, table->cells[i].long_text.bytes);
             else
-                ceduo_page_write_cell(&text, &table->cells[row + i], WIDTH, false);
+                ceduo_page_write_cell(&text, &table->cells[row + i], CELL_WIDTH, false);
             const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
             const char *scope = name[1] != 'h' ? NULL : row == 0 ? "col" : "row";
             ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class",
@@ -234,24 +234,24 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
     ceduo_text_char(html->text, '\n');
     for (const struct ceduo_page_block *b = page->first, *last = NULL; b; last = b, b = b->next) {
         const char *list = lists[b->kind].element;
-        bool follows = last && last->kind == b->kind, goes_on = b->next && b->next->kind == b->kind;
+        bool follows = last && last->kind == b->kind, continues = b->next && b->next->kind == b->kind;
         if (list && !follows)
             ceduo_html_open(html, list, "class", lists[b->kind].class, NULL);
         /* consecutive tables are halves of one table */
-        if (b->kind == CEDUO_PAGE_TABLE && !follows && goes_on)
+        if (b->kind == CEDUO_PAGE_TABLE && !follows && continues)
             ceduo_html_open(html, "div", "class", "pair", NULL);
         if (b->kind == CEDUO_PAGE_TABLE)
             write_table(html, b, last && last->kind == CEDUO_PAGE_CAPTION ? last : NULL);
         else if (b->kind == CEDUO_PAGE_PICTURE) {
             char id[48];
             snprintf(id, sizeof id, "c%zu-p%zu", number, ++pictures);
-            ceduo_html_open(html, "figure", "class", b->half ? "half" : NULL, NULL);
+            ceduo_html_open(html, "figure", "class", b->side_by_side ? "half" : NULL, NULL);
             ceduo_svg_write(html, b->svg, id, ceduo_text_string(&b->text), ceduo_text_string(&b->description));
             ceduo_html_leaf(html, "figcaption", ceduo_text_string(&b->text), NULL);
             ceduo_html_close(html);
         } else if (b->kind != CEDUO_PAGE_CAPTION || !b->next || b->next->kind != CEDUO_PAGE_TABLE)
             write_block(html, b);
-        if ((list || (b->kind == CEDUO_PAGE_TABLE && follows)) && !goes_on)
+        if ((list || (b->kind == CEDUO_PAGE_TABLE && follows)) && !continues)
             ceduo_html_close(html);
     }
     ceduo_html_close(html);

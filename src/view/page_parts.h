@@ -11,8 +11,8 @@
  * a control, or if it cannot be judged. */
 void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *result);
 void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *report);
-void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report);
-void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_certainty(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_over_time(struct ceduo_page *page, const struct ceduo_report *report);
 /* Return the best option over the years, or today if they are unknown. By the index: the option whose stems absorb most.
  * `verdict` may be NULL. */
 size_t ceduo_result_best(const struct ceduo_result *result, const struct ceduo_verdict *verdict);
@@ -58,7 +58,7 @@ void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *hazar
  * options today and over the years. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
-void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_years_all_options(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
 
 /* Append a comparison of both energy laws; nothing if unknown. */
@@ -70,7 +70,7 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
 /* Append arrivals at a control with forest and, if `with_bare`, without. The number of figures fits a screen of `lines`
  * lines. */
 #define CEDUO_LINES_SHORT 17 /* lines of the short page */
-#define CEDUO_LINES_WHOLE 1000
+#define CEDUO_LINES_ALL   1000
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *subject, int lines, bool with_bare);
 
 /* Append the three tests of an option with their limits, and the result by the index. */
@@ -92,7 +92,7 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
 /* Write the head of the column of the judged share: "> 50 kJ", or "arrive" without an accepted energy. */
 void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *control);
 void ceduo_page_free_run(struct ceduo_page *page, double share);
-void ceduo_page_yes(struct ceduo_page *page, bool yes); /* yes, NO */
+void ceduo_page_yes_no(struct ceduo_page *page, bool yes); /* yes, NO */
 
 /* Append a warning or a note; the context is the page. */
 void ceduo_page_warn(void *page, const char *sentence);

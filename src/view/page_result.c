@@ -35,7 +35,7 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
                       s->blocks_count > 0 ? _("%s; rocks are the blocks below, the index is of %s kg, mean diameter %s m")
                       : ceduo_rock_varies(&s->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
                                                     : _("%s, %s kg, mean diameter %s m"),
-                      _(shapes[s->rock.shape]), WRITTEN(r->rock.mass, 4), WRITTEN(r->rock.mean_diameter, 3));
+                      _(shapes[s->rock.shape]), SIG(r->rock.mass, 4), SIG(r->rock.mean_diameter, 3));
     ceduo_text_append(line, assumed_mark(report, "rock"));
     for (size_t i = 0; i < s->blocks_count; i++)
         ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Blocks")), _("%g a year of %g to %g m3, exponent %g"),
@@ -46,7 +46,7 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
         high = fmax(high, slope->z[i]);
     }
     line = ceduo_page_item(page, CEDUO_PAGE_FACT, _("Slope"));
-    ceduo_text_format(line, _("%s m long, %s m high, "), WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4));
+    ceduo_text_format(line, _("%s m long, %s m high, "), SIG(slope->x[slope->vertices - 1], 4), SIG(high - low, 4));
     ceduo_words_points(line, slope);
     ceduo_text_format(line, _("; law %s, facets %s%s"), ceduo_words_law(ceduo_law_words.names[s->simulation.law]),
                       _(facets[slope->facets]), assumed_mark(report, "slope"));
@@ -63,18 +63,18 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
     const struct ceduo_control *c = &report->result->scene->controls[i];
     struct text *place = ceduo_page_add(page, CEDUO_PAGE_PLACE);
     LOCAL_TEXT(where);
-    ceduo_text_format(place, _("At %s m"), SHORTEST(c->x_given));
+    ceduo_text_format(place, _("At %s m"), LOCALIZED(c->x_given));
     if (c->name)
         ceduo_text_format(place, ", %s", c->name);
     ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
     if (!isnan(c->accepted))
-        ceduo_text_append_joined(place, ", ", _("withstands %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
+        ceduo_text_append_joined(place, ", ", _("withstands %s kJ%s"), LOCALIZED(ceduo_words_accepted(c)),
                                  ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
-    ceduo_words_topography(place, ceduo_topography_at(&report->result->bare.arrivals[i]), false);
+    ceduo_words_topography(place, ceduo_topography_find(&report->result->bare.arrivals[i]), false);
 }
 
 /* Append a row: name, with forest, without forest. Each has a short form for narrow columns. */
-static void add_row(struct ceduo_page *page, const char *const texts[3][2])
+static void add_texts_row(struct ceduo_page *page, const char *const texts[3][2])
 {
     for (int i = 0; i < 3; i++) {
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
@@ -83,45 +83,46 @@ static void add_row(struct ceduo_page *page, const char *const texts[3][2])
     }
 }
 
-static void add_figure(struct ceduo_page *page, struct ceduo_measure wood, struct ceduo_measure bare)
+static void add_figure(struct ceduo_page *page, struct ceduo_measure wooded, struct ceduo_measure bare)
 {
-    add_row(page, (const char *const[3][2]){{NAMED(bare, CEDUO_PHRASE), NAMED(bare, CEDUO_ROW)},
-                                            {INTERVAL(wood), WITH_ERROR(wood, "")},
-                                            {INTERVAL(bare), VALUE_OF(bare)}});
+    add_texts_row(page, (const char *const[3][2]){{MEASURE_NAME(bare, CEDUO_PHRASE), MEASURE_NAME(bare, CEDUO_ROW)},
+                                                  {MEASURE_INTERVAL(wooded), MEASURE_ERROR(wooded, "")},
+                                                  {MEASURE_INTERVAL(bare), MEASURE_VALUE(bare)}});
 }
 
 #define PANE_WIDE 34 /* columns needed for an interval */
 
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s, int lines, bool with_bare)
 {
-    enum { LOW = 15, MIN = 18, ALL = 24, WHOLE = CEDUO_LINES_WHOLE };
-    static const int least[CEDUO_P95_TOP] = {LOW, MIN, MIN, LOW, LOW, LOW, WHOLE, ALL, WHOLE, WHOLE};
-    const struct ceduo_arrivals *wood = s->index ? s->wooded : NULL, *bare = with_bare ? s->bare : NULL;
-    bool whole = lines >= WHOLE, nothing = !whole && ceduo_too_few_arrivals(s->bare), blocks = ceduo_hazard_at(s->bare);
+    enum { LOW = 15, MIN = 18, ALL = 24, FULL = CEDUO_LINES_ALL };
+    static const int min_lines[CEDUO_P95_TOP] = {LOW, MIN, MIN, LOW, LOW, LOW, FULL, ALL, FULL, FULL};
+    const struct ceduo_arrivals *wooded = s->index ? s->wooded : NULL, *bare = with_bare ? s->bare : NULL;
+    bool full = lines >= FULL, nothing = !full && ceduo_too_few_arrivals(s->bare), blocks = ceduo_hazard_find(s->bare);
     int width = page->width >= CEDUO_PAGE_WIDTH ? 18 : page->width >= PANE_WIDE ? 14 : 7;
     const struct ceduo_page_column columns[] = {
-        {N_("of 1000"), 13, 2, CEDUO_FILLS}, {"", -width, 0, 0}, {"", width == 14 ? -8 : -width, 0, 0}};
+        {N_("of 1000"), 13, 2, COL_GROW}, {"", -width, 0, 0}, {"", width == 14 ? -8 : -width, 0, 0}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *heads = page->last->cells;
     ceduo_text_append(&heads[1].text, _("with forest"));
     ceduo_text_format(&heads[1].shorter, "%s ", _("forest")); /* gap to the next head */
     ceduo_text_append(&heads[2].text, _("without forest"));
     ceduo_text_append(&heads[2].shorter, _("without"));
-    add_figure(page, ceduo_measure_arriving(wood), ceduo_measure_arriving(bare));
+    add_figure(page, ceduo_measure_arriving(wooded), ceduo_measure_arriving(bare));
     if (!isnan(s->place->accepted) && !nothing)
-        add_figure(page, ceduo_measure_exceeding(s->place, wood), ceduo_measure_exceeding(s->place, bare));
-    if (!whole && !nothing && wood && !isnan(s->today.may_lo) && page->width < CEDUO_PAGE_WIDTH)
-        add_row(page, (const char *const[3][2]){{"", _("  90 % range")}, {MAY_BE(s->today), ""}, {"", ""}});
+        add_figure(page, ceduo_measure_exceeding(s->place, wooded), ceduo_measure_exceeding(s->place, bare));
+    if (!full && !nothing && wooded && !isnan(s->today.p5) && page->width < CEDUO_PAGE_WIDTH)
+        add_texts_row(page, (const char *const[3][2]){{"", _("  90 % range")}, {PLAUSIBLE_RANGE(s->today), ""}, {"", ""}});
     if (blocks && !nothing) /* with block sizes the return period is the relevant figure */
-        add_row(page, (const char *const[3][2]){{_("years from one such rock to the next"), _("years apart")},
-                                                {YEARS(ceduo_feared(wood)), EVERY(ceduo_feared(wood))},
-                                                {YEARS(ceduo_feared(bare)), EVERY(ceduo_feared(bare))}});
-    for (enum ceduo_measured what = 0; what < CEDUO_P95_TOP; what++) {
-        const struct ceduo_measure through = ceduo_measured(what, wood), without = ceduo_measured(what, bare);
+        add_texts_row(page, (const char *const[3][2]){
+                                {_("years from one such rock to the next"), _("years apart")},
+                                {RETURN_PERIOD_RANGE(ceduo_judged_rate(wooded)), RETURN_PERIOD(ceduo_judged_rate(wooded))},
+                                {RETURN_PERIOD_RANGE(ceduo_judged_rate(bare)), RETURN_PERIOD(ceduo_judged_rate(bare))}});
+    for (enum ceduo_measure_kind what = 0; what < CEDUO_P95_TOP; what++) {
+        const struct ceduo_measure through = ceduo_measure_figure(what, wooded), without = ceduo_measure_figure(what, bare);
         bool any = through.value > 0 || without.value > 0, mean = what >= CEDUO_MEAN_KJ;
-        int from = least[what];
-        if (blocks && !whole && mean) /* mostly large blocks arrive: their mean would make the forest look harmful */
-            from = what == CEDUO_RELEASED_KJ ? LOW : WHOLE;
+        int from = min_lines[what];
+        if (blocks && !full && mean) /* mostly large blocks arrive: their mean would make the forest look harmful */
+            from = what == CEDUO_RELEASED_KJ ? LOW : FULL;
         if (lines >= from && (any || what == CEDUO_STOPPED || what == CEDUO_RESTED || mean) && !(nothing && mean))
             add_figure(page, through, without);
     }
@@ -133,7 +134,7 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
 static void add_test(struct ceduo_page *page, const struct ceduo_subject *s, const char *limit, enum ceduo_light today,
                      size_t failing, bool known)
 {
-    const struct ceduo_choice *c = s->choice ? ceduo_report_ahead(s->report, s->option) : NULL;
+    const struct ceduo_choice *c = s->choice ? ceduo_report_years_ahead(s->report, s->option) : NULL;
     ceduo_page_cell_format(page, "%s", limit);
     ceduo_page_light(page, today);
     if (c && page->width < CEDUO_PAGE_WIDTH)
@@ -161,7 +162,7 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     const struct ceduo_index *index = s->index;
     const struct ceduo_scene *scene = s->report->result->scene;
     const struct ceduo_choice none = {0}, *c = s->choice ? s->choice : &none;
-    const struct ceduo_page_column columns[] = {{"", 11, 2, CEDUO_FILLS},
+    const struct ceduo_page_column columns[] = {{"", 11, 2, COL_GROW},
                                                 {"", page->width < CEDUO_PAGE_WIDTH ? -6 : -18, 0, 0},
                                                 {"", -7, 0, 0},
                                                 {"", 1, 1, 0},
@@ -169,30 +170,33 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     double threshold = scene->simulation.threshold, limit = ceduo_exceed_limit(scene, s->place), share = s->today.value / 1000;
     bool judged = index->energy != CEDUO_UNKNOWN && s->wooded;
     LOCAL_TEXT(below);
-    LOCAL_TEXT(most);
+    LOCAL_TEXT(at_most);
     LOCAL_TEXT(accepted);
-    ceduo_text_format(&below, "< %s", SHORTEST(threshold));
-    ceduo_text_format(&most, "\xe2\x89\xa4 %g", CEDUO_FREE_RUN_MAX * 100);
-    ceduo_text_format(&accepted, judged ? "\xe2\x89\xa4 %s" : "", ROUNDED(limit * 100, 3));
+    ceduo_text_format(&below, "< %s", LOCALIZED(threshold));
+    ceduo_text_format(&at_most, "\xe2\x89\xa4 %g", CEDUO_FREE_RUN_MAX * 100);
+    ceduo_text_format(&accepted, judged ? "\xe2\x89\xa4 %s" : "", SIG_TRIMMED(limit * 100, 3));
     CEDUO_PAGE_TABLE_OF(page, columns);
     bool gap = index->length > 0 && index->longest_gap > threshold; /* the gap is why both tests fail */
     add_name(page, gap ? _("gap without forest, m") : _("distance between contacts (ADC), m"), gap ? _("gap m") : _("ADC m"));
-    ceduo_page_cell_format(page, "%s", gap ? ROUNDED(index->longest_gap, 6) : BESIDE(index->worst_adc, 3, threshold));
+    ceduo_page_cell_format(page, "%s", gap ? SIG_TRIMMED(index->longest_gap, 6) : VS_LIMIT(index->worst_adc, 3, threshold));
     add_test(page, s, below.bytes, index->contact, c->over->unprotected_contact, true);
     add_name(page, _("free run: chance of no contact, %"), _("free run %"));
-    ceduo_page_cell_format(page, "%s", PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MAX));
-    add_test(page, s, most.bytes, index->free_run, c->over->unprotected_free_run, true);
+    ceduo_page_cell_format(page, "%s", PERCENT_VS_LIMIT(index->worst_free_run, CEDUO_FREE_RUN_MAX));
+    add_test(page, s, at_most.bytes, index->free_run, c->over->unprotected_free_run, true);
     add_name(page, _("energy: too much, % of the rocks"), _("energy %"));
-    ceduo_page_cell_format(page, "%s", judged ? PERCENT(share, limit) : s->report->busy && !s->wooded ? "\xe2\x80\xa6" : "-");
+    ceduo_page_cell_format(page, "%s",
+                           judged                          ? PERCENT_VS_LIMIT(share, limit)
+                           : s->report->busy && !s->wooded ? "\xe2\x80\xa6"
+                                                           : "-");
     add_test(page, s, ceduo_text_string(&accepted), index->energy, c->over->unprotected_energy, c->energy_known);
     if (isnan(index->residual)) /* no rock arrives without forest */
         return;
     if (lines >= CEDUO_LINES_SHORT)
-        add_index(page, _("energy taken by stems (index), kJ"), _("taken kJ"), WRITTEN(index->dissipated * J_TO_KJ, 3));
+        add_index(page, _("energy taken by stems (index), kJ"), _("taken kJ"), SIG(index->dissipated * J_TO_KJ, 3));
     add_index(page, _("energy left (index), kJ"), _("left kJ"),
-              index->exhausted ? _("none") : WRITTEN(index->residual * J_TO_KJ, 3));
+              index->exhausted ? _("none") : SIG(index->residual * J_TO_KJ, 3));
     if (!isnan(index->measured) && lines >= CEDUO_LINES_SHORT)
-        add_index(page, _("energy measured on one rock, kJ"), _("measured kJ"), WRITTEN(index->measured * J_TO_KJ, 3));
+        add_index(page, _("energy measured on one rock, kJ"), _("measured kJ"), SIG(index->measured * J_TO_KJ, 3));
 }
 
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control,
@@ -202,10 +206,11 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *rep
     const struct ceduo_subject s = ceduo_subject_find(report, forest || !with_bare ? option : SIZE_MAX, control);
     const double *ends = report->result->options[option].wooded.ends.share;
     if (s.wooded || with_bare)
-        ceduo_page_arrivals(page, &s, CEDUO_LINES_WHOLE, with_bare);
-    const struct ceduo_measure wood = ceduo_measured(CEDUO_MEAN_KJ, s.wooded), bare = ceduo_measured(CEDUO_MEAN_KJ, s.bare);
-    if (forest && wood.value - bare.value >
-                      hypot(wood.hi - wood.value,
+        ceduo_page_arrivals(page, &s, CEDUO_LINES_ALL, with_bare);
+    const struct ceduo_measure wooded = ceduo_measure_figure(CEDUO_MEAN_KJ, s.wooded),
+                               bare = ceduo_measure_figure(CEDUO_MEAN_KJ, s.bare);
+    if (forest && wooded.value - bare.value >
+                      hypot(wooded.hi - wooded.value,
                             bare.hi - bare.value)) /* a higher mean is selection, not harm: stems stop slow rocks first */
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("Fewer arrive through the forest, but larger or faster ones, as stems stop the others first: their "
@@ -216,7 +221,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *rep
                         ends[CEDUO_STOPPED_BY_STEMS] * 1000, ends[CEDUO_AT_REST] * 1000, ends[CEDUO_LEFT_SLOPE] * 1000);
 }
 
-static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+static void add_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
     if (ceduo_too_few_arrivals(&r->bare.arrivals[control])) { /* the reason is at the top of the page */
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy: nothing can be said."));
@@ -225,7 +230,7 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
     for (size_t i = 0; i < 3; i++)
         ceduo_words_test(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control, i);
     if (r->options[option].others[control].known && r->options[option].others[control].stems)
-        ceduo_words_other(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
+        ceduo_words_alternative_law(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
 }
 
 /* ---- belts, by the index ---- */
@@ -234,25 +239,25 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
                       const struct ceduo_option_result *found)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("stand"), 10, 2, CEDUO_FILLS},
-        {NP_("head", "m|from, to, m"), 1, 1, CEDUO_FITS | CEDUO_DROPPED(4)},
-        {N_("ADC m|ADC, m"), -5, 1, CEDUO_FITS},
-        {NULL, -5, 1, CEDUO_FITS},
-        {NP_("head", "free run|chance of a free run"), -7, 1, CEDUO_FITS | CEDUO_DROPPED(7)},
-        {NP_("head", "kJ|energy taken, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(8)},
-        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(9)}};
+        {N_("stand"), 10, 2, COL_GROW},
+        {NP_("head", "m|from, to, m"), 1, 1, COL_SHRINK | COL_PRIORITY(4)},
+        {N_("ADC m|ADC, m"), -5, 1, COL_SHRINK},
+        {NULL, -5, 1, COL_SHRINK},
+        {NP_("head", "free run|chance of a free run"), -7, 1, COL_SHRINK | COL_PRIORITY(7)},
+        {NP_("head", "kJ|energy taken, kJ"), -5, 1, COL_SHRINK | COL_PRIORITY(8)},
+        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, COL_SHRINK | COL_PRIORITY(9)}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *head = ceduo_page_head(page);
-    ceduo_text_format(&head->text, "<%s m", SHORTEST(scene->simulation.threshold));
-    ceduo_text_format(&head->written, _("below %s m"), SHORTEST(scene->simulation.threshold));
+    ceduo_text_format(&head->text, "<%s m", LOCALIZED(scene->simulation.threshold));
+    ceduo_text_format(&head->long_text, _("below %s m"), LOCALIZED(scene->simulation.threshold));
     for (size_t i = 0; i < o->belts_count; i++) {
         const struct ceduo_belt *b = &o->belts[i];
         const struct ceduo_stand_result *s = &found->stands[i];
         LOCAL_TEXT(name);
         ceduo_plot_belt_name(&name, b);
         ceduo_page_cell_role(page, CEDUO_ROLE_BELT, ceduo_text_string(&name));
-        ceduo_page_cell_format(page, "%s\xe2\x80\x93%s", SHORTEST(b->from_given), SHORTEST(b->to_given));
-        ceduo_page_cell_format(page, "%s", BESIDE(s->adc_m, 3, scene->simulation.threshold));
+        ceduo_page_cell_format(page, "%s\xe2\x80\x93%s", LOCALIZED(b->from_given), LOCALIZED(b->to_given));
+        ceduo_page_cell_format(page, "%s", VS_LIMIT(s->adc_m, 3, scene->simulation.threshold));
         ceduo_page_light(page, s->passes_threshold ? CEDUO_PASS : CEDUO_FAIL);
         ceduo_page_free_run(page, s->free_run_probability);
         ceduo_page_number(page, s->dissipated * J_TO_KJ, 3);
@@ -273,7 +278,7 @@ static double ground_length(const struct ceduo_slope *s, double from, double to)
 }
 
 /* Append each belt's ADC by other forms, and the length on the ground of the threshold, which is horizontal. */
-static void say_other_forms(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
+static void add_other_forms(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
                             const struct ceduo_option_result *found)
 {
     double threshold = scene->simulation.threshold;
@@ -288,34 +293,34 @@ static void say_other_forms(struct ceduo_page *page, const struct ceduo_scene *s
         for (enum ceduo_rule rule = CEDUO_GSTEIGER_STOOLS; rule <= CEDUO_CROFTON; rule++)
             if (rule != s->rule) {
                 ceduo_text_format(line, "%s %s %s m", between, ceduo_words_law(ceduo_rule_words.names[rule]),
-                                  WRITTEN(ceduo_adc_value(&s->adc, rule), 3));
+                                  SIG(ceduo_adc_value(&s->adc, rule), 3));
                 between = ",";
             }
         const struct ceduo_belt *b = &o->belts[i];
-        ceduo_text_format(line, _("; %s m of the map are %s m along the ground"), SHORTEST(threshold),
-                          WRITTEN(threshold * ground_length(&scene->slope, b->from, b->to) / (b->to - b->from), 2));
+        ceduo_text_format(line, _("; %s m of the map are %s m along the ground"), LOCALIZED(threshold),
+                          SIG(threshold * ground_length(&scene->slope, b->from, b->to) / (b->to - b->from), 2));
     }
 }
 
-static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+static void add_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
-#define SAME(value) WRITTEN(value, (value) > 0 ? decimals + (int)floor(log10(value)) + 1 : 1)
+#define SAME_DECIMALS(value) SIG(value, (value) > 0 ? decimals + (int)floor(log10(value)) + 1 : 1)
     const struct ceduo_index *index = &r->options[option].controls[control];
-    double mean = ceduo_measured(CEDUO_MEAN_KJ, &r->bare.arrivals[control]).value, taken = index->dissipated * J_TO_KJ;
-    double left = index->residual * J_TO_KJ;
+    double mean = ceduo_measure_figure(CEDUO_MEAN_KJ, &r->bare.arrivals[control]).value, taken = index->dissipated * J_TO_KJ;
+    double remaining = index->residual * J_TO_KJ;
     int decimals = mean > 0 ? (int)fmax(0, 3 - floor(log10(mean))) : 1; /* equal decimals, so that the numbers add up */
     LOCAL_TEXT(rest);
     if (index->exhausted)
         ceduo_text_append(&rest, _("nothing is left on average, some rocks still pass"));
     else
-        ceduo_text_format(&rest, _("%s kJ are left"), SAME(left));
+        ceduo_text_format(&rest, _("%s kJ are left"), SAME_DECIMALS(remaining));
     if (index->length > 0 && mean > 0)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
-                        _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."), SAME(taken),
-                        WRITTEN(index->per_100m * J_TO_KJ, 3), SAME(mean), rest.bytes);
+                        _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."),
+                        SAME_DECIMALS(taken), SIG(index->per_100m * J_TO_KJ, 3), SAME_DECIMALS(mean), rest.bytes);
     if (!isnan(index->measured))
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
-                        WRITTEN(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
+                        SIG(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
 }
 
 /* ---- other block sizes ---- */
@@ -335,10 +340,10 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
         own = blocks[i].own ? blocks[i].volume : own;
     ceduo_page_para(page, CEDUO_PAGE_CAPTION,
                     _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"),
-                    SHORTEST(c->x_given));
+                    LOCALIZED(c->x_given));
     CEDUO_PAGE_TABLE_OF(page, columns);
     ceduo_page_limit(ceduo_page_head(page), c);
-    bool left_out = false;
+    bool skipped = false;
     for (size_t i = 0; i < CEDUO_SIZES; i++) {
         const struct ceduo_size_result *b = &blocks[i];
         if (!b->own && b->volume < 2 * own && 2 * b->volume > own)
@@ -349,11 +354,12 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
         ceduo_page_number(page, b->diameter, 3);
         ceduo_page_number(page, b->adc, 3);
         ceduo_page_number(page, b->contacts, 3);
-        ceduo_page_cell_format(page, "%s",
-                               INTERVAL(ceduo_measure_exceeding(c, ceduo_released(&b->arrivals) > 0 ? &b->arrivals : NULL)));
-        left_out |= ceduo_released(&b->arrivals) == 0;
+        ceduo_page_cell_format(
+            page, "%s",
+            MEASURE_INTERVAL(ceduo_measure_exceeding(c, ceduo_rocks_released(&b->arrivals) > 0 ? &b->arrivals : NULL)));
+        skipped |= ceduo_rocks_released(&b->arrivals) == 0;
     }
-    if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
+    if (skipped && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("A size with a dash was left out: its rocks come to so many stems that they would cost far more than "
                           "those of the scene."));
@@ -362,22 +368,22 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
 /* ---- percentiles of speed, energy and height ---- */
 
 /* Fewer digits for heights below 1 m and 0.1 m. */
-#define SHOWN(value) WRITTEN(value, (value) < 0.1 ? 1 : (value) < 1 ? 2 : 3)
+#define SIG_SHORT(value) SIG(value, (value) < 0.1 ? 1 : (value) < 1 ? 2 : 3)
 
 static void add_percentile(struct ceduo_page *page, double value, double lo, double hi)
 {
     struct ceduo_page_cell *both = ceduo_page_cell(page);
     struct text *cell = &both->text;
-    ceduo_text_append(cell, SHOWN(value));
+    ceduo_text_append(cell, SIG_SHORT(value));
     if (isnan(value))
         return;
-    ceduo_text_append(&both->shorter, SHOWN(value)); /* without the interval */
+    ceduo_text_append(&both->shorter, SIG_SHORT(value)); /* without the interval */
     if (!isnan(lo) && !isnan(hi))
-        ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", SHOWN(lo), SHOWN(hi));
+        ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", SIG_SHORT(lo), SIG_SHORT(hi));
     else if (!isnan(lo))
-        ceduo_text_format(cell, " (> %s)", SHOWN(lo));
+        ceduo_text_format(cell, " (> %s)", SIG_SHORT(lo));
     else if (!isnan(hi))
-        ceduo_text_format(cell, " (< %s)", SHOWN(hi));
+        ceduo_text_format(cell, " (< %s)", SIG_SHORT(hi));
 }
 
 static void add_percentiles(struct ceduo_page *page, const char *name, const struct ceduo_distribution *d, double scale)
@@ -390,10 +396,10 @@ static void add_percentiles(struct ceduo_page *page, const char *name, const str
 
 void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool bare)
 {
-    static const struct ceduo_page_column columns[] = {{NULL, 22, 4, CEDUO_WHOLE},
-                                                       {N_("50 %"), -18, 0, CEDUO_WHOLE},
-                                                       {N_("95 %"), -18, 0, CEDUO_WHOLE},
-                                                       {N_("99 %"), -18, 0, CEDUO_WHOLE}};
+    static const struct ceduo_page_column columns[] = {{NULL, 22, 4, COL_WRAP},
+                                                       {N_("50 %"), -18, 0, COL_WRAP},
+                                                       {N_("95 %"), -18, 0, COL_WRAP},
+                                                       {N_("99 %"), -18, 0, COL_WRAP}};
     const struct ceduo_arrivals *runs[] = {option < SIZE_MAX ? ceduo_result_wooded(r, option, control) : NULL,
                                            bare ? &r->bare.arrivals[control] : NULL};
     if (!runs[0] && !runs[1])
@@ -406,10 +412,10 @@ void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *
             continue;
         CEDUO_PAGE_TABLE_OF(page, columns);
         ceduo_text_format(&ceduo_page_head(page)->text, i == 0 ? _("forest, %llu of %llu") : _("without, %llu of %llu"),
-                          (unsigned long long)ceduo_reached(a), (unsigned long long)ceduo_released(a));
-        add_percentiles(page, _("speed, m/s"), ceduo_spread(CEDUO_SPREAD_SPEED, a), 1);
-        add_percentiles(page, _("energy, kJ"), ceduo_spread(CEDUO_SPREAD_ENERGY, a), J_TO_KJ);
-        add_percentiles(page, _("underside, m up"), ceduo_spread(CEDUO_SPREAD_HEIGHT, a), 1);
+                          (unsigned long long)ceduo_rocks_reached(a), (unsigned long long)ceduo_rocks_released(a));
+        add_percentiles(page, _("speed, m/s"), ceduo_arrival_distribution(CEDUO_ARRIVAL_SPEED, a), 1);
+        add_percentiles(page, _("energy, kJ"), ceduo_arrival_distribution(CEDUO_ARRIVAL_ENERGY, a), J_TO_KJ);
+        add_percentiles(page, _("underside, m up"), ceduo_arrival_distribution(CEDUO_ARRIVAL_HEIGHT, a), 1);
     }
 }
 
@@ -428,15 +434,15 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
     bool calibrated = ceduo_notes_print(report->file->notes, "calibrated", "slope");
     double survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD), blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD);
     double model = FACTOR(calibrated), speed = survey * model, energy = speed * speed * blocks;
-    if (d->survey < 0 || d->blocks < 0 || ceduo_reached(bare) == 0)
+    if (d->survey < 0 || d->blocks < 0 || ceduo_rocks_reached(bare) == 0)
         return;
-    for (const struct ceduo_arrivals *a = ceduo_reached(wooded) > 0 ? wooded : bare; a; a = a == bare ? NULL : bare)
+    for (const struct ceduo_arrivals *a = ceduo_rocks_reached(wooded) > 0 ? wooded : bare; a; a = a == bare ? NULL : bare)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height of the block's top %s m."),
                         a == bare ? _("without forest") : _("as long as the forest stands as in this option"),
-                        WRITTEN(ceduo_spread(CEDUO_SPREAD_SPEED, a)->p95 * speed, 3),
-                        WRITTEN(ceduo_measured(CEDUO_P95_KJ, a).value * energy, 3),
-                        SHOWN(ceduo_measured(CEDUO_P95_TOP, a).value));
+                        SIG(ceduo_arrival_distribution(CEDUO_ARRIVAL_SPEED, a)->p95 * speed, 3),
+                        SIG(ceduo_measure_figure(CEDUO_P95_KJ, a).value * energy, 3),
+                        SIG_SHORT(ceduo_measure_figure(CEDUO_P95_TOP, a).value));
     ceduo_page_para(
         page, CEDUO_PAGE_DETAIL,
         _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, %s. Energy: 95th "
@@ -458,23 +464,23 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_option *option = &r->scene->options[i];
-    bool whole = page->width >= CEDUO_PAGE_WIDTH; /* a pane is next to pictures and a column with the other figures */
+    bool full = page->width >= CEDUO_PAGE_WIDTH; /* a pane is next to pictures and a column with the other figures */
     if (option->belts_count > 0 && r->scene->controls_count > 0)
         add_belts(page, r->scene, option, &r->options[i]);
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         add_place(page, report, k);
         add_arrivals(page, report, i, k, bare);
-        say_lights(page, r, i, k);
-        if (whole && r->bare.rocks > 0)
+        add_lights(page, r, i, k);
+        if (full && r->bare.rocks > 0)
             ceduo_page_percentiles(page, r, i, k, bare);
         ceduo_page_design(page, report, i, k);
         if (k == 0)
-            say_other_forms(page, r->scene, option, &r->options[i]);
-        say_residual(page, r, i, k);
+            add_other_forms(page, r->scene, option, &r->options[i]);
+        add_residual(page, r, i, k);
     }
-    if (whole && report->blocks && !report->years)
+    if (full && report->blocks && !report->years)
         add_sizes(page, r, &report->blocks[i * CEDUO_SIZES]);
-    if (whole && report->years)
+    if (full && report->years)
         ceduo_page_years(page, report, i);
     ceduo_page_stand_warnings(page, r, i);
     ceduo_page_stand_rules(page, r, i, true);
@@ -482,49 +488,50 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
 
 /* ---- notes ---- */
 
-static bool is_shown(const struct ceduo_report *report, const struct source_note *note)
+static bool is_shown_note(const struct ceduo_report *report, const struct source_note *note)
 {
     return strcmp(note->kind, "assumed") == 0 && (report->years || !ceduo_note_years(note));
 }
 
 /* Append notes in order; the list has the last first. */
-static void add_assumed(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note, bool places)
+static void add_assumption(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note,
+                           bool places)
 {
     if (!note)
         return;
-    add_assumed(page, report, note->before, places);
+    add_assumption(page, report, note->before, places);
     const struct source_note *first_same = NULL; /* first in the files, last in the list; printed here with the count */
-    size_t times = 0;
+    size_t count = 0;
     for (const struct source_note *n = report->file->notes; n; n = n->before)
         if (strcmp(n->kind, "assumed") == 0 && strcmp(n->text, note->text) == 0) {
-            times++;
+            count++;
             first_same = n;
         }
-    if (!is_shown(report, note) || first_same != note)
+    if (!is_shown_note(report, note) || first_same != note)
         return;
-    const char *said = ceduo_in_language(note->text, note->text_it);
+    const char *sentence = ceduo_in_language(note->text, note->text_it);
     LOCAL_TEXT(where);
     if (!places) {
-        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(said, ";"), said); /* first clause */
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(sentence, ";"), sentence); /* first clause */
         return;
     }
     const struct ceduo_scene *scene = report->result->scene;
     const char *dot = strncmp(note->path, "options[", 8) == 0 ? strchr(note->path, '.') : NULL;
     size_t option = dot ? strtoul(note->path + 8, NULL, 10) : SIZE_MAX;
-    ceduo_shown_path(dot ? dot + 1 : note->path, &where);
+    ceduo_format_path(dot ? dot + 1 : note->path, &where);
     if (option < scene->options_count)
         ceduo_text_append_joined(&where, ", ", "%s", scene->options[option].name);
     const char *place = where.length > 0 ? where.bytes : _("the scene");
-    if (times > 1)
-        ceduo_page_para(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), said, place,
-                        times - 1);
+    if (count > 1)
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", count - 1), sentence,
+                        place, count - 1);
     else
-        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s (%s)", said, place);
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s (%s)", sentence, place);
 }
 
 void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *report, bool places)
 {
-    add_assumed(page, report, report->file->notes, places);
+    add_assumption(page, report, report->file->notes, places);
 }
 
 static void add_table(void *page, const char *line)
@@ -543,7 +550,7 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
     if (ceduo_notes_print(note, CEDUO_NOTE_TABLE, ""))
         ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Tables as they were read:"));
     ceduo_notes_each(note, CEDUO_NOTE_TABLE, add_table, page);
-    while (note && !is_shown(report, note))
+    while (note && !is_shown_note(report, note))
         note = note->before;
     if (!note)
         return;
@@ -553,21 +560,21 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
 
 /* ---- the page ---- */
 
-static void add_whole(struct ceduo_page *page, const struct ceduo_report *report)
+static void add_full_page(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_scene *scene = report->result->scene;
     ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_facts(page, report);
     ceduo_page_question(page, report->result);
     ceduo_page_answer(page, report);
-    ceduo_page_sure(page, report);
-    ceduo_page_over(page, report);
+    ceduo_page_certainty(page, report);
+    ceduo_page_over_time(page, report);
     if (scene->options_count > 1) /* shared by all options */
         ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
     for (size_t k = 0; scene->options_count > 1 && k < scene->controls_count; k++) {
         const struct ceduo_subject bare = ceduo_subject_find(report, SIZE_MAX, k);
         add_place(page, report, k);
-        ceduo_page_arrivals(page, &bare, CEDUO_LINES_WHOLE, true);
+        ceduo_page_arrivals(page, &bare, CEDUO_LINES_ALL, true);
         if (report->result->bare.rocks > 0)
             ceduo_page_percentiles(page, report->result, SIZE_MAX, k, true);
     }
@@ -580,13 +587,13 @@ static void add_whole(struct ceduo_page *page, const struct ceduo_report *report
     for (size_t c = 0; c < scene->controls_count; c++)
         ceduo_page_hazard(page, report, c, c == 0);
     if (report->years && scene->options_count > 1 && scene->controls_count > 0)
-        ceduo_page_years_beside(page, report);
+        ceduo_page_years_all_options(page, report);
     ceduo_page_notes(page, report);
 }
 
-void ceduo_report_page(struct text *text, const struct ceduo_report *report, bool whole, bool plain)
+void ceduo_report_page(struct text *text, const struct ceduo_report *report, bool full, bool plain)
 {
     LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
-    (whole ? add_whole : ceduo_page_short)(&page, report);
+    (full ? add_full_page : ceduo_page_short)(&page, report);
     ceduo_page_print(text, &page, plain);
 }

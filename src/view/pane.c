@@ -44,7 +44,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
         return 0;
     }
-    const struct ceduo_subject s = pane->year ? ceduo_subject_in(pane->report, pane->option, pane->year)
+    const struct ceduo_subject s = pane->year ? ceduo_subject_find_year(pane->report, pane->option, pane->year)
                                               : ceduo_subject_find(pane->report, pane->option, r->last_control);
     const struct ceduo_control *c = s.place;
     bool nothing = ceduo_page_is_unassessable(r); /* the reason is printed below */
@@ -53,16 +53,16 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     ceduo_page_para_role(page, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
     if (pane->height >= HEIGHT_ALL) {
         LOCAL_TEXT(angles);
-        ceduo_words_topography(&angles, ceduo_topography_at(s.bare), true);
+        ceduo_words_topography(&angles, ceduo_topography_find(s.bare), true);
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", ceduo_text_string(&angles));
     }
     ceduo_page_arrivals(page, &s, pane->height, true);
     if (!nothing)
         ceduo_page_tests(page, &s, pane->height);
-    if (!nothing && s.choice && ceduo_report_ahead(pane->report, pane->option) && pane->height >= HEIGHT_ALL)
+    if (!nothing && s.choice && ceduo_report_years_ahead(pane->report, pane->option) && pane->height >= HEIGHT_ALL)
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
     ceduo_page_para_role(page, CEDUO_ROLE_DIM, pane->report->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
-                         (unsigned long long)ceduo_released(s.wooded ? s.wooded : s.bare));
+                         (unsigned long long)ceduo_rocks_released(s.wooded ? s.wooded : s.bare));
     bool uncertainty =
         pane->height >= HEIGHT_ALL && !nothing && pane->report->uncertainty && pane->report->uncertainty->answer && !pane->year;
     for (size_t i = 0; i < 3 && uncertainty; i++) { /* causes of a change of light in plausible cases */
@@ -73,7 +73,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     }
     const struct ceduo_page_block *last = page->last;
     size_t warnings = 0;
-    ceduo_words_still_moving(r, ceduo_page_warn, page);
+    ceduo_words_warn_no_answer(r, ceduo_page_warn, page);
     ceduo_page_stand_warnings(page, r, pane->option);
     ceduo_words_run_warnings(r, &pane->report->remarks, ceduo_page_warn, page);
     ceduo_page_stand_rules(page, r, pane->option, true);
@@ -90,7 +90,7 @@ void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (report->result->scene->options_count > 1)
         ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", report->result->scene->options[pane->option].name);
     ceduo_page_option(page, report, pane->option, true);
-    ceduo_words_still_moving(report->result, ceduo_page_warn, page);
+    ceduo_words_warn_no_answer(report->result, ceduo_page_warn, page);
     ceduo_words_run_warnings(report->result, &report->remarks, ceduo_page_warn, page);
 }
 
@@ -103,14 +103,14 @@ void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pa
     for (size_t i = 0; i < r->answer->orders_count; i++)
         if (r->answer->orders[i].better == pane->option || r->answer->orders[i].than == pane->option)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
-    for (size_t i = 0; i < 3 && !r->over; i++)
+    for (size_t i = 0; i < 3 && !r->rotation_mean; i++)
         ceduo_uncertainty_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
 }
 
 /* ---- options ---- */
 
 /* True if the 90 % range of the mean over the years is known; otherwise that of today is shown. */
-static bool knows_rotation(const struct ceduo_pane *pane)
+static bool has_rotation(const struct ceduo_pane *pane)
 {
     return pane->report->uncertainty && pane->report->uncertainty->answer && pane->report->uncertainty->answer->rotation &&
            pane->report->verdict->wooded;
@@ -125,13 +125,13 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);
-        for (size_t i = 0; knows_rotation(pane) && i < pane->report->uncertainty->answer->orders_count; i++)
+        for (size_t i = 0; has_rotation(pane) && i < pane->report->uncertainty->answer->orders_count; i++)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->uncertainty, i);
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);
         if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
             ceduo_page_note(page, _("The years ahead are being computed."));
-        if (!knows_rotation(pane)) /* otherwise the energy law is one of the uncertain inputs */
+        if (!has_rotation(pane)) /* otherwise the energy law is one of the uncertain inputs */
             ceduo_words_rank_reversals(r, v, ceduo_page_note, page);
     }
     ceduo_words_windows(r->scene, ceduo_page_note, page);

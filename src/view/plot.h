@@ -34,7 +34,7 @@ struct ceduo_picture {
     struct ceduo_span *span;             /* columns of the slope: set by the profile, used by strips; NULL: from the area */
     const struct ceduo_uncertainty_report *uncertainty; /* NULL: not computed */
     bool no_x_axis;                                     /* strip with another strip below it */
-    bool ways;                                          /* the strip of heights shows each trajectory, too */
+    bool trajectories;                                  /* the strip of heights shows each trajectory, too */
 };
 
 /* The pictures: name, word, flags, title (%s: the control or the belt).
@@ -48,24 +48,24 @@ struct ceduo_picture {
  * without forest only.
  * The files of the other pictures describe them. */
 #define CEDUO_PLOT_LIST(X)                                                                                                     \
-    X(PROFILE, profile, CEDUO_PICTURE_OF_ROCKS, N_("slope, forest, and ways"))                                                 \
-    X(ENERGY, energy, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("energy of the rocks"))                                 \
-    X(HEIGHT, height, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("height of the rocks above the ground"))                \
-    X(HISTOGRAM, histogram, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_PAGE, N_("energy at %s"))                                   \
+    X(PROFILE, profile, CEDUO_PICTURE_ROCKS_RUN, N_("slope, forest, and ways"))                                                \
+    X(ENERGY, energy, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_CELLS, N_("energy of the rocks"))                                \
+    X(HEIGHT, height, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_CELLS, N_("height of the rocks above the ground"))               \
+    X(HISTOGRAM, histogram, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_PAGE, N_("energy at %s"))                                  \
     X(ROTATION, rotation, CEDUO_PICTURE_RUN, N_("year by year, up to %s"))                                                     \
     X(STAND, stand, 0, N_("%s, from above"))                                                                                   \
-    X(COMPARE, compare, CEDUO_PICTURE_OF_ALL | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))                       \
-    X(TRADEOFF, tradeoff, CEDUO_PICTURE_OF_ALL, N_("Protection and yield of the options, up to %s"))                           \
+    X(COMPARE, compare, CEDUO_PICTURE_ALL_OPTIONS_RUN | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))              \
+    X(TRADEOFF, tradeoff, CEDUO_PICTURE_ALL_OPTIONS_RUN, N_("Protection and yield of the options, up to %s"))                  \
     X(UNCERTAINTY, uncertainty, CEDUO_PICTURE_PAGE, N_("how sure it is at %s"))                                                \
-    X(HAZARD, hazard, CEDUO_PICTURE_OF_ALL, N_("How often, and with how much, at %s"))
+    X(HAZARD, hazard, CEDUO_PICTURE_ALL_OPTIONS_RUN, N_("How often, and with how much, at %s"))
 
 enum ceduo_picture_flag {
-    CEDUO_PICTURE_RUN = 1 << 0,   /* requires a run */
-    CEDUO_PICTURE_CELLS = 1 << 1, /* requires envelopes */
-    CEDUO_PICTURE_WHOLE = 1 << 2, /* one picture for all options */
-    CEDUO_PICTURE_OF_ALL = CEDUO_PICTURE_WHOLE | CEDUO_PICTURE_RUN,
-    CEDUO_PICTURE_WAYS = 1 << 3, /* shows rocks; without forest if none is simulated through it */
-    CEDUO_PICTURE_OF_ROCKS = CEDUO_PICTURE_WAYS | CEDUO_PICTURE_RUN,
+    CEDUO_PICTURE_RUN = 1 << 0,         /* requires a run */
+    CEDUO_PICTURE_CELLS = 1 << 1,       /* requires envelopes */
+    CEDUO_PICTURE_ALL_OPTIONS = 1 << 2, /* one picture for all options */
+    CEDUO_PICTURE_ALL_OPTIONS_RUN = CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_RUN,
+    CEDUO_PICTURE_ROCKS = 1 << 3, /* shows rocks; without forest if none is simulated through it */
+    CEDUO_PICTURE_ROCKS_RUN = CEDUO_PICTURE_ROCKS | CEDUO_PICTURE_RUN,
     CEDUO_PICTURE_PAGE = 1 << 4 /* rows of text and bars */
 };
 
@@ -124,7 +124,7 @@ struct ceduo_drawing {
     const struct ceduo_option *option;
     const struct ceduo_belt *belt;
     const struct ceduo_control *control;
-    const struct ceduo_run_snapshot *sight, *bare;
+    const struct ceduo_run_snapshot *run, *bare;
     const struct ceduo_arrivals *arrivals, *bare_arrivals; /* at the control */
     bool wooded;     /* rocks are simulated through the forest; false with the contact model index */
     double from, to; /* part of the slope to show */
@@ -143,7 +143,7 @@ const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_run_snapshot
 void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light);
 
 /* Draw a text of at most `max` cells, starting at `column`; if `max` < 0, ending there. Return its cells. */
-int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
+int ceduo_plot_print(struct ceduo_canvas *canvas, int column, int row, int max, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
 /* Append the name of a stand, with a star if any of its values is assumed. */
@@ -153,7 +153,7 @@ void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt);
 bool ceduo_plot_has_stems(const struct ceduo_option *option);
 
 /* Draw the axes in the user's coordinates, which begin at x, y: left, and bottom with `unit` (may be NULL). */
-struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, double y);
+struct ceduo_frame ceduo_plot_user_frame(const struct ceduo_frame *frame, double x, double y);
 void ceduo_plot_axes(const struct ceduo_drawing *drawing, double x, double y, const char *unit);
 
 /* Return 1, 2 or 5 times a power of ten: the largest <= value, or if `up` the smallest >= value. */

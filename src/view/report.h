@@ -28,7 +28,7 @@ struct ceduo_uncertainty_report {
     uint64_t rocks;
     const struct ceduo_result *finer;  /* figures of the unvaried scene from more rocks; NULL: those of the answer */
     const struct ceduo_verdict *years; /* verdict over the years from more rocks; NULL: that of the answer */
-    bool over;                         /* the main figure is the mean over the rotation; requires it in the answer */
+    bool rotation_mean;                /* the main figure is the mean over the rotation; requires it in the answer */
     bool too_much;                     /* not computed because it would take too long */
 };
 
@@ -38,7 +38,7 @@ const struct ceduo_uncertainty_figure *ceduo_uncertainty_main(const struct ceduo
 
 /* True if the scene disables uncertainty; the reason why there is no answer (disabled, or no uncertain input). */
 bool ceduo_uncertainty_is_off(const struct ceduo_uncertainty_report *report);
-const char *ceduo_uncertainty_none(const struct ceduo_uncertainty_report *report);
+const char *ceduo_uncertainty_missing_reason(const struct ceduo_uncertainty_report *report);
 
 void ceduo_uncertainty_value(struct text *text, enum ceduo_uncertainty_kind kind,
                              double value); /* shares per 1000, energies in kJ */
@@ -54,25 +54,25 @@ double ceduo_uncertainty_input_value(const struct ceduo_uncertainty_report *repo
 void ceduo_uncertainty_input_end(struct text *text, const struct ceduo_uncertainty_report *report, size_t group, int end);
 
 /* Report a warning for each input whose value in the scene is outside its range. */
-void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *report, ceduo_sentence_sink *say, void *context);
+void ceduo_uncertainty_warn_outside(const struct ceduo_uncertainty_report *report, ceduo_sentence_sink *sink, void *context);
 
 /* Return what measures an input, marked for translation; NULL: unknown. */
-const char *ceduo_uncertainty_measured(const struct ceduo_uncertainty_report *report, size_t group);
+const char *ceduo_uncertainty_measured_by(const struct ceduo_uncertainty_report *report, size_t group);
 
 /* Append a section with tables and the inputs to measure first. `all`: also the mean over a rotation, and the ranking of
  * options. */
 void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncertainty_report *report, bool all);
 /* Return the option that advice refers to: the one with the lowest mean over plausible cases today. */
-size_t ceduo_uncertainty_chosen(const struct ceduo_uncertainty_report *report);
+size_t ceduo_uncertainty_advised_option(const struct ceduo_uncertainty_report *report);
 
 /* Return the input with rank n (from 0) to measure for a figure, by the width that remains if it is known. Skips inputs that
  * cannot be measured, and repeated names. SIZE_MAX: fewer than n + 1 inputs. */
-size_t ceduo_uncertainty_advised(const struct ceduo_uncertainty_report *report, const struct ceduo_uncertainty_figure *figure,
-                                 size_t n);
+size_t ceduo_uncertainty_advised_input(const struct ceduo_uncertainty_report *report,
+                                       const struct ceduo_uncertainty_figure *figure, size_t n);
 
 /* Append at most `max` of these inputs, each with what measures it. */
 void ceduo_uncertainty_advice(struct text *text, const struct ceduo_uncertainty_report *report,
-                              const struct ceduo_uncertainty_figure *figure, size_t most);
+                              const struct ceduo_uncertainty_figure *figure, size_t max);
 
 /* Append the number of points if it is smaller than usual. */
 void ceduo_uncertainty_points(struct text *text, const struct ceduo_uncertainty_report *report);
@@ -105,8 +105,8 @@ enum ceduo_measure_name {
 
 struct ceduo_measure {
     double value, lo, hi;                   /* in the unit shown; NaN: unknown, or no interval */
-    double half;                            /* half the width of the interval, not rounded */
-    double may_lo, may_hi;                  /* 90 % range; NaN: unknown, see ceduo_measure_uncertainty() */
+    double half_width;                      /* half the width of the interval, not rounded */
+    double p5, p95;                         /* 90 % range; NaN: unknown, see ceduo_measure_uncertainty() */
     int digits;                             /* significant digits; 0: print an integer */
     const char *names[CEDUO_MEASURE_NAMES]; /* marked for translation; %s in a name is the limit */
     double limit;
@@ -118,7 +118,7 @@ struct ceduo_measure ceduo_measure_arriving(const struct ceduo_arrivals *arrival
 struct ceduo_measure ceduo_measure_exceeding(const struct ceduo_control *control, const struct ceduo_arrivals *arrivals);
 
 /* Return a share per 1000 with its interval. */
-struct ceduo_measure ceduo_share(struct ceduo_mean_share share);
+struct ceduo_measure ceduo_measure_share(struct ceduo_mean_share share);
 
 /* Set the 90 % range from a fit, widened to include the measure's value. `scale` converts to the unit shown. */
 void ceduo_measure_range(struct ceduo_measure *measure, const struct ceduo_surface_fit *fit, double scale);
@@ -128,12 +128,12 @@ void ceduo_measure_uncertainty(struct ceduo_measure *measure, const struct ceduo
                                size_t control);
 
 /* Set the 90 % range of the mean over the years, if it was computed. */
-void ceduo_measure_uncertainty_over(struct ceduo_measure *measure, const struct ceduo_uncertainty_report *uncertainty,
+void ceduo_measure_mean_uncertainty(struct ceduo_measure *measure, const struct ceduo_uncertainty_report *uncertainty,
                                     size_t option);
 
 /* Figures of arrivals. Rocks that end before the control, per 1000 released, by kind of end. For arriving rocks: mean energy,
  * 95th percentiles of energy and height, mean speed, mean number of stems hit. For released rocks: mean energy. */
-enum ceduo_measured {
+enum ceduo_measure_kind {
     CEDUO_STOPPED,
     CEDUO_RESTED,
     CEDUO_GONE,
@@ -145,43 +145,43 @@ enum ceduo_measured {
     CEDUO_SPEED,
     CEDUO_STEMS_HIT,
     CEDUO_P95_TOP, /* height of the top of the rock */
-    CEDUO_MEASURED
+    CEDUO_MEASURE_KINDS
 };
-struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind what, const struct ceduo_arrivals *arrivals);
 
 /* Return numbers of rocks; 0 if NULL. */
-uint64_t ceduo_released(const struct ceduo_arrivals *arrivals);
-uint64_t ceduo_reached(const struct ceduo_arrivals *arrivals);
-uint64_t ceduo_unfinished(const struct ceduo_arrivals *arrivals);
+uint64_t ceduo_rocks_released(const struct ceduo_arrivals *arrivals);
+uint64_t ceduo_rocks_reached(const struct ceduo_arrivals *arrivals);
+uint64_t ceduo_rocks_unfinished(const struct ceduo_arrivals *arrivals);
 
 /* Distribution over arriving rocks: m/s, J, m above ground. */
-enum ceduo_spread { CEDUO_SPREAD_SPEED, CEDUO_SPREAD_ENERGY, CEDUO_SPREAD_HEIGHT };
-const struct ceduo_distribution *ceduo_spread(enum ceduo_spread what, const struct ceduo_arrivals *arrivals);
+enum ceduo_spread { CEDUO_ARRIVAL_SPEED, CEDUO_ARRIVAL_ENERGY, CEDUO_ARRIVAL_HEIGHT };
+const struct ceduo_distribution *ceduo_arrival_distribution(enum ceduo_spread what, const struct ceduo_arrivals *arrivals);
 
 /* True if more rocks may change the test of energy. `arrivals` may be NULL. */
 bool ceduo_is_close_call(const struct ceduo_arrivals *arrivals);
-const struct ceduo_topography *ceduo_topography_at(const struct ceduo_arrivals *arrivals);
+const struct ceduo_topography *ceduo_topography_find(const struct ceduo_arrivals *arrivals);
 
 /* Return frequency and energy per year, and the rate that is judged. NULL and CEDUO_NO_ESTIMATE without blocks, or if
  * `arrivals` is NULL. */
-const struct ceduo_hazard *ceduo_hazard_at(const struct ceduo_arrivals *arrivals);
-struct ceduo_estimate ceduo_feared(const struct ceduo_arrivals *arrivals);
+const struct ceduo_hazard *ceduo_hazard_find(const struct ceduo_arrivals *arrivals);
+struct ceduo_estimate ceduo_judged_rate(const struct ceduo_arrivals *arrivals);
 
 /* Format a measure; the string lives until the end of the caller's block. Name; value, "-" if unknown; interval "453–501";
  * both "480 (453–501)". Error: "480 ±27", "480±27" if `between` is empty, or "480" if the error is unknown. PLAUSIBLE_RANGE:
  * union of sampling interval and 90 % range. */
-const char *ceduo_measure_name(struct ceduo_measure m, enum ceduo_measure_name name, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_value(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_interval(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char room[CEDUO_WORDS_ROOM]);
-const char *ceduo_measure_plausible_range(struct ceduo_measure m, char room[CEDUO_WORDS_ROOM]);
-#define NAMED(m, name)         ceduo_measure_name(m, name, (char[CEDUO_WORDS_ROOM]){0})
-#define VALUE_OF(m)            ceduo_measure_value(m, (char[CEDUO_WORDS_ROOM]){0})
-#define SPAN(m, lo, hi)        ceduo_measure_span(m, lo, hi, (char[CEDUO_WORDS_ROOM]){0})
-#define INTERVAL(m)            ceduo_measure_interval(m, (char[CEDUO_WORDS_ROOM]){0})
-#define WITH_ERROR(m, between) ceduo_measure_error(m, between, (char[CEDUO_WORDS_ROOM]){0})
-#define MAY_BE(m)              ceduo_measure_plausible_range(m, (char[CEDUO_WORDS_ROOM]){0})
+const char *ceduo_measure_name(struct ceduo_measure m, enum ceduo_measure_name name, char buffer[CEDUO_WORDS_SIZE]);
+const char *ceduo_measure_value(struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE]);
+const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, char buffer[CEDUO_WORDS_SIZE]);
+const char *ceduo_measure_interval(struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE]);
+const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char buffer[CEDUO_WORDS_SIZE]);
+const char *ceduo_measure_plausible_range(struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE]);
+#define MEASURE_NAME(m, name)     ceduo_measure_name(m, name, (char[CEDUO_WORDS_SIZE]){0})
+#define MEASURE_VALUE(m)          ceduo_measure_value(m, (char[CEDUO_WORDS_SIZE]){0})
+#define MEASURE_SPAN(m, lo, hi)   ceduo_measure_span(m, lo, hi, (char[CEDUO_WORDS_SIZE]){0})
+#define MEASURE_INTERVAL(m)       ceduo_measure_interval(m, (char[CEDUO_WORDS_SIZE]){0})
+#define MEASURE_ERROR(m, between) ceduo_measure_error(m, between, (char[CEDUO_WORDS_SIZE]){0})
+#define PLAUSIBLE_RANGE(m)        ceduo_measure_plausible_range(m, (char[CEDUO_WORDS_SIZE]){0})
 
 /* ---- the answer ---- */
 
@@ -201,7 +201,7 @@ struct ceduo_report {
     double seconds;       /* run time, s */
     uint64_t rocks_asked; /* rocks of a run that was replaced by rows of stands; 0: simulated */
     const char *command;  /* command that reproduces the page to hand in */
-    bool same;            /* the reproduced page is equal byte by byte */
+    bool reproducible;    /* the reproduced page is equal byte by byte */
     bool details;         /* JSON includes long lists */
     bool busy;            /* more precise figures are being computed */
 };
@@ -214,22 +214,22 @@ struct ceduo_subject {
     const struct ceduo_report *report;
     size_t option, control;
     const struct ceduo_control *place;
-    const struct ceduo_arrivals *bare, *wooded;   /* wooded: NULL: not simulated */
-    const struct ceduo_index *index;              /* NULL: without forest */
-    const struct ceduo_choice *choice;            /* NULL: unknown */
-    const struct ceduo_alternative_energy *other; /* NULL: unknown, or no stem stands */
+    const struct ceduo_arrivals *bare, *wooded;         /* wooded: NULL: not simulated */
+    const struct ceduo_index *index;                    /* NULL: without forest */
+    const struct ceduo_choice *choice;                  /* NULL: unknown */
+    const struct ceduo_alternative_energy *alternative; /* NULL: unknown, or no stem stands */
     struct ceduo_outcome outcome;
     struct ceduo_measure today, mean; /* judged share today, and its mean over the years, with 90 % ranges */
-    bool apart;                       /* the caller shows mean, worst year and today elsewhere */
-    bool so_far;                      /* the uncertainty is still being computed */
+    bool mean_shown;                  /* the caller shows mean, worst year and today elsewhere */
+    bool preliminary;                 /* the uncertainty is still being computed */
 };
 /* Collect the results of an option at a control. `option` SIZE_MAX: without forest. */
 struct ceduo_subject ceduo_subject_find(const struct ceduo_report *report, size_t option, size_t control);
 /* Collect the results of a year of an option, at the last control. */
-struct ceduo_subject ceduo_subject_in(const struct ceduo_report *report, size_t option, const struct ceduo_year *year);
+struct ceduo_subject ceduo_subject_find_year(const struct ceduo_report *report, size_t option, const struct ceduo_year *year);
 
 /* Return the years ahead of an option; NULL if unknown, or if all years are equal. */
-static inline const struct ceduo_choice *ceduo_report_ahead(const struct ceduo_report *report, size_t option)
+static inline const struct ceduo_choice *ceduo_report_years_ahead(const struct ceduo_report *report, size_t option)
 {
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && option < v->n ? &v->choices[option] : NULL;
@@ -240,7 +240,7 @@ static inline const struct ceduo_choice *ceduo_report_ahead(const struct ceduo_r
 bool ceduo_page_is_unassessable(const struct ceduo_result *result);
 
 /* Print the short page, or the full one; 80 columns. `plain`: ASCII only. */
-void ceduo_report_page(struct text *text, const struct ceduo_report *report, bool whole, bool plain);
+void ceduo_report_page(struct text *text, const struct ceduo_report *report, bool full, bool plain);
 
 /* Page to hand in: question, answer, evidence, and the command that reproduces it. */
 
@@ -270,14 +270,14 @@ struct ceduo_find_report {
     const struct ceduo_found *found;
     const struct ceduo_yield *yield; /* at the value found; NaN: unknown; NULL: none */
     bool yield_depends;              /* true if the yield varies with the value */
-    const struct ceduo_reliability *sure;
+    const struct ceduo_reliability *reliability;
 };
 void ceduo_page_find(struct text *text, const struct ceduo_find_report *report);
 /* Append the values that reach the goal, and the limit if `limit_wanted`; the reliable value. The unit is the field's
  * display unit; `field` NULL: the unit of files. */
 void ceduo_find_words(struct text *text, const struct ceduo_search *search, const struct ceduo_found *found,
-                      const struct field *field, bool wanted);
-void ceduo_find_reliable(struct text *text, const struct ceduo_search *search, const struct ceduo_reliability *sure,
+                      const struct field *field, bool limit_wanted);
+void ceduo_find_reliable(struct text *text, const struct ceduo_search *search, const struct ceduo_reliability *reliability,
                          const struct field *field);
 
 /* ---- calibration ---- */

@@ -7,11 +7,11 @@
 /* HTML and SVG writer. Every untrusted string is escaped here: text and attribute values; control characters and invalid
  * UTF-8 become visible. Names of elements and attributes are constants of the program. */
 
-#define CEDUO_HTML_DEEPEST 24
+#define CEDUO_HTML_DEPTH_MAX 24
 
 struct ceduo_html {
     struct text *text;
-    const char *open[CEDUO_HTML_DEEPEST]; /* open elements; constant strings */
+    const char *open[CEDUO_HTML_DEPTH_MAX]; /* open elements; constant strings */
     size_t depth;
 };
 

@@ -47,7 +47,7 @@ TEST(paragraphs_are_wrapped)
 }
 
 static const struct ceduo_page_column columns[] = {
-    {"place", 6, 1, CEDUO_WHOLE}, {"name", 5, 0, 0}, {"kJ", -6, 0, 0}, {"", 3, 1, 0}, {NULL, -9, 0, 0}};
+    {"place", 6, 1, COL_WRAP}, {"name", 5, 0, 0}, {"kJ", -6, 0, 0}, {"", 3, 1, 0}, {NULL, -9, 0, 0}};
 
 static void add_row(struct ceduo_page *page, const char *place, const char *name, double value)
 {
@@ -138,10 +138,10 @@ TEST(a_pane_shows_lines_in_roles)
     assert_string_equal(roles, "\n  TTTTTT\n  WWWWW\n  ddd\n\n");
 }
 
-static const struct ceduo_page_column fitted[] = {{"", 6, 0, CEDUO_FILLS},
-                                                  {"kJ", -2, 1, CEDUO_FITS},
-                                                  {"", 4, 1, CEDUO_FILLS | CEDUO_DROPPED(7)},
-                                                  {"less", -1, 1, CEDUO_FITS | CEDUO_DROPPED(8)}};
+static const struct ceduo_page_column fitted[] = {{"", 6, 0, COL_GROW},
+                                                  {"kJ", -2, 1, COL_SHRINK},
+                                                  {"", 4, 1, COL_GROW | COL_PRIORITY(7)},
+                                                  {"less", -1, 1, COL_SHRINK | COL_PRIORITY(8)}};
 
 static struct ceduo_page bars(size_t width)
 {

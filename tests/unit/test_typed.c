@@ -16,7 +16,7 @@ TEST(numbers_have_one_sign)
 {
     for (TABLE(row, "unit/typed.txt", "numbers")) {
         double value = NAN, wanted = strcmp(row.at[1], "none") == 0 ? NAN : atof(row.at[1]);
-        bool good = ceduo_typed_number(row.at[0], &value) == CEDUO_NUMBER_GOOD;
+        bool good = ceduo_input_parse_number(row.at[0], &value) == CEDUO_NUMBER_GOOD;
         if (good != !isnan(wanted) || (good && value != wanted))
             fail_msg("'%s' is read as %g", row.at[0], value);
     }
@@ -28,7 +28,7 @@ TEST(files_keep_their_units)
         LOCAL_TEXT(text);
         const struct field *f = ceduo_schema_at(row.at[0]);
         assert_non_null(f);
-        ceduo_typed_value(f, row.at[1], &text);
+        ceduo_input_parse_value(f, row.at[1], &text);
         assert_string_equal(ceduo_text_string(&text), row.at[2]);
     }
 }
@@ -37,7 +37,7 @@ TEST(screens_have_words_and_centimetres)
 {
     for (TABLE(row, "unit/typed.txt", "shown")) {
         LOCAL_TEXT(text);
-        ceduo_shown_value(ceduo_schema_at(row.at[0]), row.at[1], &text);
+        ceduo_format_value(ceduo_schema_at(row.at[0]), row.at[1], &text);
         assert_string_equal(ceduo_text_string(&text), row.at[2]);
     }
 }
@@ -48,8 +48,8 @@ TEST(every_diameter_reads_back)
         LOCAL_BY(ceduo_text_free) struct text shown = {0}, file = {0};
         char written[CEDUO_NUMBER_ROOM];
         ceduo_number_shortest(i / 10000.0, written);
-        ceduo_shown_value(ceduo_schema_at(DBH), written, &shown);
-        ceduo_typed_value(ceduo_schema_at(DBH), ceduo_text_string(&shown), &file);
+        ceduo_format_value(ceduo_schema_at(DBH), written, &shown);
+        ceduo_input_parse_value(ceduo_schema_at(DBH), ceduo_text_string(&shown), &file);
         assert_string_equal(ceduo_text_string(&file), written);
     }
 }
@@ -59,8 +59,8 @@ TEST(ranges_and_uncertainties)
     for (TABLE(row, "unit/typed.txt", "ranges")) {
         LOCAL_TEXT(why);
         const struct field *f = ceduo_schema_at(row.at[0]);
-        bool in_range = ceduo_typed_in_range(f, row.at[1], &why);
-        bool unusual = in_range && ceduo_typed_unusual(f, row.at[1], &why);
+        bool in_range = ceduo_input_is_in_range(f, row.at[1], &why);
+        bool unusual = in_range && ceduo_input_is_unusual(f, row.at[1], &why);
         assert_string_equal(!in_range ? "refused" : unusual ? "unusual" : "usual", row.at[2]);
         if (!strstr(ceduo_text_string(&why), row.at[3]))
             fail_msg("%s: '%s': '%s'", row.at[0], row.at[1], ceduo_text_string(&why));
@@ -72,7 +72,7 @@ TEST(profiles_are_typed)
     for (TABLE(row, "unit/typed.txt", "profiles")) {
         LOCAL_TEXT(yaml);
         double first, last;
-        bool good = ceduo_typed_points(row.at[0], &yaml, &first, &last);
+        bool good = ceduo_input_parse_points(row.at[0], &yaml, &first, &last);
         assert_string_equal(good ? ceduo_text_string(&yaml) : "none", row.at[1]);
     }
 }
@@ -81,7 +81,7 @@ TEST(paths_in_words)
 {
     for (TABLE(row, "unit/typed.txt", "paths")) {
         LOCAL_TEXT(text);
-        ceduo_shown_path(row.at[0], &text);
+        ceduo_format_path(row.at[0], &text);
         assert_string_equal(ceduo_text_string(&text), row.at[1]);
     }
 }
