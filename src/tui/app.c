@@ -147,7 +147,7 @@ struct ceduo_report *ceduo_app_report(const struct app *app)
                                     .result = app->live.result,
                                     .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
                                     .uncertainty = ceduo_app_uncertainty(app, uncertainty) ? uncertainty : NULL,
-                                    .ahead = years,
+                                    .years_ahead = years,
                                     .snapshot = ceduo_live_snapshot(&app->live, scene),
                                     .remarks = {.ground_assumed = app->document.file.ground_assumed},
                                     .seconds = app->live.results.snapshot ? app->live.results.snapshot->seconds : 0,

@@ -26,8 +26,8 @@ struct ceduo_value {
     };
 };
 
-/* Cursor into a report: option, belt, control, year …; of an uncertainty report figure, input or pair of options; of a
- * calibration report value or observation. */
+/* Cursor into a report: option, belt, control, year; figure, input or pair of options in an uncertainty
+ * report; value or observation in a calibration report. */
 struct ceduo_place {
     const struct ceduo_report *report;
     const struct ceduo_uncertainty_report *uncertainty;

@@ -44,8 +44,8 @@ static const struct ceduo_arrivals *get_wooded_arrivals(const struct ceduo_place
 /* Return the result by the other law, today only; NULL if no stem stands. */
 static const struct ceduo_alternative_energy *find_alternative(const struct ceduo_place *p)
 {
-    const struct ceduo_alternative_energy *other = &get_result(p)->options[p->option].others[p->control];
-    return !p->year && other->known && other->stems ? other : NULL;
+    const struct ceduo_alternative_energy *alternative = &get_result(p)->options[p->option].others[p->control];
+    return !p->year && alternative->known && alternative->stems ? alternative : NULL;
 }
 
 /* NULL if growth or cuts are unknown. */

@@ -9,12 +9,6 @@
 #include "page_parts.h"
 #include "plot.h"
 
-/* Return the last control, at which options are compared. */
-static const struct ceduo_control *last_control(const struct ceduo_result *r)
-{
-    return &r->scene->controls[r->last_control];
-}
-
 bool ceduo_page_is_unassessable(const struct ceduo_result *r)
 {
     return r->scene->controls_count == 0 || ceduo_too_few_arrivals(&r->bare.arrivals[r->last_control]);
@@ -73,12 +67,12 @@ static void append_judged_options(struct text *text, const struct ceduo_report *
 /* "In every year: none. Uncertain: 'simple coppice'." */
 static void append_within_limit(struct text *text, const struct ceduo_report *report, bool today, const char *sentence)
 {
-    LOCAL_TEXT(within);
+    LOCAL_TEXT(passing);
     LOCAL_TEXT(depends);
-    append_judged_options(&within, report, today, CEDUO_YES);
+    append_judged_options(&passing, report, today, CEDUO_YES);
     append_judged_options(&depends, report, today, CEDUO_DEPENDS);
     ceduo_text_char(text, ' ');
-    ceduo_text_append_with(text, sentence, ceduo_text_string(&within));
+    ceduo_text_append_with(text, sentence, ceduo_text_string(&passing));
     if (strcmp(ceduo_text_string(&depends), _("none")) != 0)
         ceduo_text_append_joined(text, " ", _("It depends on uncertain inputs for %s."), ceduo_text_string(&depends));
 }

@@ -28,7 +28,7 @@
     X(FREE_RUN_SHARE, NP_("head", "free run|chance of a free run"), -7, COL_SHRINK)                                            \
     X(FREE_RUN, NP_("light", "F|test of free runs"), 1, COL_SHRINK | COL_PRIORITY(6))                                          \
     X(PER_100M, N_("kJ/100 m|taken per 100 m, kJ"), -5, COL_SHRINK)                                                            \
-    X(LEFT, NP_("head", "left kJ|energy left, kJ"), -5, COL_SHRINK)                                                            \
+    X(RESIDUAL, NP_("head", "left kJ|energy left, kJ"), -5, COL_SHRINK)                                                        \
     X(MEAN, N_("mean"), -5, COL_SHRINK | COL_PRIORITY(1))                                                                      \
     X(MEAN_RANGE, NP_("head", "range"), -5, COL_SHRINK | COL_PRIORITY(5))                                                      \
     X(WORST, NP_("head", "worst|in the worst year (which)"), -5, COL_SHRINK | COL_PRIORITY(4))                                 \
@@ -42,9 +42,9 @@
     X(MARK, "", 1, COL_SHRINK | COL_PRIORITY(8))                                                                               \
     X(YEARS, "", 1, COL_SHRINK | COL_PRIORITY(9))                                                                              \
     X(LAW, NP_("head", "law of the scene"), 7, COL_SHRINK)                                                                     \
-    X(OTHER_LAW, NP_("head", "other law"), 7, COL_SHRINK)                                                                      \
-    X(OTHER, N_("of 1000"), -5, COL_SHRINK)                                                                                    \
-    X(OTHER_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, COL_SHRINK)                                   \
+    X(ALT_LAW, NP_("head", "other law"), 7, COL_SHRINK)                                                                        \
+    X(ALT_SHARE, N_("of 1000"), -5, COL_SHRINK)                                                                                \
+    X(ALT_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, COL_SHRINK)                                     \
     X(PERIOD, N_("today"), -5, COL_SHRINK)                                                                                     \
     X(WEAK, NP_("head", "% weak"), -6, COL_SHRINK)                                                                             \
     X(MEDIUM, NP_("head", "% medium"), -6, COL_SHRINK)                                                                         \
@@ -67,27 +67,22 @@ static const struct ceduo_page_column columns[COLUMNS] = {
 #undef X
 };
 
-static const struct ceduo_control *last_control(const struct ceduo_result *r)
-{
-    return &r->scene->controls[r->last_control];
-}
-
 #define COLUMNS_SHOWN 14
 
 /* Columns of each table, by the index and with rocks through the forest. Columns that are empty in all rows are dropped. */
 static const enum column column_sets[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
-    [CEDUO_OPTIONS_SHORT] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M, LEFT},
+    [CEDUO_OPTIONS_SHORT] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M, RESIDUAL},
                              {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, ADC, FELLED}},
-    [CEDUO_OPTIONS_TODAY] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M, LEFT},
+    [CEDUO_OPTIONS_TODAY] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M, RESIDUAL},
                              {NAME, TODAY, ENERGY, TO_FIRST, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN}},
     [CEDUO_OPTIONS_YEARS] = {{NAME, WORST_ADC, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING},
                              {NAME, MEAN, ROTATION, WORST, FAIL, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING}},
     [CEDUO_OPTIONS_PANE] = {{NAME, ADC, PER_100M, WORST_ADC, FAIL_CONTACT, FELLED, CONTACT, FREE_RUN},
                             {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, FELLED, MARK, ENERGY, CONTACT, FREE_RUN,
                              YEARS}},
-    [CEDUO_OPTIONS_BARS] = {{NAME, BAR, ADC, CONTACT, BAR, PER_100M, BAR, LEFT},
+    [CEDUO_OPTIONS_BARS] = {{NAME, BAR, ADC, CONTACT, BAR, PER_100M, BAR, RESIDUAL},
                             {NAME, BAR, TODAY, ENERGY, BAR, MEAN_KJ, BAR, ADC, CONTACT}},
-    [CEDUO_OPTIONS_LAWS] = {{NAME}, {NAME, LAW, TODAY, MEAN_KJ, OTHER_LAW, OTHER, OTHER_KJ}},
+    [CEDUO_OPTIONS_LAWS] = {{NAME}, {NAME, LAW, TODAY, MEAN_KJ, ALT_LAW, ALT_SHARE, ALT_KJ}},
     [CEDUO_OPTIONS_RATES] = {{NAME, PERIOD, WEAK, MEDIUM, STRONG}, {NAME, PERIOD, WEAK, MEDIUM, STRONG}},
     [CEDUO_OPTIONS_RETURNS] = {{NAME, RETURN_1, RETURN_2, RETURN_3}, {NAME, RETURN_1, RETURN_2, RETURN_3}},
     [CEDUO_OPTIONS_OF_YEARS] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M},
@@ -116,7 +111,7 @@ __attribute__((format(printf, 2, 3))) static const char *format_to(char buffer[C
 /* Write a sparkline: a character per year, or per group of years with the maximum; its height is the judged share. */
 static const char *format_sparkline(const struct ceduo_subject *s, char buffer[CEDUO_WORDS_SIZE])
 {
-    const struct ceduo_years *years = s->report->ahead ? s->report->ahead[s->option] : NULL;
+    const struct ceduo_years *years = s->report->years_ahead ? s->report->years_ahead[s->option] : NULL;
     int n = years ? (int)years->count : 0, blocks = n < YEARS_MAX ? n : YEARS_MAX;
     size_t length = 0;
     for (int x = 0; x < blocks; x++) {
@@ -176,9 +171,9 @@ static double get_value(enum column column, const struct ceduo_subject *s)
         [TODAY] = s->today.value,
         [ADC] = index->worst_adc,
         [MEAN_KJ] = ceduo_measure_figure(CEDUO_MEAN_KJ, s->wooded).value,
-        [OTHER_KJ] = ceduo_measure_figure(CEDUO_MEAN_KJ, s->alternative ? &s->alternative->arrivals : NULL).value,
+        [ALT_KJ] = ceduo_measure_figure(CEDUO_MEAN_KJ, s->alternative ? &s->alternative->arrivals : NULL).value,
         [PER_100M] = index->per_100m * J_TO_KJ,
-        [LEFT] = s->index ? index->residual * J_TO_KJ : ceduo_measure_figure(CEDUO_MEAN_KJ, s->bare).value,
+        [RESIDUAL] = s->index ? index->residual * J_TO_KJ : ceduo_measure_figure(CEDUO_MEAN_KJ, s->bare).value,
         [FELLED] = yield ? yield->cut_per_year : NAN,
         [STANDING] = yield ? yield->standing : NAN};
     return values[column];
@@ -257,15 +252,15 @@ static const char *format_cell(enum column column, const struct ceduo_subject *s
         return format_sparkline(s, buffer);
     case LAW:
         return find_law(&s->report->result->scene->options[s->option]);
-    case OTHER_LAW:
+    case ALT_LAW:
         return s->alternative ? ceduo_words_law(ceduo_energy_words.names[s->alternative->model]) : "-";
-    case OTHER:
+    case ALT_SHARE:
         return s->alternative ? ceduo_measure_value(ceduo_measure_exceeding(s->place, &s->alternative->arrivals), buffer) : "-";
     case WEAK:
     case MEDIUM:
     case STRONG:
         return isnan(remaining) ? _("none") : ceduo_words_sig(s->index ? 100 * remaining : 100, s->index ? 2 : 3, buffer);
-    case LEFT:
+    case RESIDUAL:
         if (s->index && s->index->exhausted)
             return _("used up");
         return ceduo_words_sig(get_value(column, s), 3, buffer);
@@ -304,7 +299,7 @@ static void add_bar(struct ceduo_page *page, enum column column, const struct ce
 {
     double value = get_value(column, s);
     enum ceduo_light light = get_light(column, s);
-    if (column == LEFT && s->index && !isnan(limit))
+    if (column == RESIDUAL && s->index && !isnan(limit))
         light = value <= limit ? CEDUO_PASS : CEDUO_FAIL;
     ceduo_page_bar(page, value,
                    !s->index                ? CEDUO_ROLE_BARE
@@ -328,7 +323,7 @@ static void add_option_row(struct ceduo_page *page, const enum column *set, cons
             add_bar(page, set[i + 1], s, scales[i].limit);
         else if (column >= RETURN_1)
             ceduo_page_return(page, ceduo_hazard_find(s->wooded), (size_t)(1 + column - RETURN_1));
-        else if (!s->index && !(column == TODAY || column == MEAN_KJ || column == LEFT || column >= PERIOD))
+        else if (!s->index && !(column == TODAY || column == MEAN_KJ || column == RESIDUAL || column >= PERIOD))
             ceduo_page_cell_format(page, "%s", "");
         else
             ceduo_page_cell_role(page,

@@ -7,6 +7,12 @@
 
 /* Page of a result, one file for each subject. Each function appends blocks. */
 
+/* Return the control at which options are compared. */
+static inline const struct ceduo_control *last_control(const struct ceduo_result *r)
+{
+    return &r->scene->controls[r->last_control];
+}
+
 /* First part of a page (page_answer.c): question, answer, its certainty, and its development over the years. Nothing without
  * a control, or if it cannot be judged. */
 void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *result);

@@ -36,7 +36,7 @@ static struct ceduo_picture make_picture(const struct ceduo_report *report, size
                                   .verdict = report->verdict,
                                   .option = option,
                                   .control = ceduo_scene_last_control(r->scene),
-                                  .years = report->ahead ? report->ahead[option] : NULL,
+                                  .years = report->years_ahead ? report->years_ahead[option] : NULL,
                                   .year = SIZE_MAX};
 }
 
@@ -149,15 +149,15 @@ static void add_years(struct ceduo_page *page, const struct ceduo_report *report
 {
     const struct ceduo_verdict *v = report->verdict;
     size_t option = v && v->rotation.known ? v->rotation.best : ceduo_result_best(report->result, report->verdict);
-    if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_CONSTANT || !report->ahead ||
-        !report->ahead[option] || report->ahead[option]->count < 2) /* all years are equal */
+    if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_CONSTANT || !report->years_ahead ||
+        !report->years_ahead[option] || report->years_ahead[option]->count < 2) /* all years are equal */
         return;
     struct ceduo_picture picture = make_picture(report, option);
     const struct ceduo_scene *scene = report->result->scene;
     ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("Year by year"));
     if (scene->options_count > 1)
         ceduo_page_para(page, CEDUO_PAGE_PLACE, "%s", scene->options[option].name);
-    ceduo_page_years_words(page, report->result, report->ahead[option]);
+    ceduo_page_years_words(page, report->result, report->years_ahead[option]);
     if (is_crowded(report))
         return;
     ceduo_page_para(page, CEDUO_PAGE_DETAIL, "%s",

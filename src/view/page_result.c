@@ -169,26 +169,26 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
                                                 {"", 1, 0, 0}};
     double threshold = scene->simulation.threshold, limit = ceduo_exceed_limit(scene, s->place), share = s->today.value / 1000;
     bool judged = index->energy != CEDUO_UNKNOWN && s->wooded;
-    LOCAL_TEXT(below);
-    LOCAL_TEXT(at_most);
-    LOCAL_TEXT(accepted);
-    ceduo_text_format(&below, "< %s", LOCALIZED(threshold));
-    ceduo_text_format(&at_most, "\xe2\x89\xa4 %g", CEDUO_FREE_RUN_MAX * 100);
-    ceduo_text_format(&accepted, judged ? "\xe2\x89\xa4 %s" : "", SIG_TRIMMED(limit * 100, 3));
+    LOCAL_TEXT(adc_limit);
+    LOCAL_TEXT(free_run_limit);
+    LOCAL_TEXT(energy_limit);
+    ceduo_text_format(&adc_limit, "< %s", LOCALIZED(threshold));
+    ceduo_text_format(&free_run_limit, "\xe2\x89\xa4 %g", CEDUO_FREE_RUN_MAX * 100);
+    ceduo_text_format(&energy_limit, judged ? "\xe2\x89\xa4 %s" : "", SIG_TRIMMED(limit * 100, 3));
     CEDUO_PAGE_TABLE_OF(page, columns);
     bool gap = index->length > 0 && index->longest_gap > threshold; /* the gap is why both tests fail */
     add_name(page, gap ? _("gap without forest, m") : _("distance between contacts (ADC), m"), gap ? _("gap m") : _("ADC m"));
     ceduo_page_cell_format(page, "%s", gap ? SIG_TRIMMED(index->longest_gap, 6) : VS_LIMIT(index->worst_adc, 3, threshold));
-    add_test(page, s, below.bytes, index->contact, c->over->unprotected_contact, true);
+    add_test(page, s, adc_limit.bytes, index->contact, c->over->unprotected_contact, true);
     add_name(page, _("free run: chance of no contact, %"), _("free run %"));
     ceduo_page_cell_format(page, "%s", PERCENT_VS_LIMIT(index->worst_free_run, CEDUO_FREE_RUN_MAX));
-    add_test(page, s, at_most.bytes, index->free_run, c->over->unprotected_free_run, true);
+    add_test(page, s, free_run_limit.bytes, index->free_run, c->over->unprotected_free_run, true);
     add_name(page, _("energy: too much, % of the rocks"), _("energy %"));
     ceduo_page_cell_format(page, "%s",
                            judged                          ? PERCENT_VS_LIMIT(share, limit)
                            : s->report->busy && !s->wooded ? "\xe2\x80\xa6"
                                                            : "-");
-    add_test(page, s, ceduo_text_string(&accepted), index->energy, c->over->unprotected_energy, c->energy_known);
+    add_test(page, s, ceduo_text_string(&energy_limit), index->energy, c->over->unprotected_energy, c->energy_known);
     if (isnan(index->residual)) /* no rock arrives without forest */
         return;
     if (lines >= CEDUO_LINES_SHORT)

@@ -35,12 +35,12 @@ struct printer {
 static void draw_page_bar(const struct drawing *d, int column, int row, int width)
 {
     const struct ceduo_page_bar *b = d->bar;
-    int shrink_max = (int)(b->error_lo * (width - 1)), most = (int)(b->error_hi * (width - 1));
-    for (int x = shrink_max; b->error_hi >= b->error_lo && x <= most; x++)
+    int lo = (int)(b->error_lo * (width - 1)), hi = (int)(b->error_hi * (width - 1));
+    for (int x = lo; b->error_hi >= b->error_lo && x <= hi; x++)
         ceduo_canvas_label(d->canvas, column + x, row, CEDUO_ROLE_MEAN,
-                           x == shrink_max ? "\xe2\x94\x9c"
-                           : x == most     ? "\xe2\x94\xa4"
-                                           : "\xe2\x94\x80");
+                           x == lo   ? "\xe2\x94\x9c"
+                           : x == hi ? "\xe2\x94\xa4"
+                                     : "\xe2\x94\x80");
     if (b->from > 0)
         for (int x = (int)(b->from * (width - 1)); x <= (int)(b->to * (width - 1)); x++)
             ceduo_canvas_bar(d->canvas, column + x, row, 1, 1, d->role);

@@ -193,7 +193,7 @@ struct ceduo_report {
     const struct ceduo_uncertainty_report
         *uncertainty;                       /* NULL: not computed; in the terminal program perhaps of one option only */
     struct ceduo_years *const *years;       /* one per option; NULL: not requested */
-    struct ceduo_years *const *ahead;       /* one per option, for pictures; NULL, or an element NULL: unknown */
+    struct ceduo_years *const *years_ahead; /* one per option, for pictures; NULL, or an element NULL: unknown */
     const struct ceduo_snapshot *snapshot;  /* for pictures; NULL: no pictures */
     const struct ceduo_size_result *blocks; /* CEDUO_SIZES per option; NULL: none to show */
     struct ceduo_run_remarks remarks;
