@@ -9,7 +9,7 @@ static void build(struct app *app, struct form *form)
     if (ceduo_node_get(app->document.file.root, "options"))
         ceduo_form_table(form, "options", NULL, "name");
     else
-        ceduo_form_note(form, _("One way to treat this forest so far. a adds another, y a copy of this one."));
+        ceduo_form_note(form, _("Only one option. Press a to add a preset, y to copy."));
     form->row = app->option + 1; /* below the names of the columns */
 }
 

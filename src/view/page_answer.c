@@ -170,13 +170,13 @@ static void append_sampling(struct text *text, const struct ceduo_report *report
         const struct ceduo_measure m = ceduo_measure_exceeding(last_control(r), ceduo_result_wooded(r, 0, r->last_control));
         ceduo_text_append(&error, MEASURE_SPAN(m, m.lo, m.hi));
     } else if (mean > 0) {
-        ceduo_text_format(text, _("\xc2\xb1%.0f by the number of rocks today (%llu), \xc2\xb1%.0f over years (%llu each)"),
+        ceduo_text_format(text, _("Sampling error: \xc2\xb1%.0f today (%llu rocks), \xc2\xb1%.0f over years (%llu each)."),
                           ceil(1000 * today), rocks, ceil(1000 * mean), (unsigned long long)v->choices[0].rocks);
     } else {
         ceduo_text_format(&error, "\xc2\xb1%.0f", ceil(1000 * today));
     }
     if (error.length > 0)
-        ceduo_text_format(text, _("%s by the number of rocks (%llu)"), error.bytes, rocks);
+        ceduo_text_format(text, _("Sampling error (%llu rocks): %s."), rocks, error.bytes);
 }
 
 /* Append the uncertainty of the best option, over the rotation if known. */
@@ -189,18 +189,17 @@ static void append_uncertainty(struct text *text, const struct ceduo_report *rep
     size_t option = by_rotation ? v->rotation.best : v ? v->today.best : 0;
     const struct ceduo_measure m = ceduo_subject_find(report, option, r->last_control).today;
     if (!uncertainty || !uncertainty->answer) {
-        ceduo_text_append_joined(text, "; ", "%s.",
+        ceduo_text_append_joined(text, " ", "%s.",
                                  uncertainty && (ceduo_uncertainty_is_off(uncertainty) || uncertainty->inputs->n == 0)
                                      ? ceduo_uncertainty_missing_reason(uncertainty)
                                  : uncertainty && uncertainty->too_much
-                                     ? _("what is not known was not computed, as it takes long: --sensitivity does")
-                                     : _("what is not known was not computed"));
+                                     ? _("Uncertainty was not computed, because it takes long; --sensitivity computes it")
+                                     : _("Uncertainty was not computed"));
         return;
     }
     if (r->scene->options_count == 1 && r->wooded && !isnan(m.p5)) {
-        ceduo_text_append_joined(text, "; ", "%s%s", MEASURE_SPAN(m, m.p5, m.p95), _(" by what is not known"));
+        ceduo_text_append_joined(text, " ", _("Uncertain inputs: %s."), MEASURE_SPAN(m, m.p5, m.p95));
     }
-    ceduo_text_char(text, '.');
     if (uncertainty->answer->orders_count > 0) {
         ceduo_text_char(text, ' ');
         ceduo_uncertainty_order_words(text, uncertainty, 0); /* certainty of the ranking */

@@ -569,10 +569,8 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_report *report)
     if (!any)
         return;
     ceduo_page_para(page, CEDUO_PAGE_SECTION, _("One energy law against the other"));
-    ceduo_page_note(page,
-                    _("Two published laws disagree about what thin stems take from a rock (Brauner et al. 2005; Dorren et "
-                      "al. 2006), and nobody knows yet which of them holds there. What differs here, more rocks cannot "
-                      "decide."));
+    ceduo_page_note(page, _("Two published laws disagree on the energy that thin stems absorb (Brauner et al. 2005; Dorren et "
+                            "al. 2006). Neither has been validated for them. More rocks do not decide between them."));
     ceduo_page_para(
         page, CEDUO_PAGE_CAPTION, _("The same rocks at %s m: how many of 1000 %s, and the mean energy of those that arrive:"),
         LOCALIZED(last_control(r)->x_given), MEASURE_NAME(ceduo_measure_exceeding(last_control(r), NULL), CEDUO_PHRASE));

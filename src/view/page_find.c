@@ -34,21 +34,20 @@ void ceduo_find_reliable(struct text *text, const struct ceduo_search *s, const 
     char buffer[CEDUO_NUMBER_ROOM], from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
     double percent = reliability->sure * 100, reached = reliability->share.value * 100, error = 196 * reliability->share.se;
     if (reliability->inputs == 0)
-        ceduo_text_append(text, _("nothing else is in doubt: that holds as far as the scene does"));
+        ceduo_text_append(text, _("no other input is uncertain: the result holds if the scene does"));
     else if (!f->found)
-        ceduo_text_format(text, _("no value is sure in %g %% of what may be true; nearest: %s, in %.0f %% (\xc2\xb1%.0f)"),
+        ceduo_text_format(text, _("no value holds in %g %% of plausible cases; nearest: %s, in %.0f %% (\xc2\xb1%.0f)"),
                           percent, ceduo_format_number(field, f->nearest, buffer), reached, error);
     else if (f->whole_range)
-        ceduo_text_format(text, _("every value of the range is sure in %g %% of what may be true"), percent);
+        ceduo_text_format(text, _("every value of the range holds in %g %% of plausible cases"), percent);
     else
-        ceduo_text_format(
-            text,
-            isnan(reliability->lo)
-                ? _("to be sure in %g %% of what may be true: %s (reaches it in %.0f %%, \xc2\xb1%.0f)")
-                : _("to be sure in %g %% of what may be true: %s (reaches it in %.0f %%, \xc2\xb1%.0f; by that error "
-                    "the value is %s to %s)"),
-            percent, ceduo_format_number(field, round_to_goal(s, f), buffer), reached, error,
-            ceduo_format_number(field, reliability->lo, from), ceduo_format_number(field, reliability->hi, to));
+        ceduo_text_format(text,
+                          isnan(reliability->lo)
+                              ? _("in %g %% of plausible cases: %s (reaches the goal in %.0f %%, \xc2\xb1%.0f)")
+                              : _("in %g %% of plausible cases: %s (reaches the goal in %.0f %%, \xc2\xb1%.0f; "
+                                  "with this error the value is %s to %s)"),
+                          percent, ceduo_format_number(field, round_to_goal(s, f), buffer), reached, error,
+                          ceduo_format_number(field, reliability->lo, from), ceduo_format_number(field, reliability->hi, to));
 }
 
 void ceduo_find_words(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f, const struct field *field,

@@ -109,8 +109,8 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
                     control->name ? ", " : "", control->name ? control->name : "");
     if (first)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
-                        _("%g blocks come down a year. Rare large ones were simulated as often as small ones and "
-                          "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
+                        _("%g blocks fall per year. Rare large blocks were simulated as often as small ones, and weighted: "
+                          "%llu rocks count as %.0f (effective sample size)."),
                         get_hazard(r, 0, c)->per_year, (unsigned long long)r->bare.rocks, get_hazard(r, 0, c)->effective);
     ceduo_page_para(
         page, CEDUO_PAGE_CAPTION,
@@ -118,7 +118,7 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
           "forest:"));
     ceduo_page_options(page, report, CEDUO_OPTIONS_RATES, c, SIZE_MAX, 0, SIZE_MAX);
     ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s",
-                    _("Energy that is reached or exceeded once in so many years, kJ (95 % interval):"));
+                    _("Energy reached or exceeded once per return period, kJ (95 % interval):"));
     ceduo_page_options(page, report, CEDUO_OPTIONS_RETURNS, c, SIZE_MAX, 0, SIZE_MAX);
     add_matrix(page, r, c);
 }

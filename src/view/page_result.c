@@ -213,8 +213,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *rep
                       hypot(wooded.hi - wooded.value,
                             bare.hi - bare.value)) /* a higher mean is selection, not harm: stems stop slow rocks first */
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
-                        _("Fewer arrive through the forest, but larger or faster ones, as stems stop the others first: their "
-                          "mean is higher."));
+                        _("The mean energy is higher with forest because stems stop the slower and smaller rocks first."));
     if (s.index && s.wooded && control == report->result->last_control)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
@@ -224,7 +223,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *rep
 static void add_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
     if (ceduo_too_few_arrivals(&r->bare.arrivals[control])) { /* the reason is at the top of the page */
-        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy: nothing can be said."));
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy cannot be assessed."));
         return;
     }
     for (size_t i = 0; i < 3; i++)
@@ -316,7 +315,7 @@ static void add_residual(struct ceduo_page *page, const struct ceduo_result *r, 
         ceduo_text_format(&rest, _("%s kJ are left"), SAME_DECIMALS(remaining));
     if (index->length > 0 && mean > 0)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
-                        _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."),
+                        _("By the index stems could absorb %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."),
                         SAME_DECIMALS(taken), SIG(index->per_100m * J_TO_KJ, 3), SAME_DECIMALS(mean), rest.bytes);
     if (!isnan(index->measured))
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
@@ -361,8 +360,7 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
     }
     if (skipped && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
-                        _("A size with a dash was left out: its rocks come to so many stems that they would cost far more than "
-                          "those of the scene."));
+                        _("A size with a dash was skipped: its rocks meet too many stems to be simulated here."));
 }
 
 /* ---- percentiles of speed, energy and height ---- */
@@ -404,8 +402,7 @@ void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *
                                            bare ? &r->bare.arrivals[control] : NULL};
     if (!runs[0] && !runs[1])
         return;
-    ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s",
-                    _("Percentiles of the rocks that arrive, of so many released (95 % interval):"));
+    ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s", _("Percentiles of the rocks that arrive (95 % interval):"));
     for (size_t i = 0; i < 2; i++) {
         const struct ceduo_arrivals *a = runs[i];
         if (!a)
@@ -439,7 +436,7 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
     for (const struct ceduo_arrivals *a = ceduo_rocks_reached(wooded) > 0 ? wooded : bare; a; a = a == bare ? NULL : bare)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height of the block's top %s m."),
-                        a == bare ? _("without forest") : _("as long as the forest stands as in this option"),
+                        a == bare ? _("without forest") : _("with the forest of this option"),
                         SIG(ceduo_arrival_distribution(CEDUO_ARRIVAL_SPEED, a)->p95 * speed, 3),
                         SIG(ceduo_measure_figure(CEDUO_P95_KJ, a).value * energy, 3),
                         SIG_SHORT(ceduo_measure_figure(CEDUO_P95_TOP, a).value));
@@ -448,7 +445,7 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
         _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, %s. Energy: 95th "
           "percentile times the square of both and %.2f for the survey of the blocks. Height: 95th percentile of the "
           "block's top, its underside and its mean diameter, without a factor."),
-        survey, model, calibrated ? _("fitted to what was seen") : _("not fitted here"), blocks);
+        survey, model, calibrated ? _("fitted to observations") : _("not fitted here"), blocks);
 }
 
 /* ---- option ---- */

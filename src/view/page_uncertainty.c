@@ -23,8 +23,8 @@ bool ceduo_uncertainty_is_off(const struct ceduo_uncertainty_report *r)
 
 const char *ceduo_uncertainty_missing_reason(const struct ceduo_uncertainty_report *r)
 {
-    return ceduo_uncertainty_is_off(r) ? _("what is not known was not computed, because the scene says 'uncertainty: none'")
-                                       : _("nothing in this scene is marked as assumed");
+    return ceduo_uncertainty_is_off(r) ? _("Uncertainty was not computed: the scene has 'uncertainty: none'")
+                                       : _("Nothing in this scene is marked as assumed");
 }
 
 /* ---- names of inputs ---- */
@@ -143,8 +143,8 @@ void ceduo_uncertainty_warn_outside(const struct ceduo_uncertainty_report *r, ce
         append_input_end(&ends, r, i, 0);
         ceduo_text_append(&ends, "\xe2\x80\x93");
         append_input_end(&ends, r, i, 1);
-        ceduo_text_format(&sentence, _("%s is %s, outside its doubt (%s): what may be true is computed within that."),
-                          name.bytes, value_text.bytes, ends.bytes);
+        ceduo_text_format(&sentence, _("%s is %s, outside its range %s; the range is used."), name.bytes, value_text.bytes,
+                          ends.bytes);
         sink(context, sentence.bytes);
     }
 }
@@ -160,7 +160,7 @@ const char *ceduo_uncertainty_measured_by(const struct ceduo_uncertainty_report 
     const struct ceduo_input *input = &r->inputs->items[i];
     const struct range *range = find_range(r, input);
     if (input->kind == CEDUO_INPUT_DRAWS)
-        return N_("more of what was seen");
+        return N_("more observations");
     return range ? range->measured : input->kind == CEDUO_INPUT_WORDS ? NULL : N_("on the ground");
 }
 
@@ -307,9 +307,9 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
     size_t rest = 0;
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (r->file->scene.options_count > 1)
-        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("What '%s' depends on:"), r->file->scene.options[f->option].name);
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Inputs that decide '%s':"), r->file->scene.options[f->option].name);
     if (!f->fit.enough) {
-        ceduo_page_note(page, _("There are too few points to say what it depends on; take more (--sensitivity=N)."));
+        ceduo_page_note(page, _("Too few points to rank the inputs; use more (--sensitivity=N)."));
         return;
     }
     CEDUO_PAGE_TABLE_OF(page, columns);
@@ -333,7 +333,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
         ceduo_page_cell_format(page, "%s", "");
     }
     if (rest == f->uses)
-        ceduo_page_note(page, _("No input stands out; more points (--sensitivity=N) may tell."));
+        ceduo_page_note(page, _("No input is dominant; more points may show one (--sensitivity=N)."));
     else if (rest > 0)
         ceduo_page_para(page, CEDUO_PAGE_NOTE,
                         ngettext("%zu other input has hardly any effect.", "%zu other inputs have hardly any effect.", rest),
@@ -418,8 +418,7 @@ void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncerta
 {
     LOCAL_TEXT(causes);
     if (ceduo_uncertainty_causes(&causes, r, option, ceduo_uncertainty_lights[light]))
-        ceduo_text_format(text, _("Whether the test of %s passes depends on %s."), _(ceduo_light_names[light]),
-                          ceduo_text_string(&causes));
+        ceduo_text_format(text, _("The test of %s depends on %s."), _(ceduo_light_names[light]), ceduo_text_string(&causes));
 }
 
 /* ---- ranking of options ---- */
@@ -432,8 +431,8 @@ void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncerta
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_uncertainty_order *o = &r->answer->orders[i];
     ceduo_text_format(text,
-                      r->answer->rotation ? _("Over the years %s is better than %s in %.0f %% of what may be true")
-                                          : _("Today %s is better than %s in %.0f %% of what may be true"),
+                      r->answer->rotation ? _("Over the years %s beats %s in %.0f %% of plausible cases")
+                                          : _("Today %s beats %s in %.0f %% of plausible cases"),
                       s->options[o->better].name, s->options[o->than].name, o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
@@ -459,8 +458,9 @@ static void add_orders(struct ceduo_page *page, const struct ceduo_uncertainty_r
         if (isnan(r->answer->orders[i].p5))
             continue;
         ceduo_text_append_joined(text, " ",
-                                 kind == CEDUO_UNCERTAINTY_ENERGY ? _("The difference may be %s to %s kJ per released rock.")
-                                                                  : _("The difference may be %s to %s of 1000."),
+                                 kind == CEDUO_UNCERTAINTY_ENERGY
+                                     ? _("Difference: %s to %s kJ per released rock (90 %% range).")
+                                     : _("Difference: %s to %s per 1000 (90 %% range)."),
                                  lo.bytes, hi.bytes);
     }
 }
@@ -508,8 +508,8 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     uint64_t rocks;
     make_measure(r, 0, &rocks);
     ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                    _("Sampling is the error of %llu rocks; more rocks reduce it. The 90 %% range is what is not known; only "
-                      "measuring reduces it. %llu scenes were computed."),
+                    _("Sampling error: %llu rocks; more rocks reduce it. 90 %% range: uncertain inputs; only measurements "
+                      "reduce it. Scenes computed: %llu."),
                     (unsigned long long)rocks, (unsigned long long)r->answer->evaluations);
     LOCAL_TEXT(points);
     ceduo_uncertainty_points(&points, r);

@@ -121,7 +121,7 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
     const struct ceduo_result *r = pane->report->result;
     const struct ceduo_verdict *v = pane->report->verdict;
     if (v->n < 2) {
-        ceduo_page_note(page, _("One way to treat this forest so far. a adds another, y a copy of this one."));
+        ceduo_page_note(page, _("Only one option. Press a to add a preset, y to copy."));
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);
@@ -141,7 +141,7 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (!r->wooded)
         ceduo_page_note(page, _(ceduo_words_by_index));
     if (pane->report->busy)
-        ceduo_page_note(page, _("Computing: the figures become finer."));
+        ceduo_page_note(page, _("Refining \xe2\x80\xa6"));
     if (v->n > 1 && r->wooded && v->accepted && r->scene->blocks_count == 0)
         ceduo_page_para(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 bring too much."),
                         CEDUO_EXCEED_MAX * 1000);

@@ -48,7 +48,7 @@ struct ceduo_picture {
  * without forest only.
  * The files of the other pictures describe them. */
 #define CEDUO_PLOT_LIST(X)                                                                                                     \
-    X(PROFILE, profile, CEDUO_PICTURE_ROCKS_RUN, N_("slope, forest, and ways"))                                                \
+    X(PROFILE, profile, CEDUO_PICTURE_ROCKS_RUN, N_("slope, forest, and trajectories"))                                        \
     X(ENERGY, energy, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_CELLS, N_("energy of the rocks"))                                \
     X(HEIGHT, height, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_CELLS, N_("height of the rocks above the ground"))               \
     X(HISTOGRAM, histogram, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_PAGE, N_("energy at %s"))                                  \

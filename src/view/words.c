@@ -8,10 +8,10 @@
 
 #include "base/language.h"
 
-const char *const ceduo_words_unjudged = N_("What the place withstands is not given (accepted_kJ): energy is not judged.");
+const char *const ceduo_words_unjudged = N_("No accepted energy is set (accepted_kJ): energy is not judged.");
 const char *const ceduo_words_by_index =
-    N_("Without forest every option sees the same rocks: what arrives does not separate them. The index says what stems could "
-       "take, not what a rock loses; no column decides alone.");
+    N_("With contact_model: index no rocks are simulated through the forest, so arrivals do not separate the options. The "
+       "index is the energy that stems could absorb, not the loss of a rock.");
 const char *const ceduo_light_names[] = {N_("contact"), N_("free run"), N_("energy")};
 
 const char *ceduo_words_light(enum ceduo_light light)
@@ -143,9 +143,10 @@ void ceduo_words_implausible(const struct ceduo_belt *belt, const struct ceduo_s
                            NAME_OF(belt), ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MAX);
     for (size_t i = 0; i < 2; i++)
         if (odd[i])
-            ceduo_words_format(sink, context,
-                               _("%s: stems of %.3g cm are %.3g m high, usual are %d to %d times their diameter: check both."),
-                               NAME_OF(belt), odd[i]->dbh * 100, odd[i]->height, CEDUO_SLENDERNESS_MIN, CEDUO_SLENDERNESS_MAX);
+            ceduo_words_format(
+                sink, context,
+                _("%s: %.3g cm stems, %.3g m tall: unusual height/diameter ratio (usual %d\xe2\x80\x93%d). Check both."),
+                NAME_OF(belt), odd[i]->dbh * 100, odd[i]->height, CEDUO_SLENDERNESS_MIN, CEDUO_SLENDERNESS_MAX);
     for (size_t i = 0; get_stems(s, i); i++) {
         const struct ceduo_beside_curve curve = ceduo_stems_beside_curve(s, belt->cut_year, i);
         if (fabs(curve.basal_area - curve.by_curve) > CEDUO_OFF_CURVE * curve.by_curve)
@@ -183,8 +184,8 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
     double diameter = ceduo_rock_mean(&scene->rock).mean_diameter;
     if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
         ceduo_words_format(sink, context,
-                           _("%s: Eq. 6 gives %.2f m between contacts, less than the mean free path of %.2f m over all stems, "
-                             "which no path can have: a spacing of %g m is too wide for %.1f shoots a stool."),
+                           _("%s: Eq. 6 gives %.2f m between contacts, below the mean free path of %.2f m over all stems. This "
+                             "is impossible: spacing %g m is too wide for %.1f shoots per stool."),
                            NAME_OF(belt), r->adc.interception, r->adc.gsteiger_stems, s->spacing,
                            ceduo_stand_shoots(s) / s->stools_per_ha);
     if (r->warnings & CEDUO_WARN_NEAR_JUMP)
@@ -203,7 +204,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
             _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overshoots there."),
             NAME_OF(belt));
     if (r->warnings & CEDUO_WARN_RATIO_ASSUMED)
-        ceduo_words_format(sink, context, _("%s: the fracture ratio of this species is not known; 1 is assumed."),
+        ceduo_words_format(sink, context, _("%s: no fracture ratio is published for this species; 1 is assumed."),
                            NAME_OF(belt));
     if (r->warnings & CEDUO_WARN_LOW)
         ceduo_words_format(
@@ -255,7 +256,7 @@ static void append_test_reason(struct text *text, const struct ceduo_index *s, d
     if (contact && s->contact == CEDUO_PASS)
         ceduo_text_format(text, _("Every belt has an ADC below %g m (%s m at most) and no gap is longer."), limit, adc);
     else if (!(s->length > 0))
-        ceduo_text_append(text, _("No stem stands on the way."));
+        ceduo_text_append(text, _("No stem stands on the path."));
     else if (s->longest_gap > limit)
         ceduo_text_format(text, _("A gap of %s m has no forest; a rock reaches full speed in %g m."),
                           SIG_TRIMMED(s->longest_gap, 6), limit);

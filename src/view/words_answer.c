@@ -52,7 +52,7 @@ void ceduo_words_too_few_arrivals(struct text *text, const struct ceduo_result *
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     LOCAL_TEXT(place_name);
     ceduo_words_place(&place_name, &r->scene->controls[control]);
-    ceduo_text_format(text, _("Nothing can be said of the forest above %s: of %llu rocks %llu arrive, even without forest."),
+    ceduo_text_format(text, _("The forest above %s cannot be assessed: of %llu rocks only %llu arrive even without it."),
                       ceduo_text_string(&place_name), (unsigned long long)ceduo_rocks_released(bare),
                       (unsigned long long)ceduo_rocks_reached(bare));
     /* start and reach of the rocks without forest */
@@ -83,8 +83,7 @@ void ceduo_words_too_few_arrivals(struct text *text, const struct ceduo_result *
             text, " ", "%s",
             _("Write where they start (release.x_m), or what sets them in motion (release.height_m, vx_m_s)."));
     else
-        ceduo_text_append_joined(text, " ", "%s",
-                                 _("If release and ground are right, rocks do not come as far as this place."));
+        ceduo_text_append_joined(text, " ", "%s", _("If release and ground are right, rocks do not reach this place."));
 }
 
 void ceduo_words_warn_no_answer(const struct ceduo_result *r, ceduo_sentence_sink *sink, void *context)
@@ -113,8 +112,8 @@ void ceduo_words_judgement_reason(struct text *text, const struct ceduo_result *
         return;
     }
     if (judgement == CEDUO_UNANSWERED) {
-        ceduo_text_append(text, isnan(c->accepted) ? _("It is not said what the place withstands (accepted_kJ).")
-                                : !r->wooded       ? _("The index alone says nothing of single rocks (contact_model: index).")
+        ceduo_text_append(text, isnan(c->accepted) ? _("No accepted energy is set (accepted_kJ).")
+                                : !r->wooded       ? _("With contact_model: index no rocks are simulated through the forest.")
                                                    : _("Not computed yet."));
         return;
     }
@@ -128,13 +127,13 @@ void ceduo_words_judgement_reason(struct text *text, const struct ceduo_result *
                           MEASURE_INTERVAL(ceduo_measure_exceeding(c, shown)), ceduo_words_accepted(c),
                           CEDUO_EXCEED_MAX * 1000);
     if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
-        ceduo_text_append_joined(text, " ", _("%llu rocks never came to an end, and may arrive."),
+        ceduo_text_append_joined(text, " ", _("%llu rocks were still moving when the simulation stopped; they may arrive."),
                                  (unsigned long long)ceduo_rocks_unfinished(shown));
     else if (judgement == CEDUO_NOT_DECIDED)
-        ceduo_text_append_joined(text, " ", _("So many rocks do not decide it (%llu): more do."),
+        ceduo_text_append_joined(text, " ", _("%llu rocks are too few to decide; simulate more."),
                                  (unsigned long long)ceduo_rocks_released(shown));
     else if (also_bare)
-        ceduo_text_append_joined(text, " ", "%s", _("The slope keeps to that without forest, too."));
+        ceduo_text_append_joined(text, " ", "%s", _("The slope meets the limit even without forest."));
 }
 
 /* ---- single line ---- */
@@ -309,16 +308,15 @@ static void append_reason(struct text *text, const struct ceduo_subject *s, size
             ceduo_text_append(text,
                               i < BRIEF ? _("more stems than a forest can hold: check the stand") : _("impossible stand"));
         else if (o->answer == CEDUO_NOTHING)
-            ceduo_text_format(text, _("of %llu rocks %llu arrive, even without forest"),
+            ceduo_text_format(text, _("of %llu rocks only %llu arrive, even without forest"),
                               (unsigned long long)ceduo_rocks_released(s->bare),
                               (unsigned long long)ceduo_rocks_reached(s->bare));
         else if (!s->wooded && s->report->result->wooded)
             ceduo_text_append(text, _("not computed yet"));
         else if (!s->wooded && o->answer != CEDUO_YES)
-            ceduo_text_format(text,
-                              i == FULL ? _("the index leaves %s of %s kJ in the mean; it knows no single rocks")
-                                        : _("the index leaves %s of %s kJ"),
-                              remaining, mean);
+            ceduo_text_format(
+                text, i == FULL ? _("by the index %s of %s kJ remain on average") : _("by the index %s of %s kJ remain"),
+                remaining, mean);
         else if (scene->blocks_count > 0 && !isnan(o->rate.mean))
             append_rate(text, s, i);
         else if (o->answer == CEDUO_YES && o->also_bare)

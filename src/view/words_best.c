@@ -23,12 +23,12 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option)
         if (!standing && !ceduo_stand_is_bare(&option->belts[i].stand))
             standing = &option->belts[i];
     if (kind == CEDUO_WINDOW_AHEAD)
-        ceduo_text_format(text, _("'%s' grows, but is never cut."), NAME_OF(option));
+        ceduo_text_format(text, _("'%s' grows and is never cut."), NAME_OF(option));
     else if (kind == CEDUO_WINDOW_CONSTANT && !standing)
-        ceduo_text_format(text, _("All years of '%s' are alike: no stem stands in it."), NAME_OF(option));
+        ceduo_text_format(text, _("'%s' does not change: no stem stands in it."), NAME_OF(option));
     else if (kind == CEDUO_WINDOW_CONSTANT)
-        ceduo_text_format(text, _("The answer for '%s' is that of today: the file of '%s' has no growth (growth, cutting)."),
-                          NAME_OF(option), NAME_OF(standing));
+        ceduo_text_format(text, _("'%s' does not change: stand '%s' has no growth and cutting data."), NAME_OF(option),
+                          NAME_OF(standing));
 }
 
 void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_sentence_sink *sink, void *context)
@@ -56,7 +56,7 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
     else if (!s.nothing)
         ceduo_text_append_joined(text, " ", _("the ADC is largest in year %u."), s.worst_year);
     if (s.nothing)
-        ceduo_text_append_joined(text, " ", "%s", _("Nothing can be said: no rock arrives, even without forest."));
+        ceduo_text_append_joined(text, " ", "%s", _("The forest cannot be assessed: no rock arrives, even without it."));
     else if (s.simulated > 0 && has_energy)
         ceduo_text_append_joined(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."),
                                  s.unprotected_energy, s.unprotected_contact, s.unprotected_free_run, s.years);
@@ -140,7 +140,7 @@ static void append_best(struct text *text, const struct ceduo_scene *scene, cons
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
 {
     if (v->nothing)
-        ceduo_text_append(text, _("Nothing can be said: no rock arrives, even without forest."));
+        ceduo_text_append(text, _("The forest cannot be assessed: no rock arrives, even without it."));
     LOCAL_TEXT(period);
     ceduo_text_format(&period, _("In years %u to %u"), get_window(v)->first, get_window(v)->last);
     const char *when = period.bytes;
@@ -186,8 +186,8 @@ void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r
                           mean, half_width);
     else
         ceduo_text_format(text,
-                          _("With the energy law %s: %s of 1000 arrive, %s with more than it withstands; the mean of those "
-                            "that arrive is %s \xc2\xb1%s kJ."),
+                          _("With the energy law %s: %s of 1000 arrive, %s with more than the accepted energy; their mean is "
+                            "%s \xc2\xb1%s kJ."),
                           law, reach, MEASURE_INTERVAL(ceduo_measure_exceeding(c, a)), mean, half_width);
     if (ceduo_rocks_released(a) < ceduo_result_rocks(r))
         ceduo_text_append_joined(text, " ", _("Under this law the first %llu rocks alone were simulated."),
@@ -219,8 +219,8 @@ void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo
             bool stems = r->options[a].others[r->last_control].stems;
             const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].others[r->last_control];
             ceduo_text_format(&sentence,
-                              _("'%s' or '%s' is undecided: the order depends on the energy law. As the scene has it %.0f "
-                                "and %.0f of 1000, with %s %.0f and %.0f."),
+                              _("Ranking of '%s' and '%s' depends on the energy law. By the law of the scene %.0f and %.0f of "
+                                "1000, by %s %.0f and %.0f."),
                               NAME_OF(&r->scene->options[a]), NAME_OF(&r->scene->options[b]), get_share(r, a, false),
                               get_share(r, b, false), ceduo_words_law(ceduo_energy_words.names[o->model]),
                               get_share(r, a, true), get_share(r, b, true));

@@ -96,10 +96,10 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
     uint64_t unfinished = ceduo_result_unfinished(result);
     if (unfinished > 0 && result->bare.ends.count[CEDUO_UNFINISHED] == 0)
         ceduo_words_format(sink, context,
-                           ngettext("%llu rock had more than %d contacts or stems on its way through the wood and counts as "
-                                    "unfinished: are the rock's size and the stems per hectare as they should be?",
-                                    "%llu rocks had more than %d contacts or stems on their way through the wood and count as "
-                                    "unfinished: are the rock's size and the stems per hectare as they should be?",
+                           ngettext("%llu rock had more than %d contacts or stems in the forest and counts as unfinished: "
+                                    "check the rock's size and the stems per hectare.",
+                                    "%llu rocks had more than %d contacts or stems in the forest and count as unfinished: "
+                                    "check the rock's size and the stems per hectare.",
                                     (unsigned long)unfinished),
                            (unsigned long long)unfinished, CEDUO_STEMS_MAX);
     else if (unfinished > 0)
@@ -117,16 +117,15 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
             if (!ceduo_is_close_call(a))
                 continue;
             if (result->scene->blocks_count > 0)
-                ceduo_words_format(
-                    sink, context,
-                    _("%s, %g m: whether a rock above the limit arrives at most once in %g years today is too close to call; "
-                      "simulate more rocks."),
-                    NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, ceduo_accepted_return(control));
+                ceduo_words_format(sink, context,
+                                   _("%s, %g m: too close to call if a rock above the limit arrives at most once in %g years "
+                                     "today; simulate more rocks."),
+                                   NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given,
+                                   ceduo_accepted_return(control));
             else
                 ceduo_words_format(
                     sink, context,
-                    _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
-                      "simulate more rocks."),
+                    _("%s, %g m: too close to the limit of %.0f of 1000 rocks with too much energy; simulate more rocks."),
                     NAME_OF(&result->scene->options[i]), control->x_given, ceduo_exceed_limit(result->scene, control) * 1000);
         }
     warn_lost(result, sink, context);

@@ -453,12 +453,12 @@ def test_design():
             factor = {"good": 1.02, "poor": 1.10}
             model = 1.02 if ground is fitted else 1.10
             way = factor[survey] * model
-            for side, where in (("bare", "without forest"), ("wooded", "as long as the forest stands as in this option")):
+            for side, where in (("bare", "without forest"), ("wooded", "with the forest of this option")):
                 expect_in(f"Design values of UNI 11211-4, {where}: speed {control[side]['speed_m_s']['p95'] * way:.1f} m/s, energy "
                           f"{control[side]['energy_kJ']['p95'] * way ** 2 * factor[blocks]:.0f} kJ, height of "
                           f"the block's top {control[side]['height_m']['p95'] + size:.2f} m.", page)
             expect_in(f"Speed: 95th percentile times {factor[survey]:.2f} for the survey of the ground and {model:.2f} for the model, "
-                      f"{'fitted to what was seen' if ground is fitted else 'not fitted here'}. Energy: 95th percentile times the "
+                      f"{'fitted to observations' if ground is fitted else 'not fitted here'}. Energy: 95th percentile times the "
                       f"square of both and {factor[blocks]:.2f} for the survey of the blocks. Height: 95th percentile of the block's "
                       "top, its underside and its mean diameter, without a factor.", page)
         expect("UNI 11211" not in good(*WHOLE, f.write("t.yaml", slope_site())).out, "design values unasked")
@@ -521,7 +521,7 @@ def test_plot():
             for text in ("How often, and with how much, at", "0 without forest", "1 none", "2 coppice", "10 y", "30 y", "1 kJ", "300"):
                 expect_in(text, picture)
         expect_in("too narrow", good("--plot", "hazard", "--size", "20x12", path).out)
-        expect_in("the scene does not say which blocks come down",
+        expect_in("the scene has no 'blocks'",
                   good("--plot", "hazard", f.write("t.yaml", slope_site(blocks=None))).out)
         rare = f.write("u.yaml", falls({**POWER, "per_year": 0.0002}))
         expect_in("less than once in a thousand years", good("--plot", "hazard", rare).out)
@@ -570,7 +570,7 @@ def test_refused():
              ({**POWER, "per_year": 0}, "blocks.per_year: 0 is not above 0 1/y"),
              ([], "blocks: the list is empty"),
              ([POWER, {**POWER, "volume_m3": [5, 20]}],
-              "blocks[1].volume_m3: the class overlaps one before it, from 0.01 to 10 m3; let them touch at most"),
+              "blocks[1].volume_m3: this class overlaps an earlier one, from 0.01 to 10 m3; classes may only touch"),
              ([{**POWER, "volume_m3": [3, 1]}], "blocks[0].volume_m3: 3 m3 is not below 1 m3"),
              ([{"per_year": 1}], "'volume_m3' is missing"),
              ([POWER] * 1001, "items; at most 1000 can be computed"),
@@ -585,9 +585,9 @@ def test_refused():
             expect_in(wanted, r.err)
         for changes, wanted in (({"rocks_per_year": 3}, "rocks_per_year: blocks already says this; keep one of the two"),
                                 ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}}},
-                                 "rock: blocks say how large the rocks are; remove the size, or give it without a spread"),
-                                ({"rock": {"volume_m3": {"mean": 1, "spread": 0.1}}}, "rock: blocks say how large"),
-                                ({"rock": {"mass_kg": {"mean": 900, "spread": 10}}}, "rock: blocks say how large"),
+                                 "rock: 'blocks' gives the sizes of rocks; remove the size here, or its spread"),
+                                ({"rock": {"volume_m3": {"mean": 1, "spread": 0.1}}}, "rock: 'blocks' gives the sizes"),
+                                ({"rock": {"mass_kg": {"mean": 900, "spread": 10}}}, "rock: 'blocks' gives the sizes"),
                                 ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}, "height_m": 2}}, "does not belong to the shape"),
                                 ({"simulation": {"rocks": "all"}}, "simulation.rocks")):
             r = ceduo("--check", f.write("s.yaml", falls(POWER, **changes)))

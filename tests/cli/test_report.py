@@ -86,7 +86,7 @@ def test_structure():
     for scene in sorted((PROFILES / "scenes").glob("*.yaml")):
         text, page = report(scene)
         check_page(text, page)
-        for heading in ("The slope and the rocks", "What the model cannot tell", "How to compute this page again"):
+        for heading in ("The slope and the rocks", "Limits of the model", "How to reproduce this page"):
             expect_in(heading, page.text["h2"], scene)
         expect_equal(page.names.count("h1"), 1, scene)
 
@@ -133,7 +133,7 @@ def test_answer():
     expect_in(f"; today {1000 * wooded['exceed_probability']:.0f} (NO)", page.text["div"])
     lo, hi = math.floor(1000 * wooded["exceed_lo"]), math.ceil(1000 * wooded["exceed_hi"])
     expect(re.search(rf"\b{lo}–{hi} by the number of rocks \(\d+\); \d+–\d+ by what is not known\.", page.text["dl"]), page.text["dl"])
-    expect_in("what is not known was not computed, because the scene says 'uncertainty: none'.", report("-s", "uncertainty=none", "paper-site")[1].text["dl"])
+    expect_in("Uncertainty was not computed: the scene has 'uncertainty: none'.", report("-s", "uncertainty=none", "paper-site")[1].text["dl"])
     few = ("--years=1:2", "--option", "simple coppice", "--option", "selection coppice", "-n", 32)  # within the bound of a page
     sure = re.search(r"HOW SURE .*?(Over the years .*?) ASSUMED", " ".join(good("-b", *few, "rotation").out.split()))[1]
     expect_in(sure, " ".join(report("rotation", few=few)[1].text["dl"].split()), "the same as the page")

@@ -120,7 +120,7 @@ def test_answers():
         expect(re.match(r"  ✘ NO: \d+ of 1000 arrive with more than 0.01 kJ", first(controls=[{**road, "accepted_kJ": 0.01}])), "no")
         expect(re.match(r"  \d+ of 1000 arrive \(\d+ without forest\)", first(controls=[road])), "no limit")
         expect_in("the index leaves ", first(simulation={"contact_model": "index", "rocks": 200}, controls=[{"x_m": 110}]))
-    expect_in("what is not known was not computed, because the scene says 'uncertainty: none'.", " ".join(page_of(PAPER, "-s", "uncertainty=none").split()))
+    expect_in("Uncertainty was not computed: the scene has 'uncertainty: none'.", " ".join(page_of(PAPER, "-s", "uncertainty=none").split()))
     expect(re.search(r"\? IT DEPENDS: in 0–\d+ of 20 years more than 50 of 1000 rocks exceed 140 kJ", page_of(PAPER, "-s", "controls[0].accepted_kJ=140")), "depends")
     page = " ".join(page_of(FOUR, *through("index")).split())
     expect("of what may be true" not in page and "no column decides alone" in page, page)

@@ -216,7 +216,7 @@ def test_tradeoff():
     expect_equal(ceduo("--plot", "tradeoff", "--years", "0:5", "rotation").status, 0)
     expect_equal(ceduo("--plot", "profile", "--years", "rotation").status, USAGE)
     still = good("--plot", "tradeoff", "-n", 50, "-s", "options[0].forest=[]", "--option", "simple coppice", "rotation").out
-    expect_in("no option says how it grows and is cut", still)
+    expect_in("no option has growth and cutting data", still)
 
 
 def find(path, goal, value, *arguments):

@@ -21,8 +21,8 @@ NO_LAW = WOOD.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
 
 def test_nothing():
     """A scene with nothing in doubt, or whose uncertainty is not asked for, says which, computes nothing, and has none in the column"""
-    told = {NO_LAW + "uncertainty: none\n": "what is not known was not computed, because the scene says 'uncertainty: none'",
-            NO_LAW + "uncertainty: []\n": "nothing in this scene is marked as assumed"}
+    told = {NO_LAW + "uncertainty: none\n": "Uncertainty was not computed: the scene has 'uncertainty: none'",
+            NO_LAW + "uncertainty: []\n": "Nothing in this scene is marked as assumed"}
     with Place() as place:
         for scene, why in told.items():
             place.write("sure.yaml", scene)
