@@ -19,7 +19,7 @@ static const struct ceduo_result *get_result(const struct ceduo_place *p)
 }
 
 /* Return the option today, or in the year of the place. */
-static const struct ceduo_option *get_option(const struct ceduo_place *p)
+static const struct ceduo_option *get_forest(const struct ceduo_place *p)
 {
     return p->year ? &p->year->option : &get_result(p)->scene->options[p->option];
 }
@@ -73,9 +73,9 @@ OBJECT(get_scene, place, get_result(o)->scene)
 OBJECT(get_rock, place, &get_result(o)->rock)
 OBJECT(get_slope, place, &get_result(o)->scene->slope)
 OBJECT(get_year, place, o->year)
-OBJECT(get_filed_option, place, &get_result(o)->scene->options[o->option])
-OBJECT(get_first_option, place, &get_result(o)->scene->options[0])
-OBJECT(get_belt, place, &get_option(o)->belts[o->belt])
+OBJECT(get_option, place, &get_result(o)->scene->options[o->option])
+OBJECT(get_first, place, &get_result(o)->scene->options[0])
+OBJECT(get_belt, place, &get_forest(o)->belts[o->belt])
 OBJECT(get_stand, place, get_stand_result(o))
 OBJECT(get_rules, place, get_stand_result(o)->rules.of ? &get_stand_result(o)->rules : NULL)
 OBJECT(get_control, place, &get_result(o)->scene->controls[o->control])
@@ -84,7 +84,7 @@ OBJECT(get_last_index, place, &get_indices(o)[get_result(o)->last_control])
 OBJECT(get_bare, place, &get_result(o)->bare.arrivals[o->control])
 OBJECT(get_topography, place, &get_result(o)->bare.arrivals[o->control].topography)
 OBJECT(get_wooded, place, get_wooded_arrivals(o))
-OBJECT(get_alternative, place, find_alternative(o))
+OBJECT(get_alt, place, find_alternative(o))
 OBJECT(get_run, place, get_wooded_run(o))
 OBJECT(get_stops, place, get_wooded_run(o)->ends.stop_x.n > 0 ? o : NULL)
 OBJECT(get_difference, place, o->option > 0 && !o->year ? &get_result(o)->options[o->option].differences[o->control] : NULL)
@@ -94,16 +94,16 @@ OBJECT(get_felling, place, &find_yield(o)->fellings[o->felling])
 OBJECT(get_felled_belt, place, &get_result(o)->scene->options[o->option].belts[find_yield(o)->fellings[o->felling].belt])
 OBJECT(get_rotation, place, o->report->years ? o : NULL)
 OBJECT(get_window, place, find_years_ahead(o))
-OBJECT(get_standards_item, compliance, o->standards_item)
-OBJECT(get_turn_item, compliance, o->turn_item)
+OBJECT(get_standards, compliance, o->standards_item)
+OBJECT(get_turn, compliance, o->turn_item)
 OBJECT(get_search, find_report, o->search)
 OBJECT(get_found, find_report, o->found)
 OBJECT(get_reliability, find_report,
        o->reliability && o->reliability->inputs > 0 ? o->reliability
                                                     : NULL) /* NULL: no input is uncertain, nothing was computed */
 OBJECT(get_nearest, find_report, o->found->found ? NULL : o->found)
-OBJECT(get_reliable_found, reliability, o->found.found ? o : NULL)
-OBJECT(get_reliable_nearest, reliability, o->found.found ? NULL : o)
+OBJECT(get_sure_found, reliability, o->found.found ? o : NULL)
+OBJECT(get_sure_nearest, reliability, o->found.found ? NULL : o)
 OBJECT(get_found_yield, find_report, o->yield && !isnan(o->yield->cut_per_year) ? o->yield : NULL)
 OBJECT(get_yield_report, find_report, get_found_yield(o) ? o : NULL)
 
@@ -118,7 +118,7 @@ static bool enter_option(struct ceduo_place *p, size_t i)
     return inside;
 }
 
-ENTER(enter_belt, belt, get_option(p)->belts_count)
+ENTER(enter_belt, belt, get_forest(p)->belts_count)
 ENTER(enter_control, control, get_result(p)->scene->controls_count)
 
 static bool enter_year(struct ceduo_place *p, size_t i)
@@ -411,19 +411,19 @@ static const struct ceduo_figure rules[] = {
     {"region", "", "whose rules", .value = region_name},
     {"standards_per_ha", "1/ha", "standards that a cut leaves, or without cutting the trees that stand",
      MEMBER(compliance, standards)},
-    {"standards_least", "1/ha", "standards asked for at least", .from = get_standards_item, MEMBER(regulation_item, least),
+    {"standards_least", "1/ha", "standards asked for at least", .from = get_standards, MEMBER(regulation_item, least),
      .null = SILENT},
-    {"standards_most", "1/ha", "at most", .from = get_standards_item, MEMBER(regulation_item, most),
+    {"standards_most", "1/ha", "at most", .from = get_standards, MEMBER(regulation_item, most),
      .null = "there is no such limit"},
     {"standards_met", "", "whether that is kept", .value = standards_met, .null = SILENT},
-    {"standards_article", "", "article and act", .from = get_standards_item, MEMBER(regulation_item, article), .null = SILENT},
-    {"standards_year", "", "year of that act", .from = get_standards_item, MEMBER(regulation_item, year), .null = SILENT},
+    {"standards_article", "", "article and act", .from = get_standards, MEMBER(regulation_item, article), .null = SILENT},
+    {"standards_year", "", "year of that act", .from = get_standards, MEMBER(regulation_item, year), .null = SILENT},
     {"turn_y", "y", "age of the oldest shoots at a cut", MEMBER(compliance, turn), .null = NEVER_CUT},
-    {"turn_least", "y", "age asked for at least", .from = get_turn_item, MEMBER(regulation_item, least), .null = SILENT},
-    {"turn_most", "y", "at most", .from = get_turn_item, MEMBER(regulation_item, most), .null = "there is no such limit"},
+    {"turn_least", "y", "age asked for at least", .from = get_turn, MEMBER(regulation_item, least), .null = SILENT},
+    {"turn_most", "y", "at most", .from = get_turn, MEMBER(regulation_item, most), .null = "there is no such limit"},
     {"turn_met", "", "whether that is kept", .value = turn_met, .null = SILENT ", or " NEVER_CUT},
-    {"turn_article", "", "article and act", .from = get_turn_item, MEMBER(regulation_item, article), .null = SILENT},
-    {"turn_year", "", "year of that act", .from = get_turn_item, MEMBER(regulation_item, year), .null = SILENT},
+    {"turn_article", "", "article and act", .from = get_turn, MEMBER(regulation_item, article), .null = SILENT},
+    {"turn_year", "", "year of that act", .from = get_turn, MEMBER(regulation_item, year), .null = SILENT},
     END};
 
 static const struct ceduo_figure stand_columns[] = {
@@ -528,7 +528,7 @@ static const struct ceduo_figure control[] = {
     {"index", "", "the index of the paper", .from = get_index, .table = by_index},
     {"wooded", "", "what arrives through the forest of this option", .from = get_wooded, .table = wooded,
      .null = "contact_model is index"},
-    {"other_energy", "", "the same rocks under the other energy law of stems", .from = get_alternative, .table = other_energy,
+    {"other_energy", "", "the same rocks under the other energy law of stems", .from = get_alt, .table = other_energy,
      .null = "the option has no stems, contact_model is index, and in a year of --years"},
     {"lights", "", "verdicts on the way from the release to this control, each pass, fail or unknown, never merged into one",
      .from = get_index, .table = lights},
@@ -631,7 +631,7 @@ static const struct ceduo_figure window[] = {
 
 #define NO_YEARS "--years is not given"
 static const struct ceduo_figure option[] = {
-    {"name", "", "name of the option", .from = get_filed_option, MEMBER(option, name_given)},
+    {"name", "", "name of the option", .from = get_option, MEMBER(option, name_given)},
     {.table = forest_rows},
     {.table = end_rows},
     {"window", "", "the years by which options are judged and compared, at the last control", .from = get_window,
@@ -655,8 +655,8 @@ static const struct ceduo_figure differences[] = {
     END};
 
 static const struct ceduo_figure difference[] = {
-    {"option", "", "option that is compared", .from = get_filed_option, MEMBER(option, name_given)},
-    {"against", "", "the first option", .from = get_first_option, MEMBER(option, name_given)},
+    {"option", "", "option that is compared", .from = get_option, MEMBER(option, name_given)},
+    {"against", "", "the first option", .from = get_first, MEMBER(option, name_given)},
     {"x_m", "m", "control", .from = get_control, MEMBER(control, x_given)},
     {.from = get_difference, .table = differences},
     END};
@@ -746,12 +746,12 @@ static const struct ceduo_figure sure_rows[] = {
      .null = NO_ERROR},
     {"value_hi", "", "its upper end", MEMBER(reliability, hi), .null = NO_ERROR},
     {"side", "", "smallest or largest: which of the values that do this is", .value = reliable_side, .null = NONE},
-    {"probability", "", "share of what may be true in which this value reaches the goal", .from = get_reliable_found,
+    {"probability", "", "share of what may be true in which this value reaches the goal", .from = get_sure_found,
      MEMBER(reliability, share.value), .null = NONE},
-    {"probability_se", "", "its standard error, by the points and by the rocks", .from = get_reliable_found,
+    {"probability_se", "", "its standard error, by the points and by the rocks", .from = get_sure_found,
      MEMBER(reliability, share.se), .null = NONE},
-    {"nearest", "", "value that is surest", .from = get_reliable_nearest, MEMBER(reliability, found.nearest), .null = ONE},
-    {"probability_at_nearest", "", "share in which that reaches the goal", .from = get_reliable_nearest,
+    {"nearest", "", "value that is surest", .from = get_sure_nearest, MEMBER(reliability, found.nearest), .null = ONE},
+    {"probability_at_nearest", "", "share in which that reaches the goal", .from = get_sure_nearest,
      MEMBER(reliability, share.value), .null = ONE},
     {"evaluations", "", "values looked at", MEMBER(reliability, found.evaluations)},
     {"points", "", "points of what may be true, for each", MEMBER(reliability, points)},
@@ -794,7 +794,7 @@ const struct ceduo_csv ceduo_find_csv = {find_columns, {NULL}};
 /* ---- rows of CSV ---- */
 
 static const struct ceduo_figure option_row[] = {
-    {"option", "", "name of the option", .from = get_filed_option, MEMBER(option, name_given)}, END};
+    {"option", "", "name of the option", .from = get_option, MEMBER(option, name_given)}, END};
 static const struct ceduo_figure rest[] = {
     {.table = summary_row},
     {.table = control},

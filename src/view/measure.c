@@ -192,6 +192,6 @@ const char *ceduo_measure_error(struct ceduo_measure m, const char *between, cha
 const char *ceduo_measure_interval(struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE])
 {
     bool known = !isnan(m.value) && !isnan(m.lo) && !isnan(m.hi);
-    snprintf(buffer, CEDUO_WORDS_SIZE, known ? "%s (%s)" : "%s", MEASURE_VALUE(m), MEASURE_SPAN(m, m.lo, m.hi));
+    snprintf(buffer, CEDUO_WORDS_SIZE, known ? "%s (%s)" : "%s", MEASURE_VALUE(m), SPAN(m, m.lo, m.hi));
     return buffer;
 }

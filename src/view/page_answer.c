@@ -117,8 +117,8 @@ static void add_mean(struct ceduo_page *page, const struct ceduo_subject *s)
     LOCAL_TEXT(range);
     if (!isnan(s->mean.p5))
         ceduo_text_format(&range, _(" (range %s)"), PLAUSIBLE_RANGE(s->mean));
-    ceduo_text_format(text, _("mean %s%s of 1000, worst %.0f in year %u"), MEASURE_ERROR(s->mean, " "),
-                      ceduo_text_string(&range), 1000 * c->worst.mean, c->over->worst_year);
+    ceduo_text_format(text, _("mean %s%s of 1000, worst %.0f in year %u"), WITH_ERROR(s->mean, " "), ceduo_text_string(&range),
+                      1000 * c->worst.mean, c->over->worst_year);
     ceduo_text_format(text, _("; today %s"), MEASURE_VALUE(s->today));
     if (s->outcome.today != CEDUO_UNANSWERED)
         ceduo_text_format(text, " (%s)", ceduo_words_judgement_name(s->outcome.today));
@@ -168,7 +168,7 @@ static void append_sampling(struct text *text, const struct ceduo_report *report
         ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"), SIG(ceduo_measure_figure(CEDUO_MEAN_KJ, bare).half_width, 2));
     } else if (r->scene->options_count == 1) {
         const struct ceduo_measure m = ceduo_measure_exceeding(last_control(r), ceduo_result_wooded(r, 0, r->last_control));
-        ceduo_text_append(&error, MEASURE_SPAN(m, m.lo, m.hi));
+        ceduo_text_append(&error, SPAN(m, m.lo, m.hi));
     } else if (mean > 0) {
         ceduo_text_format(text, _("Sampling error: \xc2\xb1%.0f today (%llu rocks), \xc2\xb1%.0f over years (%llu each)."),
                           ceil(1000 * today), rocks, ceil(1000 * mean), (unsigned long long)v->choices[0].rocks);
@@ -198,7 +198,7 @@ static void append_uncertainty(struct text *text, const struct ceduo_report *rep
         return;
     }
     if (r->scene->options_count == 1 && r->wooded && !isnan(m.p5)) {
-        ceduo_text_append_joined(text, " ", _("Uncertain inputs: %s."), MEASURE_SPAN(m, m.p5, m.p95));
+        ceduo_text_append_joined(text, " ", _("Uncertain inputs: %s."), SPAN(m, m.p5, m.p95));
     }
     if (uncertainty->answer->orders_count > 0) {
         ceduo_text_char(text, ' ');

@@ -86,8 +86,8 @@ static void add_texts_row(struct ceduo_page *page, const char *const texts[3][2]
 static void add_figure(struct ceduo_page *page, struct ceduo_measure wooded, struct ceduo_measure bare)
 {
     add_texts_row(page, (const char *const[3][2]){{MEASURE_NAME(bare, CEDUO_PHRASE), MEASURE_NAME(bare, CEDUO_ROW)},
-                                                  {MEASURE_INTERVAL(wooded), MEASURE_ERROR(wooded, "")},
-                                                  {MEASURE_INTERVAL(bare), MEASURE_VALUE(bare)}});
+                                                  {INTERVAL(wooded), WITH_ERROR(wooded, "")},
+                                                  {INTERVAL(bare), MEASURE_VALUE(bare)}});
 }
 
 #define PANE_WIDE 34 /* columns needed for an interval */
@@ -354,8 +354,7 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
         ceduo_page_number(page, b->adc, 3);
         ceduo_page_number(page, b->contacts, 3);
         ceduo_page_cell_format(
-            page, "%s",
-            MEASURE_INTERVAL(ceduo_measure_exceeding(c, ceduo_rocks_released(&b->arrivals) > 0 ? &b->arrivals : NULL)));
+            page, "%s", INTERVAL(ceduo_measure_exceeding(c, ceduo_rocks_released(&b->arrivals) > 0 ? &b->arrivals : NULL)));
         skipped |= ceduo_rocks_released(&b->arrivals) == 0;
     }
     if (skipped && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)

@@ -257,8 +257,8 @@ static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_
         bar->error_lo = m.p5;
         bar->error_hi = m.p95;
         ceduo_page_cell_format(page, "%s", MEASURE_VALUE(m));
-        ceduo_page_cell_format(page, "%s", MEASURE_SPAN(m, m.lo, m.hi));
-        ceduo_page_cell_format(page, "%s", MEASURE_SPAN(m, m.p5, m.p95));
+        ceduo_page_cell_format(page, "%s", SPAN(m, m.lo, m.hi));
+        ceduo_page_cell_format(page, "%s", SPAN(m, m.p5, m.p95));
         if (!r->rotation_mean || r->answer->main != CEDUO_UNCERTAINTY_EXCEED || isnan(years->value))
             ceduo_page_cell_format(page, "%s", "");
         else

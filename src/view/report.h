@@ -176,12 +176,12 @@ const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, cha
 const char *ceduo_measure_interval(struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE]);
 const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char buffer[CEDUO_WORDS_SIZE]);
 const char *ceduo_measure_plausible_range(struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE]);
-#define MEASURE_NAME(m, name)     ceduo_measure_name(m, name, (char[CEDUO_WORDS_SIZE]){0})
-#define MEASURE_VALUE(m)          ceduo_measure_value(m, (char[CEDUO_WORDS_SIZE]){0})
-#define MEASURE_SPAN(m, lo, hi)   ceduo_measure_span(m, lo, hi, (char[CEDUO_WORDS_SIZE]){0})
-#define MEASURE_INTERVAL(m)       ceduo_measure_interval(m, (char[CEDUO_WORDS_SIZE]){0})
-#define MEASURE_ERROR(m, between) ceduo_measure_error(m, between, (char[CEDUO_WORDS_SIZE]){0})
-#define PLAUSIBLE_RANGE(m)        ceduo_measure_plausible_range(m, (char[CEDUO_WORDS_SIZE]){0})
+#define MEASURE_NAME(m, name)  ceduo_measure_name(m, name, (char[CEDUO_WORDS_SIZE]){0})
+#define MEASURE_VALUE(m)       ceduo_measure_value(m, (char[CEDUO_WORDS_SIZE]){0})
+#define SPAN(m, lo, hi)        ceduo_measure_span(m, lo, hi, (char[CEDUO_WORDS_SIZE]){0})
+#define INTERVAL(m)            ceduo_measure_interval(m, (char[CEDUO_WORDS_SIZE]){0})
+#define WITH_ERROR(m, between) ceduo_measure_error(m, between, (char[CEDUO_WORDS_SIZE]){0})
+#define PLAUSIBLE_RANGE(m)     ceduo_measure_plausible_range(m, (char[CEDUO_WORDS_SIZE]){0})
 
 /* ---- the answer ---- */
 

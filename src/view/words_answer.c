@@ -124,8 +124,7 @@ void ceduo_words_judgement_reason(struct text *text, const struct ceduo_result *
                           LOCALIZED(ceduo_accepted_return(c)));
     else
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
-                          MEASURE_INTERVAL(ceduo_measure_exceeding(c, shown)), ceduo_words_accepted(c),
-                          CEDUO_EXCEED_MAX * 1000);
+                          INTERVAL(ceduo_measure_exceeding(c, shown)), ceduo_words_accepted(c), CEDUO_EXCEED_MAX * 1000);
     if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
         ceduo_text_append_joined(text, " ", _("%llu rocks were still moving when the simulation stopped; they may arrive."),
                                  (unsigned long long)ceduo_rocks_unfinished(shown));
@@ -291,7 +290,7 @@ static void append_shares(struct text *text, const struct ceduo_measure *m, cons
     if (length > MIDDLE)
         return;
     ceduo_text_format(text, uncertain ? _("; may be %s") : _("; %s by the rocks"),
-                      uncertain ? PLAUSIBLE_RANGE(*m) : MEASURE_SPAN(*m, m->lo, m->hi));
+                      uncertain ? PLAUSIBLE_RANGE(*m) : SPAN(*m, m->lo, m->hi));
 }
 
 /* Append the reason in at most `width` columns; nothing if no form fits. */

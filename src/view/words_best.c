@@ -50,7 +50,7 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
         ceduo_text_append(text, _("Each:"));
     else
         ceduo_text_format(text, _("Years %u to %u:"), w->first, w->last);
-    const char *share = MEASURE_ERROR(ceduo_measure_share(ceduo_share_over_years(years, &s)), " ");
+    const char *share = WITH_ERROR(ceduo_measure_share(ceduo_share_over_years(years, &s)), " ");
     if (s.simulated > 0)
         ceduo_text_append_joined(text, " ", _("mean %s of 1000, worst %.0f (year %u)."), share, s.worst * 1000, s.worst_year);
     else if (!s.nothing)
@@ -179,7 +179,7 @@ void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r
         return;
     }
     const char *mean = SIG(energy.value, 3), *half_width = SIG(energy.half_width, 2),
-               *reach = MEASURE_INTERVAL(ceduo_measure_arriving(a));
+               *reach = INTERVAL(ceduo_measure_arriving(a));
     const struct ceduo_control *c = &r->scene->controls[control];
     if (isnan(c->accepted))
         ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
@@ -188,7 +188,7 @@ void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r
         ceduo_text_format(text,
                           _("With the energy law %s: %s of 1000 arrive, %s with more than the accepted energy; their mean is "
                             "%s \xc2\xb1%s kJ."),
-                          law, reach, MEASURE_INTERVAL(ceduo_measure_exceeding(c, a)), mean, half_width);
+                          law, reach, INTERVAL(ceduo_measure_exceeding(c, a)), mean, half_width);
     if (ceduo_rocks_released(a) < ceduo_result_rocks(r))
         ceduo_text_append_joined(text, " ", _("Under this law the first %llu rocks alone were simulated."),
                                  (unsigned long long)ceduo_rocks_released(a));
