@@ -98,9 +98,8 @@ OBJECT(get_standards, compliance, o->standards_item)
 OBJECT(get_turn, compliance, o->turn_item)
 OBJECT(get_search, find_report, o->search)
 OBJECT(get_found, find_report, o->found)
-OBJECT(get_reliability, find_report,
-       o->reliability && o->reliability->inputs > 0 ? o->reliability
-                                                    : NULL) /* NULL: no input is uncertain, nothing was computed */
+/* NULL: no input is uncertain */
+OBJECT(get_reliability, find_report, o->reliability && o->reliability->inputs > 0 ? o->reliability : NULL)
 OBJECT(get_nearest, find_report, o->found->found ? NULL : o->found)
 OBJECT(get_sure_found, reliability, o->found.found ? o : NULL)
 OBJECT(get_sure_nearest, reliability, o->found.found ? NULL : o)
