@@ -55,7 +55,7 @@ static enum exit_status find_parameter(struct fit_job *j, size_t i)
     if (!ceduo_schema_in_range(field, bad)) {
         LOCAL_TEXT(range);
         ceduo_schema_range_text(field, &range);
-        return ceduo_usage_error("calibrate", _("%s is outside the range of %s: %s"), SHORTEST(bad), path,
+        return ceduo_usage_error("calibrate", _("%s is outside the range of %s: %s"), LOCALIZED(bad), path,
                                  ceduo_text_string(&range));
     }
     bool mu = strcmp(field->key, "mu") == 0; /* depends on the shape of the rock; only the law arm uses it */

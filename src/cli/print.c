@@ -264,10 +264,10 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
                                       .blocks = q.answer.blocks,
                                       .remarks = {a->tolerance, q.answer.tolerance_met, file->ground_assumed},
                                       .uncertainty = &q.uncertainty,
-                                      .ahead = q.answer.years,
+                                      .years_ahead = q.answer.years,
                                       .snapshot = q.snapshot,
                                       .command = ceduo_text_string(&command),
-                                      .same = true};
+                                      .reproducible = true};
         q.uncertainty.years = &q.verdict;
         ceduo_page_chapter(&page, &report);
         ceduo_page_html(&(struct ceduo_html){.text = out}, &page, a->profiles->count + 1);

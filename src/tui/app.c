@@ -123,14 +123,15 @@ bool ceduo_app_uncertainty(const struct app *app, struct ceduo_uncertainty_repor
     struct uncertainty *own = (struct uncertainty *)(uintptr_t)d; /* its scene is only read */
     if (!d)
         return false;
-    *report = (struct ceduo_uncertainty_report){.file = &own->file,
-                                                .inputs = &own->inputs,
-                                                .answer = own->inputs.n > 0 ? &own->answer : NULL,
-                                                .points = own->answer.points,
-                                                .rocks = own->answer.rocks,
-                                                .finer = app->live.result,
-                                                .years = &app->live.verdict,
-                                                .over = app->over && app->view == VIEW_UNCERTAINTY && own->answer.rotation};
+    *report =
+        (struct ceduo_uncertainty_report){.file = &own->file,
+                                          .inputs = &own->inputs,
+                                          .answer = own->inputs.n > 0 ? &own->answer : NULL,
+                                          .points = own->answer.points,
+                                          .rocks = own->answer.rocks,
+                                          .finer = app->live.result,
+                                          .years = &app->live.verdict,
+                                          .rotation_mean = app->over && app->view == VIEW_UNCERTAINTY && own->answer.rotation};
     return true;
 }
 
@@ -146,7 +147,7 @@ struct ceduo_report *ceduo_app_report(const struct app *app)
                                     .result = app->live.result,
                                     .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
                                     .uncertainty = ceduo_app_uncertainty(app, uncertainty) ? uncertainty : NULL,
-                                    .ahead = years,
+                                    .years_ahead = years,
                                     .snapshot = ceduo_live_snapshot(&app->live, scene),
                                     .remarks = {.ground_assumed = app->document.file.ground_assumed},
                                     .seconds = app->live.results.snapshot ? app->live.results.snapshot->seconds : 0,

@@ -18,7 +18,7 @@ static void append_command(struct app *app, struct text *text, const char *how)
 {
     struct document *d = &app->document;
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
-    uint64_t rocks = shown ? ceduo_released(shown) : d->file.scene.simulation.rocks;
+    uint64_t rocks = shown ? ceduo_rocks_released(shown) : d->file.scene.simulation.rocks;
     ceduo_text_format(text, "ceduo %s -n %llu ", how, (unsigned long long)rocks);
     ceduo_text_append_quoted(text, d->path ? d->path : "scene.yaml");
 }
@@ -33,7 +33,7 @@ static void show_command(struct app *app, struct popup *p)
         ceduo_text_format(&p->text,
                           app->live.busy ? _("\nThe figures on the screen are of %llu rocks; more are falling.\n")
                                          : _("\nThe figures on the screen are of %llu rocks.\n"),
-                          (unsigned long long)ceduo_released(shown));
+                          (unsigned long long)ceduo_rocks_released(shown));
     else
         ceduo_text_append(&p->text, _("\nThere are no figures yet: -n is what the scene says.\n"));
     if (ceduo_document_unsaved(&app->document))
@@ -58,7 +58,7 @@ static void put_html(struct app *app, struct ceduo_report *report, struct text *
     LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
     LOCAL_TEXT(command);
     append_command(app, &command, "--report report.html");
-    uncertainty.over = false;
+    uncertainty.rotation_mean = false;
     report->uncertainty = sure ? &uncertainty : NULL;
     report->command = command.bytes;
     ceduo_page_chapter(&page, report);
@@ -209,7 +209,7 @@ void ceduo_popup_copy(struct app *app)
     struct view_state *state = ceduo_app_state(app), kept = *state;
     struct ceduo_cells *screen = app->cells;
     app->cells = ceduo_check_memory(ceduo_cells_create(COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT, app->charset));
-    app->cells->canvas.words_alone = true;
+    app->cells->canvas.text_only = true;
     state->pane = 0;
     ceduo_views[app->view]->draw(app, (struct ceduo_area){0, 0, COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT});
     char *drawn = ceduo_cells_dump(app->cells);

@@ -85,7 +85,7 @@ static void draw_verdict(struct app *app)
     bool open = judgement != CEDUO_CANNOT_JUDGE && judgement != CEDUO_UNANSWERED;
     double share = open ? ceduo_live_awaits_uncertainty(&app->live, &app->document.file, app->option) : NAN;
     const char *progress = isnan(share) ? "" : ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
-    subject.so_far = !isnan(share);
+    subject.preliminary = !isnan(share);
     ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE - ceduo_utf8_width(progress));
     ceduo_canvas_draw_text(&app->cells->canvas, 1, 1, app->width - 1,
                            judgement == CEDUO_UNANSWERED ? CEDUO_ROLE_TITLE

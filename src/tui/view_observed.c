@@ -77,7 +77,7 @@ static void say_as_it_is(struct app *app, struct ceduo_page *page)
             continue;
         ceduo_text_append(&bad, bad.length > 0 ? "; " : "");
         ceduo_text_append_escaped(&bad, file->observations[i].name);
-        const char *chance = p->p_value < 0.001 ? "<.001" : WRITTEN(p->p_value, 2);
+        const char *chance = p->p_value < 0.001 ? "<.001" : SIG(p->p_value, 2);
         if (isnan(p->p_value))
             ceduo_text_format(&bad, " (%s)", _("no simulated rock does that"));
         else

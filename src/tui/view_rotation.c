@@ -41,7 +41,7 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         }
     for (const struct ceduo_belt *belt = y->option.belts; belt < y->option.belts + y->option.belts_count; belt++) {
         const struct ceduo_stand *s = &belt->stand;
-        ceduo_text_format(text, "%s\xe2\x80\x93%s m: ", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
+        ceduo_text_format(text, "%s\xe2\x80\x93%s m: ", LOCALIZED(belt->from_given), LOCALIZED(belt->to_given));
         if (ceduo_stand_is_bare(s))
             ceduo_text_append(text, _("no stems"));
         if (s->shoots_count > 0)

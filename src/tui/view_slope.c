@@ -159,7 +159,7 @@ static void say_place(struct app *app)
     const struct ceduo_envelope *e = near && run && run->envelopes ? &run->envelopes[cell] : NULL;
     if (e && e->passed > 0)
         ceduo_text_append_joined(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
-                                 WRITTEN(e->height.p95, 2), WRITTEN(e->mean_energy * J_TO_KJ, 3));
+                                 SIG(e->height.p95, 2), SIG(e->mean_energy * J_TO_KJ, 3));
     ceduo_app_hint(app, text.bytes);
 }
 

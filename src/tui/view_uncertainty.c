@@ -31,7 +31,7 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     const struct ceduo_uncertainty_report *r = pane.report->uncertainty;
-    bool waits = app->over && r && r->answer && !r->over;
+    bool waits = app->over && r && r->answer && !r->rotation_mean;
     picture.uncertainty = waits ? NULL : r;
     const char *never = waits ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;
     if (never)
@@ -42,9 +42,9 @@ static void draw(struct app *app, struct ceduo_area area)
         ceduo_pane_uncertainty(&page, &pane);
     if (r && r->answer && !waits)
         ceduo_page_para(&page, CEDUO_PAGE_NOTE,
-                        r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
+                        r->rotation_mean ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
                         (unsigned long long)r->answer->evaluations,
-                        (unsigned long long)(r->over ? CEDUO_UNCERTAINTY_YEAR_ROCKS : r->rocks));
+                        (unsigned long long)(r->rotation_mean ? CEDUO_UNCERTAINTY_YEAR_ROCKS : r->rocks));
     ceduo_app_page(app, area, &page);
 }
 

@@ -12,19 +12,19 @@
 #include "base/text.h"
 #include "base/utf8.h"
 
-/* ---- On cells: lines as dots, bars and axes as characters, clouds by how often a dot is passed ---- */
+/* ---- Surface of cells: lines as dots, bars and axes as characters, clouds by the passes of each dot ---- */
 
-/* The nearest of n dots. */
+/* Return the nearest of n dots. */
 static int nearest(double position, int n)
 {
     return (int)lround(fmin(fmax(position, 0.0), n - 1));
 }
 
-/* Dashes lie at the same columns for all lines of a frame; those of an upright line at the same rows. */
-static void put_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
+/* Draw a line in dots. Dashes of all lines of a frame are aligned: at the same columns, or rows if upright. */
+static void cells_draw_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
 {
     static const struct {
-        int on, of;
+        int drawn, period;
     } dashes[CEDUO_STROKES] = {
         [CEDUO_STROKE_TRAJECTORY] = {1, 1}, [CEDUO_STROKE_RULE] = {1, 2},   [CEDUO_STROKE_DOTS] = {1, 2},
         [CEDUO_STROKE_FEW] = {1, 4},        [CEDUO_STROKE_DASHES] = {4, 6}, [CEDUO_STROKE_PLAIN] = {1, 1}};
@@ -38,14 +38,14 @@ static void put_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, s
         double part = dots > 0 ? (double)i / dots : 0;
         int in_x = x + (int)lround(part * dx), in_y = y + (int)lround(part * dy);
         int at_x = r->left + in_x, at_y = r->top + in_y, along = dx != 0 || dots == 0 ? in_x : in_y;
-        if (along % dashes[pen->stroke].of >= dashes[pen->stroke].on)
+        if (along % dashes[pen->stroke].period >= dashes[pen->stroke].drawn)
             continue;
         if (pen->stroke != CEDUO_STROKE_TRAJECTORY) {
             ceduo_cells_set_dot(to, at_x, at_y, pen->role);
             continue;
         }
-        bool again = at_x == pen->last_x && at_y == pen->last_y; /* where a part of a trajectory ends and the next begins */
-        if (!cells->density || at_x < 0 || at_x >= across || at_y < 0 || at_y >= down || again)
+        bool repeated = at_x == pen->last_x && at_y == pen->last_y; /* end of one segment is start of the next: count it once */
+        if (!cells->density || at_x < 0 || at_x >= across || at_y < 0 || at_y >= down || repeated)
             continue;
         pen->last_x = at_x;
         pen->last_y = at_y;
@@ -54,13 +54,13 @@ static void put_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, s
     }
 }
 
-/* To an eighth of a cell, in ASCII to a cell. */
-static void put_bar(void *to, int column, int row, int width, double fraction, enum ceduo_role role)
+/* Draw a bar with a resolution of 1/8 cell, or of a cell in ASCII. */
+static void cells_draw_bar(void *to, int column, int row, int width, double fraction, enum ceduo_role role)
 {
     enum { full_block = 0x2588, eighth_block = 0x258F };
     const struct ceduo_cells *cells = to;
     bool ascii = cells->charset == CEDUO_CHARSET_ASCII;
-    int parts = ascii ? 1 : 8; /* of a cell */
+    int parts = ascii ? 1 : 8; /* per cell */
     int length = (int)lround(fraction * width * parts);
     length = length < 1 ? 1 : length;
     for (int i = 0; i < length / parts; ++i)
@@ -69,8 +69,8 @@ static void put_bar(void *to, int column, int row, int width, double fraction, e
         ceduo_cells_set_code(to, column + length / parts, row, role, (uint32_t)(eighth_block + 1 - length % parts));
 }
 
-/* The bottom axis meets the left one in a corner if that was drawn before. */
-static void put_axis(void *to, const struct ceduo_frame *frame, bool bottom, int count, const struct ceduo_tick *ticks)
+/* Draw an axis. The bottom axis joins a left axis drawn before. */
+static void cells_draw_axis(void *to, const struct ceduo_frame *frame, bool bottom, int count, const struct ceduo_tick *ticks)
 {
     int left = frame->left - 1, below = frame->top + frame->height;
     const struct ceduo_cell *above = ceduo_cells_at(to, left, below - 1);
@@ -90,44 +90,45 @@ static void put_axis(void *to, const struct ceduo_frame *frame, bool bottom, int
     }
 }
 
-const struct ceduo_surface ceduo_cells_surface = {.margin = 0.5, .line = put_line, .bar = put_bar, .axis = put_axis};
+const struct ceduo_surface ceduo_cells_surface = {
+    .margin = 0.5, .line = cells_draw_line, .bar = cells_draw_bar, .axis = cells_draw_axis};
 
 /* ---- Frames ---- */
 
-static bool frame_cells_valid(const struct ceduo_frame *frame)
+static bool are_cells_valid(const struct ceduo_frame *frame)
 {
     return frame->width >= 2 && frame->width <= CEDUO_CANVAS_MAX_WIDTH && frame->height >= 1 &&
            frame->height <= CEDUO_CANVAS_MAX_HEIGHT && abs(frame->left) <= CEDUO_CANVAS_MAX_WIDTH &&
            abs(frame->top) <= CEDUO_CANVAS_MAX_HEIGHT;
 }
 
-static bool range_valid(double from, double to)
+static bool is_range_valid(double from, double to)
 {
     return isfinite(from) && isfinite(to) && isfinite(to - from) && from != to;
 }
 
-static bool is_valid(const struct ceduo_frame *frame)
+static bool is_frame_valid(const struct ceduo_frame *frame)
 {
-    return frame_cells_valid(frame) && range_valid(frame->x0, frame->x1) && range_valid(frame->y0, frame->y1);
+    return are_cells_valid(frame) && is_range_valid(frame->x0, frame->x1) && is_range_valid(frame->y0, frame->y1);
 }
 
-/* Of a frame whose cells are valid: others are as large as they like. */
-static struct ceduo_raster raster_of(const struct ceduo_canvas *canvas, const struct ceduo_frame *frame)
+/* Requires valid cells; an invalid frame may be arbitrarily large. */
+static struct ceduo_raster make_raster(const struct ceduo_canvas *canvas, const struct ceduo_frame *frame)
 {
     return (struct ceduo_raster){frame->left * canvas->dots_x, frame->top * canvas->dots_y, frame->width * canvas->dots_x,
                                  frame->height * canvas->dots_y};
 }
 
-/* False if the point is not finite, or too far off for its place to be. */
-static bool place(const struct ceduo_frame *frame, const struct ceduo_raster *raster, double x, double y,
-                  struct ceduo_position *out)
+/* Convert a data point to dots. Return false if the result is not finite. */
+static bool convert_point(const struct ceduo_frame *frame, const struct ceduo_raster *raster, double x, double y,
+                          struct ceduo_position *out)
 {
     out->x = (x - frame->x0) / (frame->x1 - frame->x0) * (raster->nx - 1);
     out->y = (frame->y1 - y) / (frame->y1 - frame->y0) * (raster->ny - 1);
     return isfinite(out->x) && isfinite(out->y);
 }
 
-static bool inside(const struct ceduo_raster *raster, struct ceduo_position p)
+static bool is_inside(const struct ceduo_raster *raster, struct ceduo_position p)
 {
     return p.x >= -0.5 && p.x <= raster->nx - 0.5 && p.y >= -0.5 && p.y <= raster->ny - 0.5;
 }
@@ -137,12 +138,12 @@ bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas
 {
     double x_range = x_hi - x_lo;
     double y_range = y_hi - y_lo;
-    if (!frame_cells_valid(frame) || !isfinite(x_range) || !isfinite(y_range) || x_range < 0.0 || y_range < 0.0)
+    if (!are_cells_valid(frame) || !isfinite(x_range) || !isfinite(y_range) || x_range < 0.0 || y_range < 0.0)
         return false;
-    struct ceduo_raster raster = raster_of(canvas, frame);
-    double x_length = (raster.nx - 1) * (2.0 / canvas->dots_x); /* halves of a cell's width */
+    struct ceduo_raster raster = make_raster(canvas, frame);
+    double x_length = (raster.nx - 1) * (2.0 / canvas->dots_x); /* half cell widths */
     double y_length = (raster.ny - 1) * (4.0 / canvas->dots_y);
-    double metres = fmax(x_range / x_length, y_range / y_length); /* per unit of length */
+    double metres = fmax(x_range / x_length, y_range / y_length); /* m per unit of length */
     double x_spare = metres * x_length - x_range;
     double y_spare = metres * y_length - y_range;
     struct ceduo_frame scaled = *frame;
@@ -150,7 +151,7 @@ bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas
     scaled.x1 = x_hi + 0.5 * x_spare;
     scaled.y0 = y_lo - 0.5 * y_spare;
     scaled.y1 = y_hi + 0.5 * y_spare;
-    if (!is_valid(&scaled))
+    if (!is_frame_valid(&scaled))
         return false;
     *frame = scaled;
     return true;
@@ -159,11 +160,11 @@ bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas
 bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y, int *column,
                       int *row)
 {
-    if (!is_valid(frame))
+    if (!is_frame_valid(frame))
         return false;
-    struct ceduo_raster raster = raster_of(canvas, frame);
+    struct ceduo_raster raster = make_raster(canvas, frame);
     struct ceduo_position p;
-    if (!place(frame, &raster, x, y, &p) || !inside(&raster, p))
+    if (!convert_point(frame, &raster, x, y, &p) || !is_inside(&raster, p))
         return false;
     *column = frame->left + nearest(p.x, raster.nx) / canvas->dots_x;
     *row = frame->top + nearest(p.y, raster.ny) / canvas->dots_y;
@@ -172,7 +173,7 @@ bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas
 
 /* ---- Lines ---- */
 
-/* One edge of Liang and Barsky's clipping (1984): keeps the part lo..hi of the line with p t <= q. */
+/* Clip the part lo..hi of a line to p t <= q: one edge of Liang and Barsky (1984). */
 static bool clip_edge(double p, double q, double *lo, double *hi)
 {
     if (p == 0.0)
@@ -185,12 +186,12 @@ static bool clip_edge(double p, double q, double *lo, double *hi)
     return *lo <= *hi;
 }
 
-static void draw_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, struct ceduo_pen *pen, double ax, double ay,
-                      double bx, double by)
+static void draw_clipped(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, struct ceduo_pen *pen, double ax,
+                         double ay, double bx, double by)
 {
     struct ceduo_position a, b;
     double lo = 0, hi = 1, margin = canvas->surface->margin;
-    if (!place(frame, &pen->raster, ax, ay, &a) || !place(frame, &pen->raster, bx, by, &b))
+    if (!convert_point(frame, &pen->raster, ax, ay, &a) || !convert_point(frame, &pen->raster, bx, by, &b))
         return;
     double dx = b.x - a.x, dy = b.y - a.y;
     if (isfinite(dx) && isfinite(dy) && clip_edge(-dx, a.x + margin, &lo, &hi) &&
@@ -203,24 +204,24 @@ static void draw_line(struct ceduo_canvas *canvas, const struct ceduo_frame *fra
 void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
                            enum ceduo_stroke stroke, size_t n, const double *x, const double *y)
 {
-    if (!is_valid(frame))
+    if (!is_frame_valid(frame))
         return;
-    struct ceduo_pen pen = {raster_of(canvas, frame), role, stroke, INT_MIN, INT_MIN};
+    struct ceduo_pen pen = {make_raster(canvas, frame), role, stroke, INT_MIN, INT_MIN};
     for (size_t i = 0; i < n; ++i) {
         bool follows = i > 0 && isfinite(x[i - 1]) && isfinite(y[i - 1]);
         size_t from = follows ? i - 1 : i;
-        draw_line(canvas, frame, &pen, x[from], y[from], x[i], y[i]);
+        draw_clipped(canvas, frame, &pen, x[from], y[from], x[i], y[i]);
     }
 }
 
-/* Both ends must be drawable: of a polyline a single end would stay as a dot. */
+/* Draw a straight line only if both ends are valid; a polyline would leave a dot. */
 static void draw_straight(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
                           enum ceduo_stroke stroke, double ax, double ay, double bx, double by)
 {
-    if (!is_valid(frame))
+    if (!is_frame_valid(frame))
         return;
-    struct ceduo_pen pen = {raster_of(canvas, frame), role, stroke, INT_MIN, INT_MIN};
-    draw_line(canvas, frame, &pen, ax, ay, bx, by);
+    struct ceduo_pen pen = {make_raster(canvas, frame), role, stroke, INT_MIN, INT_MIN};
+    draw_clipped(canvas, frame, &pen, ax, ay, bx, by);
 }
 
 void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax, double ay,
@@ -254,11 +255,11 @@ void ceduo_canvas_stairs(struct ceduo_canvas *canvas, const struct ceduo_frame *
 void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x, double y,
                        double radius)
 {
-    if (!is_valid(frame))
+    if (!is_frame_valid(frame))
         return;
-    struct ceduo_raster raster = raster_of(canvas, frame);
+    struct ceduo_raster raster = make_raster(canvas, frame);
     struct ceduo_position centre;
-    if (canvas->surface->disc && place(frame, &raster, x, y, &centre) && inside(&raster, centre))
+    if (canvas->surface->disc && convert_point(frame, &raster, x, y, &centre) && is_inside(&raster, centre))
         canvas->surface->disc(canvas->to, &raster, role, centre,
                               (struct ceduo_position){fabs(radius / (frame->x1 - frame->x0)) * (raster.nx - 1),
                                                       fabs(radius / (frame->y1 - frame->y0)) * (raster.ny - 1)});
@@ -267,8 +268,8 @@ void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *fr
     double dot = fabs(frame->y1 - frame->y0) / (frame->height * canvas->dots_y - 1);
     int rows = (int)floor(radius / dot);
     for (int i = -rows; i <= rows; ++i) {
-        double half = sqrt(fmax(radius * radius - i * dot * i * dot, 0));
-        ceduo_canvas_line(canvas, frame, role, x - half, y + i * dot, x + half, y + i * dot);
+        double half_width = sqrt(fmax(radius * radius - i * dot * i * dot, 0));
+        ceduo_canvas_line(canvas, frame, role, x - half_width, y + i * dot, x + half_width, y + i * dot);
     }
 }
 
@@ -325,17 +326,17 @@ bool ceduo_canvas_is_blank(const struct ceduo_canvas *canvas, int column, int ro
     return ceduo_cells_glyph(canvas->cells, column, row) == ' ';
 }
 
-int ceduo_canvas_draw_text(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text)
+int ceduo_canvas_draw_text(struct ceduo_canvas *canvas, int column, int row, int max, enum ceduo_role role, const char *text)
 {
-    if (most < 1)
+    if (max < 1)
         return 0;
-    if (ceduo_canvas_label_width(canvas, text) <= most)
+    if (ceduo_canvas_label_width(canvas, text) <= max)
         return ceduo_canvas_label(canvas, column, row, role, text);
     const char *mark = ceduo_canvas_label_width(canvas, "\xe2\x80\xa6") > 1 ? "~" : "\xe2\x80\xa6";
     LOCAL_TEXT(cut);
     ceduo_text_append(&cut, text);
     char *end = cut.bytes + cut.length;
-    while (end > cut.bytes && ceduo_canvas_label_width(canvas, cut.bytes) > most - 1) {
+    while (end > cut.bytes && ceduo_canvas_label_width(canvas, cut.bytes) > max - 1) {
         end = cut.bytes + (ceduo_utf8_back(cut.bytes, end) - cut.bytes);
         *end = '\0';
     }
@@ -345,7 +346,8 @@ int ceduo_canvas_draw_text(struct ceduo_canvas *canvas, int column, int row, int
 
 /* ---- Ticks ---- */
 
-/* A multiple of the k-th round interval: …, 0.5, 1 (0), 2 (1), 5 (2), 10, … 3 / 10 is 0.3, but 3 * 0.1 is not. */
+/* Return a multiple of the k-th round interval: …, 0.5, 1 (k = 0), 2 (1), 5 (2), 10, … Divides, because 3 / 10 is 0.3 and 3
+ * * 0.1 is not. */
 static double tick_value(double index, int k)
 {
     static const int mantissas[] = {1, 2, 5};
@@ -354,10 +356,10 @@ static double tick_value(double index, int k)
     return exponent < 0 ? tens / pow(10.0, -exponent) : tens * pow(10.0, exponent);
 }
 
-/* The first multiple of the interval in lo..hi; returns how many there are. */
-static double multiples(double lo, double hi, int k, double *first)
+/* Find the first multiple of the interval in lo..hi; return their number. */
+static double count_multiples(double lo, double hi, int k, double *first)
 {
-    const double slack = 1e-9; /* of an interval: 0.3 belongs to 0..3 * 0.1 */
+    const double slack = 1e-9; /* fraction of an interval: 0.3 belongs to 0..3 * 0.1 */
     double size = tick_value(1.0, k);
     *first = ceil(lo / size - slack);
     return floor(hi / size + slack) - *first + 1.0;
@@ -375,24 +377,24 @@ int ceduo_ticks(double lo, double hi, int max_count, double *out, double *interv
     }
     max_count = max_count < CEDUO_TICKS_MAX ? max_count : CEDUO_TICKS_MAX;
     int k = 3 * (int)floor(log10(range / max_count));
-    /* 6..8 has no multiple of 5; a tick at 6 alone is better than none */
-    while (multiples(from, to, k, &first) > max_count && multiples(from, to, k + 1, &first) >= 1.0)
+    /* 6..8 has no multiple of 5: keep the only tick 6 */
+    while (count_multiples(from, to, k, &first) > max_count && count_multiples(from, to, k + 1, &first) >= 1.0)
         k++;
-    int n = (int)fmin(multiples(from, to, k, &first), max_count);
+    int n = (int)fmin(count_multiples(from, to, k, &first), max_count);
     for (int i = 0; i < n; ++i)
-        out[i] = tick_value(first + i, k); /* ceil may have made first -0; -0 + 0 is 0 */
+        out[i] = tick_value(first + i, k); /* ceil() may return -0; -0 + 0 is 0 */
     *interval = tick_value(1.0, k);
     return n;
 }
 
 void ceduo_tick_label(double value, double interval, char label[CEDUO_TICK_LABEL_SIZE])
 {
-    double place = interval > 0.0 ? floor(log10(interval) + 1e-9) : 0.0; /* of the last digit */
-    double digits = value == 0.0 ? 1.0 : floor(log10(fabs(value)) + 1e-9) - place + 1.0;
+    double convert_point = interval > 0.0 ? floor(log10(interval) + 1e-9) : 0.0; /* place of the last digit, power of 10 */
+    double digits = value == 0.0 ? 1.0 : floor(log10(fabs(value)) + 1e-9) - convert_point + 1.0;
     if (!(interval > 0.0))
         snprintf(label, CEDUO_TICK_LABEL_SIZE, "%.6g", value);
-    else if (place >= -6 && fabs(value) < 1e7)
-        snprintf(label, CEDUO_TICK_LABEL_SIZE, "%.*f", place < 0 ? (int)-place : 0, value);
+    else if (convert_point >= -6 && fabs(value) < 1e7)
+        snprintf(label, CEDUO_TICK_LABEL_SIZE, "%.*f", convert_point < 0 ? (int)-convert_point : 0, value);
     else
         snprintf(label, CEDUO_TICK_LABEL_SIZE, "%.*g", (int)fmin(fmax(digits, 1.0), 17.0), value);
     char *exponent = strchr(label, 'e');
@@ -400,22 +402,22 @@ void ceduo_tick_label(double value, double interval, char label[CEDUO_TICK_LABEL
         char *to = exponent + 1 + (exponent[1] == '-'), *from = to + strspn(to, "+0");
         memmove(to, from, strlen(from) + 1);
     }
-    if (*label == '-' && strpbrk(label, "123456789") == NULL) /* rounded to "-0.0" */
+    if (*label == '-' && strpbrk(label, "123456789") == NULL) /* rounded to "-0.0": drop the sign */
         memmove(label, label + 1, strlen(label));
     ceduo_number_localize(label);
 }
 
-/* ---- Axes: labels at round numbers, which never touch ---- */
+/* ---- Axes: labels at round numbers that do not touch ---- */
 
-/* The labels of an axis. */
-struct scale {
+/* Ticks of an axis. */
+struct axis_scale {
     int count;
     double interval;
-    struct ceduo_tick tick[CEDUO_TICKS_MAX + 1]; /* and the unit */
+    struct ceduo_tick tick[CEDUO_TICKS_MAX + 1]; /* one more for the unit */
 };
 
-/* At most n ticks, but for where their labels begin. False where one lies outside. */
-static bool set_ticks(struct scale *scale, const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, bool bottom,
+/* Set at most n ticks, without the position of labels. Return false if a tick is outside the frame. */
+static bool set_ticks(struct axis_scale *scale, const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, bool bottom,
                       int n)
 {
     double value[CEDUO_TICKS_MAX];
@@ -424,44 +426,44 @@ static bool set_ticks(struct scale *scale, const struct ceduo_frame *frame, cons
     for (int i = 0; i < scale->count; ++i) {
         struct ceduo_tick *t = &scale->tick[i];
         double x = bottom ? value[i] : frame->x0, y = bottom ? frame->y0 : value[i];
-        struct ceduo_raster raster = raster_of(canvas, frame);
+        struct ceduo_raster raster = make_raster(canvas, frame);
         struct ceduo_position p;
         int column, row;
-        if (!ceduo_frame_cell(frame, canvas, x, y, &column, &row) || !place(frame, &raster, x, y, &p))
+        if (!ceduo_frame_cell(frame, canvas, x, y, &column, &row) || !convert_point(frame, &raster, x, y, &p))
             return false;
         t->cell = bottom ? column : row;
-        t->at = bottom ? (raster.left + p.x + 0.5) / canvas->dots_x : (raster.top + p.y + 0.5) / canvas->dots_y;
+        t->position = bottom ? (raster.left + p.x + 0.5) / canvas->dots_x : (raster.top + p.y + 0.5) / canvas->dots_y;
         ceduo_tick_label(value[i], scale->interval, t->label);
     }
     return true;
 }
 
-/* As many labels as stand clear of each other. */
-static struct scale left_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
+/* Return the scale with the most labels that do not touch. */
+static struct axis_scale make_left_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
 {
-    struct scale scale = {0};
-    int apart = frame->height > 3 ? 2 : 1;
+    struct axis_scale scale = {0};
+    int min_gap = frame->height > 3 ? 2 : 1;
     for (int n = frame->height / 2 + 1; n > 0; --n) {
         bool fits = set_ticks(&scale, frame, canvas, false, n);
         for (int i = 1; i < scale.count && fits; ++i)
-            fits = abs(scale.tick[i].cell - scale.tick[i - 1].cell) >= apart;
+            fits = abs(scale.tick[i].cell - scale.tick[i - 1].cell) >= min_gap;
         if (fits)
             return scale;
     }
-    return (struct scale){0};
+    return (struct axis_scale){0};
 }
 
 int ceduo_frame_axis_width(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
 {
-    /* The columns are still to be found: any valid ones, and any x, give the same labels. */
+    /* the columns are unknown yet; any valid columns and x range give the same labels */
     struct ceduo_frame rows = *frame;
     rows.left = 0;
     rows.width = 2;
     rows.x0 = 0.0;
     rows.x1 = 1.0;
-    if (!is_valid(&rows))
+    if (!is_frame_valid(&rows))
         return 0;
-    struct scale scale = left_scale(&rows, canvas);
+    struct axis_scale scale = make_left_scale(&rows, canvas);
     size_t widest = 0;
     for (int i = 0; i < scale.count; ++i) {
         size_t length = strlen(scale.tick[i].label);
@@ -472,9 +474,9 @@ int ceduo_frame_axis_width(const struct ceduo_frame *frame, const struct ceduo_c
 
 void ceduo_canvas_axis_left(struct ceduo_canvas *canvas, const struct ceduo_frame *frame)
 {
-    if (!is_valid(frame))
+    if (!is_frame_valid(frame))
         return;
-    struct scale scale = left_scale(frame, canvas);
+    struct axis_scale scale = make_left_scale(frame, canvas);
     for (int i = 0; i < scale.count; ++i) {
         int length = (int)strlen(scale.tick[i].label);
         scale.tick[i].start = length < frame->left ? frame->left - 1 - length : -1;
@@ -484,59 +486,59 @@ void ceduo_canvas_axis_left(struct ceduo_canvas *canvas, const struct ceduo_fram
 
 enum { LABEL_GAP = 2 }; /* blanks between labels */
 
-static int end_of(const struct ceduo_tick *tick)
+static int find_label_end(const struct ceduo_tick *tick)
 {
     return tick->start + (int)strlen(tick->label);
 }
 
-/* Sets where each label goes; false if two would collide or one leave the frame. */
-static bool bottom_scale_fits(struct scale *scale, const struct ceduo_frame *frame)
+/* Set the position of each label. Return false if labels overlap or exceed the frame. */
+static bool place_bottom_labels(struct axis_scale *scale, const struct ceduo_frame *frame)
 {
-    int least = frame->left > 0 ? frame->left - 1 : frame->left;
+    int min = frame->left > 0 ? frame->left - 1 : frame->left;
     int end = frame->left + frame->width;
     for (int i = 0; i < scale->count; ++i) {
         int length = (int)strlen(scale->tick[i].label), start = scale->tick[i].cell - (length - 1) / 2;
         start = start + length > end ? end - length : start;
-        start = start < least && i == 0 ? least : start;
-        if (start < least || start + length > end)
+        start = start < min && i == 0 ? min : start;
+        if (start < min || start + length > end)
             return false;
         scale->tick[i].start = start;
-        least = start + length + LABEL_GAP;
+        min = start + length + LABEL_GAP;
     }
     return true;
 }
 
-/* The most labels that leave room for the unit too, but two at least; the most of all if there is no such. */
-static struct scale bottom_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, const char *unit)
+/* Return the scale with the most labels that leave space for the unit, at least 2; otherwise the one with the most labels. */
+static struct axis_scale make_bottom_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, const char *unit)
 {
-    struct scale most = {0};
+    struct axis_scale fallback = {0};
     int width = ceduo_canvas_label_width(canvas, unit);
     for (int n = frame->width / 3 + 1; n > 0; --n) {
-        struct scale scale = {0};
-        bool inside = set_ticks(&scale, frame, canvas, true, n);
-        bool between = frame->x_whole && scale.interval > 0 && scale.interval < 1;
-        if (between || !inside || !bottom_scale_fits(&scale, frame) || (scale.count < 2 && most.count > 1))
+        struct axis_scale scale = {0};
+        bool is_inside = set_ticks(&scale, frame, canvas, true, n);
+        bool fractional = frame->x_integer && scale.interval > 0 && scale.interval < 1;
+        if (fractional || !is_inside || !place_bottom_labels(&scale, frame) || (scale.count < 2 && fallback.count > 1))
             continue;
-        most = most.count == 0 ? scale : most;
-        /* the unit goes after the last number or else after the first, moving none */
-        struct ceduo_tick at = {.cell = -1, .start = -1};
-        if (scale.count > 0 && end_of(&scale.tick[scale.count - 1]) + 1 + width <= frame->left + frame->width)
-            at.start = end_of(&scale.tick[scale.count - 1]) + 1;
-        else if (scale.count > 1 && end_of(&scale.tick[0]) + 1 + width + LABEL_GAP <= scale.tick[1].start)
-            at.start = end_of(&scale.tick[0]) + 1;
-        snprintf(at.label, sizeof at.label, "%s", unit);
-        if (width > 0 && at.start >= 0)
-            scale.tick[scale.count++] = at;
-        if (width == 0 || at.start >= 0)
+        fallback = fallback.count == 0 ? scale : fallback;
+        /* the unit goes after the last label, otherwise after the first; labels do not move */
+        struct ceduo_tick unit_tick = {.cell = -1, .start = -1};
+        if (scale.count > 0 && find_label_end(&scale.tick[scale.count - 1]) + 1 + width <= frame->left + frame->width)
+            unit_tick.start = find_label_end(&scale.tick[scale.count - 1]) + 1;
+        else if (scale.count > 1 && find_label_end(&scale.tick[0]) + 1 + width + LABEL_GAP <= scale.tick[1].start)
+            unit_tick.start = find_label_end(&scale.tick[0]) + 1;
+        snprintf(unit_tick.label, sizeof unit_tick.label, "%s", unit);
+        if (width > 0 && unit_tick.start >= 0)
+            scale.tick[scale.count++] = unit_tick;
+        if (width == 0 || unit_tick.start >= 0)
             return scale;
     }
-    return most;
+    return fallback;
 }
 
 void ceduo_canvas_axis_bottom(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, const char *unit)
 {
-    if (!is_valid(frame))
+    if (!is_frame_valid(frame))
         return;
-    struct scale scale = bottom_scale(frame, canvas, unit ? unit : "");
+    struct axis_scale scale = make_bottom_scale(frame, canvas, unit ? unit : "");
     canvas->surface->axis(canvas->to, frame, true, scale.count, scale.tick);
 }

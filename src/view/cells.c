@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The grid, text in it, and its output. */
 #include "cells.h"
 
 #include <ctype.h>
@@ -11,7 +10,7 @@
 #include "base/text.h"
 #include "base/utf8.h"
 
-/* ---- The grid ---- */
+/* ---- Grid ---- */
 
 static size_t cell_count(const struct ceduo_cells *cells)
 {
@@ -104,8 +103,8 @@ void ceduo_cells_set_code(struct ceduo_cells *cells, int column, int row, enum c
 
 /* ---- Text ---- */
 
-/* What stands for a character that is not ASCII; of the degree a blank, as "35o" reads like 350. */
-static const char *ascii_for(uint32_t code)
+/* Return the replacement of a character in ASCII. A degree sign becomes a blank: "35o" reads as 350. */
+static const char *find_ascii(uint32_t code)
 {
     static const struct {
         uint16_t first, last;
@@ -139,20 +138,21 @@ static const char *ascii_for(uint32_t code)
     return "?";
 }
 
-/* Walks through a text as it will be written, one cell after the other. */
+/* Iterator over a text, one cell at a time. */
 struct reader {
     enum ceduo_charset charset;
     const char *begin, *text;
-    const char *pending; /* the rest of an ASCII equivalent, in a constant table */
+    const char *pending; /* rest of an ASCII replacement, in a constant table */
 };
 
-bool ceduo_is_power(const char *string, const char *at)
+bool ceduo_is_power(const char *string, const char *digit)
 {
-    return (*at == '2' || *at == '3') && at > string && at[-1] == 'm' && (at == string + 1 || strchr(" /(", at[-2])) &&
-           !isalnum((unsigned char)at[1]) && !(at[1] && strchr("_.=[", at[1]) && at[2] > ' ');
+    return (*digit == '2' || *digit == '3') && digit > string && digit[-1] == 'm' &&
+           (digit == string + 1 || strchr(" /(", digit[-2])) && !isalnum((unsigned char)digit[1]) &&
+           !(digit[1] && strchr("_.=[", digit[1]) && digit[2] > ' ');
 }
 
-/* 0 at the end. */
+/* Return the next code point; 0 at the end. */
 static uint32_t next_code(struct reader *reader)
 {
     if (*reader->pending != '\0')
@@ -161,7 +161,7 @@ static uint32_t next_code(struct reader *reader)
         return 0;
     if (reader->charset != CEDUO_CHARSET_ASCII && ceduo_is_power(reader->begin, reader->text))
         return *reader->text++ == '2' ? 0xB2 : 0xB3;
-    if (*reader->text >= ' ' && *reader->text <= '~') /* most texts are of these alone */
+    if (*reader->text >= ' ' && *reader->text <= '~') /* fast path */
         return (uint32_t)*reader->text++;
     uint32_t code;
     size_t n = ceduo_utf8_decode(reader->text, strnlen(reader->text, 4), &code);
@@ -170,7 +170,7 @@ static uint32_t next_code(struct reader *reader)
         return '?';
     if (reader->charset != CEDUO_CHARSET_ASCII || code < 0x80)
         return code;
-    reader->pending = ascii_for(code);
+    reader->pending = find_ascii(code);
     return (uint32_t)*reader->pending++;
 }
 
@@ -187,14 +187,14 @@ int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo
     return count;
 }
 
-int ceduo_cells_label_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text)
+int ceduo_cells_label_end(struct ceduo_cells *cells, int column, int row, int max, enum ceduo_role role, const char *text)
 {
     const char *mark = cells->charset == CEDUO_CHARSET_ASCII ? "~" : "\xe2\x80\xa6";
-    bool cut = most > 0 && ceduo_cells_label_width(cells->charset, text) > most;
-    int sign = cut ? ceduo_cells_label(cells, column, row, role, mark) : 0;
-    while (*text && ceduo_cells_label_width(cells->charset, text) > most - sign)
+    bool cut = max > 0 && ceduo_cells_label_width(cells->charset, text) > max;
+    int mark_width = cut ? ceduo_cells_label(cells, column, row, role, mark) : 0;
+    while (*text && ceduo_cells_label_width(cells->charset, text) > max - mark_width)
         text += ceduo_utf8_step(text);
-    return sign + ceduo_cells_label(cells, column + sign, row, role, text);
+    return mark_width + ceduo_cells_label(cells, column + mark_width, row, role, text);
 }
 
 void ceduo_cells_ascii(struct text *text, const char *string)
@@ -217,7 +217,7 @@ int ceduo_cells_label_width(enum ceduo_charset charset, const char *text)
 
 uint32_t ceduo_cells_glyph(const struct ceduo_cells *cells, int column, int row)
 {
-    /* Braille counts its upper six dots column by column, and the lowest two after them. */
+    /* Unicode Braille: the upper six dots column by column, then the lowest two. */
     static const uint8_t braille[8] = {0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80};
     /* Bits: 1 upper left, 2 upper right, 4 lower left, 8 lower right. */
     static const uint16_t blocks[16] = {' ',    0x2598, 0x259D, 0x2580, 0x2596, 0x258C, 0x259E, 0x259B,

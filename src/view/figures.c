@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes tables of figures as JSON and CSV. What they say in sentences is English in every language. */
+/* Write tables of figures as JSON and CSV. Sentences are English in every language. */
 #include "figures.h"
 
 #include <inttypes.h>
@@ -8,38 +8,39 @@
 #include "base/json.h"
 #include "base/language.h"
 
-static double scale_of(const struct ceduo_figure *f, double scale)
+static double combine_scale(const struct ceduo_figure *f, double scale)
 {
     return f->scale > 0 ? scale * f->scale : scale;
 }
 
-/* What a row is read from; NULL: there is none. */
-static const void *source_of(const struct ceduo_figure *f, const void *object)
+/* Return the object of a row; NULL: none. */
+static const void *get_source(const struct ceduo_figure *f, const void *object)
 {
     return object && f->from ? f->from(object) : object;
 }
 
-static const void *object_of(const struct ceduo_figure *f, const void *object)
+static const void *get_nested(const struct ceduo_figure *f, const void *object)
 {
-    const void *from = source_of(f, object);
+    const void *from = get_source(f, object);
     return from ? (const char *)from + f->offset : NULL;
 }
 
-static struct ceduo_value value_of(const struct ceduo_figure *f, const void *object, double scale)
+static struct ceduo_value read_value(const struct ceduo_figure *f, const void *object, double scale)
 {
-    const void *from = source_of(f, object);
+    const void *from = get_source(f, object);
     struct ceduo_value v = from ? f->value->read(f, from) : (struct ceduo_value){.kind = CEDUO_NULL};
     if (v.kind == CEDUO_VALUE_NUMBER)
-        v.number *= scale_of(f, scale);
+        v.number *= combine_scale(f, scale);
     if ((v.kind == CEDUO_VALUE_NUMBER && !isfinite(v.number)) || (v.kind == CEDUO_VALUE_TEXT && !v.text))
         v.kind = CEDUO_NULL;
     return v;
 }
 
-static void say(const struct ceduo_figure *f, const struct ceduo_place *place, ceduo_sentence_sink *to, void *context)
+static void report_sentences(const struct ceduo_figure *f, const struct ceduo_place *place, ceduo_sentence_sink *to,
+                             void *context)
 {
     ceduo_language_set_data(true);
-    f->say(place, to, context);
+    f->sentences(place, to, context);
     ceduo_language_set_data(false);
 }
 
@@ -48,7 +49,7 @@ static void say(const struct ceduo_figure *f, const struct ceduo_place *place, c
 struct writer {
     struct json json;
     bool details;
-    const char *key; /* of a sentence; NULL: an item of a list */
+    const char *key; /* key of a sentence; NULL: item of a list */
 };
 
 static void write_sentence(void *context, const char *sentence)
@@ -71,19 +72,19 @@ static void write_value(struct json *j, const char *key, struct ceduo_value v)
 
 static void write_figures(struct writer *w, const struct ceduo_figure *f, const void *object, double scale);
 
-/* `brackets`: none where its figures stand in what is written already. */
-static void write_object(struct writer *w, const char *key, const struct ceduo_figure *of, const void *object, double scale,
-                         bool brackets)
+/* Write an object. `brackets` false: its figures belong to the enclosing object. */
+static void write_json_object(struct writer *w, const char *key, const struct ceduo_figure *table, const void *object,
+                              double scale, bool brackets)
 {
     if (brackets)
         ceduo_json_open(&w->json, key, '{');
-    write_figures(w, of, object, scale);
+    write_figures(w, table, object, scale);
     if (brackets)
         ceduo_json_close(&w->json, '}');
 }
 
-/* Goes to item i of a list; NULL after the last. */
-static const void *item_of(const struct ceduo_figure *f, const void *object, size_t i, struct ceduo_place *place)
+/* Return item i of a list; NULL after the last. */
+static const void *get_item(const struct ceduo_figure *f, const void *object, size_t i, struct ceduo_place *place)
 {
     if (f->item)
         return f->item(object, i);
@@ -94,35 +95,35 @@ static const void *item_of(const struct ceduo_figure *f, const void *object, siz
 static void write_list(struct writer *w, const struct ceduo_figure *f, const void *object, double scale)
 {
     struct ceduo_place place;
-    const void *item = item_of(f, object, 0, &place);
+    const void *item = get_item(f, object, 0, &place);
     if (f->details ? !w->details : f->null && !item) {
         ceduo_json_string(&w->json, f->key, NULL);
         return;
     }
     ceduo_json_open(&w->json, f->key, '[');
-    for (size_t i = 1; item; item = item_of(f, object, i++, &place))
-        write_object(w, NULL, f->of, item, f->item ? scale : 1, !f->plain);
+    for (size_t i = 1; item; item = get_item(f, object, i++, &place))
+        write_json_object(w, NULL, f->table, item, f->item ? scale : 1, !f->plain);
     ceduo_json_close(&w->json, ']');
 }
 
 static void write_figures(struct writer *w, const struct ceduo_figure *f, const void *object, double scale)
 {
     for (; !ceduo_figure_is_end(f); f++) {
-        const void *of = object_of(f, object);
+        const void *nested = get_nested(f, object);
         if (f->value) {
-            write_value(&w->json, f->key, value_of(f, object, scale));
+            write_value(&w->json, f->key, read_value(f, object, scale));
         } else if (f->enter || f->item) {
-            write_list(w, f, object, scale_of(f, scale));
-        } else if (f->of && !of) {
+            write_list(w, f, object, combine_scale(f, scale));
+        } else if (f->table && !nested) {
             ceduo_json_string(&w->json, f->key, NULL);
-        } else if (f->of) {
-            write_object(w, f->key, f->of, of, scale_of(f, scale), f->key != NULL);
+        } else if (f->table) {
+            write_json_object(w, f->key, f->table, nested, combine_scale(f, scale), f->key != NULL);
         } else {
-            w->key = f->one ? f->key : NULL;
-            if (!f->one)
+            w->key = f->single ? f->key : NULL;
+            if (!f->single)
                 ceduo_json_open(&w->json, f->key, '[');
-            say(f, object, write_sentence, w);
-            if (!f->one)
+            report_sentences(f, object, write_sentence, w);
+            if (!f->single)
                 ceduo_json_close(&w->json, ']');
         }
     }
@@ -131,17 +132,17 @@ static void write_figures(struct writer *w, const struct ceduo_figure *f, const 
 void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, const void *object, bool details)
 {
     struct writer w = {.json = {.text = text}, .details = details};
-    write_object(&w, NULL, figures, object, 1, true);
+    write_json_object(&w, NULL, figures, object, 1, true);
     ceduo_text_append_char(text, '\n');
 }
 
 /* ---- CSV ---- */
 
-static void append_value(struct text *text, struct ceduo_value v)
+static void append_csv_value(struct text *text, struct ceduo_value v)
 {
-    char room[CEDUO_NUMBER_SIZE];
+    char buffer[CEDUO_NUMBER_SIZE];
     if (v.kind == CEDUO_VALUE_NUMBER)
-        ceduo_text_append(text, ceduo_number_shortest(v.number, room));
+        ceduo_text_append(text, ceduo_number_shortest(v.number, buffer));
     else if (v.kind == CEDUO_VALUE_COUNT)
         ceduo_text_format(text, "%" PRIu64, v.count);
     else if (v.kind == CEDUO_VALUE_FLAG)
@@ -150,39 +151,39 @@ static void append_value(struct text *text, struct ceduo_value v)
         ceduo_text_append_csv(text, v.text);
 }
 
-/* Sentences joined by "; ". */
-static void join(void *context, const char *sentence)
+/* Append a sentence, separated by "; ". */
+static void append_sentence(void *context, const char *sentence)
 {
     struct text *all = context;
     ceduo_text_append(all, all->length > 0 ? "; " : "");
     ceduo_text_append(all, sentence);
 }
 
-/* A cell, and a comma behind it. */
+/* Append a cell and a comma. */
 static void append_cell(struct text *row, const struct ceduo_figure *f, const void *object, double scale)
 {
     LOCAL_TEXT(all);
     if (f->value) {
-        append_value(row, value_of(f, object, scale));
+        append_csv_value(row, read_value(f, object, scale));
     } else {
-        say(f, object, join, &all);
+        report_sentences(f, object, append_sentence, &all);
         if (all.bytes)
             ceduo_text_append_csv(row, all.bytes);
     }
     ceduo_text_append_char(row, ',');
 }
 
-/* In the order of ceduo_figures_columns(). `object` NULL: empty cells. */
+/* Append cells in the order of ceduo_figures_columns(). `object` NULL: empty cells. */
 static void append_cells(struct text *row, const struct ceduo_figure *f, const void *object, double scale)
 {
     for (; !ceduo_figure_is_end(f); f++) {
-        double inner = scale_of(f, scale);
-        if (!f->of)
+        double inner = combine_scale(f, scale);
+        if (!f->table)
             append_cell(row, f, object, scale);
         for (size_t i = 0; i < f->columns; i++)
-            append_cells(row, f->of, object ? f->item(object, i) : NULL, inner);
-        if (f->of && !f->item)
-            append_cells(row, f->of, object_of(f, object), inner);
+            append_cells(row, f->table, object ? f->item(object, i) : NULL, inner);
+        if (f->table && !f->item)
+            append_cells(row, f->table, get_nested(f, object), inner);
     }
 }
 

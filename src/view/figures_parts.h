@@ -2,49 +2,49 @@
 #ifndef CEDUO_FIGURES_PARTS_H
 #define CEDUO_FIGURES_PARTS_H
 
-/* How rows of figures are written. */
+/* Macros for rows of figures. */
 #include "figures.h"
 
 #include <math.h>
 
-#define NOTHING    ((struct ceduo_value){.kind = CEDUO_NULL})
-#define NUMBER(of) ((struct ceduo_value){.kind = CEDUO_VALUE_NUMBER, .number = (of)})
-#define COUNT(of)  ((struct ceduo_value){.kind = CEDUO_VALUE_COUNT, .count = (of)})
-#define IS(of)     ((struct ceduo_value){.kind = CEDUO_VALUE_FLAG, .flag = (of)})
-#define WORD(of)   ((struct ceduo_value){.kind = CEDUO_VALUE_TEXT, .text = (of)})
+#define NO_VALUE  ((struct ceduo_value){.kind = CEDUO_NULL})
+#define NUMBER(x) ((struct ceduo_value){.kind = CEDUO_VALUE_NUMBER, .number = (x)})
+#define COUNT(x)  ((struct ceduo_value){.kind = CEDUO_VALUE_COUNT, .count = (x)})
+#define FLAG(x)   ((struct ceduo_value){.kind = CEDUO_VALUE_FLAG, .flag = (x)})
+#define WORD(x)   ((struct ceduo_value){.kind = CEDUO_VALUE_TEXT, .text = (x)})
 
-static inline const void *member(const struct ceduo_figure *f, const void *object)
+static inline const void *get_member(const struct ceduo_figure *f, const void *object)
 {
     return (const char *)object + f->offset;
 }
 
-/* For `value`: a member of type `type`, m; `kind` NUMBER, COUNT, FLAG or TEXT. */
+/* Define a reader for `value`: m is a member of type `type`; `kind` is NUMBER, COUNT, FLAG or TEXT. */
 #define READ(name, type, kind, result)                                                                                         \
     static inline struct ceduo_value name##_read(const struct ceduo_figure *f, const void *object)                             \
     {                                                                                                                          \
-        type const m = *(type const *)member(f, object);                                                                       \
+        type const m = *(type const *)get_member(f, object);                                                                   \
         return result;                                                                                                         \
     }                                                                                                                          \
     static const struct ceduo_reader name[1] = {{name##_read, CEDUO_VALUE_##kind}};
 READ(number_at, double, NUMBER, NUMBER(m))
 READ(count_at, uint64_t, COUNT, COUNT(m))
 READ(unsigned_at, unsigned, COUNT, COUNT(m))
-READ(flag_at, bool, FLAG, IS(m))
+READ(flag_at, bool, FLAG, FLAG(m))
 READ(text_at, char *, TEXT, WORD(m))
 READ(fixed_text_at, char const *, TEXT, WORD(m))
 
-/* A member of a struct, read by its type; numbers in an object of their own there. */
-#define AT(object, member)                                                                                                     \
+/* Row of a struct member, read by its type; a nested table. */
+#define MEMBER(object, member)                                                                                                 \
     .value = _Generic(((struct ceduo_##object *)0)->member, double: number_at, uint64_t: count_at,                     \
                       unsigned: unsigned_at, bool: flag_at, char *: text_at, const char *: fixed_text_at),             \
     .offset = offsetof(struct ceduo_##object, member)
-#define IN(object, member, table) .of = table, .offset = offsetof(struct ceduo_##object, member)
+#define IN(object, member, rows) .table = rows, .offset = offsetof(struct ceduo_##object, member)
 #define END                                                                                                                    \
     {                                                                                                                          \
         .key = NULL                                                                                                            \
     }
 
-/* For `value`: o is the object, f the row. */
+/* Define a reader for `value`: o is the object, f the row. */
 #define VALUE(name, type, kind, result)                                                                                        \
     static struct ceduo_value name##_read(const struct ceduo_figure *f, const void *object)                                    \
     {                                                                                                                          \
@@ -54,7 +54,7 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
     }                                                                                                                          \
     static const struct ceduo_reader name[1] = {{name##_read, CEDUO_VALUE_##kind}};
 
-/* For `from`: o is the object that a row is read from, another one where it leads to. */
+/* Define a function for `from`: o is the current object, the result the object to read. */
 #define OBJECT(name, type, object)                                                                                             \
     static const void *name(const void *from)                                                                                  \
     {                                                                                                                          \
@@ -62,7 +62,7 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
         return object;                                                                                                         \
     }
 
-/* For `enter`: a member of the place, p, goes through n items. */
+/* Define a function for `enter`: p->member iterates over n items. */
 #define ENTER(name, member, n)                                                                                                 \
     static bool name(struct ceduo_place *p, size_t i)                                                                          \
     {                                                                                                                          \
@@ -76,9 +76,9 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
     }
 VALUE(version_of, place, TEXT, WORD(CEDUO_VERSION))
 
-/* Why something is not known. */
-#define NO_ROCK "no rock arrives"
-#define FEW     "fewer than two rocks arrive"
-#define UNSAID  "the control has no accepted_kJ"
+/* Conditions for null. */
+#define NO_ROCK  "no rock arrives"
+#define TOO_FEW  "fewer than two rocks arrive"
+#define NO_LIMIT "the control has no accepted_kJ"
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an output looks like, from the tables that write it: JSON Schema, and the columns of CSV. */
+/* JSON Schema and CSV columns of an output, derived from its tables. */
 #include "base/json.h"
 #include "figures.h"
 
@@ -11,7 +11,7 @@ static const char *const types[] = {[CEDUO_VALUE_NUMBER] = "number",
 
 /* ---- JSON Schema ---- */
 
-/* "type": what it is, and null where it may be that. */
+/* Write "type", with null if allowed. */
 static void write_type(struct json *j, enum ceduo_value_kind kind, bool null)
 {
     if (kind != CEDUO_VALUE_ANY && !null) {
@@ -35,7 +35,7 @@ static void write_required(struct json *j, const struct ceduo_figure *f)
         if (f->key)
             ceduo_json_string(j, NULL, f->key);
         else
-            write_required(j, f->of);
+            write_required(j, f->table);
     }
 }
 
@@ -48,8 +48,8 @@ static void write_container(struct json *j, const char *type, bool null)
     ceduo_json_close(j, ']');
 }
 
-/* The cells that --each copies: no other output has this object. */
-static void write_row(struct json *j)
+/* Write the object of cells that --each copies. */
+static void write_each_row(struct json *j)
 {
     ceduo_json_open(j, "row", '{');
     ceduo_json_string(j, "description",
@@ -61,17 +61,17 @@ static void write_row(struct json *j)
     ceduo_json_close(j, '}');
 }
 
-/* `row`: the object also has the cells that --each copies. */
-static void write_object(struct json *j, const struct ceduo_figure *of, bool null, bool row)
+/* `row`: the object includes the cells that --each copies. */
+static void write_schema_object(struct json *j, const struct ceduo_figure *table, bool null, bool row)
 {
     write_container(j, "object", null);
     ceduo_json_open(j, "properties", '{');
     if (row)
-        write_row(j);
-    write_properties(j, of);
+        write_each_row(j);
+    write_properties(j, table);
     ceduo_json_close(j, '}');
     ceduo_json_open(j, "required", '[');
-    write_required(j, of);
+    write_required(j, table);
     ceduo_json_close(j, ']');
 }
 
@@ -79,14 +79,14 @@ static void write_items(struct json *j, const struct ceduo_figure *f)
 {
     write_container(j, "array", f->null);
     ceduo_json_open(j, "items", '{');
-    if (f->say)
+    if (f->sentences)
         ceduo_json_string(j, "type", "string");
     else if (!f->plain)
-        write_object(j, f->of, false, false);
-    else if (f->of->value)
-        write_type(j, f->of->value->kind, f->of->null != NULL);
+        write_schema_object(j, f->table, false, false);
+    else if (f->table->value)
+        write_type(j, f->table->value->kind, f->table->null != NULL);
     else
-        write_items(j, f->of);
+        write_items(j, f->table);
     ceduo_json_close(j, '}');
 }
 
@@ -94,7 +94,7 @@ static void write_properties(struct json *j, const struct ceduo_figure *f)
 {
     for (; !ceduo_figure_is_end(f); f++) {
         if (!f->key) {
-            write_properties(j, f->of);
+            write_properties(j, f->table);
             continue;
         }
         ceduo_json_open(j, f->key, '{');
@@ -103,12 +103,12 @@ static void write_properties(struct json *j, const struct ceduo_figure *f)
             ceduo_json_string(j, "unit", f->unit);
         if (f->value)
             write_type(j, f->value->kind, f->null != NULL);
-        else if (f->enter || f->item || (f->say && !f->one))
+        else if (f->enter || f->item || (f->sentences && !f->single))
             write_items(j, f);
-        else if (f->say)
+        else if (f->sentences)
             write_type(j, CEDUO_VALUE_TEXT, f->null != NULL);
         else
-            write_object(j, f->of, f->null != NULL, false);
+            write_schema_object(j, f->table, f->null != NULL, false);
         ceduo_json_close(j, '}');
     }
 }
@@ -121,7 +121,7 @@ void ceduo_figures_schema(struct text *text, const char *format, const struct ce
     ceduo_json_open(&j, NULL, '{');
     ceduo_json_string(&j, "$schema", "https://json-schema.org/draft/2020-12/schema");
     ceduo_json_string(&j, "$id", ceduo_text_string(&id));
-    write_object(&j, figures, false, row);
+    write_schema_object(&j, figures, false, row);
     ceduo_json_close(&j, '}');
     ceduo_text_append_char(text, '\n');
 }
@@ -130,7 +130,7 @@ void ceduo_figures_schema(struct text *text, const char *format, const struct ce
 
 struct group {
     const struct group *before;
-    const char *key, *unit, *null; /* unit: of what stands in it, "" where that says it itself */
+    const char *key, *unit, *null; /* unit: of the group's members; "": each has its own */
 };
 
 static void append_path(struct text *text, const struct group *group)
@@ -146,15 +146,15 @@ static void add_columns(struct text *rows, const struct ceduo_figure *f, const s
     for (; !ceduo_figure_is_end(f); f++) {
         const char *unit = f->unit && f->unit[0] ? f->unit : group ? group->unit : "";
         const char *null = f->null ? f->null : group ? group->null : NULL;
-        const struct group own = {group, f->key, unit, null};
+        const struct group nested = {group, f->key, unit, null};
         if (f->item) {
             for (size_t i = 0; i < f->columns; i++) {
                 LOCAL_TEXT(item);
                 ceduo_text_format(&item, "%s[%zu]", f->key, i);
-                add_columns(rows, f->of, &(struct group){group, ceduo_text_string(&item), unit, null}, heads);
+                add_columns(rows, f->table, &(struct group){group, ceduo_text_string(&item), unit, null}, heads);
             }
-        } else if (f->of) {
-            add_columns(rows, f->of, f->key ? &own : group, heads);
+        } else if (f->table) {
+            add_columns(rows, f->table, f->key ? &nested : group, heads);
         } else {
             append_path(rows, group);
             ceduo_text_append(rows, f->key);

@@ -1,30 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The figures of a sensitivity and of a calibration. */
+/* Figures of an uncertainty report and of a calibration. */
 #include "figures_parts.h"
 
 #include <string.h>
 
 #include "ceduo/status.h"
 
-/* ---- a sensitivity ---- */
+/* ---- uncertainty ---- */
 
-static const struct ceduo_uncertainty_figure *figure_of(const struct ceduo_place *p)
+static const struct ceduo_uncertainty_figure *get_figure(const struct ceduo_place *p)
 {
     return &p->uncertainty->answer->figures[p->figure];
 }
 
-static const struct ceduo_scene *scene_of(const struct ceduo_place *p)
+static const struct ceduo_scene *get_uncertain_scene(const struct ceduo_place *p)
 {
     return &p->uncertainty->file->scene;
 }
 
-/* Energies are shown in kJ. */
-static double shown(const struct ceduo_place *p, double value)
+/* Convert energies to kJ. */
+static double to_display_unit(const struct ceduo_place *p, double value)
 {
-    return figure_of(p)->kind == CEDUO_UNCERTAINTY_ENERGY ? value * J_TO_KJ : value;
+    return get_figure(p)->kind == CEDUO_UNCERTAINTY_ENERGY ? value * J_TO_KJ : value;
 }
 
-static const struct ceduo_uncertainty_order *order_of(const struct ceduo_place *p)
+static const struct ceduo_uncertainty_order *get_order(const struct ceduo_place *p)
 {
     return &p->uncertainty->answer->orders[p->item];
 }
@@ -38,14 +38,14 @@ static bool enter_figure(struct ceduo_place *p, size_t i)
     return false;
 }
 
-/* By what is left of the uncertainty if they are known, least first. */
+/* Select an input, sorted by the width that remains if it is known, smallest first. */
 static bool enter_input(struct ceduo_place *p, size_t i)
 {
-    p->input = i < figure_of(p)->uses ? figure_of(p)->order[i] : 0;
-    return i < figure_of(p)->uses;
+    p->input = i < get_figure(p)->uses ? get_figure(p)->order[i] : 0;
+    return i < get_figure(p)->uses;
 }
 
-/* What to measure first, for the figure that pages advise on. */
+/* Select an input to measure first, for the figure of the advice. */
 static bool enter_first(struct ceduo_place *p, size_t i)
 {
     const struct ceduo_uncertainty_result *a = p->uncertainty->answer;
@@ -61,14 +61,14 @@ static bool enter_first(struct ceduo_place *p, size_t i)
 
 ENTER(enter_order, item, p->uncertainty->answer ? p->uncertainty->answer->orders_count : 0)
 
-static struct ceduo_value end_of(const struct ceduo_place *p, int end)
+static struct ceduo_value read_input_end(const struct ceduo_place *p, int end)
 {
     const char *word;
     double value = ceduo_uncertainty_input_value(p->uncertainty, p->input, end, &word);
     return word ? WORD(word) : NUMBER(value);
 }
 
-/* The share of a rotation is the one by which the place is judged. */
+/* Return the key of a figure. The rotation's figure is the judged share. */
 static const char *figure_key(const struct ceduo_place *p)
 {
     static const char *const keys[CEDUO_UNCERTAINTY_SHOWN] = {
@@ -78,55 +78,56 @@ static const char *figure_key(const struct ceduo_place *p)
         [CEDUO_UNCERTAINTY_MEAN] = "rotation.exceed_probability",
         [CEDUO_UNCERTAINTY_FAILING] = "rotation.unprotected_energy",
     };
-    enum ceduo_uncertainty_kind kind = figure_of(p)->kind;
+    enum ceduo_uncertainty_kind kind = get_figure(p)->kind;
     bool reaches = kind == CEDUO_UNCERTAINTY_MEAN && p->uncertainty->answer->main == CEDUO_UNCERTAINTY_ENERGY;
     return reaches ? "rotation.reach_probability" : keys[kind];
 }
 
-OBJECT(uncertain_scene, place, scene_of(o))
-OBJECT(uncertain_figure, place, figure_of(o))
-OBJECT(input_of, place, &o->uncertainty->inputs->items[o->input])
-OBJECT(first_of, place, &figure_of(o)->fit.first[o->input])
-OBJECT(total_of, place, &figure_of(o)->fit.total[o->input])
-OBJECT(ranked, place, order_of(o))
+OBJECT(uncertain_scene_object, place, get_uncertain_scene(o))
+OBJECT(uncertain_figure_object, place, get_figure(o))
+OBJECT(get_input, place, &o->uncertainty->inputs->items[o->input])
+OBJECT(get_first_share, place, &get_figure(o)->fit.first[o->input])
+OBJECT(get_total_share, place, &get_figure(o)->fit.total[o->input])
+OBJECT(ranked, place, get_order(o))
 
 VALUE(uncertainty_format, place, TEXT, WORD("ceduo-sensitivity-1"))
 VALUE(uncertainty_scene, place, TEXT, WORD(o->uncertainty->file->name))
 VALUE(uncertainty_rocks, place, COUNT, COUNT(o->uncertainty->rocks))
 VALUE(uncertainty_points, place, COUNT, COUNT(o->uncertainty->answer ? o->uncertainty->answer->points : o->uncertainty->points))
 VALUE(uncertainty_evaluations, place, COUNT, COUNT(o->uncertainty->answer ? o->uncertainty->answer->evaluations : 0))
-VALUE(uncertainty_option, place, TEXT, WORD(scene_of(o)->options[figure_of(o)->option].name_given))
-VALUE(uncertainty_against, place, TEXT, WORD(figure_of(o)->difference ? scene_of(o)->options[0].name_given : NULL))
-VALUE(uncertainty_x, place, NUMBER, NUMBER(scene_of(o)->controls[ceduo_scene_last_control(scene_of(o))].x_given))
+VALUE(uncertainty_option, place, TEXT, WORD(get_uncertain_scene(o)->options[get_figure(o)->option].name_given))
+VALUE(uncertainty_against, place, TEXT, WORD(get_figure(o)->difference ? get_uncertain_scene(o)->options[0].name_given : NULL))
+VALUE(uncertainty_x, place, NUMBER,
+      NUMBER(get_uncertain_scene(o)->controls[ceduo_scene_last_control(get_uncertain_scene(o))].x_given))
 VALUE(uncertainty_figure, place, TEXT, WORD(figure_key(o)))
-VALUE(figure_number, place, NUMBER, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
+VALUE(figure_number, place, NUMBER, NUMBER(to_display_unit(o, *(const double *)get_member(f, get_figure(o)))))
 #define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_uncertainty_figure, member)
-/* Paths that set the input: its own, or those of all its places, if no path means just these. */
-static void say_paths(const struct ceduo_place *p, ceduo_sentence_sink *say, void *context)
+/* Report the paths that set the input: its own, or those of all its places if no single path selects them. */
+static void report_paths(const struct ceduo_place *p, ceduo_sentence_sink *sink, void *context)
 {
     const struct ceduo_input *input = &p->uncertainty->inputs->items[p->input];
     bool own = input->places_count == 1 || strchr(input->path, '*') || strncmp(input->path, "slope.materials[", 16) == 0;
     for (size_t i = 0; i < (own ? 1 : input->places_count); i++)
-        say(context, own ? input->path : ceduo_input_path(p->uncertainty->file, input->places[i]));
+        sink(context, own ? input->path : ceduo_input_path(p->uncertainty->file, input->places[i]));
 }
 
 VALUE(input_measured, place, TEXT, WORD(ceduo_uncertainty_measured_by(o->uncertainty, o->input)))
-VALUE(input_lo, place, ANY, end_of(o, 0))
-VALUE(input_hi, place, ANY, end_of(o, 1))
-VALUE(input_at_lo, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][0])))
-VALUE(input_at_hi, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][1])))
-VALUE(input_left, place, NUMBER, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
-VALUE(order_better, place, TEXT, WORD(scene_of(o)->options[order_of(o)->better].name_given))
-VALUE(order_than, place, TEXT, WORD(scene_of(o)->options[order_of(o)->than].name_given))
-VALUE(order_over, place, TEXT, WORD(o->uncertainty->answer->rotation ? "rotation" : "today"))
+VALUE(input_lo, place, ANY, read_input_end(o, 0))
+VALUE(input_hi, place, ANY, read_input_end(o, 1))
+VALUE(input_at_lo, place, NUMBER, NUMBER(to_display_unit(o, get_figure(o)->at[o->input][0])))
+VALUE(input_at_hi, place, NUMBER, NUMBER(to_display_unit(o, get_figure(o)->at[o->input][1])))
+VALUE(input_known_width, place, NUMBER, NUMBER(to_display_unit(o, get_figure(o)->fit.left[o->input])))
+VALUE(order_better, place, TEXT, WORD(get_uncertain_scene(o)->options[get_order(o)->better].name_given))
+VALUE(order_than, place, TEXT, WORD(get_uncertain_scene(o)->options[get_order(o)->than].name_given))
+VALUE(order_period, place, TEXT, WORD(o->uncertainty->answer->rotation ? "rotation" : "today"))
 
-#define NO_BAND    UNSAID ", or there are fewer than 20 points"
+#define NO_BAND    NO_LIMIT ", or there are fewer than 20 points"
 #define FEW_POINTS "there are too few points, or nothing varies"
 
 static const struct ceduo_figure uncertainty_scene_rows[] = {
     {"scene", "", "path of the file", .value = uncertainty_scene},
-    {"title", "", "title of the scene", .from = uncertain_scene, AT(scene, title)},
-    {"seed", "", "seed of the random numbers", .from = uncertain_scene, AT(scene, simulation.seed)},
+    {"title", "", "title of the scene", .from = uncertain_scene_object, MEMBER(scene, title)},
+    {"seed", "", "seed of the random numbers", .from = uncertain_scene_object, MEMBER(scene, simulation.seed)},
     {"rocks", "", "rocks of each scene computed", .value = uncertainty_rocks},
     {"points", "", "points of what may be true", .value = uncertainty_points},
     END};
@@ -148,122 +149,125 @@ static const struct ceduo_figure uncertainty_figure_rows[] = {
      "an accepted energy rotation.reach_probability), the mean of the years, and rotation.unprotected_energy, the years in "
      "which more exceed than are allowed",
      .value = uncertainty_figure},
-    {"value", "", "in the scene as it is", FIGURE(value), .null = UNSAID},
-    {"sampling_lo", "", "lower end of its 95 % interval, by the rocks", FIGURE(sampling_lo), .null = UNSAID},
-    {"sampling_hi", "", "upper end of its 95 % interval", FIGURE(sampling_hi), .null = UNSAID},
-    {"uncertainty", "", "by the uncertain inputs", .of = band_rows},
+    {"value", "", "in the scene as it is", FIGURE(value), .null = NO_LIMIT},
+    {"sampling_lo", "", "lower end of its 95 % interval, by the rocks", FIGURE(sampling_lo), .null = NO_LIMIT},
+    {"sampling_hi", "", "upper end of its 95 % interval", FIGURE(sampling_hi), .null = NO_LIMIT},
+    {"uncertainty", "", "by the uncertain inputs", .table = band_rows},
     {"within", "", "share of what may be true in which no more exceed than are allowed", FIGURE(fit.below.value),
      .null = "the figure is not the share that exceeds, today or in the mean of the years"},
     {"within_se", "", "its standard error", FIGURE(fit.below.se),
      .null = "the figure is not the share that exceeds, today or in the mean of the years"},
-    {"q2", "", "share of the variance that the surface predicts, leaving out each point in turn", .from = uncertain_figure,
-     AT(uncertainty_figure, fit.q2), .null = FEW_POINTS},
-    {"unexplained", "", "share of the variance that neither single inputs nor pairs explain", .from = uncertain_figure,
-     AT(uncertainty_figure, fit.whole.value), .null = FEW_POINTS},
+    {"q2", "", "share of the variance that the surface predicts, leaving out each point in turn",
+     .from = uncertain_figure_object, MEMBER(uncertainty_figure, fit.q2), .null = FEW_POINTS},
+    {"unexplained", "", "share of the variance that neither single inputs nor pairs explain", .from = uncertain_figure_object,
+     MEMBER(uncertainty_figure, fit.whole.value), .null = FEW_POINTS},
     END};
 
 static const struct ceduo_figure input_range_rows[] = {
     {"lo", "", "lower end of its range, or its first word", .value = input_lo, .null = "it has no one range"},
     {"hi", "", "upper end of its range, or its last word", .value = input_hi, .null = "it has no one range"},
-    {"first", "", "share of the variance that it causes alone", .from = first_of, AT(share, value), .null = FEW_POINTS},
-    {"first_se", "", "its standard error", .from = first_of, AT(share, se), .null = FEW_POINTS},
-    {"total", "", "share that it causes alone or with others", .from = total_of, AT(share, value), .null = FEW_POINTS},
-    {"total_se", "", "its standard error", .from = total_of, AT(share, se), .null = FEW_POINTS},
+    {"first", "", "share of the variance that it causes alone", .from = get_first_share, MEMBER(share, value),
+     .null = FEW_POINTS},
+    {"first_se", "", "its standard error", .from = get_first_share, MEMBER(share, se), .null = FEW_POINTS},
+    {"total", "", "share that it causes alone or with others", .from = get_total_share, MEMBER(share, value),
+     .null = FEW_POINTS},
+    {"total_se", "", "its standard error", .from = get_total_share, MEMBER(share, se), .null = FEW_POINTS},
     {"at_lo", "", "the figure with this input at its lower end, all others as they are", .value = input_at_lo,
-     .null = UNSAID ", or the figure is of years"},
-    {"at_hi", "", "the same at its upper end", .value = input_at_hi, .null = UNSAID ", or the figure is of years"},
-    {"width_if_known", "", "expected width of the 90 % range if this input were known", .value = input_left,
+     .null = NO_LIMIT ", or the figure is of years"},
+    {"at_hi", "", "the same at its upper end", .value = input_at_hi, .null = NO_LIMIT ", or the figure is of years"},
+    {"width_if_known", "", "expected width of the 90 % range if this input were known", .value = input_known_width,
      .null = FEW_POINTS},
     END};
 
 static const struct ceduo_figure input_rows[] = {
-    {"path", "", "path of the input", .from = input_of, AT(input, path)},
+    {"path", "", "path of the input", .from = get_input, MEMBER(input, path)},
     {"paths", "", "paths for --set, with the same --option: all of them at one value are the input at that value",
-     .say = say_paths},
-    {"places", "", "how many values of the scene move with it", .from = input_of, AT(input, places_count)},
-    {"source", "", "where its range comes from", .from = input_of, AT(input, source)},
+     .sentences = report_paths},
+    {"places", "", "how many values of the scene move with it", .from = get_input, MEMBER(input, places_count)},
+    {"source", "", "where its range comes from", .from = get_input, MEMBER(input, source)},
     {"measured_by", "", "what would measure it", .value = input_measured, .null = "nothing that is known"},
-    {.of = input_range_rows},
+    {.table = input_range_rows},
     END};
 
 static const struct ceduo_figure first_rows[] = {
-    {"path", "", "path of the input", .from = input_of, AT(input, path)},
+    {"path", "", "path of the input", .from = get_input, MEMBER(input, path)},
     {"measured_by", "", "what would measure it", .value = input_measured},
     {"option", "", "option that it is about: the one that lets least pass in the mean of plausible cases",
      .value = uncertainty_option},
-    {"width_if_known", "", "expected width of the 90 % range of its figure if this input were known", .value = input_left,
-     .null = FEW_POINTS},
+    {"width_if_known", "", "expected width of the 90 % range of its figure if this input were known",
+     .value = input_known_width, .null = FEW_POINTS},
     END};
 
 static const struct ceduo_figure uncertainty_figure_object[] = {
-    {.of = uncertainty_figure_rows},
-    {"inputs", "", "an object for each input, the heaviest first", .of = input_rows, .enter = enter_input},
+    {.table = uncertainty_figure_rows},
+    {"inputs", "", "an object for each input, the heaviest first", .table = input_rows, .enter = enter_input},
     END};
 
 static const struct ceduo_figure ranking_rows[] = {
     {"better", "", "name of the better option", .value = order_better},
     {"than", "", "name of the next one", .value = order_than},
     {"x_m", "m", "the last control", .value = uncertainty_x},
-    {"over", "", "today, or rotation: by the mean of the years", .value = order_over},
-    {"probability", "", "share of what may be true in which it is better", .from = ranked, AT(uncertainty_order, probability)},
+    {"over", "", "today, or rotation: by the mean of the years", .value = order_period},
+    {"probability", "", "share of what may be true in which it is better", .from = ranked,
+     MEMBER(uncertainty_order, probability)},
     {"equal", "", "in which they differ by at most 5 of 1000, or of energies by 0.5 % of the mean without forest",
-     .from = ranked, AT(uncertainty_order, equal)},
-    {"worse", "", "in which it is worse", .from = ranked, AT(uncertainty_order, worse)},
+     .from = ranked, MEMBER(uncertainty_order, equal)},
+    {"worse", "", "in which it is worse", .from = ranked, MEMBER(uncertainty_order, worse)},
     END};
 
 const struct ceduo_figure ceduo_uncertainty_figures[] = {
     {"format", "", "always ceduo-sensitivity-1", .value = uncertainty_format},
     VERSION,
-    {.of = uncertainty_scene_rows},
-    {"figures", "", "an object for each figure and option", .of = uncertainty_figure_object, .enter = enter_figure},
-    {"ranking", "", "an object for each two neighbours in rank", .of = ranking_rows, .enter = enter_order},
+    {.table = uncertainty_scene_rows},
+    {"figures", "", "an object for each figure and option", .table = uncertainty_figure_object, .enter = enter_figure},
+    {"ranking", "", "an object for each two neighbours in rank", .table = ranking_rows, .enter = enter_order},
     {"measure_first", "", "an object for each input to be measured, the first one first: only those that a reader can measure",
-     .of = first_rows, .enter = enter_first},
+     .table = first_rows, .enter = enter_first},
     {"evaluations", "", "scenes computed", .value = uncertainty_evaluations},
     END};
 
-static const struct ceduo_figure uncertainty_columns[] = {{.of = uncertainty_scene_rows},
-                                                          {.of = uncertainty_figure_rows},
-                                                          {"path", "", "", .from = input_of, AT(input, path)},
+static const struct ceduo_figure uncertainty_columns[] = {{.table = uncertainty_scene_rows},
+                                                          {.table = uncertainty_figure_rows},
+                                                          {"path", "", "", .from = get_input, MEMBER(input, path)},
                                                           {"measured_by", "", "", .value = input_measured},
-                                                          {.of = input_range_rows},
+                                                          {.table = input_range_rows},
                                                           END};
 
 const struct ceduo_csv ceduo_uncertainty_csv = {uncertainty_columns, {enter_figure, enter_input}};
 
-/* ---- a calibration ---- */
+/* ---- calibration ---- */
 
-static const struct ceduo_calibration *answer_of(const struct ceduo_place *p)
+static const struct ceduo_calibration *get_calibration(const struct ceduo_place *p)
 {
     return p->calibration->answer;
 }
 
-static const struct ceduo_predicted *predicted_of(const struct ceduo_place *p)
+static const struct ceduo_predicted *get_prediction(const struct ceduo_place *p)
 {
-    return &answer_of(p)->predicted[p->item];
+    return &get_calibration(p)->predicted[p->item];
 }
 
-static const struct ceduo_observation *observed_of(const struct ceduo_place *p)
+static const struct ceduo_observation *get_observation(const struct ceduo_place *p)
 {
-    return ceduo_observed_find(p->calibration, predicted_of(p));
+    return ceduo_observed_find(p->calibration, get_prediction(p));
 }
 
-static const struct scene_file *file_of(const struct ceduo_place *p)
+static const struct scene_file *get_file(const struct ceduo_place *p)
 {
-    return &p->calibration->files[predicted_of(p)->scene];
+    return &p->calibration->files[get_prediction(p)->scene];
 }
 
-OBJECT(calibration_of, place, answer_of(o))
-OBJECT(fitted_of, place, &answer_of(o)->parameters[o->item])
-OBJECT(prediction_of, place, predicted_of(o))
-ENTER(enter_fitted, item, answer_of(p)->parameters_count)
-ENTER(enter_column, column, answer_of(p)->parameters_count)
-ENTER(enter_predicted, item, answer_of(p)->predicted_count)
+OBJECT(calibration_object, place, get_calibration(o))
+OBJECT(get_fitted, place, &get_calibration(o)->parameters[o->item])
+OBJECT(prediction_object, place, get_prediction(o))
+ENTER(enter_fitted, item, get_calibration(p)->parameters_count)
+ENTER(enter_column, column, get_calibration(p)->parameters_count)
+ENTER(enter_predicted, item, get_calibration(p)->predicted_count)
 
-static void say_scenes(const struct ceduo_place *p, ceduo_sentence_sink *say, void *context)
+static void report_scenes(const struct ceduo_place *p, ceduo_sentence_sink *sink, void *context)
 {
     for (size_t i = 0; i < p->calibration->scenes_count; i++)
-        say(context, p->calibration->files[i].name);
+        sink(context, p->calibration->files[i].name);
 }
 
 VALUE(calibration_format, place, TEXT, WORD("ceduo-calibration-1"))
@@ -271,35 +275,35 @@ VALUE(calibration_seed, place, COUNT, COUNT(o->calibration->files[0].scene.simul
 VALUE(calibration_rocks, place, COUNT, COUNT(o->calibration->rocks))
 VALUE(first_scene, place, TEXT, WORD(o->calibration->files[0].name))
 VALUE(fitted_path, place, TEXT, WORD(o->calibration->inputs[o->item].path))
-VALUE(correlation, place, NUMBER, NUMBER(answer_of(o)->correlation[o->item][o->column]))
-VALUE(observed_what, place, TEXT, WORD(observed_of(o)->name_given))
-VALUE(observed_scene, place, TEXT, WORD(file_of(o)->name))
-VALUE(observed_option, place, TEXT, WORD(file_of(o)->scene.options[observed_of(o)->option].name_given))
-VALUE(observed_use, place, TEXT, WORD(observed_of(o)->use == CEDUO_OBSERVED_FIT ? "fit" : "check"))
-VALUE(observed_n, place, COUNT, COUNT(ceduo_observed_number(observed_of(o))))
-VALUE(seen_number, place, NUMBER,
-      NUMBER(ceduo_observed_shown(file_of(o), predicted_of(o), *(const double *)member(f, predicted_of(o)))))
-#define SEEN(member) .value = seen_number, .offset = offsetof(struct ceduo_predicted, member)
+VALUE(correlation, place, NUMBER, NUMBER(get_calibration(o)->correlation[o->item][o->column]))
+VALUE(observed_what, place, TEXT, WORD(get_observation(o)->name_given))
+VALUE(observed_scene, place, TEXT, WORD(get_file(o)->name))
+VALUE(observed_option, place, TEXT, WORD(get_file(o)->scene.options[get_observation(o)->option].name_given))
+VALUE(observed_use, place, TEXT, WORD(get_observation(o)->use == CEDUO_OBSERVED_FIT ? "fit" : "check"))
+VALUE(observed_n, place, COUNT, COUNT(ceduo_observed_number(get_observation(o))))
+VALUE(observed_number, place, NUMBER,
+      NUMBER(ceduo_observed_shown(get_file(o), get_prediction(o), *(const double *)get_member(f, get_prediction(o)))))
+#define OBSERVED(member) .value = observed_number, .offset = offsetof(struct ceduo_predicted, member)
 VALUE(single_inside, place, COUNT,
-      observed_of(o)->values && !isnan(predicted_of(o)->one_lo) ? COUNT(predicted_of(o)->one_inside) : NOTHING)
+      get_observation(o)->values && !isnan(get_prediction(o)->one_lo) ? COUNT(get_prediction(o)->one_inside) : NO_VALUE)
 
 #define NO_RANGE "the draws do not tell it"
 
 static const struct ceduo_figure fitted_rows[] = {
     {"path", "", "path of the value", .value = fitted_path},
-    {"lo", "", "lower bound that was given", .from = fitted_of, AT(fitted, lo)},
-    {"hi", "", "upper bound that was given", .from = fitted_of, AT(fitted, hi)},
-    {"best", "", "value that fits best", .from = fitted_of, AT(fitted, best)},
-    {"p2_5", "", "lower end of what is not refuted, 95 %", .from = fitted_of, AT(fitted, p2_5), .null = NO_RANGE},
-    {"p50", "", "its median", .from = fitted_of, AT(fitted, p50), .null = NO_RANGE},
-    {"p97_5", "", "its upper end", .from = fitted_of, AT(fitted, p97_5), .null = NO_RANGE},
-    {"determined", "", "whether the observations determine it", .from = fitted_of, AT(fitted, determined)},
-    {"at_bound", "", "whether it lies at a bound", .from = fitted_of, AT(fitted, at_bound)},
+    {"lo", "", "lower bound that was given", .from = get_fitted, MEMBER(fitted, lo)},
+    {"hi", "", "upper bound that was given", .from = get_fitted, MEMBER(fitted, hi)},
+    {"best", "", "value that fits best", .from = get_fitted, MEMBER(fitted, best)},
+    {"p2_5", "", "lower end of what is not refuted, 95 %", .from = get_fitted, MEMBER(fitted, p2_5), .null = NO_RANGE},
+    {"p50", "", "its median", .from = get_fitted, MEMBER(fitted, p50), .null = NO_RANGE},
+    {"p97_5", "", "its upper end", .from = get_fitted, MEMBER(fitted, p97_5), .null = NO_RANGE},
+    {"determined", "", "whether the observations determine it", .from = get_fitted, MEMBER(fitted, determined)},
+    {"at_bound", "", "whether it lies at a bound", .from = get_fitted, MEMBER(fitted, at_bound)},
     END};
 
 static const struct ceduo_figure correlation_cell[] = {{NULL, "", "", .value = correlation}, END};
 static const struct ceduo_figure correlation_row[] = {
-    {NULL, "", "", .of = correlation_cell, .enter = enter_column, .plain = true}, END};
+    {NULL, "", "", .table = correlation_cell, .enter = enter_column, .plain = true}, END};
 
 static const struct ceduo_figure observation_rows[] = {
     {"what", "", "name of the observation", .value = observed_what},
@@ -307,15 +311,15 @@ static const struct ceduo_figure observation_rows[] = {
     {"option", "", "name of its option", .value = observed_option},
     {"use", "", "fit or check", .value = observed_use},
     {"n", "", "how many rocks were observed", .value = observed_n},
-    {"deviance", "", "deviance at the best values", .from = prediction_of, AT(predicted, at_best.deviance)},
-    {"p_value", "", "how often simulated rocks deviate as much", .from = prediction_of, AT(predicted, p_value),
+    {"deviance", "", "deviance at the best values", .from = prediction_object, MEMBER(predicted, at_best.deviance)},
+    {"p_value", "", "how often simulated rocks deviate as much", .from = prediction_object, MEMBER(predicted, p_value),
      .null = NO_RANGE},
-    {"seen", "", "mean of what was observed", SEEN(seen)},
-    {"predicted_lo", "", "lower end of what the fit predicts of that mean, 95 %", SEEN(lo), .null = NO_RANGE},
-    {"predicted_hi", "", "its upper end", SEEN(hi), .null = NO_RANGE},
-    {"inside", "", "whether the mean lies between the two", .from = prediction_of, AT(predicted, inside)},
-    {"single_lo", "", "lower end of what the fit predicts of single rocks, 95 %", SEEN(one_lo), .null = NO_RANGE},
-    {"single_hi", "", "its upper end", SEEN(one_hi), .null = NO_RANGE},
+    {"seen", "", "mean of what was observed", OBSERVED(seen)},
+    {"predicted_lo", "", "lower end of what the fit predicts of that mean, 95 %", OBSERVED(lo), .null = NO_RANGE},
+    {"predicted_hi", "", "its upper end", OBSERVED(hi), .null = NO_RANGE},
+    {"inside", "", "whether the mean lies between the two", .from = prediction_object, MEMBER(predicted, inside)},
+    {"single_lo", "", "lower end of what the fit predicts of single rocks, 95 %", OBSERVED(one_lo), .null = NO_RANGE},
+    {"single_hi", "", "its upper end", OBSERVED(one_hi), .null = NO_RANGE},
     {"single_inside", "", "how many of the values lie between the two", .value = single_inside,
      .null = "it holds no single values, or " NO_RANGE},
     END};
@@ -323,24 +327,27 @@ static const struct ceduo_figure observation_rows[] = {
 const struct ceduo_figure ceduo_calibration_figures[] = {
     {"format", "", "always ceduo-calibration-1", .value = calibration_format},
     VERSION,
-    {"scenes", "", "paths of the files", .say = say_scenes},
+    {"scenes", "", "paths of the files", .sentences = report_scenes},
     {"seed", "", "seed of the random numbers", .value = calibration_seed},
     {"rocks", "", "rocks of each scene computed", .value = calibration_rocks},
-    {"parameters", "", "an object for each fitted value", .of = fitted_rows, .enter = enter_fitted},
-    {"correlation", "", "of these values, row by row", .of = correlation_row, .enter = enter_fitted, .plain = true},
-    {"observations", "", "an object for each observation", .of = observation_rows, .enter = enter_predicted},
-    {"misfit", "", "whether the model cannot give something that it was fitted to", .from = calibration_of,
-     AT(calibration, misfit)},
-    {"refuted", "", "whether the fit does not hold for what was to check it", .from = calibration_of, AT(calibration, refuted)},
-    {"settled", "", "whether the chains agree", .from = calibration_of, AT(calibration, settled)},
-    {"evaluations", "", "scenes computed", .from = calibration_of, AT(calibration, evaluations)},
-    {"rhat", "", "largest potential scale reduction of the values", .from = calibration_of, AT(calibration, rhat)},
-    {"effective_size", "", "smallest effective size of the values", .from = calibration_of, AT(calibration, effective_size)},
+    {"parameters", "", "an object for each fitted value", .table = fitted_rows, .enter = enter_fitted},
+    {"correlation", "", "of these values, row by row", .table = correlation_row, .enter = enter_fitted, .plain = true},
+    {"observations", "", "an object for each observation", .table = observation_rows, .enter = enter_predicted},
+    {"misfit", "", "whether the model cannot give something that it was fitted to", .from = calibration_object,
+     MEMBER(calibration, misfit)},
+    {"refuted", "", "whether the fit does not hold for what was to check it", .from = calibration_object,
+     MEMBER(calibration, refuted)},
+    {"settled", "", "whether the chains agree", .from = calibration_object, MEMBER(calibration, settled)},
+    {"evaluations", "", "scenes computed", .from = calibration_object, MEMBER(calibration, evaluations)},
+    {"rhat", "", "largest potential scale reduction of the values", .from = calibration_object, MEMBER(calibration, rhat)},
+    {"effective_size", "", "smallest effective size of the values", .from = calibration_object,
+     MEMBER(calibration, effective_size)},
     END};
 
-static const struct ceduo_figure calibration_columns[] = {{"scene", "", "", .value = first_scene},
-                                                          {.of = fitted_rows},
-                                                          {"misfit", "", "", .from = calibration_of, AT(calibration, misfit)},
-                                                          END};
+static const struct ceduo_figure calibration_columns[] = {
+    {"scene", "", "", .value = first_scene},
+    {.table = fitted_rows},
+    {"misfit", "", "", .from = calibration_object, MEMBER(calibration, misfit)},
+    END};
 
 const struct ceduo_csv ceduo_calibration_csv = {calibration_columns, {enter_fitted}};

@@ -8,32 +8,32 @@
 #include "report.h"
 #include "words.h"
 
-static struct ceduo_measure of_1000(struct ceduo_mean_share share, double lo, double hi)
+static struct ceduo_measure make_share(struct ceduo_mean_share share, double lo, double hi)
 {
     return (struct ceduo_measure){.value = 1000 * share.mean,
                                   .lo = floor(1000 * lo),
                                   .hi = ceil(1000 * hi),
-                                  .half = 1000 * share.half,
-                                  .may_lo = NAN,
-                                  .may_hi = NAN,
+                                  .half_width = 1000 * share.half,
+                                  .p5 = NAN,
+                                  .p95 = NAN,
                                   .names = {N_("of 1000 arrive"), N_("arrive"), N_("arrive"), N_("arrive")}};
 }
 
-struct ceduo_measure ceduo_share(struct ceduo_mean_share share)
+struct ceduo_measure ceduo_measure_share(struct ceduo_mean_share share)
 {
-    return of_1000(share, fmax(0, share.mean - share.half), fmin(1, share.mean + share.half));
+    return make_share(share, fmax(0, share.mean - share.half), fmin(1, share.mean + share.half));
 }
 
 struct ceduo_measure ceduo_measure_arriving(const struct ceduo_arrivals *a)
 {
-    return of_1000(ceduo_share_arriving(a), a ? a->reach.lo : NAN, a ? a->reach.hi : NAN);
+    return make_share(ceduo_share_arriving(a), a ? a->reach.lo : NAN, a ? a->reach.hi : NAN);
 }
 
 struct ceduo_measure ceduo_measure_exceeding(const struct ceduo_control *c, const struct ceduo_arrivals *a)
 {
     if (isnan(c->accepted))
         return ceduo_measure_arriving(a);
-    struct ceduo_measure m = of_1000(ceduo_share_exceeding(a), a ? a->exceed.lo : NAN, a ? a->exceed.hi : NAN);
+    struct ceduo_measure m = make_share(ceduo_share_exceeding(a), a ? a->exceed.lo : NAN, a ? a->exceed.hi : NAN);
     m.limit = ceduo_words_accepted(c);
     m.names[CEDUO_HEAD] = N_("of 1000 > %s kJ");
     m.names[CEDUO_SHORT_HEAD] = N_("> %s kJ");
@@ -44,9 +44,9 @@ struct ceduo_measure ceduo_measure_exceeding(const struct ceduo_control *c, cons
 
 void ceduo_measure_range(struct ceduo_measure *m, const struct ceduo_surface_fit *fit, double scale)
 {
-    bool known = !isnan(fit->p5), whole = m->digits == 0; /* without its value the range stays as it is */
-    m->may_lo = known ? fmin(whole ? round(fit->p5 * scale) : fit->p5 * scale, m->value) : NAN;
-    m->may_hi = known ? fmax(whole ? round(fit->p95 * scale) : fit->p95 * scale, m->value) : NAN;
+    bool known = !isnan(fit->p5), whole = m->digits == 0; /* the range is not rounded outside the value */
+    m->p5 = known ? fmin(whole ? round(fit->p5 * scale) : fit->p5 * scale, m->value) : NAN;
+    m->p95 = known ? fmax(whole ? round(fit->p95 * scale) : fit->p95 * scale, m->value) : NAN;
 }
 
 static void set_uncertainty(struct ceduo_measure *m, const struct ceduo_uncertainty_report *uncertainty, size_t option,
@@ -69,7 +69,7 @@ void ceduo_measure_mean_uncertainty(struct ceduo_measure *m, const struct ceduo_
         set_uncertainty(m, uncertainty, option, CEDUO_UNCERTAINTY_MEAN);
 }
 
-struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo_arrivals *arrivals)
+struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind what, const struct ceduo_arrivals *arrivals)
 {
     static const struct {
         const char *name, *phrase;
@@ -85,10 +85,10 @@ struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo
                                     [CEDUO_STEMS_HIT] = {N_("stems hit"), N_("stems hit by one that arrives")}};
     static const struct ceduo_arrivals none;
     const struct ceduo_arrivals *a = arrivals ? arrivals : &none;
-    const double halves[CEDUO_MEASURE_KINDS] = {[CEDUO_MEAN_KJ] = J_TO_KJ * ceduo_half_width(a->energy.se, a->reached),
-                                                [CEDUO_RELEASED_KJ] =
-                                                    J_TO_KJ * ceduo_half_width(a->energy_per_released.se, a->released),
-                                                [CEDUO_SPEED] = ceduo_half_width(a->speed.se, a->reached)};
+    const double half_widths[CEDUO_MEASURE_KINDS] = {[CEDUO_MEAN_KJ] = J_TO_KJ * ceduo_half_width(a->energy.se, a->reached),
+                                                     [CEDUO_RELEASED_KJ] =
+                                                         J_TO_KJ * ceduo_half_width(a->energy_per_released.se, a->released),
+                                                     [CEDUO_SPEED] = ceduo_half_width(a->speed.se, a->reached)};
     const double values[CEDUO_MEASURE_KINDS] = {[CEDUO_STOPPED] = 1000 * a->missed[CEDUO_STOPPED_BY_STEMS],
                                                 [CEDUO_RESTED] = 1000 * a->missed[CEDUO_AT_REST],
                                                 [CEDUO_GONE] = 1000 * a->missed[CEDUO_LEFT_SLOPE],
@@ -100,33 +100,33 @@ struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo
                                                 [CEDUO_SPEED] = a->speed.mean,
                                                 [CEDUO_STEMS_HIT] = a->contacts.mean,
                                                 [CEDUO_P95_TOP] = a->top_p95};
-    double value = a->released > 0 ? values[what] : NAN, half = halves[what] > 0 ? halves[what] : NAN;
+    double value = a->released > 0 ? values[what] : NAN, half_width = half_widths[what] > 0 ? half_widths[what] : NAN;
     return (struct ceduo_measure){.value = value,
-                                  .lo = value - half,
-                                  .hi = value + half,
-                                  .half = half,
-                                  .may_lo = NAN,
-                                  .may_hi = NAN,
+                                  .lo = value - half_width,
+                                  .hi = value + half_width,
+                                  .half_width = half_width,
+                                  .p5 = NAN,
+                                  .p95 = NAN,
                                   .digits = what < CEDUO_MEAN_KJ ? 0 : 3,
                                   .names = {names[what].name, names[what].name, names[what].name, names[what].phrase}};
 }
 
-uint64_t ceduo_released(const struct ceduo_arrivals *a)
+uint64_t ceduo_rocks_released(const struct ceduo_arrivals *a)
 {
     return a ? a->released : 0;
 }
 
-uint64_t ceduo_reached(const struct ceduo_arrivals *a)
+uint64_t ceduo_rocks_reached(const struct ceduo_arrivals *a)
 {
     return a ? a->reached : 0;
 }
 
-uint64_t ceduo_unfinished(const struct ceduo_arrivals *a)
+uint64_t ceduo_rocks_unfinished(const struct ceduo_arrivals *a)
 {
     return a->unfinished;
 }
 
-const struct ceduo_distribution *ceduo_spread(enum ceduo_spread what, const struct ceduo_arrivals *a)
+const struct ceduo_distribution *ceduo_arrival_distribution(enum ceduo_spread what, const struct ceduo_arrivals *a)
 {
     return what == CEDUO_ARRIVAL_SPEED ? &a->speed : what == CEDUO_ARRIVAL_ENERGY ? &a->energy : &a->height;
 }
@@ -151,47 +151,47 @@ struct ceduo_estimate ceduo_judged_rate(const struct ceduo_arrivals *a)
     return ceduo_hazard_find(a) ? ceduo_hazard_judged_rate(&a->hazard) : CEDUO_NO_ESTIMATE;
 }
 
-const char *ceduo_measure_name(struct ceduo_measure m, enum ceduo_measure_name name, char room[CEDUO_WORDS_SIZE])
+const char *ceduo_measure_name(struct ceduo_measure m, enum ceduo_measure_name name, char buffer[CEDUO_WORDS_SIZE])
 {
     LOCAL_TEXT(text);
-    ceduo_text_append_with(&text, _(m.names[name]), SHORTEST(m.limit));
-    snprintf(room, CEDUO_WORDS_SIZE, "%s", text.bytes);
-    return room;
+    ceduo_text_append_with(&text, _(m.names[name]), LOCALIZED(m.limit));
+    snprintf(buffer, CEDUO_WORDS_SIZE, "%s", text.bytes);
+    return buffer;
 }
 
-const char *ceduo_measure_value(struct ceduo_measure m, char room[CEDUO_WORDS_SIZE])
+const char *ceduo_measure_value(struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE])
 {
     if (isnan(m.value) || m.digits > 0)
-        return ceduo_words_sig(m.value, m.digits, room);
-    snprintf(room, CEDUO_WORDS_SIZE, "%.0f", m.value);
-    return room;
+        return ceduo_words_sig(m.value, m.digits, buffer);
+    snprintf(buffer, CEDUO_WORDS_SIZE, "%.0f", m.value);
+    return buffer;
 }
 
-const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, char room[CEDUO_WORDS_SIZE])
+const char *ceduo_measure_span(struct ceduo_measure m, double lo, double hi, char buffer[CEDUO_WORDS_SIZE])
 {
     struct ceduo_measure from = m, to = m;
     from.value = lo;
     to.value = hi;
     bool known = !isnan(lo) || !isnan(hi);
-    snprintf(room, CEDUO_WORDS_SIZE, known ? "%s\xe2\x80\x93%s" : "-", VALUE_OF(from), VALUE_OF(to));
-    return room;
+    snprintf(buffer, CEDUO_WORDS_SIZE, known ? "%s\xe2\x80\x93%s" : "-", MEASURE_VALUE(from), MEASURE_VALUE(to));
+    return buffer;
 }
 
-const char *ceduo_measure_plausible_range(struct ceduo_measure m, char room[CEDUO_WORDS_SIZE])
+const char *ceduo_measure_plausible_range(struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE])
 {
-    return ceduo_measure_span(m, fmin(fmin(m.value, m.lo), m.may_lo), fmax(fmax(m.value, m.hi), m.may_hi), room);
+    return ceduo_measure_span(m, fmin(fmin(m.value, m.lo), m.p5), fmax(fmax(m.value, m.hi), m.p95), buffer);
 }
 
-const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char room[CEDUO_WORDS_SIZE])
+const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char buffer[CEDUO_WORDS_SIZE])
 {
-    bool known = !isnan(m.value) && !isnan(m.half) && m.digits == 0;
-    snprintf(room, CEDUO_WORDS_SIZE, known ? "%s%s\xc2\xb1%.0f" : "%s", VALUE_OF(m), between, ceil(m.half));
-    return room;
+    bool known = !isnan(m.value) && !isnan(m.half_width) && m.digits == 0;
+    snprintf(buffer, CEDUO_WORDS_SIZE, known ? "%s%s\xc2\xb1%.0f" : "%s", MEASURE_VALUE(m), between, ceil(m.half_width));
+    return buffer;
 }
 
-const char *ceduo_measure_interval(struct ceduo_measure m, char room[CEDUO_WORDS_SIZE])
+const char *ceduo_measure_interval(struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE])
 {
     bool known = !isnan(m.value) && !isnan(m.lo) && !isnan(m.hi);
-    snprintf(room, CEDUO_WORDS_SIZE, known ? "%s (%s)" : "%s", VALUE_OF(m), SPAN(m, m.lo, m.hi));
-    return room;
+    snprintf(buffer, CEDUO_WORDS_SIZE, known ? "%s (%s)" : "%s", MEASURE_VALUE(m), SPAN(m, m.lo, m.hi));
+    return buffer;
 }

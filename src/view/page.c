@@ -55,10 +55,10 @@ void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *c
     table->columns_count = n;
     for (size_t i = 0; i < n; i++) {
         const char *head = columns[i].head && columns[i].head[0] ? ceduo_translate_in(columns[i].head) : "";
-        size_t brief = strcspn(head, "|");
+        size_t short_length = strcspn(head, "|");
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
-        ceduo_text_append_n(&cell->text, head, brief);
-        ceduo_text_append(&cell->written, head + brief + (head[brief] != '\0'));
+        ceduo_text_append_n(&cell->text, head, short_length);
+        ceduo_text_append(&cell->long_text, head + short_length + (head[short_length] != '\0'));
     }
 }
 
@@ -73,7 +73,8 @@ struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page)
 struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page)
 {
     struct ceduo_page_block *table = page->last;
-    table->cells = ceduo_check_memory(ceduo_grow(table->cells, table->cells_count, &table->cells_room, sizeof *table->cells));
+    table->cells =
+        ceduo_check_memory(ceduo_grow(table->cells, table->cells_count, &table->cells_capacity, sizeof *table->cells));
     table->cells[table->cells_count] = (struct ceduo_page_cell){.kind = CEDUO_CELL_TEXT};
     return &table->cells[table->cells_count++];
 }
@@ -104,7 +105,8 @@ struct ceduo_page_bar *ceduo_page_bar(struct ceduo_page *page, double value, enu
     struct ceduo_page_cell *cell = ceduo_page_cell(page);
     cell->kind = CEDUO_CELL_BAR;
     cell->role = role;
-    cell->bar = (struct ceduo_page_bar){.to = value, .least = NAN, .most = NAN, .limit = NAN, .own = CEDUO_ROLE_CONTROL};
+    cell->bar =
+        (struct ceduo_page_bar){.to = value, .error_lo = NAN, .error_hi = NAN, .limit = NAN, .limit_role = CEDUO_ROLE_CONTROL};
     return &cell->bar;
 }
 
@@ -113,10 +115,10 @@ void ceduo_page_scale(struct ceduo_page *page, size_t column, double lo, double 
     const struct ceduo_page_block *table = page->last;
     for (size_t i = column; i < table->cells_count; i += table->columns_count) {
         struct ceduo_page_bar *b = &table->cells[i].bar;
-        double *const ends[] = {&b->from, &b->to, &b->least, &b->most, &b->limit};
+        double *const ends[] = {&b->from, &b->to, &b->error_lo, &b->error_hi, &b->limit};
         for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
             double value = *ends[k], share = lo > 0 && isfinite(value) ? log(value / lo) / log(hi / lo) : value / hi;
-            bool limit = ends[k] == &b->limit; /* one beyond the scale is not drawn */
+            bool limit = ends[k] == &b->limit; /* a limit beyond the scale is not clamped, so it is not drawn */
             if (!isnan(value))
                 *ends[k] = limit ? share : fmin(1, fmax(0, share));
         }
@@ -130,11 +132,11 @@ void ceduo_page_cell_role(struct ceduo_page *page, enum ceduo_role role, const c
     ceduo_text_append(&cell->text, string);
 }
 
-struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half)
+struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool side_by_side)
 {
     struct ceduo_page_block *block = add_block(page, CEDUO_PAGE_PICTURE);
     block->svg = svg;
-    block->half = half;
+    block->side_by_side = side_by_side;
     return block;
 }
 
@@ -142,7 +144,7 @@ static void free_cell(struct ceduo_page_cell *cell)
 {
     ceduo_text_free(&cell->text);
     ceduo_text_free(&cell->shorter);
-    ceduo_text_free(&cell->written);
+    ceduo_text_free(&cell->long_text);
 }
 
 void ceduo_page_trim(struct ceduo_page *page)
@@ -183,11 +185,11 @@ static void free_block(struct ceduo_page_block *block)
 
 void ceduo_page_drop(struct ceduo_page *page)
 {
-    struct ceduo_page_block *before = NULL, *last = page->first;
+    struct ceduo_page_block *prev = NULL, *last = page->first;
     for (; last->next; last = last->next)
-        before = last;
-    *(before ? &before->next : &page->first) = NULL;
-    page->last = before;
+        prev = last;
+    *(prev ? &prev->next : &page->first) = NULL;
+    page->last = prev;
     free_block(last);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is read first, on the short page as in the whole one and in the report: the question that a scene asks, its answer, how
- * sure that is, which more rocks and which only measuring makes surer, and what it becomes over the years. */
+/* First part of the short page, the full page and the report: question, answer, its certainty, what would improve it, and
+ * its development over the years. */
 #include <math.h>
 #include <string.h>
 
@@ -8,12 +8,6 @@
 #include "base/utf8.h"
 #include "page_parts.h"
 #include "plot.h"
-
-/* The last control, up to which all is compared. */
-static const struct ceduo_control *place_of(const struct ceduo_result *r)
-{
-    return &r->scene->controls[r->last_control];
-}
 
 bool ceduo_page_is_unassessable(const struct ceduo_result *r)
 {
@@ -26,16 +20,16 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_QUESTION);
     LOCAL_TEXT(place);
-    ceduo_words_place(&place, place_of(r));
-    const char *where = ceduo_text_string(&place), *withstands = SHORTEST(ceduo_words_accepted(place_of(r)));
+    ceduo_words_place(&place, last_control(r));
+    const char *place_name = ceduo_text_string(&place), *withstands = LOCALIZED(ceduo_words_accepted(last_control(r)));
     size_t n = r->scene->options_count;
-    bool accepted = !isnan(place_of(r)->accepted);
+    bool accepted = !isnan(last_control(r)->accepted);
     LOCAL_TEXT(limited);
-    if (place_of(r)->name)
-        ceduo_text_format(&limited, _("%s (%s m, limit %s kJ)"), NAME_OF(place_of(r)), SHORTEST(place_of(r)->x_given),
+    if (last_control(r)->name)
+        ceduo_text_format(&limited, _("%s (%s m, limit %s kJ)"), NAME_OF(last_control(r)), LOCALIZED(last_control(r)->x_given),
                           withstands);
     else
-        ceduo_text_format(&limited, _("%s m (limit %s kJ)"), SHORTEST(place_of(r)->x_given), withstands);
+        ceduo_text_format(&limited, _("%s m (limit %s kJ)"), LOCALIZED(last_control(r)->x_given), withstands);
     struct ceduo_window window = ceduo_scene_window(r->scene);
     unsigned years = window.kind == CEDUO_WINDOW_AHEAD ? window.last : 0;
     if (n == 1 && accepted && years > 0)
@@ -46,17 +40,18 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
     else if (n == 1 && accepted)
         ceduo_text_format(text, _("Does the forest protect %s?"), limited.bytes);
     else if (n == 1)
-        ceduo_text_format(text, _("How many rocks does the forest keep from %s?"), where);
+        ceduo_text_format(text, _("How many rocks does the forest keep from %s?"), place_name);
     else if (accepted)
         ceduo_text_format(text, _("Which of %zu treatments is best for %s?"), n, limited.bytes);
     else
-        ceduo_text_format(text, _("Which of %zu treatments keeps most rocks from %s?"), n, where);
+        ceduo_text_format(text, _("Which of %zu treatments keeps most rocks from %s?"), n, place_name);
 }
 
 /* ---- the answer ---- */
 
-/* Which options get one judgement, "none" or their names: today, or over the years. */
-static void append_judged(struct text *text, const struct ceduo_report *report, bool today, enum ceduo_judgement judgement)
+/* Append the names of options with a judgement, today or over the years; "none" if there are none. */
+static void append_judged_options(struct text *text, const struct ceduo_report *report, bool today,
+                                  enum ceduo_judgement judgement)
 {
     const struct ceduo_result *r = report->result;
     size_t n = 0;
@@ -70,19 +65,19 @@ static void append_judged(struct text *text, const struct ceduo_report *report, 
 }
 
 /* "In every year: none. Uncertain: 'simple coppice'." */
-static void append_keepers(struct text *text, const struct ceduo_report *report, bool today, const char *sentence)
+static void append_within_limit(struct text *text, const struct ceduo_report *report, bool today, const char *sentence)
 {
-    LOCAL_TEXT(keepers);
-    LOCAL_TEXT(open);
-    append_judged(&keepers, report, today, CEDUO_YES);
-    append_judged(&open, report, today, CEDUO_DEPENDS);
+    LOCAL_TEXT(passing);
+    LOCAL_TEXT(depends);
+    append_judged_options(&passing, report, today, CEDUO_YES);
+    append_judged_options(&depends, report, today, CEDUO_DEPENDS);
     ceduo_text_append_char(text, ' ');
-    ceduo_text_append_with(text, sentence, ceduo_text_string(&keepers));
-    if (strcmp(ceduo_text_string(&open), _("none")) != 0)
-        ceduo_text_append_joined(text, " ", _("It depends on uncertain inputs for %s."), ceduo_text_string(&open));
+    ceduo_text_append_with(text, sentence, ceduo_text_string(&passing));
+    if (strcmp(ceduo_text_string(&depends), _("none")) != 0)
+        ceduo_text_append_joined(text, " ", _("It depends on uncertain inputs for %s."), ceduo_text_string(&depends));
 }
 
-static void answer_many(struct ceduo_page *page, const struct ceduo_report *report)
+static void add_ranking(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_verdict *v = report->verdict;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
@@ -93,10 +88,10 @@ static void answer_many(struct ceduo_page *page, const struct ceduo_report *repo
         return;
     bool blocks = report->result->scene->blocks_count > 0;
     if (ceduo_report_years_ahead(report, 0))
-        append_keepers(text, report, false,
-                       blocks ? _("Within the limit over these years: %s.") : _("Within the limit in every year: %s."));
+        append_within_limit(text, report, false,
+                            blocks ? _("Within the limit over these years: %s.") : _("Within the limit in every year: %s."));
     else
-        append_keepers(text, report, true, _("Within the limit today: %s."));
+        append_within_limit(text, report, true, _("Within the limit today: %s."));
 }
 
 size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdict *v)
@@ -112,19 +107,19 @@ size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdic
     return best;
 }
 
-/* Below the answer over years: "mean 190 ±9 of 1000, worst 489 in year 1; today 31 (YES)". */
-static void say_mean(struct ceduo_page *page, const struct ceduo_subject *s)
+/* Append "mean 190 ±9 of 1000, worst 489 in year 1; today 31 (YES)" below the answer over years. */
+static void add_mean(struct ceduo_page *page, const struct ceduo_subject *s)
 {
     const struct ceduo_choice *c = ceduo_report_years_ahead(s->report, 0);
     if (!c || c->over->simulated == 0)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
     LOCAL_TEXT(range);
-    if (!isnan(s->mean.may_lo))
-        ceduo_text_format(&range, _(" (range %s)"), MAY_BE(s->mean));
+    if (!isnan(s->mean.p5))
+        ceduo_text_format(&range, _(" (range %s)"), PLAUSIBLE_RANGE(s->mean));
     ceduo_text_format(text, _("mean %s%s of 1000, worst %.0f in year %u"), WITH_ERROR(s->mean, " "), ceduo_text_string(&range),
                       1000 * c->worst.mean, c->over->worst_year);
-    ceduo_text_format(text, _("; today %s"), VALUE_OF(s->today));
+    ceduo_text_format(text, _("; today %s"), MEASURE_VALUE(s->today));
     if (s->outcome.today != CEDUO_UNANSWERED)
         ceduo_text_format(text, " (%s)", ceduo_words_judgement_name(s->outcome.today));
 }
@@ -135,28 +130,28 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
     size_t n = r->scene->options_count;
     if (r->scene->controls_count == 0)
         return;
-    if (ceduo_page_is_unassessable(r)) /* neither error changes that */
+    if (ceduo_page_is_unassessable(r)) /* holds whatever the errors are */
         ceduo_words_too_few_arrivals(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, r->last_control);
     else if (n > 1 && !r->wooded)
         ceduo_text_append(ceduo_page_add(page, CEDUO_PAGE_ANSWER), _(ceduo_words_by_index));
     else if (n > 1 && report->verdict)
-        answer_many(page, report);
-    /* of one option a line for each place that is judged, and for the last one */
+        add_ranking(page, report);
+    /* one option: a line for each judged control and for the last one */
     for (size_t k = 0; n == 1 && !ceduo_page_is_unassessable(r) && k < r->scene->controls_count; k++) {
         if (k != r->last_control && isnan(r->scene->controls[k].accepted))
             continue;
         struct ceduo_subject subject = ceduo_subject_find(report, 0, k);
-        subject.apart = k == r->last_control;
+        subject.mean_shown = k == r->last_control;
         ceduo_words_answer(ceduo_page_add(page, CEDUO_PAGE_ANSWER), &subject, page->width - CEDUO_ANSWER_INDENT);
-        if (subject.apart)
-            say_mean(page, &subject);
+        if (subject.mean_shown)
+            add_mean(page, &subject);
     }
 }
 
-/* ---- how sure ---- */
+/* ---- certainty ---- */
 
-/* "447–510 by the number of rocks (999)" */
-static void say_sampling(struct text *text, const struct ceduo_report *report)
+/* Append "447–510 by the number of rocks (999)". */
+static void append_sampling(struct text *text, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_verdict *v = report->verdict;
@@ -170,9 +165,9 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
             mean = fmax(mean, v->choices[i].mean.half);
     }
     if (!r->wooded) {
-        ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"), WRITTEN(ceduo_measured(CEDUO_MEAN_KJ, bare).half, 2));
+        ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"), SIG(ceduo_measure_figure(CEDUO_MEAN_KJ, bare).half_width, 2));
     } else if (r->scene->options_count == 1) {
-        const struct ceduo_measure m = ceduo_measure_exceeding(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
+        const struct ceduo_measure m = ceduo_measure_exceeding(last_control(r), ceduo_result_wooded(r, 0, r->last_control));
         ceduo_text_append(&error, SPAN(m, m.lo, m.hi));
     } else if (mean > 0) {
         ceduo_text_format(text, _("Sampling error: \xc2\xb1%.0f today (%llu rocks), \xc2\xb1%.0f over years (%llu each)."),
@@ -184,14 +179,14 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
         ceduo_text_format(text, _("Sampling error (%llu rocks): %s."), rocks, error.bytes);
 }
 
-/* Of the best option; over the rotation where its uncertainty is known. */
-static void say_uncertainty(struct text *text, const struct ceduo_report *report)
+/* Append the uncertainty of the best option, over the rotation if known. */
+static void append_uncertainty(struct text *text, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_uncertainty_report *uncertainty = report->uncertainty;
     const struct ceduo_verdict *v = report->verdict && report->verdict->n > 1 ? report->verdict : NULL;
-    bool over = v && v->rotation.known && uncertainty && uncertainty->answer && uncertainty->answer->rotation;
-    size_t option = over ? v->rotation.best : v ? v->today.best : 0;
+    bool by_rotation = v && v->rotation.known && uncertainty && uncertainty->answer && uncertainty->answer->rotation;
+    size_t option = by_rotation ? v->rotation.best : v ? v->today.best : 0;
     const struct ceduo_measure m = ceduo_subject_find(report, option, r->last_control).today;
     if (!uncertainty || !uncertainty->answer) {
         ceduo_text_append_joined(text, " ", "%s.",
@@ -202,12 +197,12 @@ static void say_uncertainty(struct text *text, const struct ceduo_report *report
                                      : _("Uncertainty was not computed"));
         return;
     }
-    if (r->scene->options_count == 1 && r->wooded && !isnan(m.may_lo)) {
-        ceduo_text_append_joined(text, " ", _("Uncertain inputs: %s."), SPAN(m, m.may_lo, m.may_hi));
+    if (r->scene->options_count == 1 && r->wooded && !isnan(m.p5)) {
+        ceduo_text_append_joined(text, " ", _("Uncertain inputs: %s."), SPAN(m, m.p5, m.p95));
     }
     if (uncertainty->answer->orders_count > 0) {
         ceduo_text_append_char(text, ' ');
-        ceduo_uncertainty_order_words(text, uncertainty, 0); /* how sure the best option is */
+        ceduo_uncertainty_order_words(text, uncertainty, 0); /* certainty of the ranking */
     }
     const struct ceduo_uncertainty_result *a = uncertainty->answer;
     ceduo_uncertainty_advice(
@@ -222,8 +217,8 @@ void ceduo_page_certainty(struct ceduo_page *page, const struct ceduo_report *re
     if (ceduo_page_is_unassessable(report->result))
         return;
     struct text *text = ceduo_page_item(page, CEDUO_PAGE_POINT, _("HOW SURE"));
-    say_sampling(text, report);
-    say_uncertainty(text, report);
+    append_sampling(text, report);
+    append_uncertainty(text, report);
 }
 
 /* ---- over the years ---- */
@@ -231,7 +226,7 @@ void ceduo_page_certainty(struct ceduo_page *page, const struct ceduo_report *re
 void ceduo_page_over_time(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_verdict *v = report->verdict;
-    const struct ceduo_choice *c = v && v->n == 1 ? &v->choices[0] : NULL; /* of several a table says it */
+    const struct ceduo_choice *c = v && v->n == 1 ? &v->choices[0] : NULL; /* several options have a table */
     const struct ceduo_option *option = report->result->scene->options;
     if (!c || c->over->years == 0 || ceduo_page_is_unassessable(report->result))
         return;
@@ -239,30 +234,30 @@ void ceduo_page_over_time(struct ceduo_page *page, const struct ceduo_report *re
         ceduo_words_window(ceduo_page_item(page, CEDUO_PAGE_POINT, _("OVER TIME")), option);
         return;
     }
-    if (c->over->simulated > 0) /* the answer says it */
+    if (c->over->simulated > 0) /* included in the answer */
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
     ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->over->years), c->over->years);
     ceduo_text_append_char(text, '\t');
-    ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), WRITTEN(c->worst.mean, 3),
+    ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), SIG(c->worst.mean, 3),
                       c->over->worst_year, c->over->unprotected_contact, c->over->years);
 }
 
-/* ---- words and cells that several pages use ---- */
+/* ---- sentences and cells shared by pages ---- */
 
 void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *c)
 {
     const struct ceduo_measure m = ceduo_measure_exceeding(c, NULL);
-    bool kilo = fabs(c->accepted) < 1e6;
-    ceduo_text_append(&head->text, NAMED(m, CEDUO_SHORT_HEAD));
-    ceduo_text_append(&head->written, NAMED(m, CEDUO_HEAD));
+    bool in_kJ = fabs(c->accepted) < 1e6;
+    ceduo_text_append(&head->text, MEASURE_NAME(m, CEDUO_SHORT_HEAD));
+    ceduo_text_append(&head->long_text, MEASURE_NAME(m, CEDUO_HEAD));
     if (!isnan(c->accepted))
-        ceduo_text_format(&head->shorter, kilo ? "> %s kJ" : "> %s MJ", ROUNDED(c->accepted * (kilo ? 1e-3 : 1e-6), 3));
+        ceduo_text_format(&head->shorter, in_kJ ? "> %s kJ" : "> %s MJ", SIG_TRIMMED(c->accepted * (in_kJ ? 1e-3 : 1e-6), 3));
 }
 
 void ceduo_page_free_run(struct ceduo_page *page, double share)
 {
-    ceduo_page_cell_format(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MAX));
+    ceduo_page_cell_format(page, "%s %%", PERCENT_VS_LIMIT(share, CEDUO_FREE_RUN_MAX));
 }
 
 void ceduo_page_yes_no(struct ceduo_page *page, bool yes)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What people call what was fitted and what it was fitted to, and the draws. The page of --calibrate: what was seen beside what the fit says of it, the fitted values with what is not refuted, and in
- * words what is not determined, what lies at a bound, and whether the model can give what was seen at all. */
+/* Names of fitted values and observations, the draws, and the page of --calibrate. It compares observations with
+ * predictions. It reports fitted values with their ranges, unidentified values, values at a bound, and misfit. */
 #include <math.h>
 #include <string.h>
 
@@ -8,28 +8,28 @@
 #include "page_parts.h"
 #include "report.h"
 
-#define TOGETHER 0.7 /* correlation that is worth a sentence */
-#define GROUND   "slope.materials["
+#define CORRELATED  0.7 /* correlation from which a pair is reported */
+#define GROUND_PATH "slope.materials["
 
 void ceduo_calibration_name(struct text *text, const char *path)
 {
-    const char *name = path + sizeof GROUND - 1, *bracket = strchr(path, '[');
+    const char *name = path + sizeof GROUND_PATH - 1, *bracket = strchr(path, '[');
     ceduo_text_append(text, _(ceduo_schema_fitted(path)->shown.label));
-    if (strncmp(path, GROUND, sizeof GROUND - 1) == 0)
+    if (strncmp(path, GROUND_PATH, sizeof GROUND_PATH - 1) == 0)
         ceduo_text_format(text, ", %.*s", (int)strcspn(name, "]"), name);
     else if (bracket && bracket[1] != '*')
         ceduo_text_format(text, " [%.*s]", (int)strcspn(bracket + 1, "]"), bracket + 1);
 }
 
-/* In the unit that people use. */
-static double shown(const char *path, double value)
+/* Convert to the display unit. */
+static double to_display_unit(const char *path, double value)
 {
     return value * ceduo_schema_fitted(path)->shown.per;
 }
 
 void ceduo_calibration_number(struct text *text, const char *path, double value)
 {
-    ceduo_words_number(text, shown(path, value), 3);
+    ceduo_words_number(text, to_display_unit(path, value), 3);
 }
 
 double ceduo_observed_shown(const struct scene_file *file, const struct ceduo_predicted *p, double value)
@@ -62,8 +62,8 @@ void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration
             ceduo_text_append_escaped(text, o->name_given);
             between = ", ";
         }
-        ceduo_text_format(text, "; %s 95 %% %s\xe2\x80\x93%s%s", ceduo_schema_fitted(r->inputs[i].path)->key,
-                          WRITTEN(f->p2_5, 3), WRITTEN(f->p97_5, 3), f->determined ? "" : "; not determined");
+        ceduo_text_format(text, "; %s 95 %% %s\xe2\x80\x93%s%s", ceduo_schema_fitted(r->inputs[i].path)->key, SIG(f->p2_5, 3),
+                          SIG(f->p97_5, 3), f->determined ? "" : "; not determined");
     }
 }
 
@@ -92,20 +92,21 @@ static void append_range(struct text *t, double lo, double hi)
     if (isnan(lo) || isnan(hi))
         ceduo_text_append_char(t, '-');
     else
-        ceduo_text_format(t, "%s\xe2\x80\x93%s", WRITTEN(lo, 3), WRITTEN(hi, 3));
+        ceduo_text_format(t, "%s\xe2\x80\x93%s", SIG(lo, 3), SIG(hi, 3));
 }
 
-/* Two scenes may call alike what was seen there. */
-static void append_name(struct text *name, const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)
+/* Append the name of an observation, with its scene if there are several scenes. */
+static void append_observation_name(struct text *name, const struct ceduo_calibration_report *r,
+                                    const struct ceduo_predicted *p)
 {
     ceduo_text_append_escaped(name, ceduo_observed_find(r, p)->name);
     if (r->scenes_count > 1)
         ceduo_text_append_joined(name, ", ", _("scene %zu"), p->scene + 1);
 }
 
-/* ---- in words ---- */
+/* ---- sentences ---- */
 
-static void say_values(struct ceduo_page *page, const struct ceduo_calibration_report *r)
+static void add_value_warnings(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     for (size_t i = 0; i < r->answer->parameters_count; i++) {
         const struct ceduo_fitted *f = &r->answer->parameters[i];
@@ -125,7 +126,7 @@ static void say_values(struct ceduo_page *page, const struct ceduo_calibration_r
             LOCAL_TEXT(a);
             LOCAL_TEXT(b);
             double c = r->answer->correlation[i][k];
-            if (!(fabs(c) >= TOGETHER))
+            if (!(fabs(c) >= CORRELATED))
                 continue;
             ceduo_calibration_name(&a, r->inputs[k].path);
             ceduo_calibration_name(&b, r->inputs[i].path);
@@ -135,7 +136,7 @@ static void say_values(struct ceduo_page *page, const struct ceduo_calibration_r
         }
 }
 
-static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_report *r)
+static void add_misfits(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
     for (size_t i = 0; i < a->predicted_count; i++) {
@@ -143,7 +144,7 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         const struct ceduo_observation *o = ceduo_observed_find(r, p);
         const struct scene_file *file = &r->files[p->scene];
         LOCAL_TEXT(name);
-        append_name(&name, r, p);
+        append_observation_name(&name, r, p);
         if (p->p_value < CEDUO_MISFIT)
             ceduo_page_para(page, CEDUO_PAGE_WARNING,
                             o->use != CEDUO_OBSERVED_FIT ? _("The fit does not hold for what was to check it: %s.")
@@ -151,7 +152,7 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
                                         : _("The model cannot reproduce %s."),
                             ceduo_text_string(&name));
         if (o->use == CEDUO_OBSERVED_CHECK && o->values && !isnan(p->one_lo)) {
-            LOCAL_TEXT(range); /* of those that were kept back, which lie where single rocks are predicted */
+            LOCAL_TEXT(range); /* 95 % range of single rocks, compared with observations held back */
             append_range(&range, ceduo_observed_shown(file, p, p->one_lo), ceduo_observed_shown(file, p, p->one_hi));
             ceduo_page_para(page, CEDUO_PAGE_ITEM,
                             _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
@@ -167,13 +168,13 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         ceduo_page_note(page, _("The model reproduces all fitted observations."));
 }
 
-/* Which values to leave as they are where the chains do not agree; of those that only their width tells apart the widest. */
-static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibration_report *r)
+/* Report which values to fix because the chains have not converged. If none stands out, suggest the widest. */
+static void add_unconverged(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
-    bool loose[CEDUO_CALIBRATION_MAX];
+    bool unidentified[CEDUO_CALIBRATION_MAX];
     size_t widest = 0;
-    double most = -1;
+    double max_width = -1;
     LOCAL_TEXT(all);
     LOCAL_TEXT(fixed);
     if (a->parameters_count == 1 || a->draws_count == 0) {
@@ -183,16 +184,16 @@ static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibratio
     for (size_t i = 0; i < a->parameters_count; i++) {
         const struct ceduo_fitted *f = &a->parameters[i];
         double width = (f->p97_5 - f->p2_5) / (f->hi - f->lo);
-        widest = width > most ? i : widest;
-        most = fmax(most, width);
+        widest = width > max_width ? i : widest;
+        max_width = fmax(max_width, width);
     }
-    if (ceduo_calibration_unidentified(a, loose) == 0)
-        loose[widest] = true;
+    if (ceduo_calibration_unidentified(a, unidentified) == 0)
+        unidentified[widest] = true;
     for (size_t i = 0; i < a->parameters_count; i++) {
         LOCAL_TEXT(name);
         ceduo_calibration_name(&name, r->inputs[i].path);
         ceduo_text_format(&all, "%s%s", i > 0 ? ", " : "", name.bytes);
-        if (loose[i])
+        if (unidentified[i])
             ceduo_text_format(&fixed, "%s%s", fixed.length > 0 ? ", " : "", name.bytes);
     }
     ceduo_page_para(page, CEDUO_PAGE_WARNING,
@@ -203,10 +204,10 @@ static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibratio
 void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
-    say_misfits(page, r);
-    say_values(page, r);
+    add_misfits(page, r);
+    add_value_warnings(page, r);
     if (!a->settled)
-        say_unsettled(page, r);
+        add_unconverged(page, r);
     ceduo_page_note(page, _("A fitted ground holds for this profile. A neighbouring profile may need another ground."));
     ceduo_page_para(page, CEDUO_PAGE_NOTE,
                     _("%llu scenes were computed with %llu rocks each; R-hat %.3f, effective size %.0f."),
@@ -217,9 +218,9 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
 {
     static const struct ceduo_page_column fitted[] = {
         {N_("fitted"), 26, 2, 0}, {N_("between"), -13, 2, 0}, {N_("best"), -8, 2, 0}, {N_("not refuted, 95 %"), -18, 2, 0}};
-    static const struct ceduo_page_column seen[] = {{N_("seen"), 24, 2, 0},       {N_("use"), 5, 2, 0},
-                                                    {N_("rocks"), -7, 2, 0},      {N_("mean"), -8, 2, 0},
-                                                    {N_("fit, 95 %"), -15, 2, 0}, {N_("p"), -5, 2, 0}};
+    static const struct ceduo_page_column observed[] = {{N_("seen"), 24, 2, 0},       {N_("use"), 5, 2, 0},
+                                                        {N_("rocks"), -7, 2, 0},      {N_("mean"), -8, 2, 0},
+                                                        {N_("fit, 95 %"), -15, 2, 0}, {N_("p"), -5, 2, 0}};
     LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
     for (size_t s = 0; s < r->scenes_count; s++) {
         struct text *title = ceduo_page_add(&page, CEDUO_PAGE_TITLE);
@@ -233,20 +234,20 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
         const struct ceduo_fitted *f = &r->answer->parameters[i];
         const char *path = r->inputs[i].path;
         ceduo_calibration_name(ceduo_page_text(&page), path);
-        append_range(ceduo_page_text(&page), shown(path, f->lo), shown(path, f->hi));
+        append_range(ceduo_page_text(&page), to_display_unit(path, f->lo), to_display_unit(path, f->hi));
         ceduo_calibration_number(ceduo_page_text(&page), path, f->best);
-        append_range(ceduo_page_text(&page), shown(path, f->p2_5), shown(path, f->p97_5));
+        append_range(ceduo_page_text(&page), to_display_unit(path, f->p2_5), to_display_unit(path, f->p97_5));
     }
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
-    CEDUO_PAGE_TABLE_OF(&page, seen);
+    CEDUO_PAGE_TABLE_OF(&page, observed);
     for (size_t i = 0; i < r->answer->predicted_count; i++) {
         const struct ceduo_predicted *p = &r->answer->predicted[i];
         const struct ceduo_observation *o = ceduo_observed_find(r, p);
         const struct scene_file *file = &r->files[p->scene];
-        append_name(ceduo_page_text(&page), r, p);
+        append_observation_name(ceduo_page_text(&page), r, p);
         ceduo_page_cell_format(&page, "%s", o->use == CEDUO_OBSERVED_FIT ? _("fit") : _("check"));
         ceduo_page_cell_format(&page, "%zu", ceduo_observed_number(o));
-        ceduo_page_cell_format(&page, "%s", WRITTEN(ceduo_observed_shown(file, p, p->seen), 3));
+        ceduo_page_cell_format(&page, "%s", SIG(ceduo_observed_shown(file, p, p->seen), 3));
         append_range(ceduo_page_text(&page), ceduo_observed_shown(file, p, p->lo), ceduo_observed_shown(file, p, p->hi));
         if (isnan(p->p_value) || p->p_value < 0.001)
             ceduo_page_cell_format(&page, "%s", isnan(p->p_value) ? "-" : "<.001");

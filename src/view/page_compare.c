@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one table of options: every page, pane and picture shows some of its columns. A row is an option, a year of an option, or the
+/* Table of options: every page, pane and picture shows some of its columns. A row is an option, a year of an option, or the
  * slope without forest. */
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 #include "scene/choices.h"
 #include "study/verdict.h"
 
-/* Name, head, width, flags. BAR is a bar of the column after it. */
+/* Name, head, width, flags. BAR draws the column after it. */
 #define COLUMN_LIST(X)                                                                                                         \
     X(NAME, N_("option"), 10, COL_GROW)                                                                                        \
     X(BAR, "", 6, COL_GROW | COL_PRIORITY(5))                                                                                  \
@@ -25,10 +25,10 @@
     X(MEAN_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, COL_SHRINK)                                    \
     X(ADC, N_("ADC m|ADC of the worst belt, m"), -5, COL_SHRINK)                                                               \
     X(CONTACT, NP_("light", "C|test of contact"), 1, COL_SHRINK | COL_PRIORITY(6))                                             \
-    X(MEET_NONE, NP_("head", "free run|chance of a free run"), -7, COL_SHRINK)                                                 \
+    X(FREE_RUN_SHARE, NP_("head", "free run|chance of a free run"), -7, COL_SHRINK)                                            \
     X(FREE_RUN, NP_("light", "F|test of free runs"), 1, COL_SHRINK | COL_PRIORITY(6))                                          \
     X(PER_100M, N_("kJ/100 m|taken per 100 m, kJ"), -5, COL_SHRINK)                                                            \
-    X(LEFT, NP_("head", "left kJ|energy left, kJ"), -5, COL_SHRINK)                                                            \
+    X(RESIDUAL, NP_("head", "left kJ|energy left, kJ"), -5, COL_SHRINK)                                                        \
     X(MEAN, N_("mean"), -5, COL_SHRINK | COL_PRIORITY(1))                                                                      \
     X(MEAN_RANGE, NP_("head", "range"), -5, COL_SHRINK | COL_PRIORITY(5))                                                      \
     X(WORST, NP_("head", "worst|in the worst year (which)"), -5, COL_SHRINK | COL_PRIORITY(4))                                 \
@@ -42,10 +42,10 @@
     X(MARK, "", 1, COL_SHRINK | COL_PRIORITY(8))                                                                               \
     X(YEARS, "", 1, COL_SHRINK | COL_PRIORITY(9))                                                                              \
     X(LAW, NP_("head", "law of the scene"), 7, COL_SHRINK)                                                                     \
-    X(OTHER_LAW, NP_("head", "other law"), 7, COL_SHRINK)                                                                      \
-    X(OTHER, N_("of 1000"), -5, COL_SHRINK)                                                                                    \
-    X(OTHER_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, COL_SHRINK)                                   \
-    X(APART, N_("today"), -5, COL_SHRINK)                                                                                      \
+    X(ALT_LAW, NP_("head", "other law"), 7, COL_SHRINK)                                                                        \
+    X(ALT_SHARE, N_("of 1000"), -5, COL_SHRINK)                                                                                \
+    X(ALT_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, COL_SHRINK)                                     \
+    X(PERIOD, N_("today"), -5, COL_SHRINK)                                                                                     \
     X(WEAK, NP_("head", "% weak"), -6, COL_SHRINK)                                                                             \
     X(MEDIUM, NP_("head", "% medium"), -6, COL_SHRINK)                                                                         \
     X(STRONG, NP_("head", "% strong"), -6, COL_SHRINK)                                                                         \
@@ -67,56 +67,51 @@ static const struct ceduo_page_column columns[COLUMNS] = {
 #undef X
 };
 
-static const struct ceduo_control *last_control(const struct ceduo_result *r)
-{
-    return &r->scene->controls[r->last_control];
-}
-
 #define COLUMNS_SHOWN 14
 
-/* What the tables show, by the index and through the forest. A column that is empty in all rows is left out. */
-static const enum column shown[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
-    [CEDUO_OPTIONS_SHORT] = {{NAME, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M, LEFT},
+/* Columns of each table, by the index and with rocks through the forest. Columns that are empty in all rows are dropped. */
+static const enum column column_sets[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
+    [CEDUO_OPTIONS_SHORT] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M, RESIDUAL},
                              {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, ADC, FELLED}},
-    [CEDUO_OPTIONS_TODAY] = {{NAME, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M, LEFT},
-                             {NAME, TODAY, ENERGY, TO_FIRST, ADC, CONTACT, MEET_NONE, FREE_RUN}},
+    [CEDUO_OPTIONS_TODAY] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M, RESIDUAL},
+                             {NAME, TODAY, ENERGY, TO_FIRST, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN}},
     [CEDUO_OPTIONS_YEARS] = {{NAME, WORST_ADC, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING},
                              {NAME, MEAN, ROTATION, WORST, FAIL, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING}},
     [CEDUO_OPTIONS_PANE] = {{NAME, ADC, PER_100M, WORST_ADC, FAIL_CONTACT, FELLED, CONTACT, FREE_RUN},
                             {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, FELLED, MARK, ENERGY, CONTACT, FREE_RUN,
                              YEARS}},
-    [CEDUO_OPTIONS_BARS] = {{NAME, BAR, ADC, CONTACT, BAR, PER_100M, BAR, LEFT},
+    [CEDUO_OPTIONS_BARS] = {{NAME, BAR, ADC, CONTACT, BAR, PER_100M, BAR, RESIDUAL},
                             {NAME, BAR, TODAY, ENERGY, BAR, MEAN_KJ, BAR, ADC, CONTACT}},
-    [CEDUO_OPTIONS_LAWS] = {{NAME}, {NAME, LAW, TODAY, MEAN_KJ, OTHER_LAW, OTHER, OTHER_KJ}},
-    [CEDUO_OPTIONS_RATES] = {{NAME, APART, WEAK, MEDIUM, STRONG}, {NAME, APART, WEAK, MEDIUM, STRONG}},
+    [CEDUO_OPTIONS_LAWS] = {{NAME}, {NAME, LAW, TODAY, MEAN_KJ, ALT_LAW, ALT_SHARE, ALT_KJ}},
+    [CEDUO_OPTIONS_RATES] = {{NAME, PERIOD, WEAK, MEDIUM, STRONG}, {NAME, PERIOD, WEAK, MEDIUM, STRONG}},
     [CEDUO_OPTIONS_RETURNS] = {{NAME, RETURN_1, RETURN_2, RETURN_3}, {NAME, RETURN_1, RETURN_2, RETURN_3}},
-    [CEDUO_OPTIONS_OF_YEARS] = {{NAME, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M},
-                                {NAME, TODAY, ENERGY, MEAN_KJ, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M}}};
+    [CEDUO_OPTIONS_OF_YEARS] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M},
+                                {NAME, TODAY, ENERGY, MEAN_KJ, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M}}};
 
 /* ---- cells ---- */
 
-#define YEARS_MAX 26 /* columns of the years at a glance */
+#define YEARS_MAX 26 /* columns of the sparkline of years */
 #define PENDING   "\xe2\x80\xa6"
 
-/* With blocks options are judged by the years from one rock above the limit to the next. */
+/* True if options are judged by return periods, because the scene has blocks. */
 static bool has_rates(const struct ceduo_report *report)
 {
     return report->result->scene->blocks_count > 0 && report->verdict && report->verdict->accepted;
 }
 
-__attribute__((format(printf, 2, 3))) static const char *print(char room[CEDUO_WORDS_SIZE], const char *format, ...)
+__attribute__((format(printf, 2, 3))) static const char *format_to(char buffer[CEDUO_WORDS_SIZE], const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    vsnprintf(room, CEDUO_WORDS_SIZE, format, args);
+    vsnprintf(buffer, CEDUO_WORDS_SIZE, format, args);
     va_end(args);
-    return room;
+    return buffer;
 }
 
-/* The years at a glance: a block for each year, or for the worst of several; as high as what gets through. */
-static const char *glance_of(const struct ceduo_subject *s, char room[CEDUO_WORDS_SIZE])
+/* Write a sparkline: a character per year, or per group of years with the maximum; its height is the judged share. */
+static const char *format_sparkline(const struct ceduo_subject *s, char buffer[CEDUO_WORDS_SIZE])
 {
-    const struct ceduo_years *years = s->report->ahead ? s->report->ahead[s->option] : NULL;
+    const struct ceduo_years *years = s->report->years_ahead ? s->report->years_ahead[s->option] : NULL;
     int n = years ? (int)years->count : 0, blocks = n < YEARS_MAX ? n : YEARS_MAX;
     size_t length = 0;
     for (int x = 0; x < blocks; x++) {
@@ -125,26 +120,26 @@ static const char *glance_of(const struct ceduo_subject *s, char room[CEDUO_WORD
             if (years->years[k].wooded.rocks > 0)
                 max = fmax(max, ceduo_measure_exceeding(s->place, &years->years[k].wooded.arrivals[s->control]).value);
         uint32_t eighths = (uint32_t)fmin(8, ceil(max * 8 / 1000)); /* U+2581 … U+2588 */
-        length += ceduo_utf8_encode(eighths > 0 ? 0x2580 + eighths : ' ', room + length);
+        length += ceduo_utf8_encode(eighths > 0 ? 0x2580 + eighths : ' ', buffer + length);
     }
-    room[length] = '\0';
-    return room;
+    buffer[length] = '\0';
+    return buffer;
 }
 
-static const char *to_first(const struct ceduo_subject *s, char room[CEDUO_WORDS_SIZE])
+static const char *format_difference(const struct ceduo_subject *s, char buffer[CEDUO_WORDS_SIZE])
 {
     const struct ceduo_estimate e = ceduo_share_to_first(s->report->result, s->option);
     if (ceduo_pairs_are_equal(&e))
-        return print(room, "< %.0f", ceil(e.hi * 1000));
+        return format_to(buffer, "< %.0f", ceil(e.hi * 1000));
     if (s->option == 0 || isnan(e.mean))
         return "-";
     if (e.mean == 0 && e.se == 0)
         return _("the same");
-    return print(room, isnan(e.se) ? "%+.0f" : "%+.0f\xc2\xb1%.0f", e.mean * 1000, ceil(CEDUO_Z95 * e.se * 1000));
+    return format_to(buffer, isnan(e.se) ? "%+.0f" : "%+.0f\xc2\xb1%.0f", e.mean * 1000, ceil(CEDUO_Z95 * e.se * 1000));
 }
 
-/* "best" if an option is clearly better than all others over the years, "worst" if it is clearly worse than all. */
-static const char *mark_of(const struct ceduo_verdict *v, size_t i)
+/* Return "best" if an option is clearly better than all others over the years, "worst" if it is clearly worse. */
+static const char *choose_mark(const struct ceduo_verdict *v, size_t i)
 {
     bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;
     for (size_t k = 0; k < v->n; k++)
@@ -153,38 +148,38 @@ static const char *mark_of(const struct ceduo_verdict *v, size_t i)
     return known && i == v->rotation.best && v->rotation.rivals == 0 ? _("best") : worst ? _("worst") : "";
 }
 
-/* The law of the scene, or that its stands have several. */
-static const char *law_of(const struct ceduo_option *option)
+/* Return the law of the option's stands, or "several". */
+static const char *find_law(const struct ceduo_option *option)
 {
     const char *law = NULL;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_stand *stand = &option->belts[i].stand;
-        const char *here = ceduo_stand_is_bare(stand) ? law : ceduo_words_law(ceduo_energy_words.names[stand->energy]);
-        if (law && law != here)
+        const char *belt_law = ceduo_stand_is_bare(stand) ? law : ceduo_words_law(ceduo_energy_words.names[stand->energy]);
+        if (law && law != belt_law)
             return _("several");
-        law = here;
+        law = belt_law;
     }
     return law ? law : "-";
 }
 
-/* The figure of a column that a bar may show; NaN: not known. */
-static double value_of(enum column column, const struct ceduo_subject *s)
+/* Return the figure of a column for its bar; NaN: unknown. */
+static double get_value(enum column column, const struct ceduo_subject *s)
 {
     const struct ceduo_index none = {.worst_adc = NAN, .per_100m = NAN}, *index = s->index ? s->index : &none;
     const struct ceduo_yield *yield = s->choice ? &s->choice->yield : NULL;
-    const double values[COLUMNS] = {[TODAY] = s->today.value,
-                                    [ADC] = index->worst_adc,
-                                    [MEAN_KJ] = ceduo_measured(CEDUO_MEAN_KJ, s->wooded).value,
-                                    [OTHER_KJ] = ceduo_measured(CEDUO_MEAN_KJ, s->other ? &s->other->arrivals : NULL).value,
-                                    [PER_100M] = index->per_100m * J_TO_KJ,
-                                    [LEFT] =
-                                        s->index ? index->residual * J_TO_KJ : ceduo_measured(CEDUO_MEAN_KJ, s->bare).value,
-                                    [FELLED] = yield ? yield->cut_per_year : NAN,
-                                    [STANDING] = yield ? yield->standing : NAN};
+    const double values[COLUMNS] = {
+        [TODAY] = s->today.value,
+        [ADC] = index->worst_adc,
+        [MEAN_KJ] = ceduo_measure_figure(CEDUO_MEAN_KJ, s->wooded).value,
+        [ALT_KJ] = ceduo_measure_figure(CEDUO_MEAN_KJ, s->alternative ? &s->alternative->arrivals : NULL).value,
+        [PER_100M] = index->per_100m * J_TO_KJ,
+        [RESIDUAL] = s->index ? index->residual * J_TO_KJ : ceduo_measure_figure(CEDUO_MEAN_KJ, s->bare).value,
+        [FELLED] = yield ? yield->cut_per_year : NAN,
+        [STANDING] = yield ? yield->standing : NAN};
     return values[column];
 }
 
-static enum ceduo_light light_of(enum column column, const struct ceduo_subject *s)
+static enum ceduo_light get_light(enum column column, const struct ceduo_subject *s)
 {
     bool contact = column == ADC || column == CONTACT, energy = column == TODAY || column == ENERGY;
     return !s->index            ? CEDUO_UNKNOWN
@@ -194,104 +189,104 @@ static enum ceduo_light light_of(enum column column, const struct ceduo_subject 
                                 : CEDUO_UNKNOWN;
 }
 
-/* A share with its error, or in rates the years from one rock to the next. */
-static const char *share_of(struct ceduo_measure share, struct ceduo_estimate rate, bool rates, const char *unknown,
-                            char room[CEDUO_WORDS_SIZE])
+/* Return a share with its error, or the return period if `rates`. */
+static const char *format_share(struct ceduo_measure share, struct ceduo_estimate rate, bool rates, const char *unknown,
+                                char buffer[CEDUO_WORDS_SIZE])
 {
     if (isnan(rates ? rate.mean : share.value))
         return unknown;
-    return rates ? ceduo_words_return_period_range(rate, room) : ceduo_measure_error(share, "", room);
+    return rates ? ceduo_words_return_period_range(rate, buffer) : ceduo_measure_error(share, "", buffer);
 }
 
-static const char *cell_of(enum column column, const struct ceduo_subject *s, char room[CEDUO_WORDS_SIZE])
+static const char *format_cell(enum column column, const struct ceduo_subject *s, char buffer[CEDUO_WORDS_SIZE])
 {
     const struct ceduo_choice *c = s->choice && s->choice->over->years > 0 ? s->choice : NULL;
     const struct ceduo_hazard *h = ceduo_hazard_find(s->wooded);
     const char *unknown = s->report->busy && !c && s->index ? PENDING : "-";
     bool rates = has_rates(s->report), judged = c && !c->over->nothing;
-    double left = h && column >= WEAK && column <= STRONG ? h->intensity[column - WEAK].left : NAN;
+    double remaining = h && column >= WEAK && column <= STRONG ? h->intensity[column - WEAK].left : NAN;
     switch (column) {
     case TODAY:
-        return rates && s->wooded ? ceduo_words_return_period(ceduo_judged_rate(s->wooded), room)
-                                  : share_of(s->today, CEDUO_NO_ESTIMATE, false, unknown, room);
-    case APART:
-        return share_of(s->today, ceduo_judged_rate(s->wooded), true, unknown, room);
+        return rates && s->wooded ? ceduo_words_return_period(ceduo_judged_rate(s->wooded), buffer)
+                                  : format_share(s->today, CEDUO_NO_ESTIMATE, false, unknown, buffer);
+    case PERIOD:
+        return format_share(s->today, ceduo_judged_rate(s->wooded), true, unknown, buffer);
     case RANGE:
-        return isnan(s->today.may_lo) || !isnan(s->mean.may_lo) || rates ? "" : ceduo_measure_plausible_range(s->today, room);
+        return isnan(s->today.p5) || !isnan(s->mean.p5) || rates ? "" : ceduo_measure_plausible_range(s->today, buffer);
     case MEAN:
-        return share_of(s->mean, c ? s->outcome.rate : CEDUO_NO_ESTIMATE, rates, unknown, room);
+        return format_share(s->mean, c ? s->outcome.rate : CEDUO_NO_ESTIMATE, rates, unknown, buffer);
     case MEAN_RANGE:
-        return isnan(s->mean.may_lo) || rates ? "" : ceduo_measure_plausible_range(s->mean, room);
+        return isnan(s->mean.p5) || rates ? "" : ceduo_measure_plausible_range(s->mean, buffer);
     case WORST:
         return !c || c->over->simulated == 0
                    ? unknown
-                   : print(room, "%s (%u)",
-                           rates ? WRITTEN(1 / (c->worst.mean * ceduo_hazard_find(s->bare)->per_year), 2)
-                                 : WRITTEN(1000 * c->worst.mean, 0),
-                           c->over->worst_year);
+                   : format_to(buffer, "%s (%u)",
+                               rates ? SIG(1 / (c->worst.mean * ceduo_hazard_find(s->bare)->per_year), 2)
+                                     : SIG(1000 * c->worst.mean, 0),
+                               c->over->worst_year);
     case ROTATION:
-        return c ? ceduo_measure_error(ceduo_share(c->rotation), "", room) : "-";
+        return c ? ceduo_measure_error(ceduo_measure_share(c->rotation), "", buffer) : "-";
     case WORST_ADC:
-        return c ? print(room, "%s (%u)", WRITTEN(c->worst.mean, 3), c->over->worst_year) : unknown;
+        return c ? format_to(buffer, "%s (%u)", SIG(c->worst.mean, 3), c->over->worst_year) : unknown;
     case FAIL:
         if (rates)
-            return ceduo_words_judgement_mark(s->outcome.answer, room);
-        return c && c->energy_known ? print(room, "%zu/%zu", c->over->unprotected_energy, c->over->years) : unknown;
+            return ceduo_words_judgement_mark(s->outcome.answer, buffer);
+        return c && c->energy_known ? format_to(buffer, "%zu/%zu", c->over->unprotected_energy, c->over->years) : unknown;
     case FAIL_CONTACT:
-        return judged ? print(room, "%zu/%zu", c->over->unprotected_contact, c->over->years) : unknown;
+        return judged ? format_to(buffer, "%zu/%zu", c->over->unprotected_contact, c->over->years) : unknown;
     case FAIL_FREE_RUN:
-        return judged ? print(room, "%zu/%zu", c->over->unprotected_free_run, c->over->years) : unknown;
+        return judged ? format_to(buffer, "%zu/%zu", c->over->unprotected_free_run, c->over->years) : unknown;
     case ADC:
-        return ceduo_words_against_limit(s->index->worst_adc, 3, s->report->result->scene->simulation.threshold, room);
-    case MEET_NONE:
-        return print(room, "%s %%", PERCENT(s->index->worst_free_run, CEDUO_FREE_RUN_MAX));
+        return ceduo_words_against_limit(s->index->worst_adc, 3, s->report->result->scene->simulation.threshold, buffer);
+    case FREE_RUN_SHARE:
+        return format_to(buffer, "%s %%", PERCENT_VS_LIMIT(s->index->worst_free_run, CEDUO_FREE_RUN_MAX));
     case ENERGY:
     case CONTACT:
     case FREE_RUN:
-        return ceduo_plot_light_mark(light_of(column, s));
+        return ceduo_plot_light_mark(get_light(column, s));
     case TO_FIRST:
-        return to_first(s, room);
+        return format_difference(s, buffer);
     case MARK:
-        return s->choice ? mark_of(s->report->verdict, s->option) : "";
+        return s->choice ? choose_mark(s->report->verdict, s->option) : "";
     case YEARS:
-        return glance_of(s, room);
+        return format_sparkline(s, buffer);
     case LAW:
-        return law_of(&s->report->result->scene->options[s->option]);
-    case OTHER_LAW:
-        return s->other ? ceduo_words_law(ceduo_energy_words.names[s->other->model]) : "-";
-    case OTHER:
-        return s->other ? ceduo_measure_value(ceduo_measure_exceeding(s->place, &s->other->arrivals), room) : "-";
+        return find_law(&s->report->result->scene->options[s->option]);
+    case ALT_LAW:
+        return s->alternative ? ceduo_words_law(ceduo_energy_words.names[s->alternative->model]) : "-";
+    case ALT_SHARE:
+        return s->alternative ? ceduo_measure_value(ceduo_measure_exceeding(s->place, &s->alternative->arrivals), buffer) : "-";
     case WEAK:
     case MEDIUM:
     case STRONG:
-        return isnan(left) ? _("none") : ceduo_words_sig(s->index ? 100 * left : 100, s->index ? 2 : 3, room);
-    case LEFT:
+        return isnan(remaining) ? _("none") : ceduo_words_sig(s->index ? 100 * remaining : 100, s->index ? 2 : 3, buffer);
+    case RESIDUAL:
         if (s->index && s->index->exhausted)
             return _("used up");
-        return ceduo_words_sig(value_of(column, s), 3, room);
+        return ceduo_words_sig(get_value(column, s), 3, buffer);
     default:
-        return ceduo_words_sig(value_of(column, s), column == FELLED ? 2 : 3, room);
+        return ceduo_words_sig(get_value(column, s), column == FELLED ? 2 : 3, buffer);
     }
 }
 
 /* ---- bars ---- */
 
-struct scale {
-    double lo, hi, limit; /* lo: 0: not logarithmic; limit: NaN: none */
+struct bar_scale {
+    double lo, hi, limit; /* lo 0: linear; limit NaN: none */
 };
 
-static struct scale scale_of(enum column column, const struct ceduo_subject *s)
+static struct bar_scale make_scale(enum column column, const struct ceduo_subject *s)
 {
     const struct ceduo_scene *scene = s->report->result->scene;
     double threshold = scene->simulation.threshold, accepted = ceduo_words_accepted(s->place);
     if (column == ADC)
-        return (struct scale){threshold / 10, threshold * 2, threshold};
+        return (struct bar_scale){threshold / 10, threshold * 2, threshold};
     if (column == TODAY)
-        return (struct scale){0, 1000, isnan(accepted) ? NAN : 1000 * ceduo_exceed_limit(scene, s->place)};
-    return (struct scale){0, 0, column == PER_100M ? NAN : accepted};
+        return (struct bar_scale){0, 1000, isnan(accepted) ? NAN : 1000 * ceduo_exceed_limit(scene, s->place)};
+    return (struct bar_scale){0, 0, column == PER_100M ? NAN : accepted};
 }
 
-static void widen(struct scale *scale, double value)
+static void widen_scale(struct bar_scale *scale, double value)
 {
     bool logarithmic = scale->lo > 0;
     if (logarithmic && isfinite(value) && value > 0)
@@ -302,59 +297,59 @@ static void widen(struct scale *scale, double value)
 
 static void add_bar(struct ceduo_page *page, enum column column, const struct ceduo_subject *s, double limit)
 {
-    double value = value_of(column, s);
-    enum ceduo_light light = light_of(column, s);
-    if (column == LEFT && s->index && !isnan(limit))
+    double value = get_value(column, s);
+    enum ceduo_light light = get_light(column, s);
+    if (column == RESIDUAL && s->index && !isnan(limit))
         light = value <= limit ? CEDUO_PASS : CEDUO_FAIL;
     ceduo_page_bar(page, value,
                    !s->index                ? CEDUO_ROLE_BARE
-                   : light == CEDUO_UNKNOWN ? CEDUO_ROLE_WOOD
+                   : light == CEDUO_UNKNOWN ? CEDUO_ROLE_FOREST
                                             : ceduo_plot_light_role(light))
         ->limit = limit;
 }
 
 /* ---- tables ---- */
 
-/* A row; `name` of its option, its year, or of what arrives without forest. */
-static void add_row(struct ceduo_page *page, const enum column *set, const struct ceduo_subject *s, const struct scale *scales,
-                    enum ceduo_role role, const char *name)
+/* Append a row with the name of its option or year, or "without forest". */
+static void add_option_row(struct ceduo_page *page, const enum column *set, const struct ceduo_subject *s,
+                           const struct bar_scale *scales, enum ceduo_role role, const char *name)
 {
     for (size_t i = 0; set[i]; i++) {
         enum column column = set[i];
-        char room[CEDUO_WORDS_SIZE] = "";
+        char buffer[CEDUO_WORDS_SIZE] = "";
         if (column == NAME)
             ceduo_page_cell_role(page, role, name);
         else if (column == BAR)
             add_bar(page, set[i + 1], s, scales[i].limit);
         else if (column >= RETURN_1)
             ceduo_page_return(page, ceduo_hazard_find(s->wooded), (size_t)(1 + column - RETURN_1));
-        else if (!s->index && !(column == TODAY || column == MEAN_KJ || column == LEFT || column >= APART))
+        else if (!s->index && !(column == TODAY || column == MEAN_KJ || column == RESIDUAL || column >= PERIOD))
             ceduo_page_cell_format(page, "%s", "");
         else
             ceduo_page_cell_role(page,
                                  column == ENERGY || column == CONTACT || column == FREE_RUN
-                                     ? ceduo_plot_light_role(light_of(column, s))
+                                     ? ceduo_plot_light_role(get_light(column, s))
                                  : column == MARK  ? CEDUO_ROLE_CURSOR
                                  : column == YEARS ? CEDUO_ROLE_MEAN
                                                    : CEDUO_ROLE_BLANK,
-                                 cell_of(column, s, room));
+                                 format_cell(column, s, buffer));
     }
 }
 
-static void begin(struct ceduo_page *page, const struct ceduo_report *report, size_t control, const enum column *set)
+static void begin_table(struct ceduo_page *page, const struct ceduo_report *report, size_t control, const enum column *set)
 {
     struct ceduo_page_column chosen[COLUMNS_SHOWN] = {0};
     const struct ceduo_control *c = &report->result->scene->controls[control];
     size_t n = 0;
-    bool ahead = false;
+    bool years_ahead = false;
     for (; set[n]; n++) {
         chosen[n] = columns[set[n]];
-        ahead |= set[n] == MEAN;
+        years_ahead |= set[n] == MEAN;
     }
     ceduo_page_table(page, chosen, n);
     for (size_t i = 0; i < n; i++) {
         struct ceduo_page_cell *head = &page->last->cells[i];
-        if (set[i] == TODAY && ahead)
+        if (set[i] == TODAY && years_ahead)
             ceduo_text_append(&head->text, _("today"));
         else if (set[i] == TODAY)
             ceduo_page_limit(head, c);
@@ -369,29 +364,29 @@ void ceduo_page_options(struct ceduo_page *page, const struct ceduo_report *repo
                         size_t cursor, size_t first, size_t rows)
 {
     const struct ceduo_result *r = report->result;
-    const enum column *set = shown[kind][r->wooded];
-    struct scale scales[COLUMNS_SHOWN];
+    const enum column *set = column_sets[kind][r->wooded];
+    struct bar_scale scales[COLUMNS_SHOWN];
     struct ceduo_subject bare = ceduo_subject_find(report, SIZE_MAX, control);
     size_t end = rows < r->scene->options_count - first ? first + rows : r->scene->options_count;
-    begin(page, report, control, set);
+    begin_table(page, report, control, set);
     for (size_t k = 0; set[k]; k++)
-        scales[k] = scale_of(set[k + 1], &bare);
+        scales[k] = make_scale(set[k + 1], &bare);
     for (size_t i = 0; i <= r->scene->options_count; i++) {
         struct ceduo_subject s = i < r->scene->options_count ? ceduo_subject_find(report, i, control) : bare;
         for (size_t k = 0; set[k]; k++)
-            widen(&scales[k], value_of(set[k + 1], &s));
+            widen_scale(&scales[k], get_value(set[k + 1], &s));
         if (s.index && i >= first && i < end && (kind != CEDUO_OPTIONS_LAWS || s.wooded))
-            add_row(page, set, &s, scales, i == cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
+            add_option_row(page, set, &s, scales, i == cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
     }
     if (kind != CEDUO_OPTIONS_TODAY && kind != CEDUO_OPTIONS_YEARS && kind != CEDUO_OPTIONS_PANE && kind != CEDUO_OPTIONS_LAWS)
-        add_row(page, set, &bare, scales, CEDUO_ROLE_TEXT, _("without forest"));
+        add_option_row(page, set, &bare, scales, CEDUO_ROLE_TEXT, _("without forest"));
     for (size_t k = 0; set[k]; k++)
-        if (set[k] == BAR) { /* a limit stands above its bars */
-            struct scale *scale = &scales[k];
+        if (set[k] == BAR) { /* the limit is the head of its bars */
+            struct bar_scale *scale = &scales[k];
             if (scale->limit <= 2 * scale->hi)
                 scale->hi = fmax(scale->hi, scale->limit);
             if (!isnan(scale->limit))
-                ceduo_text_format(&page->last->cells[k].text, "\xe2\x94\x82 %s", ROUNDED(scale->limit, 6));
+                ceduo_text_format(&page->last->cells[k].text, "\xe2\x94\x82 %s", SIG_TRIMMED(scale->limit, 6));
             ceduo_page_scale(page, k, scale->lo, scale->hi);
         }
     ceduo_page_trim(page);
@@ -401,7 +396,7 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
 {
     const struct ceduo_scene *scene = d->scene;
     struct ceduo_result *result;
-    size_t room = d->height > 4 ? (size_t)d->height - 3 : 1, n = scene->options_count;
+    size_t rows = d->height > 4 ? (size_t)d->height - 3 : 1, n = scene->options_count;
     if (!d->control || !d->bare)
         return !d->control ? _("no control") : _("not computed yet");
     const struct ceduo_simulated **wooded = ceduo_check_memory(calloc(n, sizeof *wooded));
@@ -413,40 +408,39 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
         result = NULL;
     ceduo_check_memory(result);
     const struct ceduo_report report = {.result = result};
-    room = n <= room ? n : room - 1;
-    ceduo_page_options(d->page, &report, CEDUO_OPTIONS_BARS, d->picture->control, d->picture->option, 0, room);
-    if (ceduo_reached(d->bare_arrivals) == 0)
+    rows = n <= rows ? n : rows - 1;
+    ceduo_page_options(d->page, &report, CEDUO_OPTIONS_BARS, d->picture->control, d->picture->option, 0, rows);
+    if (ceduo_rocks_reached(d->bare_arrivals) == 0)
         ceduo_page_para_role(d->page, CEDUO_ROLE_DIM, "%s", _("no rock arrives"));
-    if (room < n)
-        ceduo_page_para(d->page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(n - room));
+    if (rows < n)
+        ceduo_page_para(d->page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(n - rows));
     ceduo_result_free(result);
     free(wooded);
     return NULL;
 }
 
-/* What the shares of a table are of, at the last control; with `years` also which years. */
 void ceduo_page_shares(struct ceduo_page *page, const struct ceduo_report *report, bool years)
 {
     const struct ceduo_control *c = last_control(report->result);
-    const struct ceduo_choice *ahead = years ? ceduo_report_years_ahead(report, 0) : NULL;
+    const struct ceduo_choice *years_ahead = years ? ceduo_report_years_ahead(report, 0) : NULL;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
-    const char *name = NAMED(ceduo_measure_exceeding(c, NULL), CEDUO_SHORT_HEAD), *place = SHORTEST(c->x_given);
+    const char *name = MEASURE_NAME(ceduo_measure_exceeding(c, NULL), CEDUO_SHORT_HEAD), *place = LOCALIZED(c->x_given);
     if (has_rates(report))
         ceduo_text_format(text, _("Years between two rocks %s at %s m (accepted: %s)"), name, place,
-                          SHORTEST(ceduo_accepted_return(c)));
+                          LOCALIZED(ceduo_accepted_return(c)));
     else if (report->result->wooded)
         ceduo_text_format(text, _("Of 1000 rocks: %s at %s m"), name, place);
     else
         ceduo_text_format(text, _("At %s m"), place);
-    if (ahead)
-        ceduo_text_append_joined(text, "; ", _("years %u to %u"), ahead->window.first, ahead->window.last);
+    if (years_ahead)
+        ceduo_text_append_joined(text, "; ", _("years %u to %u"), years_ahead->window.first, years_ahead->window.last);
 }
 
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_verdict *v = report->verdict;
-    ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Side by side, up to %s m"), SHORTEST(last_control(r)->x_given));
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Side by side, up to %s m"), LOCALIZED(last_control(r)->x_given));
     ceduo_page_shares(page, report, false);
     ceduo_page_options(page, report, CEDUO_OPTIONS_TODAY, r->last_control, SIZE_MAX, 0, SIZE_MAX);
     size_t n = r->scene->options_count, passes[3] = {0};
@@ -456,7 +450,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
         for (size_t k = 0; k < 3; k++)
             passes[k] += lights[k] == CEDUO_PASS;
     }
-    /* a test that all options pass, or none, says nothing about which to choose */
+    /* a test with the same result for all options does not help to choose */
     for (size_t k = 0; k < (r->wooded && !isnan(last_control(r)->accepted) ? 3u : 2u); k++)
         if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
             ceduo_page_para(page, CEDUO_PAGE_NOTE,
@@ -471,7 +465,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
                         v->choices[0].window.last);
         ceduo_page_options(page, report, CEDUO_OPTIONS_YEARS, r->last_control, SIZE_MAX, 0, SIZE_MAX);
     }
-    for (size_t i = 0; v->choices[0].over->years > 0 && i < v->n; i++) { /* what a yield leaves out */
+    for (size_t i = 0; v->choices[0].over->years > 0 && i < v->n; i++) { /* limits of the yield model */
         known |= !isnan(v->choices[i].yield.cut_per_year);
         if (v->choices[i].yield.space > 1)
             ceduo_page_para(
@@ -482,7 +476,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (known)
         ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
                                 "quality of the wood are not modelled."));
-    ceduo_words_rank_reversals(r, v, ceduo_page_note, page); /* which is best stands at the head of the page */
+    ceduo_words_rank_reversals(r, v, ceduo_page_note, page); /* the best option is named at the top of the page */
     if (v->choices[0].over->years > 0)
         ceduo_words_windows(r->scene, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
@@ -498,7 +492,7 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
     ceduo_words_years_summary(line, r, years);
     if (felled > 0)
         ceduo_text_append_joined(line, " ", _("Felled: %g m of forest along the slope."), felled);
-    if (r->scene->options_count < 2) { /* otherwise it stands below the table of all */
+    if (r->scene->options_count < 2) { /* otherwise printed below the table of all options */
         ceduo_text_append_char(line, ' ');
         ceduo_words_year_numbering(line, years->rocks);
     }
@@ -508,53 +502,55 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_years *years = report->years[option];
-    const enum column *set = shown[CEDUO_OPTIONS_OF_YEARS][r->wooded];
-    ceduo_page_para(page, CEDUO_PAGE_CAPTION, _("Year by year, up to %s m:"), SHORTEST(last_control(r)->x_given));
-    begin(page, report, r->last_control, set);
+    const enum column *set = column_sets[CEDUO_OPTIONS_OF_YEARS][r->wooded];
+    ceduo_page_para(page, CEDUO_PAGE_CAPTION, _("Year by year, up to %s m:"), LOCALIZED(last_control(r)->x_given));
+    begin_table(page, report, r->last_control, set);
     ceduo_text_cut(&page->last->cells[0].text, 0);
     ceduo_text_append(&page->last->cells[0].text, _("year"));
     for (const struct ceduo_year *y = years->years; y < years->years + years->count; y++) {
         char name[CEDUO_WORDS_SIZE];
         const struct ceduo_subject s = ceduo_subject_find_year(report, option, y);
-        add_row(page, set, &s, NULL, CEDUO_ROLE_TEXT, print(name, "%4u %s", y->year, y->cut ? P_("head", "cut") : ""));
+        add_option_row(page, set, &s, NULL, CEDUO_ROLE_TEXT,
+                       format_to(name, "%4u %s", y->year, y->cut ? P_("head", "cut") : ""));
     }
     ceduo_page_trim(page);
     ceduo_page_years_words(page, r, years);
 }
 
-#define BESIDE_MAX 8 /* options in one table */
+#define TABLE_OPTIONS_MAX 8 /* options per table */
 
 void ceduo_page_years_all_options(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    static const struct ceduo_page_column beside[1 + BESIDE_MAX] = {{N_("year"), 15, 2, 0}, {"", -7, 0, 0}, {"", -7, 0, 0},
-                                                                    {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0},
-                                                                    {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0}};
+    static const struct ceduo_page_column year_columns[1 + TABLE_OPTIONS_MAX] = {
+        {N_("year"), 15, 2, 0}, {"", -7, 0, 0}, {"", -7, 0, 0}, {"", -7, 0, 0}, {"", -7, 0, 0},
+        {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0}, {"", -7, 0, 0}};
     const struct ceduo_result *r = report->result;
     const struct ceduo_control *control = last_control(r);
     size_t n = r->scene->options_count;
     ceduo_page_para(page, CEDUO_PAGE_SECTION, _("All options year by year, %s, up to %s m"),
-                    NAMED(ceduo_measure_exceeding(control, NULL), CEDUO_HEAD), SHORTEST(control->x_given));
-    for (size_t from = 0; from < n; from += BESIDE_MAX) {
-        size_t to = from + BESIDE_MAX < n ? from + BESIDE_MAX : n;
-        ceduo_page_table(page, beside, 1 + to - from);
+                    MEASURE_NAME(ceduo_measure_exceeding(control, NULL), CEDUO_HEAD), LOCALIZED(control->x_given));
+    for (size_t from = 0; from < n; from += TABLE_OPTIONS_MAX) {
+        size_t to = from + TABLE_OPTIONS_MAX < n ? from + TABLE_OPTIONS_MAX : n;
+        ceduo_page_table(page, year_columns, 1 + to - from);
         for (size_t i = from; i < to; i++)
             ceduo_text_format(&page->last->cells[1 + i - from].text, "%zu", i + 1);
         for (size_t k = 0; k < report->years[0]->count; k++) {
             ceduo_page_cell_format(page, "%4u", report->years[0]->years[k].year);
             for (size_t i = from; i < to; i++) {
                 const struct ceduo_year *y = &report->years[i]->years[k];
-                ceduo_page_cell_format(page, "%s",
-                                       y->wooded.rocks > 0
-                                           ? VALUE_OF(ceduo_measure_exceeding(control, &y->wooded.arrivals[r->last_control]))
-                                           : BESIDE(y->controls[r->last_control].worst_adc, 3, r->scene->simulation.threshold));
+                ceduo_page_cell_format(
+                    page, "%s",
+                    y->wooded.rocks > 0 ? MEASURE_VALUE(ceduo_measure_exceeding(control, &y->wooded.arrivals[r->last_control]))
+                                        : VS_LIMIT(y->controls[r->last_control].worst_adc, 3, r->scene->simulation.threshold));
             }
         }
         ceduo_page_cell_format(page, "%s", _("mean"));
         for (size_t i = from; i < to; i++)
-            ceduo_page_cell_format(page, "%s", VALUE_OF(ceduo_share(report->verdict->choices[i].mean)));
+            ceduo_page_cell_format(page, "%s", MEASURE_VALUE(ceduo_measure_share(report->verdict->choices[i].mean)));
         ceduo_page_cell_format(page, "%s", _("without forest"));
         for (size_t i = from; i < to; i++)
-            ceduo_page_cell_format(page, "%s", VALUE_OF(ceduo_measure_exceeding(control, &r->bare.arrivals[r->last_control])));
+            ceduo_page_cell_format(page, "%s",
+                                   MEASURE_VALUE(ceduo_measure_exceeding(control, &r->bare.arrivals[r->last_control])));
         struct text *names = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
         for (size_t i = from; i < to; i++)
             ceduo_text_format(names, i == from ? "%zu %s" : ", %zu %s", i + 1, r->scene->options[i].name);
@@ -562,21 +558,21 @@ void ceduo_page_years_all_options(struct ceduo_page *page, const struct ceduo_re
     }
 }
 
-/* ---- one energy law of stems against the other ---- */
+/* ---- comparison of energy laws ---- */
 
 void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
-    bool any = false; /* in the terminal program the figures by the other law may be there before those of the scene's own */
+    bool any = false; /* in the terminal program results by the other law may arrive first */
     for (size_t i = 0; r->wooded && i < r->scene->options_count; i++)
-        any |= ceduo_subject_find(report, i, r->last_control).other && ceduo_result_wooded(r, i, r->last_control);
+        any |= ceduo_subject_find(report, i, r->last_control).alternative && ceduo_result_wooded(r, i, r->last_control);
     if (!any)
         return;
     ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Comparison of the energy laws"));
     ceduo_page_note(page, _("Two published laws disagree on the energy that thin stems absorb (Brauner et al. 2005; Dorren et "
                             "al. 2006). Neither has been validated for them. More rocks do not decide between them."));
-    ceduo_page_para(page, CEDUO_PAGE_CAPTION,
-                    _("The same rocks at %s m: how many of 1000 %s, and the mean energy of those that arrive:"),
-                    SHORTEST(last_control(r)->x_given), NAMED(ceduo_measure_exceeding(last_control(r), NULL), CEDUO_PHRASE));
+    ceduo_page_para(
+        page, CEDUO_PAGE_CAPTION, _("The same rocks at %s m: how many of 1000 %s, and the mean energy of those that arrive:"),
+        LOCALIZED(last_control(r)->x_given), MEASURE_NAME(ceduo_measure_exceeding(last_control(r), NULL), CEDUO_PHRASE));
     ceduo_page_options(page, report, CEDUO_OPTIONS_LAWS, r->last_control, SIZE_MAX, 0, SIZE_MAX);
 }

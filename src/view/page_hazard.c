@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How often, and with how much, where the scene has blocks: in words, the energies of return periods, and the square of
- * intensity and return period, with all options beside the slope without forest. */
+/* Frequency and energy of scenes with blocks: sentences, energies of return periods, and the matrix of intensity and return
+ * period, for all options and without forest. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,35 +9,36 @@
 #include "page_parts.h"
 #include "plot.h"
 
-/* Without forest (item 0) and through the forest of each option. NULL: not known. */
-static const struct ceduo_hazard *hazard_of(const struct ceduo_result *r, size_t item, size_t control)
+/* Return the hazard without forest (item 0) or of option item - 1; NULL: unknown. */
+static const struct ceduo_hazard *get_hazard(const struct ceduo_result *r, size_t item, size_t control)
 {
     return ceduo_hazard_find(item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control));
 }
 
-static const char *name_of(const struct ceduo_result *r, size_t item)
+static const char *get_name(const struct ceduo_result *r, size_t item)
 {
     return item == 0 ? _("without forest") : r->scene->options_count == 1 ? _("with forest") : r->scene->options[item - 1].name;
 }
 
-/* ---- in words ---- */
+/* ---- return periods as text ---- */
 
-const char *ceduo_words_return_period(struct ceduo_estimate rate, char room[CEDUO_WORDS_SIZE])
+const char *ceduo_words_return_period(struct ceduo_estimate rate, char buffer[CEDUO_WORDS_SIZE])
 {
     if (isnan(rate.mean) || rate.mean > 0)
-        return ceduo_words_sig(1 / rate.mean, 2, room);
-    snprintf(room, CEDUO_WORDS_SIZE, "> %s", WRITTEN(1 / rate.hi, 2));
-    return room;
+        return ceduo_words_sig(1 / rate.mean, 2, buffer);
+    snprintf(buffer, CEDUO_WORDS_SIZE, "> %s", SIG(1 / rate.hi, 2));
+    return buffer;
 }
 
-const char *ceduo_words_return_period_range(struct ceduo_estimate rate, char room[CEDUO_WORDS_SIZE])
+const char *ceduo_words_return_period_range(struct ceduo_estimate rate, char buffer[CEDUO_WORDS_SIZE])
 {
-    const char *lo = WRITTEN(1 / rate.hi, 2), *hi = WRITTEN(1 / rate.lo, 2), *every = EVERY(rate);
+    const char *lo = SIG(1 / rate.hi, 2), *hi = SIG(1 / rate.lo, 2), *every = RETURN_PERIOD(rate);
     if (rate.mean > 0 && !(rate.lo > 0))
-        snprintf(room, CEDUO_WORDS_SIZE, "%s (> %s)", every, lo);
+        snprintf(buffer, CEDUO_WORDS_SIZE, "%s (> %s)", every, lo);
     else
-        snprintf(room, CEDUO_WORDS_SIZE, rate.mean > 0 && strcmp(lo, hi) != 0 ? "%s (%s\xe2\x80\x93%s)" : "%s", every, lo, hi);
-    return room;
+        snprintf(buffer, CEDUO_WORDS_SIZE, rate.mean > 0 && strcmp(lo, hi) != 0 ? "%s (%s\xe2\x80\x93%s)" : "%s", every, lo,
+                 hi);
+    return buffer;
 }
 
 /* ---- energies of return periods ---- */
@@ -48,15 +49,15 @@ void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *h, si
     const struct ceduo_estimate e = h ? h->returns[i].energy : CEDUO_NO_ESTIMATE;
     struct text *const texts[] = {&cell->text, &cell->shorter};
     int power = e.mean > 0 ? (int)floor(log10(e.mean * J_TO_KJ)) : 0;
-    for (int k = 0; k < (isnan(e.mean) ? 0 : 2); k++) { /* 1.2 (1.1–1.3)e7 is shorter */
+    for (int k = 0; k < (isnan(e.mean) ? 0 : 2); k++) { /* short form: 1.2 (1.1–1.3)e7 */
         double scale = J_TO_KJ / (k == 0 ? 1 : pow(10, power));
         int digits = 3 - k;
-        ceduo_text_append(texts[k], WRITTEN(e.mean * scale, digits));
+        ceduo_text_append(texts[k], SIG(e.mean * scale, digits));
         if (isnan(e.hi))
-            ceduo_text_format(texts[k], " (> %s)", WRITTEN(isnan(e.lo) ? 0 : e.lo * scale, digits));
+            ceduo_text_format(texts[k], " (> %s)", SIG(isnan(e.lo) ? 0 : e.lo * scale, digits));
         else
-            ceduo_text_format(texts[k], " (%s\xe2\x80\x93%s)", WRITTEN(isnan(e.lo) ? 0 : e.lo * scale, digits),
-                              WRITTEN(e.hi * scale, digits));
+            ceduo_text_format(texts[k], " (%s\xe2\x80\x93%s)", SIG(isnan(e.lo) ? 0 : e.lo * scale, digits),
+                              SIG(e.hi * scale, digits));
     }
     if (isnan(e.mean))
         ceduo_text_append(&cell->text, _("none"));
@@ -64,9 +65,9 @@ void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *h, si
         ceduo_text_format(&cell->shorter, "e%d", power);
 }
 
-/* ---- the square ---- */
+/* ---- matrix ---- */
 
-static void add_square(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
+static void add_matrix(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
     static const struct ceduo_page_column columns[] = {
         {NP_("head", "intensity"), 26, 4, COL_WRAP}, {"", 15, 0, COL_WRAP}, {"", 15, 0, COL_WRAP}, {"", 0, 0, 0}};
@@ -76,12 +77,12 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t t = 1; t < CEDUO_RETURNS; t++)
         ceduo_text_format(&page->last->cells[t].text, _("to %u years"), ceduo_return_years[t]);
-    for (int i = CEDUO_INTENSITIES - 1; i >= -1; i--) { /* -1: none arrives so often */
+    for (int i = CEDUO_INTENSITIES - 1; i >= -1; i--) { /* -1: none arrives within the return period */
         ceduo_page_cell_format(page, "%s", _(rows[i + 1]));
         for (size_t t = 1; t < CEDUO_RETURNS; t++) {
-            struct text *cell = ceduo_page_text(page); /* which of all have it at that return period, by their numbers */
+            struct text *cell = ceduo_page_text(page); /* numbers of the options in this class */
             for (size_t k = 0; k <= r->scene->options_count; k++) {
-                const struct ceduo_hazard *h = hazard_of(r, k, control);
+                const struct ceduo_hazard *h = get_hazard(r, k, control);
                 const struct ceduo_estimate energy = h ? h->returns[t].energy : CEDUO_NO_ESTIMATE;
                 if (h && ceduo_intensity_find(energy.mean) == i)
                     ceduo_text_format(cell, cell->length > 0 ? " %zu" : "%zu", k);
@@ -91,8 +92,8 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
     }
     struct text *names = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     for (size_t i = 0; i <= r->scene->options_count; i++)
-        if (hazard_of(r, i, control))
-            ceduo_text_format(names, i == 0 ? "%zu %s" : ", %zu %s", i, name_of(r, i));
+        if (get_hazard(r, i, control))
+            ceduo_text_format(names, i == 0 ? "%zu %s" : ", %zu %s", i, get_name(r, i));
     ceduo_text_append_char(names, '.');
 }
 
@@ -104,13 +105,13 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_control *control = &r->scene->controls[c];
     if (!ceduo_report_has_hazard(report))
         return;
-    ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How often, at %s m%s%s"), SHORTEST(control->x_given),
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How often, at %s m%s%s"), LOCALIZED(control->x_given),
                     control->name ? ", " : "", control->name ? control->name : "");
     if (first)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("%g blocks fall per year. Rare large blocks were simulated as often as small ones, and weighted: "
                           "%llu rocks count as %.0f (effective sample size)."),
-                        hazard_of(r, 0, c)->per_year, (unsigned long long)r->bare.rocks, hazard_of(r, 0, c)->effective);
+                        get_hazard(r, 0, c)->per_year, (unsigned long long)r->bare.rocks, get_hazard(r, 0, c)->effective);
     ceduo_page_para(
         page, CEDUO_PAGE_CAPTION,
         _("Return period of such a rock, years, and rocks that arrive by intensity, in %% of those without forest:"));
@@ -118,7 +119,7 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
     ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s",
                     _("Energy reached or exceeded once per return period, kJ (95 % interval):"));
     ceduo_page_options(page, report, CEDUO_OPTIONS_RETURNS, c, SIZE_MAX, 0, SIZE_MAX);
-    add_square(page, r, c);
+    add_matrix(page, r, c);
 }
 
 bool ceduo_report_has_hazard(const struct ceduo_report *report)

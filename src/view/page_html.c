@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes a page as HTML. Blocks of one kind that follow one another become one list; a caption goes into the table
- * after it. */
+/* Write a page as HTML. Consecutive blocks of a list kind form one list. A caption is moved into the table after it. */
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,8 +10,8 @@
 
 /* ---- elements ---- */
 
-/* Line ends and tabs stay; other control characters are written as \xHH. */
-static void put_escaped(struct text *to, const char *string)
+/* Escape for HTML. Newlines and tabs stay; other control characters become \xHH. */
+static void append_html(struct text *to, const char *string)
 {
     static const char signs[] = "&<>\"'", *const names[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
     for (size_t n; *string; string += n + (string[n] != '\0')) {
@@ -26,7 +25,7 @@ static void put_escaped(struct text *to, const char *string)
     }
 }
 
-static void begin(struct ceduo_html *html, const char *name, va_list args)
+static void begin_tag(struct ceduo_html *html, const char *name, va_list args)
 {
     ceduo_text_format(html->text, "<%s", name);
     for (const char *key; (key = va_arg(args, const char *)) != NULL;) {
@@ -34,7 +33,7 @@ static void begin(struct ceduo_html *html, const char *name, va_list args)
         if (!value)
             continue;
         ceduo_text_format(html->text, " %s=\"", key);
-        put_escaped(html->text, value);
+        append_html(html->text, value);
         ceduo_text_append_char(html->text, '"');
     }
 }
@@ -45,7 +44,7 @@ void ceduo_html_open(struct ceduo_html *html, const char *name, ...)
     assert(html->depth < CEDUO_HTML_DEPTH_MAX);
     html->open[html->depth++] = name;
     va_start(args, name);
-    begin(html, name, args);
+    begin_tag(html, name, args);
     va_end(args);
     ceduo_text_append_char(html->text, '>');
 }
@@ -60,7 +59,7 @@ void ceduo_html_empty(struct ceduo_html *html, const char *name, ...)
 {
     va_list args;
     va_start(args, name);
-    begin(html, name, args);
+    begin_tag(html, name, args);
     va_end(args);
     ceduo_text_append(html->text, "/>\n");
 }
@@ -69,17 +68,16 @@ void ceduo_html_leaf(struct ceduo_html *html, const char *name, const char *text
 {
     va_list args;
     va_start(args, text);
-    begin(html, name, args);
+    begin_tag(html, name, args);
     va_end(args);
     ceduo_text_append_char(html->text, '>');
-    put_escaped(html->text, text);
+    append_html(html->text, text);
     ceduo_text_format(html->text, "</%s>\n", name);
 }
 
-/* ---- the file ---- */
+/* ---- file ---- */
 
-/* Colours of text have a contrast of 4.5 to what is behind them at least. What must stay together on paper is not
- * broken between two sheets. */
+/* Text has a contrast of at least 4.5 to its background. Blocks that belong together are not split between pages in print. */
 static const char style[] =
     "@page{size:A4;margin:10mm 13mm}\n"
     "*{box-sizing:border-box}\n"
@@ -132,7 +130,7 @@ static const char style[] =
 void ceduo_page_html_begin(struct ceduo_html *html, const char *title)
 {
     ceduo_text_append(html->text, "<!DOCTYPE html>\n");
-    /* Translators: the code of your language, as HTML has it. */
+    /* Translators: the language code in HTML. */
     ceduo_html_open(html, "html", "lang", _("en"), NULL);
     ceduo_text_append_char(html->text, '\n');
     ceduo_html_open(html, "head", NULL);
@@ -156,9 +154,9 @@ void ceduo_page_html_end(struct ceduo_html *html)
 
 /* ---- tables ---- */
 
-#define WIDTH 60 /* characters: room enough for all digits */
+#define CELL_WIDTH 60 /* characters; fits all digits */
 
-/* One with heads alone says nothing. */
+/* Write a table; nothing if it has only heads. */
 static void write_table(struct ceduo_html *html, const struct ceduo_page_block *table, const struct ceduo_page_block *caption)
 {
     size_t n = table->columns_count;
@@ -173,10 +171,10 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
         ceduo_html_open(html, "tr", NULL);
         for (size_t i = 0; i < n; i++) {
             LOCAL_TEXT(text);
-            if (row == 0 && table->cells[i].written.length > 0)
-                ceduo_page_powers(&text, table->cells[i].written.bytes);
+            if (row == 0 && table->cells[i].long_text.length > 0)
+                ceduo_page_powers(&text, table->cells[i].long_text.bytes);
             else
-                ceduo_page_write_cell(&text, &table->cells[row + i], WIDTH, false);
+                ceduo_page_write_cell(&text, &table->cells[row + i], CELL_WIDTH, false);
             const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
             const char *scope = name[1] != 'h' ? NULL : row == 0 ? "col" : "row";
             ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class",
@@ -190,9 +188,9 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
     ceduo_html_close(html);
 }
 
-/* ---- the other blocks ---- */
+/* ---- other blocks ---- */
 
-/* The element of a kind, and its class; no element: not shown by this. */
+/* Element and class of each kind; NULL: not written here. */
 static const struct {
     const char *element, *class;
 } elements[] = {
@@ -205,7 +203,7 @@ static void write_block(struct ceduo_html *html, const struct ceduo_page_block *
 {
     LOCAL_TEXT(shown);
     ceduo_page_powers(&shown, ceduo_text_string(&block->text));
-    /* a file's text can be read again */
+    /* code stays verbatim, so that a reader can parse it */
     const char *text = ceduo_text_string(block->kind == CEDUO_PAGE_CODE ? &block->text : &shown);
     if (block->kind == CEDUO_PAGE_CODE) {
         const char *line = strchr(text, '\n');
@@ -223,7 +221,7 @@ static void write_block(struct ceduo_html *html, const struct ceduo_page_block *
 
 void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, size_t number)
 {
-    /* what stands around blocks of a kind that follow one another */
+    /* element around consecutive blocks of a kind */
     static const struct {
         const char *element, *class;
     } lists[CEDUO_PAGE_HEAD + 1] = {[CEDUO_PAGE_ITEM] = {"ul", NULL},
@@ -236,24 +234,24 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
     ceduo_text_append_char(html->text, '\n');
     for (const struct ceduo_page_block *b = page->first, *last = NULL; b; last = b, b = b->next) {
         const char *list = lists[b->kind].element;
-        bool follows = last && last->kind == b->kind, goes_on = b->next && b->next->kind == b->kind;
+        bool follows = last && last->kind == b->kind, continues = b->next && b->next->kind == b->kind;
         if (list && !follows)
             ceduo_html_open(html, list, "class", lists[b->kind].class, NULL);
-        /* tables that follow one another are halves of one */
-        if (b->kind == CEDUO_PAGE_TABLE && !follows && goes_on)
+        /* consecutive tables are halves of one table */
+        if (b->kind == CEDUO_PAGE_TABLE && !follows && continues)
             ceduo_html_open(html, "div", "class", "pair", NULL);
         if (b->kind == CEDUO_PAGE_TABLE)
             write_table(html, b, last && last->kind == CEDUO_PAGE_CAPTION ? last : NULL);
         else if (b->kind == CEDUO_PAGE_PICTURE) {
             char id[48];
             snprintf(id, sizeof id, "c%zu-p%zu", number, ++pictures);
-            ceduo_html_open(html, "figure", "class", b->half ? "half" : NULL, NULL);
+            ceduo_html_open(html, "figure", "class", b->side_by_side ? "half" : NULL, NULL);
             ceduo_svg_write(html, b->svg, id, ceduo_text_string(&b->text), ceduo_text_string(&b->description));
             ceduo_html_leaf(html, "figcaption", ceduo_text_string(&b->text), NULL);
             ceduo_html_close(html);
         } else if (b->kind != CEDUO_PAGE_CAPTION || !b->next || b->next->kind != CEDUO_PAGE_TABLE)
             write_block(html, b);
-        if ((list || (b->kind == CEDUO_PAGE_TABLE && follows)) && !goes_on)
+        if ((list || (b->kind == CEDUO_PAGE_TABLE && follows)) && !continues)
             ceduo_html_close(html);
     }
     ceduo_html_close(html);

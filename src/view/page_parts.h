@@ -5,37 +5,42 @@
 #include "page.h"
 #include "report.h"
 
-/* The page of a result, one file for each subject; each function adds blocks. */
+/* Page of a result, one file for each subject. Each function appends blocks. */
 
-/* What is read first (page_answer.c): the question of a scene; its answer, a line or some sentences; how sure that is, and what it
- * becomes over the years. Nothing where no place is asked for, or nothing can be said. */
+/* Return the control at which options are compared. */
+static inline const struct ceduo_control *last_control(const struct ceduo_result *r)
+{
+    return &r->scene->controls[r->last_control];
+}
+
+/* First part of a page (page_answer.c): question, answer, its certainty, and its development over the years. Nothing without
+ * a control, or if it cannot be judged. */
 void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *result);
 void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_certainty(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_over_time(struct ceduo_page *page, const struct ceduo_report *report);
-/* The option that is best over the years, or today if they are not known; by the index the one whose stems take most. `verdict` may
- * be NULL. */
+/* Return the best option over the years, or today if they are unknown. By the index: the option whose stems absorb most.
+ * `verdict` may be NULL. */
 size_t ceduo_result_best(const struct ceduo_result *result, const struct ceduo_verdict *verdict);
 
-/* All of that on one screen, with what is assumed. */
+/* Append the whole answer on one screen, with its assumptions. */
 void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report);
 
-/* What is to be warned of in the stands of an option, and what of the rules of a region they do not meet; `all`: what those ask of
- * them. Belts of one stand share such sentences: each stands on a page once. */
+/* Append warnings about an option's stands, and the regional rules that they break; `all`: each rule. Sentences of belts
+ * with one stand are merged. */
 void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *result, size_t option);
 void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *result, size_t option, bool all);
 
-/* What the rules ask of the stands of all options, as a table with their sources; nothing where no coppice has rules. */
+/* Append the rules for the stands of all options as a table with sources; nothing if no coppice has rules. */
 void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *result);
 
-/* Rock, slope and rocks, a line each. */
+/* Append rock, slope and rocks, a line each. */
 void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report);
 
-/* All of an option at each control, but for its heading; what arrives without forest where there is one option alone. */
+/* Append all figures of an option at each control, without heading; arrivals without forest if there is one option only. */
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t option, bool bare);
 
-/* The table of options, or the part of it that a page, a pane or a picture shows: at a control, `rows` options from `first` on, the
- * name of `cursor` (SIZE_MAX: none) in its role. */
+/* Append the table of options, or `rows` of them from `first` on. The name of `cursor` is in its role (SIZE_MAX: none). */
 enum ceduo_options {
     CEDUO_OPTIONS_SHORT,
     CEDUO_OPTIONS_TODAY,
@@ -43,64 +48,63 @@ enum ceduo_options {
     CEDUO_OPTIONS_PANE,
     CEDUO_OPTIONS_BARS,
     CEDUO_OPTIONS_LAWS,    /* by both energy laws */
-    CEDUO_OPTIONS_RATES,   /* of rocks, by their intensity */
+    CEDUO_OPTIONS_RATES,   /* rates of rocks, by intensity */
     CEDUO_OPTIONS_RETURNS, /* energies of return periods */
     CEDUO_OPTIONS_OF_YEARS,
     CEDUO_OPTIONS_KINDS
 };
 void ceduo_page_options(struct ceduo_page *page, const struct ceduo_report *report, enum ceduo_options kind, size_t control,
                         size_t cursor, size_t first, size_t rows);
-/* The caption of that table: what its shares are of, at the last control; with `years` also which years. */
+/* Append the caption of that table: the meaning of its shares, at the last control. `years`: also the years. */
 void ceduo_page_shares(struct ceduo_page *page, const struct ceduo_report *report, bool years);
-/* Cell of the energy of return period i; `hazard` may be NULL (not known). */
+/* Append the energy of return period i. `hazard` may be NULL. */
 void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *hazard, size_t i);
 
-/* An option year by year, with what is to be said of the years together, and these words alone; all options in one table, a row for
- * each year; all options side by side, today and over the years. */
+/* Append the years of an option with their summary; the summary only; all options in one table with a row per year; all
+ * options today and over the years. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
 void ceduo_page_years_all_options(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
 
-/* The energy law of the scene against the other one; nothing where that is not known. */
+/* Append a comparison of both energy laws; nothing if unknown. */
 void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_report *report);
-/* How often, and with how much, at a control; nothing where the scene has no blocks. The first also says how that is known. */
+/* Append frequency and energy at a control; nothing if the scene has no blocks. `first`: also the method. */
 bool ceduo_report_has_hazard(const struct ceduo_report *report);
 void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report, size_t control, bool first);
 
-/* What arrives at a control through the forest of a subject and, `with_bare`, without it: as many figures as a screen of so many lines
- * has room for, or all of them. */
-#define CEDUO_LINES_SHORT 17 /* of the short page */
+/* Append arrivals at a control with forest and, if `with_bare`, without. The number of figures fits a screen of `lines`
+ * lines. */
+#define CEDUO_LINES_SHORT 17 /* lines of the short page */
 #define CEDUO_LINES_ALL   1000
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *subject, int lines, bool with_bare);
 
-/* The three tests of an option with their limits, and what the index says. */
+/* Append the three tests of an option with their limits, and the result by the index. */
 void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *subject, int lines);
 
-/* Percentiles of the rocks that arrive at a control, with their intervals: through the forest of an option (SIZE_MAX: none), and
- * without forest. */
+/* Append percentiles of arriving rocks with intervals, with forest (SIZE_MAX: none) and without. */
 void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *result, size_t option, size_t control,
                             bool bare);
 
-/* Design values, each factor named, where the scene asks for them. */
+/* Append design values, each with its factor, if the scene requests them. */
 void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control);
 
-/* Warnings of the whole run, and assumptions; these alone, with the places in the scene that make them or without. */
+/* Append warnings of the whole run and assumptions; assumptions only, with or without their places in the scene. */
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *report, bool places);
 
-/* ---- words and cells that several of them use ---- */
+/* ---- shared sentences and cells ---- */
 
-/* Write the head of a column of the share that a control is judged by: "> 50 kJ", or "arrive" without an accepted energy. */
+/* Write the head of the column of the judged share: "> 50 kJ", or "arrive" without an accepted energy. */
 void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *control);
 void ceduo_page_free_run(struct ceduo_page *page, double share);
 void ceduo_page_yes_no(struct ceduo_page *page, bool yes); /* yes, NO */
 
-/* Adds a warning, or a note; the context is the page. */
+/* Append a warning or a note; the context is the page. */
 void ceduo_page_warn(void *page, const char *sentence);
 void ceduo_page_note(void *page, const char *sentence);
 void ceduo_page_warn_once(void *page, const char *sentence);
-/* Adds a sentence unless the page has it already. */
+/* Append a sentence unless the page contains it. */
 void ceduo_page_once(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...) CEDUO_PAGE_FORMAT(3);
 
 #endif

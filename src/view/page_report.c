@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A chapter of the report: the blocks of the page in the terminal, with pictures between them. */
+/* Chapter of the report: blocks of the terminal page with pictures between them. */
 
 #include <string.h>
 
@@ -12,24 +12,23 @@
 
 /* ---- pictures ---- */
 
-#define WHOLE 92  /* cells of a picture across the page */
-#define HALF  46  /* of one that has another beside it */
-#define WIDE  112 /* of one whose rows are few in many columns */
-#define CROWD 4   /* options; more are a page full */
+#define FULL_CELLS      92  /* cells of a picture of full width */
+#define HALF_CELLS      46  /* cells of a picture of half width */
+#define WIDE_CELLS      112 /* cells of a wide picture with few rows */
+#define CROWDED_OPTIONS 4   /* max options of a page with all pictures */
 
-/* Adds one, so many cells large. */
 static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int columns, int rows,
                         const struct ceduo_picture *picture, const char *description)
 {
     struct ceduo_svg *svg = ceduo_svg_create(columns, rows);
     struct ceduo_area area = {.width = columns, .height = rows};
     ceduo_plot_draw(plot, ceduo_svg_canvas(svg), &area, picture);
-    struct ceduo_page_block *block = ceduo_page_picture(page, svg, columns == HALF);
+    struct ceduo_page_block *block = ceduo_page_picture(page, svg, columns == HALF_CELLS);
     ceduo_plot_title(&block->text, plot, picture);
     ceduo_text_append(&block->description, description);
 }
 
-static struct ceduo_picture picture_of(const struct ceduo_report *report, size_t option)
+static struct ceduo_picture make_picture(const struct ceduo_report *report, size_t option)
 {
     const struct ceduo_result *r = report->result;
     return (struct ceduo_picture){.scene = r->scene,
@@ -37,20 +36,20 @@ static struct ceduo_picture picture_of(const struct ceduo_report *report, size_t
                                   .verdict = report->verdict,
                                   .option = option,
                                   .control = ceduo_scene_last_control(r->scene),
-                                  .years = report->ahead ? report->ahead[option] : NULL,
+                                  .years = report->years_ahead ? report->years_ahead[option] : NULL,
                                   .year = SIZE_MAX};
 }
 
-/* Whether the scene asks for more than fits on four sheets: then what other commands show is left to them. */
+/* True if the scene would exceed four pages; sections that other commands show are dropped. */
 static bool is_crowded(const struct ceduo_report *report)
 {
-    return ceduo_report_has_hazard(report) && report->result->scene->options_count > CROWD;
+    return ceduo_report_has_hazard(report) && report->result->scene->options_count > CROWDED_OPTIONS;
 }
 
 /* ---- sections ---- */
 
-/* What uncertain inputs make of the answer, for a reader who decides; of several options for the best. */
-static void add_unknown(struct ceduo_page *page, const struct ceduo_report *report)
+/* Append the effect of uncertain inputs on the answer, for the best option. */
+static void add_uncertainty(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
     if (r->scene->controls_count == 0 || !r->wooded || ceduo_page_is_unassessable(r))
@@ -59,24 +58,24 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     const struct ceduo_control *place = &r->scene->controls[r->last_control];
     size_t option = ceduo_result_best(r, report->verdict);
     const struct ceduo_outcome o = ceduo_report_outcome(report, option, r->last_control);
-    struct ceduo_measure m = ceduo_measure_exceeding(place, NULL); /* without its value the range stays as it is */
+    struct ceduo_measure m = ceduo_measure_exceeding(place, NULL); /* NaN value: the range is not widened */
     ceduo_measure_uncertainty(&m, uncertainty, option, r->last_control);
-    if (isnan(m.may_lo)) {
+    if (isnan(m.p5)) {
         if (!uncertainty || ceduo_uncertainty_is_off(uncertainty) || !uncertainty->inputs || uncertainty->inputs->n > 0)
             ceduo_page_para(page, CEDUO_PAGE_ANSWER, "%s",
                             _("Uncertainty was not computed. The answer assumes that the scene is exact."));
         return;
     }
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-    const char *phrase = NAMED(m, CEDUO_PHRASE);
+    const char *phrase = MEASURE_NAME(m, CEDUO_PHRASE);
     ceduo_text_append(text, _("Some inputs are uncertain."));
     if (r->scene->options_count > 1)
         ceduo_text_append_joined(text, " ",
                                  _("With '%s', in nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."),
-                                 r->scene->options[option].name, m.may_lo, m.may_hi, phrase);
+                                 r->scene->options[option].name, m.p5, m.p95, phrase);
     else
-        ceduo_text_append_joined(text, " ", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.may_lo,
-                                 m.may_hi, phrase);
+        ceduo_text_append_joined(text, " ", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.p5,
+                                 m.p95, phrase);
     if (o.ahead && o.uncertain && r->scene->blocks_count == 0)
         ceduo_text_append_joined(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
                                  o.failing_hi, report->verdict->choices[option].over->years);
@@ -88,7 +87,7 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
         ceduo_text_append_joined(text, " ", "%s", _("The answer is the same in all of these cases."));
 }
 
-/* What the scene says for it; there is always room to date and to sign. */
+/* Append the head of the scene. Date and signature are always present. */
 static void add_head(struct ceduo_page *page, const struct ceduo_report_head *head)
 {
     const char *const lines[][2] = {{_("Place"), head->place},   {_("Owner"), head->owner}, {_("Parcel"), head->parcel},
@@ -100,29 +99,29 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
 }
 
 #define SLOPE_ROWS 19
-#define SLOPE_MIN  12 /* where tables of several options follow */
+#define SLOPE_MIN  12 /* if tables of several options follow */
 #define STRIP_ROWS 10
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    struct ceduo_picture picture = picture_of(report, ceduo_result_best(report->result, report->verdict));
+    struct ceduo_picture picture = make_picture(report, ceduo_result_best(report->result, report->verdict));
     size_t options = report->result->scene->options_count;
     ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
     ceduo_page_facts(page, report);
-    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, options > 1 ? SLOPE_MIN : SLOPE_ROWS, &picture,
+    add_picture(page, CEDUO_PLOT_PROFILE, FULL_CELLS, options > 1 ? SLOPE_MIN : SLOPE_ROWS, &picture,
                 _("Side view of the slope with the forest. Thin lines: trajectories of some rocks. Upright lines: controls."));
-    picture.ways = true;
+    picture.trajectories = true;
     if (report->snapshot && !is_crowded(report))
-        add_picture(page, CEDUO_PLOT_HEIGHT, WHOLE, STRIP_ROWS, &picture,
+        add_picture(page, CEDUO_PLOT_HEIGHT, FULL_CELLS, STRIP_ROWS, &picture,
                     _("Height above ground of the same trajectories along the slope, with the median and the 95th percentile, "
                       "with and without forest."));
     if (report->snapshot && report->result->scene->controls_count > 0 && options == 1)
-        add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, STRIP_ROWS, &picture,
+        add_picture(page, CEDUO_PLOT_ENERGY, FULL_CELLS, STRIP_ROWS, &picture,
                     _("Mean and 95th percentile of the energy of passing rocks along the slope, with and without forest."));
 }
 
-/* Of one option they stand with all its figures; of several those of the one that is drawn. */
-static void add_percentiles(struct ceduo_page *page, const struct ceduo_report *report)
+/* Append percentiles of the drawn option. A single option has them with its other figures. */
+static void add_option_percentiles(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
     size_t option = ceduo_result_best(report->result, report->verdict);
@@ -140,20 +139,20 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_report *
 
 #define YEARS_ROWS 10
 
-/* The option that is best over the years. */
+/* Append the option that is best over the years. */
 static void add_years(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_verdict *v = report->verdict;
     size_t option = v && v->rotation.known ? v->rotation.best : ceduo_result_best(report->result, report->verdict);
-    if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_CONSTANT || !report->ahead ||
-        !report->ahead[option] || report->ahead[option]->count < 2) /* they do not differ at all */
+    if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_CONSTANT || !report->years_ahead ||
+        !report->years_ahead[option] || report->years_ahead[option]->count < 2) /* all years are equal */
         return;
-    struct ceduo_picture picture = picture_of(report, option);
+    struct ceduo_picture picture = make_picture(report, option);
     const struct ceduo_scene *scene = report->result->scene;
     ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("Year by year"));
     if (scene->options_count > 1)
         ceduo_page_para(page, CEDUO_PAGE_PLACE, "%s", scene->options[option].name);
-    ceduo_page_years_words(page, report->result, report->ahead[option]);
+    ceduo_page_years_words(page, report->result, report->years_ahead[option]);
     if (is_crowded(report))
         return;
     ceduo_page_para(page, CEDUO_PAGE_DETAIL, "%s",
@@ -165,11 +164,11 @@ static void add_years(struct ceduo_page *page, const struct ceduo_report *report
     if (both)
         ceduo_page_para(page, CEDUO_PAGE_DETAIL, "%s",
                         _("Numbers beside points stand for the options in the order of the tables."));
-    add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, &picture,
+    add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF_CELLS : FULL_CELLS, YEARS_ROWS, &picture,
                 _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
                   "arrive with too much energy, and below them which tests each year passes."));
     if (both)
-        add_picture(page, CEDUO_PLOT_TRADEOFF, HALF, YEARS_ROWS, &picture,
+        add_picture(page, CEDUO_PLOT_TRADEOFF, HALF_CELLS, YEARS_ROWS, &picture,
                     _("A point for each option. To the right: volume felled per hectare and year. Upwards: rocks that pass."));
 }
 
@@ -192,15 +191,15 @@ static void add_limits(struct ceduo_page *page, const struct ceduo_result *resul
                         : _("Shares refer to falling rocks, not to years. A survey of the cliff is needed for frequencies."));
 }
 
-/* The tree with the kinds of its sources alone: their texts fill a sheet, and no figure depends on them. */
-static const struct node *without_texts(struct arena *arena, const struct node *node)
+/* Copy the tree without the texts of sources: they fill a page, and no figure depends on them. */
+static const struct node *remove_source_texts(struct arena *arena, const struct node *node)
 {
     bool source = node->key && strcmp(node->key, "source") == 0;
     const struct node *plain = node;
     if (source)
         plain = ceduo_node_without(arena, ceduo_node_without(arena, node, "text"), "text_it");
     for (size_t i = 0; !source && i < node->n; i++)
-        plain = ceduo_node_replaced(arena, plain, i, without_texts(arena, node->items[i]));
+        plain = ceduo_node_replaced(arena, plain, i, remove_source_texts(arena, node->items[i]));
     return plain;
 }
 
@@ -209,24 +208,24 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_report *repor
     ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("How to reproduce this page"));
     ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Program")), "ceduo %s", CEDUO_VERSION);
     ceduo_page_para(page, CEDUO_PAGE_SENTENCE, "%s",
-                    report->same ? _("This command gives the same page, to the last byte:")
-                                 : _("This command reproduces the page:"));
+                    report->reproducible ? _("This command gives the same page, to the last byte:")
+                                         : _("This command reproduces the page:"));
     ceduo_page_para(page, CEDUO_PAGE_CODE, "%s", report->command);
     ceduo_page_para(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene file, without the texts of sources:"));
-    /* with what the command line changed, and the names of other files */
+    /* includes changes of the command line, and references to files */
     struct arena arena = {0};
     const struct node *root = ceduo_emit_restore_references(&arena, report->file->root);
-    ceduo_emit(ceduo_page_add(page, CEDUO_PAGE_CODE), without_texts(&arena, root));
+    ceduo_emit(ceduo_page_add(page, CEDUO_PAGE_CODE), remove_source_texts(&arena, root));
     ceduo_arena_free(&arena);
 }
 
 #define HAZARD_ROWS 9
 
-/* How often at each place, and at the last one as curves. */
+/* Append frequencies at each control, and curves at the last one. */
 static void add_hazard(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_scene *scene = report->result->scene;
-    struct ceduo_picture picture = picture_of(report, ceduo_result_best(report->result, report->verdict));
+    struct ceduo_picture picture = make_picture(report, ceduo_result_best(report->result, report->verdict));
     if (!ceduo_report_has_hazard(report))
         return;
     size_t first = is_crowded(report) ? picture.control : 0;
@@ -234,7 +233,7 @@ static void add_hazard(struct ceduo_page *page, const struct ceduo_report *repor
         ceduo_page_hazard(page, report, k, k == first);
     if (is_crowded(report))
         return;
-    add_picture(page, CEDUO_PLOT_HAZARD, WHOLE, HAZARD_ROWS, &picture,
+    add_picture(page, CEDUO_PLOT_HAZARD, FULL_CELLS, HAZARD_ROWS, &picture,
                 _("Return period over energy, without forest and for each option. Lines mark 30 and 300 kJ, and 30, 100 and "
                   "300 years."));
 }
@@ -247,16 +246,17 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     add_head(page, &scene->page);
     ceduo_page_question(page, report->result);
     ceduo_page_answer(page, report);
-    add_unknown(page, report);
+    add_uncertainty(page, report);
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
     add_slope(page, report);
-    add_percentiles(page, report);
+    add_option_percentiles(page, report);
     if (several && controls) {
-        struct ceduo_picture picture = picture_of(report, 0);
+        struct ceduo_picture picture = make_picture(report, 0);
         ceduo_page_comparison(page, report);
-        if (!ceduo_report_has_hazard(report) && scene->options_count <= CROWD) /* the table says it all */
-            add_picture(page, CEDUO_PLOT_COMPARE, WIDE, 2 + (int)scene->options_count, &picture,
+        if (!ceduo_report_has_hazard(report) &&
+            scene->options_count <= CROWDED_OPTIONS) /* the table of frequencies replaces it */
+            add_picture(page, CEDUO_PLOT_COMPARE, WIDE_CELLS, 2 + (int)scene->options_count, &picture,
                         _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too "
                           "much energy, and their mean energy."));
     } else if (!several) {
@@ -267,7 +267,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
         ceduo_page_laws(page, report);
     if (controls) {
         if (report->uncertainty && report->uncertainty->answer)
-            ceduo_uncertainty_blocks(page, report->uncertainty, scene->options_count <= CROWD);
+            ceduo_uncertainty_blocks(page, report->uncertainty, scene->options_count <= CROWDED_OPTIONS);
         add_years(page, report);
         add_hazard(page, report);
     }
@@ -277,7 +277,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     for (size_t i = 0; several && i < scene->options_count; i++)
         ceduo_page_stand_warnings(page, report->result, i);
     add_limits(page, report->result);
-    if (scene->options_count > CROWD)
+    if (scene->options_count > CROWDED_OPTIONS)
         ceduo_page_note(
             page, _("Left out of this long page: the output of 'ceduo --batch', 'ceduo --plot' and 'ceduo --sensitivity'."));
     add_origin(page, report);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page of a result: what was simulated, then each option at each control, then the options side by side; below, warnings of
- * the whole run, and each assumption with the first place that makes it. */
+/* Page of a result: input, each option at each control, all options together; then warnings of the run, and each assumption
+ * with its first place. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 
 /* ---- head ---- */
 
-/* Words of files, as they are shown. */
+/* Display names of words in files. */
 static const char *const shapes[] = {[CEDUO_SPHERE] = N_("sphere"),
                                      [CEDUO_CYLINDER] = N_("cylinder"),
                                      [CEDUO_ELLIPSOID] = N_("ellipsoid"),
@@ -35,7 +35,7 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
                       s->blocks_count > 0 ? _("%s; rocks are the blocks below, the index is of %s kg, mean diameter %s m")
                       : ceduo_rock_varies(&s->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
                                                     : _("%s, %s kg, mean diameter %s m"),
-                      _(shapes[s->rock.shape]), WRITTEN(r->rock.mass, 4), WRITTEN(r->rock.mean_diameter, 3));
+                      _(shapes[s->rock.shape]), SIG(r->rock.mass, 4), SIG(r->rock.mean_diameter, 3));
     ceduo_text_append(line, assumed_mark(report, "rock"));
     for (size_t i = 0; i < s->blocks_count; i++)
         ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Blocks")), _("%g a year of %g to %g m3, exponent %g"),
@@ -46,7 +46,7 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
         high = fmax(high, slope->z[i]);
     }
     line = ceduo_page_item(page, CEDUO_PAGE_FACT, _("Slope"));
-    ceduo_text_format(line, _("%s m long, %s m high, "), WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4));
+    ceduo_text_format(line, _("%s m long, %s m high, "), SIG(slope->x[slope->vertices - 1], 4), SIG(high - low, 4));
     ceduo_words_points(line, slope);
     ceduo_text_format(line, _("; law %s, facets %s%s"), ceduo_words_law(ceduo_law_words.names[s->simulation.law]),
                       _(facets[slope->facets]), assumed_mark(report, "slope"));
@@ -56,80 +56,81 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
                       (unsigned long long)ceduo_result_rocks(r), (unsigned long long)s->simulation.seed);
 }
 
-/* ---- what arrives at a control ---- */
+/* ---- arrivals at a control ---- */
 
 static void add_place(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
 {
     const struct ceduo_control *c = &report->result->scene->controls[i];
     struct text *place = ceduo_page_add(page, CEDUO_PAGE_PLACE);
     LOCAL_TEXT(where);
-    ceduo_text_format(place, _("At %s m"), SHORTEST(c->x_given));
+    ceduo_text_format(place, _("At %s m"), LOCALIZED(c->x_given));
     if (c->name)
         ceduo_text_format(place, ", %s", c->name);
     ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
     if (!isnan(c->accepted))
-        ceduo_text_append_joined(place, ", ", _("limit %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
+        ceduo_text_append_joined(place, ", ", _("limit %s kJ%s"), LOCALIZED(ceduo_words_accepted(c)),
                                  ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
     ceduo_words_topography(place, ceduo_topography_find(&report->result->bare.arrivals[i]), false);
 }
 
-/* A row: name, through the forest, without it; each shorter where its column is narrow. */
-static void add_row(struct ceduo_page *page, const char *const texts[3][2])
+/* Append a row: name, with forest, without forest. Each has a short form for narrow columns. */
+static void add_texts_row(struct ceduo_page *page, const char *const texts[3][2])
 {
     for (int i = 0; i < 3; i++) {
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
-        ceduo_text_append(&cell->text, texts[i][i == 0 && page->width < CEDUO_PAGE_WIDTH]); /* names of a pane are all brief */
+        ceduo_text_append(&cell->text, texts[i][i == 0 && page->width < CEDUO_PAGE_WIDTH]); /* panes use short names only */
         ceduo_text_append(&cell->shorter, texts[i][1]);
     }
 }
 
-static void add_figure(struct ceduo_page *page, struct ceduo_measure wood, struct ceduo_measure bare)
+static void add_figure(struct ceduo_page *page, struct ceduo_measure wooded, struct ceduo_measure bare)
 {
-    add_row(page, (const char *const[3][2]){{NAMED(bare, CEDUO_PHRASE), NAMED(bare, CEDUO_ROW)},
-                                            {INTERVAL(wood), WITH_ERROR(wood, "")},
-                                            {INTERVAL(bare), VALUE_OF(bare)}});
+    add_texts_row(page, (const char *const[3][2]){{MEASURE_NAME(bare, CEDUO_PHRASE), MEASURE_NAME(bare, CEDUO_ROW)},
+                                                  {INTERVAL(wooded), WITH_ERROR(wooded, "")},
+                                                  {INTERVAL(bare), MEASURE_VALUE(bare)}});
 }
 
-#define PANE_WIDE 34 /* columns that hold an interval */
+#define PANE_WIDE 34 /* columns needed for an interval */
 
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s, int lines, bool with_bare)
 {
-    enum { LOW = 15, MIN = 18, ALL = 24, WHOLE = CEDUO_LINES_ALL };
-    static const int least[CEDUO_P95_TOP] = {LOW, MIN, MIN, LOW, LOW, LOW, WHOLE, ALL, WHOLE, WHOLE};
-    const struct ceduo_arrivals *wood = s->index ? s->wooded : NULL, *bare = with_bare ? s->bare : NULL;
-    bool whole = lines >= WHOLE, nothing = !whole && ceduo_too_few_arrivals(s->bare), blocks = ceduo_hazard_find(s->bare);
+    enum { LOW = 15, MIN = 18, ALL = 24, FULL = CEDUO_LINES_ALL };
+    static const int min_lines[CEDUO_P95_TOP] = {LOW, MIN, MIN, LOW, LOW, LOW, FULL, ALL, FULL, FULL};
+    const struct ceduo_arrivals *wooded = s->index ? s->wooded : NULL, *bare = with_bare ? s->bare : NULL;
+    bool full = lines >= FULL, nothing = !full && ceduo_too_few_arrivals(s->bare), blocks = ceduo_hazard_find(s->bare);
     int width = page->width >= CEDUO_PAGE_WIDTH ? 18 : page->width >= PANE_WIDE ? 14 : 7;
     const struct ceduo_page_column columns[] = {
         {N_("of 1000"), 13, 2, COL_GROW}, {"", -width, 0, 0}, {"", width == 14 ? -8 : -width, 0, 0}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *heads = page->last->cells;
     ceduo_text_append(&heads[1].text, _("with forest"));
-    ceduo_text_format(&heads[1].shorter, "%s ", _("forest")); /* apart from the next one */
+    ceduo_text_format(&heads[1].shorter, "%s ", _("forest")); /* gap to the next head */
     ceduo_text_append(&heads[2].text, _("without forest"));
     ceduo_text_append(&heads[2].shorter, _("without"));
-    add_figure(page, ceduo_measure_arriving(wood), ceduo_measure_arriving(bare));
+    add_figure(page, ceduo_measure_arriving(wooded), ceduo_measure_arriving(bare));
     if (!isnan(s->place->accepted) && !nothing)
-        add_figure(page, ceduo_measure_exceeding(s->place, wood), ceduo_measure_exceeding(s->place, bare));
-    if (!whole && !nothing && wood && !isnan(s->today.may_lo) && page->width < CEDUO_PAGE_WIDTH)
-        add_row(page, (const char *const[3][2]){{"", _("  90 % range")}, {MAY_BE(s->today), ""}, {"", ""}});
-    if (blocks && !nothing) /* what matters if blocks of all sizes come down */
-        add_row(page, (const char *const[3][2]){{_("return period of such a rock, years"), _("years apart")},
-                                                {YEARS(ceduo_judged_rate(wood)), EVERY(ceduo_judged_rate(wood))},
-                                                {YEARS(ceduo_judged_rate(bare)), EVERY(ceduo_judged_rate(bare))}});
-    for (enum ceduo_measured what = 0; what < CEDUO_P95_TOP; what++) {
-        const struct ceduo_measure through = ceduo_measured(what, wood), without = ceduo_measured(what, bare);
+        add_figure(page, ceduo_measure_exceeding(s->place, wooded), ceduo_measure_exceeding(s->place, bare));
+    if (!full && !nothing && wooded && !isnan(s->today.p5) && page->width < CEDUO_PAGE_WIDTH)
+        add_texts_row(page, (const char *const[3][2]){{"", _("  90 % range")}, {PLAUSIBLE_RANGE(s->today), ""}, {"", ""}});
+    if (blocks && !nothing) /* with block sizes the return period is the relevant figure */
+        add_texts_row(page, (const char *const[3][2]){
+                                {_("return period of such a rock, years"), _("years apart")},
+                                {RETURN_PERIOD_RANGE(ceduo_judged_rate(wooded)), RETURN_PERIOD(ceduo_judged_rate(wooded))},
+                                {RETURN_PERIOD_RANGE(ceduo_judged_rate(bare)), RETURN_PERIOD(ceduo_judged_rate(bare))}});
+    for (enum ceduo_measure_kind what = 0; what < CEDUO_P95_TOP; what++) {
+        const struct ceduo_measure through = ceduo_measure_figure(what, wooded), without = ceduo_measure_figure(what, bare);
         bool any = through.value > 0 || without.value > 0, mean = what >= CEDUO_MEAN_KJ;
-        int from = least[what];
-        if (blocks && !whole && mean) /* the large arrive: a mean of those would read as if the forest did harm */
-            from = what == CEDUO_RELEASED_KJ ? LOW : WHOLE;
+        int from = min_lines[what];
+        if (blocks && !full && mean) /* mostly large blocks arrive: their mean would make the forest look harmful */
+            from = what == CEDUO_RELEASED_KJ ? LOW : FULL;
         if (lines >= from && (any || what == CEDUO_STOPPED || what == CEDUO_RESTED || mean) && !(nothing && mean))
             add_figure(page, through, without);
     }
-    if (page->width >= CEDUO_PAGE_WIDTH) /* a pane keeps its columns while rocks fall */
+    if (page->width >= CEDUO_PAGE_WIDTH) /* a pane keeps its columns during the simulation */
         ceduo_page_trim(page);
 }
 
-/* Signs of a test today and in the worst year ahead: it fails if it does so in any of n years. */
+/* Append the lights of a test, today and over the years ahead. The latter fails if any year fails. */
 static void add_test(struct ceduo_page *page, const struct ceduo_subject *s, const char *limit, enum ceduo_light today,
                      size_t failing, bool known)
 {
@@ -168,31 +169,34 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
                                                 {"", 1, 0, 0}};
     double threshold = scene->simulation.threshold, limit = ceduo_exceed_limit(scene, s->place), share = s->today.value / 1000;
     bool judged = index->energy != CEDUO_UNKNOWN && s->wooded;
-    LOCAL_TEXT(below);
-    LOCAL_TEXT(most);
-    LOCAL_TEXT(accepted);
-    ceduo_text_format(&below, "< %s", SHORTEST(threshold));
-    ceduo_text_format(&most, "\xe2\x89\xa4 %g", CEDUO_FREE_RUN_MAX * 100);
-    ceduo_text_format(&accepted, judged ? "\xe2\x89\xa4 %s" : "", ROUNDED(limit * 100, 3));
+    LOCAL_TEXT(adc_limit);
+    LOCAL_TEXT(free_run_limit);
+    LOCAL_TEXT(energy_limit);
+    ceduo_text_format(&adc_limit, "< %s", LOCALIZED(threshold));
+    ceduo_text_format(&free_run_limit, "\xe2\x89\xa4 %g", CEDUO_FREE_RUN_MAX * 100);
+    ceduo_text_format(&energy_limit, judged ? "\xe2\x89\xa4 %s" : "", SIG_TRIMMED(limit * 100, 3));
     CEDUO_PAGE_TABLE_OF(page, columns);
-    bool gap = index->length > 0 && index->longest_gap > threshold; /* the reason why neither is kept */
+    bool gap = index->length > 0 && index->longest_gap > threshold; /* the gap is why both tests fail */
     add_name(page, gap ? _("gap without forest, m") : _("distance between contacts (ADC), m"), gap ? _("gap m") : _("ADC m"));
-    ceduo_page_cell_format(page, "%s", gap ? ROUNDED(index->longest_gap, 6) : BESIDE(index->worst_adc, 3, threshold));
-    add_test(page, s, below.bytes, index->contact, c->over->unprotected_contact, true);
+    ceduo_page_cell_format(page, "%s", gap ? SIG_TRIMMED(index->longest_gap, 6) : VS_LIMIT(index->worst_adc, 3, threshold));
+    add_test(page, s, adc_limit.bytes, index->contact, c->over->unprotected_contact, true);
     add_name(page, _("free run: chance of no contact, %"), _("free run %"));
-    ceduo_page_cell_format(page, "%s", PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MAX));
-    add_test(page, s, most.bytes, index->free_run, c->over->unprotected_free_run, true);
+    ceduo_page_cell_format(page, "%s", PERCENT_VS_LIMIT(index->worst_free_run, CEDUO_FREE_RUN_MAX));
+    add_test(page, s, free_run_limit.bytes, index->free_run, c->over->unprotected_free_run, true);
     add_name(page, _("energy: too much, % of the rocks"), _("energy %"));
-    ceduo_page_cell_format(page, "%s", judged ? PERCENT(share, limit) : s->report->busy && !s->wooded ? "\xe2\x80\xa6" : "-");
-    add_test(page, s, ceduo_text_string(&accepted), index->energy, c->over->unprotected_energy, c->energy_known);
+    ceduo_page_cell_format(page, "%s",
+                           judged                          ? PERCENT_VS_LIMIT(share, limit)
+                           : s->report->busy && !s->wooded ? "\xe2\x80\xa6"
+                                                           : "-");
+    add_test(page, s, ceduo_text_string(&energy_limit), index->energy, c->over->unprotected_energy, c->energy_known);
     if (isnan(index->residual)) /* no rock arrives without forest */
         return;
     if (lines >= CEDUO_LINES_SHORT)
-        add_index(page, _("energy taken by stems (index), kJ"), _("taken kJ"), WRITTEN(index->dissipated * J_TO_KJ, 3));
+        add_index(page, _("energy taken by stems (index), kJ"), _("taken kJ"), SIG(index->dissipated * J_TO_KJ, 3));
     add_index(page, _("energy left (index), kJ"), _("left kJ"),
-              index->exhausted ? _("none") : WRITTEN(index->residual * J_TO_KJ, 3));
+              index->exhausted ? _("none") : SIG(index->residual * J_TO_KJ, 3));
     if (!isnan(index->measured) && lines >= CEDUO_LINES_SHORT)
-        add_index(page, _("energy measured on one rock, kJ"), _("measured kJ"), WRITTEN(index->measured * J_TO_KJ, 3));
+        add_index(page, _("energy measured on one rock, kJ"), _("measured kJ"), SIG(index->measured * J_TO_KJ, 3));
 }
 
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control,
@@ -203,8 +207,11 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *rep
     const double *ends = report->result->options[option].wooded.ends.share;
     if (s.wooded || with_bare)
         ceduo_page_arrivals(page, &s, CEDUO_LINES_ALL, with_bare);
-    const struct ceduo_measure wood = ceduo_measured(CEDUO_MEAN_KJ, s.wooded), bare = ceduo_measured(CEDUO_MEAN_KJ, s.bare);
-    if (forest && wood.value - bare.value > hypot(wood.hi - wood.value, bare.hi - bare.value)) /* reads as harm */
+    const struct ceduo_measure wooded = ceduo_measure_figure(CEDUO_MEAN_KJ, s.wooded),
+                               bare = ceduo_measure_figure(CEDUO_MEAN_KJ, s.bare);
+    if (forest && wooded.value - bare.value >
+                      hypot(wooded.hi - wooded.value,
+                            bare.hi - bare.value)) /* a higher mean is selection, not harm: stems stop slow rocks first */
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("The mean energy is higher with forest because stems stop the slower and smaller rocks first."));
     if (s.index && s.wooded && control == report->result->last_control)
@@ -213,9 +220,9 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *rep
                         ends[CEDUO_STOPPED_BY_STEMS] * 1000, ends[CEDUO_AT_REST] * 1000, ends[CEDUO_LEFT_SLOPE] * 1000);
 }
 
-static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+static void add_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
-    if (ceduo_too_few_arrivals(&r->bare.arrivals[control])) { /* why stands at the head of the page */
+    if (ceduo_too_few_arrivals(&r->bare.arrivals[control])) { /* the reason is at the top of the page */
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy cannot be assessed."));
         return;
     }
@@ -240,16 +247,16 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
         {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, COL_SHRINK | COL_PRIORITY(6)}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *head = ceduo_page_head(page);
-    ceduo_text_format(&head->text, "<%s m", SHORTEST(scene->simulation.threshold));
-    ceduo_text_format(&head->written, _("below %s m"), SHORTEST(scene->simulation.threshold));
+    ceduo_text_format(&head->text, "<%s m", LOCALIZED(scene->simulation.threshold));
+    ceduo_text_format(&head->long_text, _("below %s m"), LOCALIZED(scene->simulation.threshold));
     for (size_t i = 0; i < o->belts_count; i++) {
         const struct ceduo_belt *b = &o->belts[i];
         const struct ceduo_stand_result *s = &found->stands[i];
         LOCAL_TEXT(name);
         ceduo_plot_belt_name(&name, b);
         ceduo_page_cell_role(page, CEDUO_ROLE_BELT, ceduo_text_string(&name));
-        ceduo_page_cell_format(page, "%s\xe2\x80\x93%s", SHORTEST(b->from_given), SHORTEST(b->to_given));
-        ceduo_page_cell_format(page, "%s", BESIDE(s->adc_m, 3, scene->simulation.threshold));
+        ceduo_page_cell_format(page, "%s\xe2\x80\x93%s", LOCALIZED(b->from_given), LOCALIZED(b->to_given));
+        ceduo_page_cell_format(page, "%s", VS_LIMIT(s->adc_m, 3, scene->simulation.threshold));
         ceduo_page_light(page, s->passes_threshold ? CEDUO_PASS : CEDUO_FAIL);
         ceduo_page_free_run(page, s->free_run_probability);
         ceduo_page_number(page, s->dissipated * J_TO_KJ, 3);
@@ -257,7 +264,7 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
     }
 }
 
-/* Length of the ground between two places, m. */
+/* Return the length of the ground between two positions, m. */
 static double ground_length(const struct ceduo_slope *s, double from, double to)
 {
     double length = 0;
@@ -269,8 +276,8 @@ static double ground_length(const struct ceduo_slope *s, double from, double to)
     return length;
 }
 
-/* The ADC by the other rules, of each belt, and how long the threshold, which is of the map, is on its ground. */
-static void say_other_forms(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
+/* Append each belt's ADC by other forms, and the length on the ground of the threshold, which is horizontal. */
+static void add_other_forms(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
                             const struct ceduo_option_result *found)
 {
     double threshold = scene->simulation.threshold;
@@ -285,37 +292,37 @@ static void say_other_forms(struct ceduo_page *page, const struct ceduo_scene *s
         for (enum ceduo_rule rule = CEDUO_GSTEIGER_STOOLS; rule <= CEDUO_CROFTON; rule++)
             if (rule != s->rule) {
                 ceduo_text_format(line, "%s %s %s m", between, ceduo_words_law(ceduo_rule_words.names[rule]),
-                                  WRITTEN(ceduo_adc_value(&s->adc, rule), 3));
+                                  SIG(ceduo_adc_value(&s->adc, rule), 3));
                 between = ",";
             }
         const struct ceduo_belt *b = &o->belts[i];
-        ceduo_text_format(line, _("; %s m of the map are %s m along the ground"), SHORTEST(threshold),
-                          WRITTEN(threshold * ground_length(&scene->slope, b->from, b->to) / (b->to - b->from), 2));
+        ceduo_text_format(line, _("; %s m of the map are %s m along the ground"), LOCALIZED(threshold),
+                          SIG(threshold * ground_length(&scene->slope, b->from, b->to) / (b->to - b->from), 2));
     }
 }
 
-static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+static void add_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
-#define SAME(value) WRITTEN(value, (value) > 0 ? decimals + (int)floor(log10(value)) + 1 : 1)
+#define SAME_DECIMALS(value) SIG(value, (value) > 0 ? decimals + (int)floor(log10(value)) + 1 : 1)
     const struct ceduo_index *index = &r->options[option].controls[control];
-    double mean = ceduo_measured(CEDUO_MEAN_KJ, &r->bare.arrivals[control]).value, taken = index->dissipated * J_TO_KJ;
-    double left = index->residual * J_TO_KJ;
-    int decimals = mean > 0 ? (int)fmax(0, 3 - floor(log10(mean))) : 1; /* of all three, so that what is written is true */
+    double mean = ceduo_measure_figure(CEDUO_MEAN_KJ, &r->bare.arrivals[control]).value, taken = index->dissipated * J_TO_KJ;
+    double remaining = index->residual * J_TO_KJ;
+    int decimals = mean > 0 ? (int)fmax(0, 3 - floor(log10(mean))) : 1; /* equal decimals, so that the numbers add up */
     LOCAL_TEXT(rest);
     if (index->exhausted)
         ceduo_text_append(&rest, _("nothing is left on average, some rocks still pass"));
     else
-        ceduo_text_format(&rest, _("%s kJ are left"), SAME(left));
+        ceduo_text_format(&rest, _("%s kJ are left"), SAME_DECIMALS(remaining));
     if (index->length > 0 && mean > 0)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
-                        _("By the index stems could absorb %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."), SAME(taken),
-                        WRITTEN(index->per_100m * J_TO_KJ, 3), SAME(mean), rest.bytes);
+                        _("By the index stems could absorb %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."),
+                        SAME_DECIMALS(taken), SIG(index->per_100m * J_TO_KJ, 3), SAME_DECIMALS(mean), rest.bytes);
     if (!isnan(index->measured))
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
-                        WRITTEN(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
+                        SIG(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
 }
 
-/* ---- blocks of other sizes ---- */
+/* ---- other block sizes ---- */
 
 static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_size_result *blocks)
 {
@@ -332,48 +339,48 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
         own = blocks[i].own ? blocks[i].volume : own;
     ceduo_page_para(page, CEDUO_PAGE_CAPTION,
                     _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"),
-                    SHORTEST(c->x_given));
+                    LOCALIZED(c->x_given));
     CEDUO_PAGE_TABLE_OF(page, columns);
     ceduo_page_limit(ceduo_page_head(page), c);
-    bool left_out = false;
+    bool skipped = false;
     for (size_t i = 0; i < CEDUO_SIZES; i++) {
         const struct ceduo_size_result *b = &blocks[i];
         if (!b->own && b->volume < 2 * own && 2 * b->volume > own)
-            continue; /* less than an octave apart the order would be chance: the scene's own stands for it */
+            continue; /* skip sizes within a factor 2 of the scene's own */
         ceduo_page_cell_format(page, "%s", b->own ? "  >" : "");
         ceduo_page_number(page, b->volume, 3);
         ceduo_page_number(page, b->mass, 3);
         ceduo_page_number(page, b->diameter, 3);
         ceduo_page_number(page, b->adc, 3);
         ceduo_page_number(page, b->contacts, 3);
-        ceduo_page_cell_format(page, "%s",
-                               INTERVAL(ceduo_measure_exceeding(c, ceduo_released(&b->arrivals) > 0 ? &b->arrivals : NULL)));
-        left_out |= ceduo_released(&b->arrivals) == 0;
+        ceduo_page_cell_format(
+            page, "%s", INTERVAL(ceduo_measure_exceeding(c, ceduo_rocks_released(&b->arrivals) > 0 ? &b->arrivals : NULL)));
+        skipped |= ceduo_rocks_released(&b->arrivals) == 0;
     }
-    if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
+    if (skipped && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("A size with a dash was skipped: its rocks meet too many stems to be simulated here."));
 }
 
-/* ---- what an office expects: percentiles of speed, energy and height with their intervals, and design values ---- */
+/* ---- percentiles of speed, energy and height ---- */
 
-/* Heights below a metre have no third digit, those below a decimetre no second. */
-#define SHOWN(value) WRITTEN(value, (value) < 0.1 ? 1 : (value) < 1 ? 2 : 3)
+/* Fewer digits for heights below 1 m and 0.1 m. */
+#define SIG_SHORT(value) SIG(value, (value) < 0.1 ? 1 : (value) < 1 ? 2 : 3)
 
 static void add_percentile(struct ceduo_page *page, double value, double lo, double hi)
 {
     struct ceduo_page_cell *both = ceduo_page_cell(page);
     struct text *cell = &both->text;
-    ceduo_text_append(cell, SHOWN(value));
+    ceduo_text_append(cell, SIG_SHORT(value));
     if (isnan(value))
         return;
-    ceduo_text_append(&both->shorter, SHOWN(value)); /* where the interval has no room */
+    ceduo_text_append(&both->shorter, SIG_SHORT(value)); /* without the interval */
     if (!isnan(lo) && !isnan(hi))
-        ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", SHOWN(lo), SHOWN(hi));
+        ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", SIG_SHORT(lo), SIG_SHORT(hi));
     else if (!isnan(lo))
-        ceduo_text_format(cell, " (> %s)", SHOWN(lo));
+        ceduo_text_format(cell, " (> %s)", SIG_SHORT(lo));
     else if (!isnan(hi))
-        ceduo_text_format(cell, " (< %s)", SHOWN(hi));
+        ceduo_text_format(cell, " (< %s)", SIG_SHORT(hi));
 }
 
 static void add_percentiles(struct ceduo_page *page, const char *name, const struct ceduo_distribution *d, double scale)
@@ -401,20 +408,20 @@ void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *
             continue;
         CEDUO_PAGE_TABLE_OF(page, columns);
         ceduo_text_format(&ceduo_page_head(page)->text, i == 0 ? _("forest, %llu of %llu") : _("without, %llu of %llu"),
-                          (unsigned long long)ceduo_reached(a), (unsigned long long)ceduo_released(a));
-        add_percentiles(page, _("speed, m/s"), ceduo_spread(CEDUO_ARRIVAL_SPEED, a), 1);
-        add_percentiles(page, _("energy, kJ"), ceduo_spread(CEDUO_ARRIVAL_ENERGY, a), J_TO_KJ);
-        add_percentiles(page, _("underside, m up"), ceduo_spread(CEDUO_ARRIVAL_HEIGHT, a), 1);
+                          (unsigned long long)ceduo_rocks_reached(a), (unsigned long long)ceduo_rocks_released(a));
+        add_percentiles(page, _("speed, m/s"), ceduo_arrival_distribution(CEDUO_ARRIVAL_SPEED, a), 1);
+        add_percentiles(page, _("energy, kJ"), ceduo_arrival_distribution(CEDUO_ARRIVAL_ENERGY, a), J_TO_KJ);
+        add_percentiles(page, _("underside, m up"), ceduo_arrival_distribution(CEDUO_ARRIVAL_HEIGHT, a), 1);
     }
 }
 
 /* ---- design values ---- */
 
-/* The factors of speed and energy of UNI 11211-4, 1.02 where it was done well, otherwise 1.10. */
+/* Factors of speed and energy in UNI 11211-4: 1.02 for a good survey or model, otherwise 1.10. */
 #define FACTOR(good) ((good) ? 1.02 : 1.10)
 
-/* No factor of the height was found in a text that could be opened: it is printed without one, and that is said. The height is
- * that of the blocks' tops: a work as high as their undersides would stop none. */
+/* Append design values. No source for a height factor could be obtained: the percentile is printed without one. It is the
+ * height of the block's top, because a barrier only as high as the underside stops nothing. */
 void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control)
 {
     const struct ceduo_result *r = report->result;
@@ -423,15 +430,15 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
     bool calibrated = ceduo_notes_print(report->file->notes, "calibrated", "slope");
     double survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD), blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD);
     double model = FACTOR(calibrated), speed = survey * model, energy = speed * speed * blocks;
-    if (d->survey < 0 || d->blocks < 0 || ceduo_reached(bare) == 0)
+    if (d->survey < 0 || d->blocks < 0 || ceduo_rocks_reached(bare) == 0)
         return;
-    for (const struct ceduo_arrivals *a = ceduo_reached(wooded) > 0 ? wooded : bare; a; a = a == bare ? NULL : bare)
+    for (const struct ceduo_arrivals *a = ceduo_rocks_reached(wooded) > 0 ? wooded : bare; a; a = a == bare ? NULL : bare)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height of the block's top %s m."),
                         a == bare ? _("without forest") : _("with the forest of this option"),
-                        WRITTEN(ceduo_spread(CEDUO_ARRIVAL_SPEED, a)->p95 * speed, 3),
-                        WRITTEN(ceduo_measured(CEDUO_P95_KJ, a).value * energy, 3),
-                        SHOWN(ceduo_measured(CEDUO_P95_TOP, a).value));
+                        SIG(ceduo_arrival_distribution(CEDUO_ARRIVAL_SPEED, a)->p95 * speed, 3),
+                        SIG(ceduo_measure_figure(CEDUO_P95_KJ, a).value * energy, 3),
+                        SIG_SHORT(ceduo_measure_figure(CEDUO_P95_TOP, a).value));
     ceduo_page_para(
         page, CEDUO_PAGE_DETAIL,
         _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, %s. Energy: 95th "
@@ -440,7 +447,7 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
         survey, model, calibrated ? _("fitted to observations") : _("not fitted here"), blocks);
 }
 
-/* ---- an option ---- */
+/* ---- option ---- */
 
 void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *r, size_t option)
 {
@@ -453,23 +460,23 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_option *option = &r->scene->options[i];
-    bool whole = page->width >= CEDUO_PAGE_WIDTH; /* a pane stands beside pictures and a column that say the rest */
+    bool full = page->width >= CEDUO_PAGE_WIDTH; /* a pane is next to pictures and a column with the other figures */
     if (option->belts_count > 0 && r->scene->controls_count > 0)
         add_belts(page, r->scene, option, &r->options[i]);
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         add_place(page, report, k);
         add_arrivals(page, report, i, k, bare);
-        say_lights(page, r, i, k);
-        if (whole && r->bare.rocks > 0)
+        add_lights(page, r, i, k);
+        if (full && r->bare.rocks > 0)
             ceduo_page_percentiles(page, r, i, k, bare);
         ceduo_page_design(page, report, i, k);
         if (k == 0)
-            say_other_forms(page, r->scene, option, &r->options[i]);
-        say_residual(page, r, i, k);
+            add_other_forms(page, r->scene, option, &r->options[i]);
+        add_residual(page, r, i, k);
     }
-    if (whole && report->blocks && !report->years)
+    if (full && report->blocks && !report->years)
         add_sizes(page, r, &report->blocks[i * CEDUO_SIZES]);
-    if (whole && report->years)
+    if (full && report->years)
         ceduo_page_years(page, report, i);
     ceduo_page_stand_warnings(page, r, i);
     ceduo_page_stand_rules(page, r, i, true);
@@ -477,27 +484,28 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
 
 /* ---- notes ---- */
 
-static bool is_shown(const struct ceduo_report *report, const struct source_note *note)
+static bool is_shown_note(const struct ceduo_report *report, const struct source_note *note)
 {
     return strcmp(note->kind, "assumed") == 0 && (report->years || !ceduo_note_years(note));
 }
 
-/* The notes are kept last first. */
-static void add_assumed(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note, bool places)
+/* Append notes in order; the list has the last first. */
+static void add_assumption(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note,
+                           bool places)
 {
     if (!note)
         return;
-    add_assumed(page, report, note->before, places);
-    const struct source_note *first_same = NULL; /* in the files, that is, the last in the list: said there, how often */
-    size_t times = 0;
+    add_assumption(page, report, note->before, places);
+    const struct source_note *first_same = NULL; /* first in the files, last in the list; printed here with the count */
+    size_t count = 0;
     for (const struct source_note *n = report->file->notes; n; n = n->before)
         if (strcmp(n->kind, "assumed") == 0 && strcmp(n->text, note->text) == 0) {
-            times++;
+            count++;
             first_same = n;
         }
-    if (!is_shown(report, note) || first_same != note)
+    if (!is_shown_note(report, note) || first_same != note)
         return;
-    const char *said = ceduo_in_language(note->text, note->text_it);
+    const char *sentence = ceduo_in_language(note->text, note->text_it);
     LOCAL_TEXT(where);
     const struct ceduo_scene *scene = report->result->scene;
     const char *dot = strncmp(note->path, "options[", 8) == 0 ? strchr(note->path, '.') : NULL;
@@ -506,22 +514,22 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     if (!places) { /* the value, and the first clause of its source */
         const char *what = ceduo_text_string(&where);
         ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s%s%.*s", (int)strcspn(what, ","), what, where.length > 0 ? ": " : "",
-                        (int)strcspn(said, ";"), said);
+                        (int)strcspn(sentence, ";"), sentence);
         return;
     }
     if (option < scene->options_count)
         ceduo_text_append_joined(&where, ", ", "%s", scene->options[option].name);
     const char *place = where.length > 0 ? where.bytes : _("the scene");
-    if (times > 1)
-        ceduo_page_para(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), said, place,
-                        times - 1);
+    if (count > 1)
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", count - 1), sentence,
+                        place, count - 1);
     else
-        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s (%s)", said, place);
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s (%s)", sentence, place);
 }
 
 void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *report, bool places)
 {
-    add_assumed(page, report, report->file->notes, places);
+    add_assumption(page, report, report->file->notes, places);
 }
 
 static void add_table(void *page, const char *line)
@@ -540,7 +548,7 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
     if (ceduo_notes_print(note, CEDUO_NOTE_TABLE, ""))
         ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Tables as they were read:"));
     ceduo_notes_each(note, CEDUO_NOTE_TABLE, add_table, page);
-    while (note && !is_shown(report, note))
+    while (note && !is_shown_note(report, note))
         note = note->before;
     if (!note)
         return;
@@ -550,7 +558,7 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
 
 /* ---- the page ---- */
 
-static void add_whole(struct ceduo_page *page, const struct ceduo_report *report)
+static void add_full_page(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_scene *scene = report->result->scene;
     ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
@@ -559,7 +567,7 @@ static void add_whole(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_answer(page, report);
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
-    if (scene->options_count > 1) /* what they share */
+    if (scene->options_count > 1) /* shared by all options */
         ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
     for (size_t k = 0; scene->options_count > 1 && k < scene->controls_count; k++) {
         const struct ceduo_subject bare = ceduo_subject_find(report, SIZE_MAX, k);
@@ -581,9 +589,9 @@ static void add_whole(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_notes(page, report);
 }
 
-void ceduo_report_page(struct text *text, const struct ceduo_report *report, bool whole, bool plain)
+void ceduo_report_page(struct text *text, const struct ceduo_report *report, bool full, bool plain)
 {
     LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
-    (whole ? add_whole : ceduo_page_short)(&page, report);
+    (full ? add_full_page : ceduo_page_short)(&page, report);
     ceduo_page_print(text, &page, plain);
 }

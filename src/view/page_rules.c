@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the law asks of the stands of all options: a row for each stand, the articles below; and the same in sentences. */
+/* Rules for the stands of all options: a table with a row per stand and the articles below; the same as sentences. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 typedef const struct ceduo_regulation_item item;
 
-static const char *note_of(const struct ceduo_regulation *rules, struct text *text)
+static const char *append_note(const struct ceduo_regulation *rules, struct text *text)
 {
     ceduo_text_format(text, _("%s: check the text in force"), rules->name);
     ceduo_text_append_joined(text, rules->note ? "; " : "", "%s.",
@@ -16,24 +16,24 @@ static const char *note_of(const struct ceduo_regulation *rules, struct text *te
     return text->bytes;
 }
 
-/* "≥ 50", "20–30" */
-static void append_asked(struct text *text, item *asked)
+/* Append "≥ 50" or "20–30". */
+static void append_limits(struct text *text, item *rule)
 {
-    ceduo_text_format(text, isnan(asked->most) ? "\xe2\x89\xa5 %s" : "%s\xe2\x80\x93%s", SHORTEST(asked->least),
-                      SHORTEST(asked->most));
+    ceduo_text_format(text, isnan(rule->most) ? "\xe2\x89\xa5 %s" : "%s\xe2\x80\x93%s", LOCALIZED(rule->least),
+                      LOCALIZED(rule->most));
 }
 
-/* The number of standards or the turn of a belt. */
-static void say_rule(struct ceduo_page *page, const struct ceduo_belt *belt, const struct ceduo_compliance *c, bool turn,
-                     bool all)
+/* Append the rule of standards or of the rotation of a belt. */
+static void add_rule_sentence(struct ceduo_page *page, const struct ceduo_belt *belt, const struct ceduo_compliance *c,
+                              bool turn, bool all)
 {
-    item *asked = turn ? c->turn_item : c->standards_item;
+    item *rule = turn ? c->turn_item : c->standards_item;
     bool met = turn ? c->turn_met : c->standards_met;
     size_t count;
-    LOCAL_TEXT(wanted);
-    if (!all && (!asked || met))
+    LOCAL_TEXT(limits);
+    if (!all && (!rule || met))
         return;
-    if (!asked) {
+    if (!rule) {
         ceduo_page_once(
             page, CEDUO_PAGE_SENTENCE,
             turn ? _("%s: the rules of %s give no rotation for this species (%s). The rotation is not checked.")
@@ -41,11 +41,11 @@ static void say_rule(struct ceduo_page *page, const struct ceduo_belt *belt, con
             belt->name, c->of->name, _(ceduo_species_list(&count)[belt->stand.species].common));
         return;
     }
-    append_asked(&wanted, asked);
+    append_limits(&limits, rule);
     ceduo_page_once(page, met ? CEDUO_PAGE_SENTENCE : CEDUO_PAGE_WARNING,
                     turn ? _("%s: %s asks for a rotation of %s years (%s, %u); shoots are cut at %.4g: %s.")
                          : _("%s: %s asks for %s standards a hectare (%s, %u); %.4g are kept: %s."),
-                    belt->name, c->of->name, wanted.bytes, asked->article, asked->year, turn ? c->turn : c->standards,
+                    belt->name, c->of->name, limits.bytes, rule->article, rule->year, turn ? c->turn : c->standards,
                     met ? _("met") : _("NOT met"));
 }
 
@@ -59,43 +59,43 @@ void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *
         if (!c->of)
             continue;
         if (belt->stand.species >= 0) {
-            say_rule(page, belt, c, false, all);
+            add_rule_sentence(page, belt, c, false, all);
             if (!c->turn_item || !isnan(c->turn))
-                say_rule(page, belt, c, true, all);
+                add_rule_sentence(page, belt, c, true, all);
         } else if (all) {
             ceduo_page_once(page, CEDUO_PAGE_SENTENCE, _("%s: the stand has no species, so the rules of %s are not checked."),
                             belt->name, c->of->name);
         }
         if (all)
-            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, "%s", note_of(c->of, &note));
+            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, "%s", append_note(c->of, &note));
     }
 }
 
 /* ---- the table ---- */
 
-/* What is, what is asked for, and whether it is kept. */
-static void add_rule(struct ceduo_page *page, double is, item *asked, bool met, bool species)
+/* Append the value of the stand, the rule, and whether it is met. */
+static void add_rule_cells(struct ceduo_page *page, double value, item *rule, bool met, bool species)
 {
-    if (isnan(is))
+    if (isnan(value))
         ceduo_page_cell_format(page, "-");
     else
-        ceduo_page_cell_format(page, "%s", ROUNDED(is, 4));
-    if (!asked)
+        ceduo_page_cell_format(page, "%s", SIG_TRIMMED(value, 4));
+    if (!rule)
         ceduo_page_cell_format(page, "%s", species ? _("not named") : _("no species"));
     else
-        append_asked(ceduo_page_text(page), asked);
-    if (!asked || isnan(is))
+        append_limits(ceduo_page_text(page), rule);
+    if (!rule || isnan(value))
         ceduo_page_cell_format(page, "-");
     else
         ceduo_page_yes_no(page, met);
 }
 
-static void add_source(struct text *sources, item *asked)
+static void add_source(struct text *sources, item *rule)
 {
     LOCAL_TEXT(source);
-    if (!asked)
+    if (!rule)
         return;
-    ceduo_text_format(&source, "%s (%u)", asked->article, asked->year);
+    ceduo_text_format(&source, "%s (%u)", rule->article, rule->year);
     if (!strstr(ceduo_text_string(sources), source.bytes))
         ceduo_text_format(sources, sources->length > 0 ? "; %s" : "%s", source.bytes);
 }
@@ -118,7 +118,7 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
                 ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Rules of %s"), rules->name);
                 CEDUO_PAGE_TABLE_OF(page, columns);
             }
-            bool listed = false; /* an earlier belt of any option has the same stand */
+            bool listed = false; /* an earlier belt has the same stand */
             for (size_t a = 0; a <= i; a++)
                 for (size_t b = 0; b < (a < i ? r->scene->options[a].belts_count : k); b++)
                     listed |= strcmp(r->scene->options[a].belts[b].name, r->scene->options[i].belts[k].name) == 0;
@@ -126,8 +126,8 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
                 continue;
             bool species = r->scene->options[i].belts[k].stand.species >= 0;
             ceduo_page_cell_format(page, "%s", r->scene->options[i].belts[k].name);
-            add_rule(page, c->standards, c->standards_item, c->standards_met, species);
-            add_rule(page, c->turn, c->turn_item, c->turn_met, species);
+            add_rule_cells(page, c->standards, c->standards_item, c->standards_met, species);
+            add_rule_cells(page, c->turn, c->turn_item, c->turn_met, species);
             add_source(&sources, c->standards_item);
             add_source(&sources, isnan(c->turn) ? NULL : c->turn_item);
         }
@@ -135,5 +135,5 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
         return;
     if (sources.length > 0)
         ceduo_page_para(page, CEDUO_PAGE_DETAIL, _("Sources: %s."), ceduo_text_string(&sources));
-    ceduo_page_note(page, note_of(rules, &note));
+    ceduo_page_note(page, append_note(rules, &note));
 }

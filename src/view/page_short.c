@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page that --batch prints: the answer, how sure it is, what it becomes over the years, what was assumed, on one screen.
- * Of several options a table comes first. What is assumed and what is to be noted takes the lines that are left; how much more
- * there is is said. */
+/* Page of --batch on one screen: answer, certainty, development, assumptions; with several options their table first. Notes
+ * and assumptions fill the remaining lines, with a count of the rest. */
 #include <math.h>
 #include <string.h>
 
@@ -10,14 +9,14 @@
 #include "page_parts.h"
 #include "plot.h"
 
-#define LINES        24 /* of one option */
-#define LINES_SHARED 14 /* of several … */
-#define LINES_OPTION 2  /* … and for each */
-#define LINES_BLOCKS 2  /* … and to say how often, where that is known */
+#define LINES        24 /* lines for one option */
+#define LINES_SHARED 14 /* lines for several options … */
+#define LINES_OPTION 2  /* … plus lines per option */
+#define LINES_BLOCKS 2  /* … plus lines for frequencies */
 
 /* ---- head ---- */
 
-/* With as much of the rocks as keeps it in one line. */
+/* Append the title, with details of the rocks that fit in its line. */
 static void add_title(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
@@ -27,8 +26,7 @@ static void add_title(struct ceduo_page *page, const struct ceduo_report *report
     LOCAL_TEXT(rocks);
     ceduo_text_format(&rocks, " \xe2\x80\x93 ");
     ceduo_text_format(&rocks, s->blocks_count > 0 ? _("%llu rocks of many sizes") : _("%llu rocks of %s%s m (%s kg)"),
-                      (unsigned long long)ceduo_result_rocks(r), about, WRITTEN(r->rock.mean_diameter, 2),
-                      WRITTEN(r->rock.mass, 3));
+                      (unsigned long long)ceduo_result_rocks(r), about, SIG(r->rock.mean_diameter, 2), SIG(r->rock.mass, 3));
     ceduo_text_append(text, title);
     for (char *end = rocks.bytes; *end && ceduo_utf8_width(title) + ceduo_utf8_width(rocks.bytes) > page->width;) {
         end = strrchr(rocks.bytes, '(');
@@ -38,11 +36,9 @@ static void add_title(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_text_append(text, rocks.bytes);
 }
 
-/* ---- one option ---- */
+/* ---- assumptions and notes ---- */
 
-/* ---- what is assumed, and what is to be noted ---- */
-
-static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *report)
+static void collect_notes(struct ceduo_page *notes, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
     size_t n = r->scene->options_count;
@@ -64,54 +60,54 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     }
 }
 
-/* A point of sentences (warnings) or of other texts, and how many more there are. */
-static void add_point(struct ceduo_page *page, const char *label, const struct text *said, size_t more)
+/* Append a point with its sentences or items, and the number left out. */
+static void add_point(struct ceduo_page *page, const char *label, const struct text *body, size_t more)
 {
     struct text *text = ceduo_page_item(page, CEDUO_PAGE_POINT, label);
-    ceduo_text_append(text, ceduo_text_string(said));
+    ceduo_text_append(text, ceduo_text_string(body));
     if (more > 0)
-        ceduo_text_append_joined(text, said->length > 0 ? " " : "", _("(%zu more)"), more);
+        ceduo_text_append_joined(text, body->length > 0 ? " " : "", _("(%zu more)"), more);
 }
 
-/* Adds those of the sentences, whole ones, that keep within so many lines. False where none has room, or not even how many more. */
+/* Append the sentences that fit in `lines`. Return false if none fits, or if the number left out does not fit. */
 static bool add_sentences(struct ceduo_page *page, const char *label, const struct ceduo_page *sentences, size_t lines)
 {
-    LOCAL_PAGE(tried, page->width);
-    LOCAL_TEXT(said);
+    LOCAL_PAGE(trial, page->width);
+    LOCAL_TEXT(body);
     size_t more = 0;
     for (const struct ceduo_page_block *b = sentences->first; b; b = b->next)
         more++;
     for (const struct ceduo_page_block *b = sentences->first; b; b = b->next) {
-        size_t before = said.length; /* the first goes before how many more */
-        ceduo_text_append_joined(&said, before == 0 ? "" : b->kind == CEDUO_PAGE_WARNING ? " " : "; ", "%s", b->text.bytes);
-        add_point(&tried, label, &said, before == 0 ? 0 : more - 1);
-        if (ceduo_page_lines(&tried) > lines)
-            ceduo_text_cut(&said, before);
+        size_t before = body.length; /* the first sentence has priority over the count */
+        ceduo_text_append_joined(&body, before == 0 ? "" : b->kind == CEDUO_PAGE_WARNING ? " " : "; ", "%s", b->text.bytes);
+        add_point(&trial, label, &body, before == 0 ? 0 : more - 1);
+        if (ceduo_page_lines(&trial) > lines)
+            ceduo_text_cut(&body, before);
         else
             more--;
-        ceduo_page_free(&tried);
+        ceduo_page_free(&trial);
     }
-    if (said.length == 0)
+    if (body.length == 0)
         return more == 0;
-    add_point(&tried, label, &said, more);
-    bool counted = ceduo_page_lines(&tried) <= lines;
-    add_point(page, label, &said, counted ? more : 0);
+    add_point(&trial, label, &body, more);
+    bool counted = ceduo_page_lines(&trial) <= lines;
+    add_point(page, label, &body, counted ? more : 0);
     return counted;
 }
 
-/* What is to be noted goes before what is assumed, but for a line or two. False where not all of it, or how much more, is said. */
-static bool add_rest(struct ceduo_page *page, const struct ceduo_report *report, size_t lines)
+/* Fill the remaining lines with notes, keeping two for assumptions. Return false if something was left out uncounted. */
+static bool add_notes(struct ceduo_page *page, const struct ceduo_report *report, size_t lines)
 {
     LOCAL_PAGE(assumed, 0);
     LOCAL_PAGE(notes, 0);
-    LOCAL_PAGE(tried, page->width);
-    size_t taken = ceduo_page_lines(page) + 1; /* and a last one for what more there is */
-    size_t left = lines > taken + 1 ? lines - taken : 1;
+    LOCAL_PAGE(trial, page->width);
+    size_t taken = ceduo_page_lines(page) + 1; /* plus the last line */
+    size_t remaining = lines > taken + 1 ? lines - taken : 1;
     ceduo_page_assumed(&assumed, report, false);
-    gather_notes(&notes, report);
-    add_sentences(&tried, _("NOTE"), &notes, left - (left > 3 ? 2 : 1));
-    bool said = add_sentences(page, _("ASSUMED *"), &assumed, left - ceduo_page_lines(&tried));
-    return add_sentences(page, _("NOTE"), &notes, left + taken - 1 - ceduo_page_lines(page)) && said;
+    collect_notes(&notes, report);
+    add_sentences(&trial, _("NOTE"), &notes, remaining - (remaining > 3 ? 2 : 1));
+    bool body = add_sentences(page, _("ASSUMED *"), &assumed, remaining - ceduo_page_lines(&trial));
+    return add_sentences(page, _("NOTE"), &notes, remaining + taken - 1 - ceduo_page_lines(page)) && body;
 }
 
 void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report)
@@ -137,13 +133,13 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
     size_t shared = LINES_SHARED + (r->scene->blocks_count > 0 ? LINES_BLOCKS : 0);
-    bool noted = add_rest(page, report, n > 1 ? shared + LINES_OPTION * n : LINES);
-    for (size_t i = 0; report->years && !nothing && i < n; i++) { /* they were asked for */
+    bool complete = add_notes(page, report, n > 1 ? shared + LINES_OPTION * n : LINES);
+    for (size_t i = 0; report->years && !nothing && i < n; i++) { /* requested with --years */
         ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", r->scene->options[i].name);
         ceduo_page_years(page, report, i);
     }
     if (report->years && !nothing && n > 1)
         ceduo_page_years_all_options(page, report);
     ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_POINT, _("MORE")), "--details%s, --sensitivity, --report page.html; %s",
-                      noted ? "" : _(" (notes)"), noted ? _("as screens: ceduo SCENE") : _("or ceduo SCENE"));
+                      complete ? "" : _(" (notes)"), complete ? _("as screens: ceduo SCENE") : _("or ceduo SCENE"));
 }

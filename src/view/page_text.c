@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints a page at a width, or draws it on a canvas: paragraphs are wrapped, cells set below one another, numbers written with as
- * many digits as their column has room for. Of a page that is drawn a piece is printed, up to where a line, a role or a bar ends,
- * and put on the canvas. */
+/* Print a page at a width, or draw it on a canvas. Paragraphs are wrapped, columns aligned, numbers shortened to fit. To
+ * draw, text is collected in a piece until the line, role or bar ends, then drawn. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,56 +12,57 @@
 #include "page.h"
 #include "words.h"
 
-#define MARGIN   4 /* columns at the left of a page that a pane does without */
-#define TAIL_MIN 8 /* columns that hold a beginning and an end */
+#define MARGIN   4 /* columns at the left of a printed page; a pane has none */
+#define TAIL_MIN 8 /* columns for text shortened in the middle */
 
-/* Where a page is drawn, and the piece that is being printed. */
+/* Target of drawing, and the current piece. */
 struct drawing {
     struct ceduo_canvas *canvas;
     struct ceduo_area area;
-    int first, column; /* the line at the top of the area; where the piece begins */
+    int first, column; /* top line of the area; start column of the piece */
     enum ceduo_role role;
-    const struct ceduo_page_bar *bar; /* that the piece is; NULL: text */
+    const struct ceduo_page_bar *bar; /* the piece is a bar; NULL: text */
 };
 
 struct printer {
     struct text *text;
     size_t width;
-    bool plain;              /* ASCII alone */
-    struct drawing *drawing; /* NULL: it is printed */
-    int line;                /* how many have ended */
+    bool plain;              /* ASCII only */
+    struct drawing *drawing; /* NULL: print */
+    int line;                /* finished lines */
 };
 
-static void draw_bar(const struct drawing *d, int column, int row, int width)
+static void draw_page_bar(const struct drawing *d, int column, int row, int width)
 {
     const struct ceduo_page_bar *b = d->bar;
-    int least = (int)(b->least * (width - 1)), most = (int)(b->most * (width - 1));
-    for (int x = least; b->most >= b->least && x <= most; x++)
+    int lo = (int)(b->error_lo * (width - 1)), hi = (int)(b->error_hi * (width - 1));
+    for (int x = lo; b->error_hi >= b->error_lo && x <= hi; x++)
         ceduo_canvas_label(d->canvas, column + x, row, CEDUO_ROLE_MEAN,
-                           x == least  ? "\xe2\x94\x9c"
-                           : x == most ? "\xe2\x94\xa4"
-                                       : "\xe2\x94\x80");
+                           x == lo   ? "\xe2\x94\x9c"
+                           : x == hi ? "\xe2\x94\xa4"
+                                     : "\xe2\x94\x80");
     if (b->from > 0)
         for (int x = (int)(b->from * (width - 1)); x <= (int)(b->to * (width - 1)); x++)
             ceduo_canvas_bar(d->canvas, column + x, row, 1, 1, d->role);
     else
         ceduo_canvas_bar(d->canvas, column, row, width, b->to, d->role);
     if (b->limit >= 0 && b->limit <= 1)
-        ceduo_canvas_label(d->canvas, column + (int)fmin(round(b->limit * width), width - 1), row, b->own, "\xe2\x94\x82");
+        ceduo_canvas_label(d->canvas, column + (int)fmin(round(b->limit * width), width - 1), row, b->limit_role,
+                           "\xe2\x94\x82");
 }
 
-/* In `room` columns; blanks at its ends are drawn only where they are seen. */
-static void draw_text(const struct drawing *d, int column, int row, int room, struct text *piece)
+/* Draw a piece in at most `width` columns; leading and trailing blanks only if reversed by the cursor role. */
+static void draw_piece(const struct drawing *d, int column, int row, int available, struct text *piece)
 {
     char *string = piece->bytes, *end = string + piece->length;
     size_t blanks = d->role == CEDUO_ROLE_CURSOR ? 0 : strspn(string, " ");
     while (d->role != CEDUO_ROLE_CURSOR && end > string + blanks && end[-1] == ' ')
         *--end = '\0';
     if (string[blanks])
-        ceduo_canvas_draw_text(d->canvas, column + (int)blanks, row, room - (int)blanks, d->role, string + blanks);
+        ceduo_canvas_draw_text(d->canvas, column + (int)blanks, row, available - (int)blanks, d->role, string + blanks);
 }
 
-/* Draws the piece that was printed, if that is to be done; the next one is a text, or a bar, in a role. */
+/* Draw the previous piece, if drawing. Start a text or bar in a role. */
 static void begin_piece(struct printer *p, enum ceduo_role role, const struct ceduo_page_bar *bar)
 {
     struct drawing *d = p->drawing;
@@ -70,11 +70,11 @@ static void begin_piece(struct printer *p, enum ceduo_role role, const struct ce
         return;
     const struct ceduo_area *a = &d->area;
     int x = a->left + d->column, row = p->line - d->first;
-    int width = ceduo_canvas_label_width(d->canvas, ceduo_text_string(p->text)), room = a->left + a->width - x;
+    int width = ceduo_canvas_label_width(d->canvas, ceduo_text_string(p->text)), available = a->left + a->width - x;
     if (width > 0 && row >= 0 && row < a->height && !d->bar)
-        draw_text(d, x, a->top + row, room, p->text);
-    else if (width > 0 && row >= 0 && row < a->height && !d->canvas->words_alone && width <= room)
-        draw_bar(d, x, a->top + row, width);
+        draw_piece(d, x, a->top + row, available, p->text);
+    else if (width > 0 && row >= 0 && row < a->height && !d->canvas->text_only && width <= available)
+        draw_page_bar(d, x, a->top + row, width);
     d->column += width;
     d->role = role;
     d->bar = bar;
@@ -99,16 +99,16 @@ static void append_blanks(struct text *text, size_t n)
 
 void ceduo_page_powers(struct text *text, const char *string)
 {
-    for (const char *at = string; *at; at++) {
-        if (ceduo_is_power(string, at))
-            ceduo_text_append(text, *at == '2' ? "\xc2\xb2" : "\xc2\xb3");
+    for (const char *c = string; *c; c++) {
+        if (ceduo_is_power(string, c))
+            ceduo_text_append(text, *c == '2' ? "\xc2\xb2" : "\xc2\xb3");
         else
-            ceduo_text_append_char(text, *at);
+            ceduo_text_append_char(text, *c);
     }
 }
 
-/* What may be printed: no control characters, and where the terminal knows no other ASCII alone, so that its width is known. */
-static void append_safe(const struct printer *p, struct text *to, const char *string)
+/* Append printable text: without control characters, and ASCII only if `plain`, so that its width is known. */
+static void append_printable(const struct printer *p, struct text *to, const char *string)
 {
     LOCAL_TEXT(powers);
     LOCAL_TEXT(safe);
@@ -125,7 +125,7 @@ static void append_safe(const struct printer *p, struct text *to, const char *st
 
 /* ---- paragraphs ---- */
 
-/* How a kind of block begins, how far its other lines are indented, and its role. */
+/* Prefix, indent of continuation lines, and role of each kind of block. */
 static const struct {
     const char *first;
     size_t indent;
@@ -139,8 +139,8 @@ static const struct {
     [CEDUO_PAGE_QUESTION] = {"", 0, CEDUO_ROLE_TITLE},   [CEDUO_PAGE_ANSWER] = {"  ", CEDUO_ANSWER_INDENT, CEDUO_ROLE_TEXT},
     [CEDUO_PAGE_POINT] = {"", 10, CEDUO_ROLE_TEXT}};
 
-/* Of several blanks one is left, of those at the end none. */
-static void squeeze(struct text *text)
+/* Collapse blanks; remove trailing ones. */
+static void collapse_blanks(struct text *text)
 {
     size_t n = 0;
     for (size_t i = 0; i < text->length; i++) {
@@ -153,16 +153,16 @@ static void squeeze(struct text *text)
         text->bytes[n] = '\0';
 }
 
-/* A text that begins at `column`; its other lines are indented. */
+/* Print a text from `column` on; continuation lines are indented. */
 static void print_wrapped(struct printer *p, const char *string, size_t column, size_t indent)
 {
-    for (const char *at = string, *next; *at; at = next) {
-        size_t n = ceduo_utf8_wrap(at, p->width > column ? p->width - column : 1, &next);
-        if (at > string) {
+    for (const char *line = string, *next; *line; line = next) {
+        size_t n = ceduo_utf8_wrap(line, p->width > column ? p->width - column : 1, &next);
+        if (line > string) {
             end_line(p);
             append_blanks(p->text, indent);
         }
-        ceduo_text_append_n(p->text, at, n);
+        ceduo_text_append_n(p->text, line, n);
         column = indent;
     }
 }
@@ -170,7 +170,7 @@ static void print_wrapped(struct printer *p, const char *string, size_t column, 
 static void print_paragraph(struct printer *p, const struct ceduo_page_block *block)
 {
     const char *begin = styles[block->kind].first, *text = ceduo_text_string(&block->text);
-    size_t indent = styles[block->kind].indent, margin = p->drawing ? strspn(begin, " ") : 0; /* panes are narrow */
+    size_t indent = styles[block->kind].indent, margin = p->drawing ? strspn(begin, " ") : 0; /* panes have no margin */
     size_t label = block->kind == CEDUO_PAGE_FACT || block->kind == CEDUO_PAGE_POINT ? strcspn(text, "\t") : 0;
     LOCAL_TEXT(first);
     LOCAL_TEXT(rest);
@@ -183,8 +183,8 @@ static void print_paragraph(struct printer *p, const struct ceduo_page_block *bl
         append_blanks(&first, column < indent ? indent - column : 2);
         column = ceduo_utf8_width(first.bytes);
     }
-    append_safe(p, &rest, text + label + (label > 0));
-    squeeze(&rest);
+    append_printable(p, &rest, text + label + (label > 0));
+    collapse_blanks(&rest);
     if (p->drawing && rest.length == 0)
         return;
     if (block->kind == CEDUO_PAGE_SECTION && (!p->drawing || p->line > 0))
@@ -197,55 +197,55 @@ static void print_paragraph(struct printer *p, const struct ceduo_page_block *bl
 
 /* ---- cells ---- */
 
-/* Set into so many columns and cut where it is longer, at its end or in its middle; negative: to the right; 0: as it comes. */
+/* Pad or truncate to `width` columns, at the end or in the middle; negative: right-aligned; 0: unlimited. */
 static void print_padded(struct printer *p, const char *string, int width, bool ends)
 {
-    size_t want = (size_t)abs(width), have = ceduo_utf8_width(string);
-    if (width < 0 && have < want)
-        append_blanks(p->text, want - have);
-    if (have <= want || want == 0) {
+    size_t target = (size_t)abs(width), current = ceduo_utf8_width(string);
+    if (width < 0 && current < target)
+        append_blanks(p->text, target - current);
+    if (current <= target || target == 0) {
         ceduo_text_append(p->text, string);
     } else {
-        size_t tail = ends && want >= TAIL_MIN ? (want - 1) / 2 : 0;
+        size_t tail = ends && target >= TAIL_MIN ? (target - 1) / 2 : 0;
         const char *end = string;
         while (ceduo_utf8_width(end) > tail)
             end += ceduo_utf8_step(end);
-        size_t n = ceduo_utf8_cut(string, want - 1 - ceduo_utf8_width(end));
+        size_t n = ceduo_utf8_cut(string, target - 1 - ceduo_utf8_width(end));
         ceduo_text_append_n(p->text, string, n);
         ceduo_text_append(p->text, p->plain ? "~" : "\xe2\x80\xa6");
         ceduo_text_append(p->text, end);
-        have = ceduo_utf8_char_width(string, n) + 1 + ceduo_utf8_width(end);
+        current = ceduo_utf8_char_width(string, n) + 1 + ceduo_utf8_width(end);
     }
-    if (width > 0 && have < want)
-        append_blanks(p->text, want - have);
+    if (width > 0 && current < target)
+        append_blanks(p->text, target - current);
 }
 
-/* Whether it has room in a column, with a blank before it. */
-static bool fits(const struct text *cell, size_t width)
+/* True if a cell fits in a column with a blank before it. */
+static bool cell_fits(const struct text *cell, size_t width)
 {
     return ceduo_utf8_width(ceduo_text_string(cell)) < width;
 }
 
-/* A number; in thousands or millions (134e3) where it has no room, or with fewer digits. */
+/* Append a number. If it does not fit, use powers of 1000 (134e3), then fewer digits. */
 static void write_number(struct text *cell, double value, int digits, size_t width)
 {
     ceduo_words_number(cell, value, digits);
-    for (int e = 3; e <= 9 && isfinite(value) && fabs(value) >= 1e3 && !fits(cell, width); e += 3) {
+    for (int e = 3; e <= 9 && isfinite(value) && fabs(value) >= 1e3 && !cell_fits(cell, width); e += 3) {
         ceduo_text_free(cell);
         ceduo_text_format(cell, "%.0fe%d", value / pow(10, e), e);
     }
-    while (digits > 1 && !fits(cell, width)) {
+    while (digits > 1 && !cell_fits(cell, width)) {
         ceduo_text_free(cell);
         ceduo_words_number(cell, value, --digits);
     }
-    if (!isfinite(value) || fits(cell, width))
+    if (!isfinite(value) || cell_fits(cell, width))
         return;
-    /* as short as can be: 3e26, 7e-3; where that has no more room either, what is small as 0.00 */
+    /* shortest form: 3e26, 7e-3; if it does not fit, small values as 0.00 */
     char power[16];
     snprintf(power, sizeof power, "%.0e", value);
     ceduo_text_free(cell);
     ceduo_text_format(cell, "%.*se%ld", (int)strcspn(power, "e"), power, strtol(strchr(power, 'e') + 1, NULL, 10));
-    if (fabs(value) < 1 && !fits(cell, width)) {
+    if (fabs(value) < 1 && !cell_fits(cell, width)) {
         ceduo_text_free(cell);
         ceduo_text_format(cell, "%.*f", (int)width - (value < 0 ? 4 : 3), value);
     }
@@ -256,12 +256,12 @@ static void write_cell(const struct printer *p, struct text *to, const struct ce
     if (cell->kind == CEDUO_CELL_NUMBER)
         write_number(to, cell->value, cell->digits, width);
     else
-        append_safe(p, to, ceduo_text_string(&cell->text));
+        append_printable(p, to, ceduo_text_string(&cell->text));
     if (cell->kind != CEDUO_CELL_TEXT && to->bytes)
         ceduo_number_localize(to->bytes);
-    if (cell->shorter.length > 0 && !fits(to, width)) {
+    if (cell->shorter.length > 0 && !cell_fits(to, width)) {
         ceduo_text_free(to);
-        append_safe(p, to, ceduo_text_string(&cell->shorter));
+        append_printable(p, to, ceduo_text_string(&cell->shorter));
     }
 }
 
@@ -281,14 +281,15 @@ static void print_cell(struct printer *p, const struct ceduo_page_column *column
         append_blanks(p->text, (size_t)width);
         return;
     }
-    size_t room = (size_t)abs(width) + ((column->flags & (COL_SHRINK | COL_GROW)) != 0);
-    write_cell(p, &text, cell, room);
-    if (p->width >= CEDUO_PAGE_WIDE && !p->drawing && cell->written.length > 0 && (width == 0 || fits(&cell->written, room))) {
+    size_t available = (size_t)abs(width) + ((column->flags & (COL_SHRINK | COL_GROW)) != 0);
+    write_cell(p, &text, cell, available);
+    if (p->width >= CEDUO_PAGE_WIDE && !p->drawing && cell->long_text.length > 0 &&
+        (width == 0 || cell_fits(&cell->long_text, available))) {
         ceduo_text_free(&text);
-        append_safe(p, &text, cell->written.bytes);
+        append_printable(p, &text, cell->long_text.bytes);
     }
     begin_piece(p, cell->role ? cell->role : role, NULL);
-    if ((column->flags & COL_WRAP) && !fits(&text, room)) {
+    if ((column->flags & COL_WRAP) && !cell_fits(&text, available)) {
         print_wrapped(p, ceduo_text_string(&text), (size_t)gap, (size_t)gap);
         end_line(p);
         append_blanks(p->text, (size_t)(gap + width));
@@ -298,9 +299,9 @@ static void print_cell(struct printer *p, const struct ceduo_page_column *column
 }
 
 #define COLUMNS_MAX 24
-#define ANY_WIDTH   400 /* a cell without limits */
+#define ANY_WIDTH   400 /* no limit */
 
-/* The widest cell of a column; `*bars`: there is a bar in it. */
+/* Return the width of the widest cell in a column; set `*bars` if it has a bar. */
 static int widest_cell(const struct printer *p, const struct ceduo_page_block *table, size_t column, bool *bars)
 {
     int widest = 0;
@@ -314,51 +315,50 @@ static int widest_cell(const struct printer *p, const struct ceduo_page_block *t
     return widest;
 }
 
-/* A pane has no margin. */
-static int gap_of(const struct printer *p, const struct ceduo_page_column *column, size_t i)
+/* Return the gap before a column; a pane has no left margin. */
+static int get_gap(const struct printer *p, const struct ceduo_page_column *column, size_t i)
 {
     return i == 0 && p->drawing ? 0 : column->gap;
 }
 
-/* Sets the width of each column: 0 for one that has no room. */
-static void place_columns(const struct printer *p, const struct ceduo_page_block *table, int *widths)
+/* Set the width of each column; 0: dropped. */
+static void set_widths(const struct printer *p, const struct ceduo_page_block *table, int *widths)
 {
     size_t n = table->columns_count;
     int rest = (int)p->width, natural[COLUMNS_MAX], bars = 0, names = 0;
     bool has_bars[COLUMNS_MAX] = {false};
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_page_column *c = &table->columns[i];
-        int share = (int)p->width / 2; /* that a name may take of the page: rather it is cut than columns are left out */
+        int share = (int)p->width / 2; /* max width of a name: truncate names before dropping columns */
         natural[i] = c->flags & (COL_SHRINK | COL_GROW) ? widest_cell(p, table, i, &has_bars[i]) : 0;
         widths[i] = c->flags & COL_SHRINK ? natural[i] : 0;
         if (c->flags & COL_GROW && !has_bars[i])
             widths[i] = natural[i] < share ? natural[i] : share;
         widths[i] = widths[i] > abs(c->width) ? widths[i] : abs(c->width);
-        names += c->flags & COL_GROW ? widths[i] - abs(c->width) : 0; /* what they can be cut by */
-        rest -= gap_of(p, c, i) + widths[i];
+        names += c->flags & COL_GROW ? widths[i] - abs(c->width) : 0; /* columns that truncating names can save */
+        rest -= get_gap(p, c, i) + widths[i];
     }
     for (size_t rank = 9; rest < 0 && rank > 0; rank--) {
         bool dropped = rank >= COL_MINOR || rest + names < 0;
         for (size_t i = 0; i < n; i++)
             if (dropped && table->columns[i].flags >> 8 == rank) {
-                rest += gap_of(p, &table->columns[i], i) + widths[i];
+                rest += get_gap(p, &table->columns[i], i) + widths[i];
                 widths[i] = 0;
             }
     }
     for (size_t i = 0; i < n; i++)
         bars += has_bars[i] && widths[i] > 0;
-    for (size_t i = 0; i < n; i++) { /* names take what is missing, or what is left where there is no bar */
+    for (size_t i = 0; i < n; i++) { /* names absorb the deficit, or the surplus if no bar does */
         int more = rest < natural[i] - widths[i] ? rest : natural[i] - widths[i],
-            least = abs(table->columns[i].width) - widths[i];
+            shrink_max = abs(table->columns[i].width) - widths[i];
         if (!(table->columns[i].flags & COL_GROW) || widths[i] == 0 || has_bars[i] || (rest > 0 && bars > 0))
             continue;
-        more = more > least ? more : least;
+        more = more > shrink_max ? more : shrink_max;
         widths[i] += more;
         rest -= more;
     }
-    for (size_t i = 0; i < n && p->width >= CEDUO_PAGE_WIDE && !p->drawing;
-         i++) { /* heads that are written out, as far as they have room */
-        int more = (int)ceduo_utf8_width(ceduo_text_string(&table->cells[i].written)) + 1 - widths[i];
+    for (size_t i = 0; i < n && p->width >= CEDUO_PAGE_WIDE && !p->drawing; i++) { /* long heads, if they fit */
+        int more = (int)ceduo_utf8_width(ceduo_text_string(&table->cells[i].long_text)) + 1 - widths[i];
         if (widths[i] == 0 || more <= 0 || more > rest)
             continue;
         widths[i] += more;
@@ -378,7 +378,7 @@ static void print_table(struct printer *p, const struct ceduo_page_block *table)
     bool heads = false;
     for (size_t i = 0; i < n; i++)
         heads |= table->cells[i].text.length > 0;
-    place_columns(p, table, widths);
+    set_widths(p, table, widths);
     for (size_t row = heads ? 0 : n; row + n <= table->cells_count; row += n) {
         for (size_t i = 0; i < n; i++) {
             const struct ceduo_page_column *c = &table->columns[i];
@@ -387,9 +387,9 @@ static void print_table(struct printer *p, const struct ceduo_page_block *table)
                 continue;
             if (c->width < 0)
                 width = -width;
-            else if (row == 0 && i == n - 1 && c->width > 0) /* the last head is never cut */
+            else if (row == 0 && i == n - 1 && c->width > 0) /* the last head is never truncated */
                 width = 0;
-            print_cell(p, c, &table->cells[row + i], gap_of(p, c, i), width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
+            print_cell(p, c, &table->cells[row + i], get_gap(p, c, i), width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
         }
         while (!p->drawing && p->text->length > 0 && p->text->bytes[p->text->length - 1] == ' ')
             p->text->bytes[--p->text->length] = '\0';
@@ -397,7 +397,7 @@ static void print_table(struct printer *p, const struct ceduo_page_block *table)
     }
 }
 
-/* Returns the number of lines. */
+/* Print or draw all blocks; return the number of lines. */
 static int print_page(const struct ceduo_page *page, struct text *text, bool plain, struct drawing *drawing)
 {
     struct printer p = {.text = text, .width = page->width, .plain = plain, .drawing = drawing};

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page of --sensitivity: how far each option may be off, what that depends on, whether the order of the options
- * holds, and what to measure first; and the picture of it: for each option the range of what may be true, in it the error of the rocks,
- * below them the inputs that matter, as bars of their shares. */
+/* Page of --sensitivity: the 90 % range of each option, the inputs that cause it, the ranking, and what to measure first.
+ * Its picture shows the range and sampling error of each option, and the shares of inputs as bars. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,8 +13,8 @@
 #include "scene/value.h"
 #include "typed.h"
 
-#define SHOWN          0.01 /* shares from this on are shown */
-#define NOTHING_GAINED 0.995
+#define SHARE_MIN   0.01 /* min share of a listed input */
+#define NO_GAIN_MIN 0.995
 
 bool ceduo_uncertainty_is_off(const struct ceduo_uncertainty_report *r)
 {
@@ -28,14 +27,14 @@ const char *ceduo_uncertainty_missing_reason(const struct ceduo_uncertainty_repo
                                        : _("Nothing in this scene is marked as assumed");
 }
 
-/* ---- what people and files call the inputs ---- */
+/* ---- names of inputs ---- */
 
-#define GROUND "slope.materials["
+#define GROUND_PATH "slope.materials["
 
 void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertainty_report *r, size_t i)
 {
     const struct ceduo_input *input = &r->inputs->items[i];
-    const char *place = input->places[0], *ground = input->path + sizeof GROUND - 1;
+    const char *place = input->places[0], *ground = input->path + sizeof GROUND_PATH - 1;
     struct value v;
     if (input->kind == CEDUO_INPUT_DRAWS) {
         ceduo_text_append(text, _("left open by calibration"));
@@ -45,7 +44,7 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
         ceduo_text_append_escaped(text, input->path);
         return;
     }
-    /* a value of stems with whose it is, for several may have one: "trees 2: diameter, cm" */
+    /* values of stems are named with their class if there are several: "trees 2: diameter, cm" */
     const struct ceduo_belt *belt = ceduo_input_belt(&r->file->scene, place), *stand = belt;
     const char *label = _(v.field->shown.label), *shoots = strstr(place, ".shoots["), *trees = strstr(place, ".trees[");
     size_t count = !belt ? 0 : shoots ? belt->stand.shoots_count : belt->stand.trees_count;
@@ -56,10 +55,10 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
     else
         ceduo_text_format(text, shoots ? _("shoots %lu: %s") : _("trees %lu: %s"),
                           strtoul(strchr(shoots ? shoots : trees, '[') + 1, NULL, 10) + 1, label);
-    for (size_t k = 1; stand && k < input->places_count; k++) /* of the stand that all places are in */
+    for (size_t k = 1; stand && k < input->places_count; k++) /* stand shared by all places */
         stand = ceduo_input_belt(&r->file->scene, input->places[k]) == belt ? stand : NULL;
     LOCAL_TEXT(material);
-    if (strncmp(input->path, GROUND, sizeof GROUND - 1) == 0) {
+    if (strncmp(input->path, GROUND_PATH, sizeof GROUND_PATH - 1) == 0) {
         ceduo_text_append_n(&material, ground, strcspn(ground, "]"));
         ceduo_text_format(text, ", %s", _(ceduo_text_string(&material)));
     } else if (stand && stand->name && input->kind != CEDUO_INPUT_WORDS) {
@@ -91,14 +90,14 @@ void ceduo_uncertainty_input_end(struct text *text, const struct ceduo_uncertain
         ceduo_text_append(text, word ? word : ceduo_number_shortest(value, (char[CEDUO_NUMBER_SIZE]){0}));
 }
 
-/* A value, or a word, in the unit that people use, and short. */
-static void append_value(struct text *text, const struct field *field, double value, const char *word)
+/* Append a value or a word in the display unit, briefly. */
+static void append_display_value(struct text *text, const struct field *field, double value, const char *word)
 {
     value *= field->shown.per;
     if (word)
         ceduo_format_value(field, word, text);
-    else if (!isnan(value)) /* 6.300 is 6300 in Italian */
-        ceduo_text_append(text, fabs(value) < 1e4 ? ROUNDED(value, 4) : WRITTEN(value, 4));
+    else if (!isnan(value)) /* up to 4 digits; avoids 6.300, which is 6300 in Italian */
+        ceduo_text_append(text, fabs(value) < 1e4 ? SIG_TRIMMED(value, 4) : SIG(value, 4));
 }
 
 static void append_input_end(struct text *text, const struct ceduo_uncertainty_report *r, size_t i, int end)
@@ -107,13 +106,14 @@ static void append_input_end(struct text *text, const struct ceduo_uncertainty_r
     double value = ceduo_uncertainty_input_value(r, i, end, &word);
     struct value v;
     if (ceduo_value_find(&r->file->scene, r->inputs->items[i].places[0], &v))
-        append_value(text, v.field, value, word);
+        append_display_value(text, v.field, value, word);
 }
 
 static bool is_outside(const struct ceduo_input *input, double value)
 {
     bool word = input->kind == CEDUO_INPUT_WORDS;
-    if (input->kind == CEDUO_INPUT_FACTOR || input->kind == CEDUO_INPUT_DRAWS) /* relative to the value; rows, no range */
+    if (input->kind == CEDUO_INPUT_FACTOR ||
+        input->kind == CEDUO_INPUT_DRAWS) /* factors are relative to the value; draws have no range */
         return false;
     for (size_t k = 0; word && k < input->words_count; k++)
         if (input->words[k] == (int)value)
@@ -121,7 +121,7 @@ static bool is_outside(const struct ceduo_input *input, double value)
     return word || value < input->lo || value > input->hi;
 }
 
-void ceduo_uncertainty_warn_outside(const struct ceduo_uncertainty_report *r, ceduo_sentence_sink *say, void *context)
+void ceduo_uncertainty_warn_outside(const struct ceduo_uncertainty_report *r, ceduo_sentence_sink *sink, void *context)
 {
     for (size_t i = 0; i < r->inputs->n; i++) {
         const struct ceduo_input *input = &r->inputs->items[i];
@@ -133,22 +133,23 @@ void ceduo_uncertainty_warn_outside(const struct ceduo_uncertainty_report *r, ce
         if (k == input->places_count)
             continue;
         LOCAL_TEXT(name);
-        LOCAL_TEXT(here);
+        LOCAL_TEXT(value_text);
         LOCAL_TEXT(ends);
         LOCAL_TEXT(sentence);
         double value = ceduo_value_get(&v);
         ceduo_uncertainty_input_name(&name, r, i);
-        append_value(&here, v.field, value, input->kind == CEDUO_INPUT_WORDS ? v.field->choices->names[(int)value] : NULL);
+        append_display_value(&value_text, v.field, value,
+                             input->kind == CEDUO_INPUT_WORDS ? v.field->choices->names[(int)value] : NULL);
         append_input_end(&ends, r, i, 0);
         ceduo_text_append(&ends, "\xe2\x80\x93");
         append_input_end(&ends, r, i, 1);
-        ceduo_text_format(&sentence, _("%s is %s, outside its range %s; the range is used."), name.bytes, here.bytes,
+        ceduo_text_format(&sentence, _("%s is %s, outside its range %s; the range is used."), name.bytes, value_text.bytes,
                           ends.bytes);
-        say(context, sentence.bytes);
+        sink(context, sentence.bytes);
     }
 }
 
-static const struct range *range_of(const struct ceduo_uncertainty_report *r, const struct ceduo_input *input)
+static const struct range *find_range(const struct ceduo_uncertainty_report *r, const struct ceduo_input *input)
 {
     struct value v;
     return ceduo_value_find(&r->file->scene, input->places[0], &v) ? ceduo_range_find(v.field) : NULL;
@@ -157,7 +158,7 @@ static const struct range *range_of(const struct ceduo_uncertainty_report *r, co
 const char *ceduo_uncertainty_measured_by(const struct ceduo_uncertainty_report *r, size_t i)
 {
     const struct ceduo_input *input = &r->inputs->items[i];
-    const struct range *range = range_of(r, input);
+    const struct range *range = find_range(r, input);
     if (input->kind == CEDUO_INPUT_DRAWS)
         return N_("more observations");
     return range ? range->measured : input->kind == CEDUO_INPUT_WORDS ? NULL : N_("on the ground");
@@ -167,46 +168,44 @@ const char *ceduo_uncertainty_measured_by(const struct ceduo_uncertainty_report 
 
 const struct ceduo_uncertainty_figure *ceduo_uncertainty_main(const struct ceduo_uncertainty_report *r, size_t option)
 {
-    return ceduo_uncertainty_find_figure(r->answer, option, r->over ? CEDUO_UNCERTAINTY_MEAN : r->answer->main, false);
+    return ceduo_uncertainty_find_figure(r->answer, option, r->rotation_mean ? CEDUO_UNCERTAINTY_MEAN : r->answer->main, false);
 }
 
-/* Factor that shows the main figure of 1000 rocks, or in kJ. */
-static double scale_of(const struct ceduo_uncertainty_report *r)
+/* Return the factor of the main figure: per 1000 rocks, or kJ. */
+static double get_factor(const struct ceduo_uncertainty_report *r)
 {
     return ceduo_uncertainty_main(r, 0)->kind == CEDUO_UNCERTAINTY_ENERGY ? J_TO_KJ : 1000;
 }
 
-/* A value of a kind of figure: shares of 1000, energies in kJ. */
 void ceduo_uncertainty_value(struct text *t, enum ceduo_uncertainty_kind kind, double value)
 {
     bool energy = kind == CEDUO_UNCERTAINTY_ENERGY;
     ceduo_words_number(t, energy ? value * J_TO_KJ : round(value * 1000), energy ? 3 : 0);
 }
 
-/* ---- what an option may be ---- */
+/* ---- figures of an option ---- */
 
-/* Return the main figure of 1000 rocks, or in kJ per released rock: in the scene as it is, with the error of the rocks, and what may be
- * true (NaN if perhaps one option alone was asked for). Sets `*rocks`, if given, to the number of rocks; over a rotation of each
- * year. */
-static struct ceduo_measure measure_of(const struct ceduo_uncertainty_report *r, size_t option, uint64_t *rocks)
+/* Return the main figure, per 1000 or in kJ per released rock, with sampling error and 90 % range (NaN: computed for another
+ * option only). `*rocks`: number of rocks, over a rotation per year; may be NULL. */
+static struct ceduo_measure make_measure(const struct ceduo_uncertainty_report *r, size_t option, uint64_t *rocks)
 {
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_main(r, option);
-    const struct ceduo_result *finer = r->over ? NULL : r->finer;
+    const struct ceduo_result *finer = r->rotation_mean ? NULL : r->finer;
     const struct ceduo_arrivals *a = finer ? ceduo_result_wooded(finer, option, finer->last_control) : NULL;
-    const struct ceduo_choice *c = r->over && r->years && option < r->years->n ? &r->years->choices[option] : NULL;
+    const struct ceduo_choice *c = r->rotation_mean && r->years && option < r->years->n ? &r->years->choices[option] : NULL;
     bool energy = f->kind == CEDUO_UNCERTAINTY_ENERGY;
-    double scale = scale_of(r);
+    double scale = get_factor(r);
     uint64_t own = r->answer->own_rocks;
-    own = r->over && own > CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS ? CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS : own;
-    struct ceduo_measure m = ceduo_share((struct ceduo_mean_share){NAN, NAN});
-    if (a && ceduo_released(a) >= own) {
-        own = ceduo_released(a);
-        m = energy ? ceduo_measured(CEDUO_RELEASED_KJ, a)
+    own = r->rotation_mean && own > CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS ? CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS : own;
+    struct ceduo_measure m = ceduo_measure_share((struct ceduo_mean_share){NAN, NAN});
+    if (a && ceduo_rocks_released(a) >= own) {
+        own = ceduo_rocks_released(a);
+        m = energy ? ceduo_measure_figure(CEDUO_RELEASED_KJ, a)
                    : ceduo_measure_exceeding(&s->controls[ceduo_scene_last_control(s)], a);
     } else if (c && c->over->simulated > 0 && c->rocks > own) {
         own = c->rocks;
-        m = ceduo_share(c->mean);
+        m = ceduo_measure_share(c->mean);
     } else {
         m.value = f->value * scale;
         m.lo = energy ? f->sampling_lo * scale : round(f->sampling_lo * scale);
@@ -228,8 +227,8 @@ void ceduo_uncertainty_points(struct text *text, const struct ceduo_uncertainty_
         ceduo_text_format(text, ngettext("Uncertainty from %zu point.", "Uncertainty from %zu points.", n), n);
 }
 
-/* The options from `first` on, at most n, today, or in the mean of the years with the years that fail; `bars`: what the rocks and
- * what is not known leave open, to scale. */
+/* Append at most n options from `first` on: today, or mean of the years and failing years. `bars`: draw sampling error and
+ * 90 % range. */
 static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, bool bars, size_t first, size_t n)
 {
     static const struct ceduo_page_column columns[] = {{NULL, 10, 2, COL_GROW},
@@ -240,58 +239,58 @@ static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_
                                                        {N_("years fail"), -5, 1, COL_SHRINK | COL_PRIORITY(1)}};
     const struct ceduo_scene *scene = &r->file->scene;
     const struct ceduo_measure judged = ceduo_measure_exceeding(&scene->controls[ceduo_scene_last_control(scene)], NULL);
-    double end = 0; /* of the axis */
+    double end = 0; /* end of the axis */
     CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_text_append(&page->last->cells[0].text, scale_of(r) > 1 ? NAMED(judged, CEDUO_HEAD) : _("kJ a rock"));
-    ceduo_text_append(&page->last->cells[2].text, r->over ? _("mean") : _("today"));
+    ceduo_text_append(&page->last->cells[0].text, get_factor(r) > 1 ? MEASURE_NAME(judged, CEDUO_HEAD) : _("kJ a rock"));
+    ceduo_text_append(&page->last->cells[2].text, r->rotation_mean ? _("mean") : _("today"));
     for (size_t i = 0; i < scene->options_count; i++) {
-        const struct ceduo_measure m = measure_of(r, i, NULL);
+        const struct ceduo_measure m = make_measure(r, i, NULL);
         const struct ceduo_uncertainty_figure *years =
             ceduo_uncertainty_find_figure(r->answer, i, CEDUO_UNCERTAINTY_FAILING, false);
-        double lo = floor(years->fit.p5), hi = ceil(years->fit.p95); /* outwards */
-        end = fmax(end, fmax(m.may_hi, m.hi));
+        double lo = floor(years->fit.p5), hi = ceil(years->fit.p95); /* round outwards */
+        end = fmax(end, fmax(m.p95, m.hi));
         if (i < first || i - first >= n)
             continue;
         ceduo_page_cell_format(page, "%s", scene->options[i].name);
         struct ceduo_page_bar *bar = ceduo_page_bar(page, bars ? m.hi : NAN, CEDUO_ROLE_TITLE);
-        bar->from = fmax(1e-9, m.lo); /* what the rocks leave open takes at least one cell, at 0, too */
-        bar->least = m.may_lo;
-        bar->most = m.may_hi;
-        ceduo_page_cell_format(page, "%s", VALUE_OF(m));
+        bar->from = fmax(1e-9, m.lo); /* the sampling error is at least one cell wide, also at 0 */
+        bar->error_lo = m.p5;
+        bar->error_hi = m.p95;
+        ceduo_page_cell_format(page, "%s", MEASURE_VALUE(m));
         ceduo_page_cell_format(page, "%s", SPAN(m, m.lo, m.hi));
-        ceduo_page_cell_format(page, "%s", SPAN(m, m.may_lo, m.may_hi));
-        if (!r->over || r->answer->main != CEDUO_UNCERTAINTY_EXCEED || isnan(years->value))
+        ceduo_page_cell_format(page, "%s", SPAN(m, m.p5, m.p95));
+        if (!r->rotation_mean || r->answer->main != CEDUO_UNCERTAINTY_EXCEED || isnan(years->value))
             ceduo_page_cell_format(page, "%s", "");
         else
             ceduo_page_cell_format(page, lo == hi || isnan(lo) ? "%.0f" : "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
     }
     end = end > 0 ? ceduo_plot_round(end, true) : 1;
-    end = scale_of(r) > 1 ? fmin(1000, end) : end;
-    ceduo_text_format(&page->last->cells[1].text, bars ? "0\xe2\x80\x93%s" : "", ROUNDED(end, 4));
+    end = get_factor(r) > 1 ? fmin(1000, end) : end;
+    ceduo_text_format(&page->last->cells[1].text, bars ? "0\xe2\x80\x93%s" : "", SIG_TRIMMED(end, 4));
     ceduo_page_scale(page, 1, 0, end);
     ceduo_page_trim(page);
 }
 
-/* ---- what it depends on ---- */
+/* ---- inputs ---- */
 
 double ceduo_uncertainty_share(const struct ceduo_uncertainty_figure *figure, size_t group)
 {
     return fmin(1, fmax(0, figure->fit.total[group].value));
 }
 
-/* An input matters where its share is more than its error. */
-static bool matters(const struct ceduo_uncertainty_figure *f, size_t g)
+/* True if the share of an input is significant and large enough. */
+static bool has_effect(const struct ceduo_uncertainty_figure *f, size_t g)
 {
-    return f->fit.total[g].value > 2 * f->fit.total[g].se && f->fit.total[g].value >= SHOWN;
+    return f->fit.total[g].value > 2 * f->fit.total[g].se && f->fit.total[g].value >= SHARE_MIN;
 }
 
-/* Adds the width of a figure's range if an input is known, in `format`; "no gain" if that is all of it. */
-static void append_left(struct text *text, const struct ceduo_uncertainty_figure *f, size_t input, const char *format)
+/* Append the width of a figure's range if an input is known, in `format`; "no gain" if it hardly changes. */
+static void append_known_width(struct text *text, const struct ceduo_uncertainty_figure *f, size_t input, const char *format)
 {
-    double left = f->fit.left[input];
+    double known_width = f->fit.left[input];
     LOCAL_TEXT(width);
-    ceduo_uncertainty_value(&width, f->kind, left);
-    if (left > NOTHING_GAINED * (f->fit.p95 - f->fit.p5))
+    ceduo_uncertainty_value(&width, f->kind, known_width);
+    if (known_width > NO_GAIN_MIN * (f->fit.p95 - f->fit.p5))
         ceduo_text_append(text, _("no gain"));
     else
         ceduo_text_append_with(text, format, width.bytes);
@@ -316,7 +315,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t i = 0; i < f->uses; i++) {
         size_t g = f->order[i];
-        if (!matters(f, g)) {
+        if (!has_effect(f, g)) {
             rest++;
             continue;
         }
@@ -324,9 +323,9 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
         for (int end = 0; end < 2; end++)
             append_input_end(ceduo_page_text(page), r, g, end);
         ceduo_page_cell_format(page, "%.0f %%", ceduo_uncertainty_share(f, g) * 100);
-        append_left(ceduo_page_text(page), f, g, "%s");
+        append_known_width(ceduo_page_text(page), f, g, "%s");
     }
-    if (f->fit.whole.value >= SHOWN && f->fit.whole.value > 2 * f->fit.whole.se) {
+    if (f->fit.whole.value >= SHARE_MIN && f->fit.whole.value > 2 * f->fit.whole.se) {
         ceduo_page_cell_format(page, "%s", _("not explained by a smooth surface"));
         ceduo_page_cell_format(page, "%s", "");
         ceduo_page_cell_format(page, "%s", "");
@@ -344,32 +343,32 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
 size_t ceduo_uncertainty_advised_option(const struct ceduo_uncertainty_report *r)
 {
     size_t chosen = SIZE_MAX;
-    double least = INFINITY;
+    double min = INFINITY;
     for (size_t i = 0; i < r->file->scene.options_count; i++) {
         const struct ceduo_surface_fit *fit = &ceduo_uncertainty_find_figure(r->answer, i, r->answer->main, false)->fit;
-        if (fit->values && (chosen == SIZE_MAX || fit->mean < least))
-            chosen = i, least = fit->mean;
+        if (fit->values && (chosen == SIZE_MAX || fit->mean < min))
+            chosen = i, min = fit->mean;
     }
     return chosen;
 }
 
-/* True if a reader can measure an input, and the result matters for the figure. */
+/* True if a reader can measure the input, and it matters for the figure. */
 static bool is_advised(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f, size_t g)
 {
-    const struct range *range = range_of(r, &r->inputs->items[g]);
-    return matters(f, g) && ceduo_uncertainty_measured_by(r, g) && !(range && range->research);
+    const struct range *range = find_range(r, &r->inputs->items[g]);
+    return has_effect(f, g) && ceduo_uncertainty_measured_by(r, g) && !(range && range->research);
 }
 
-/* True if one of the n inputs before it, which are advised, has the name of input i in the order of the figure. */
+/* True if an advised input ranked before i has the same name. */
 static bool is_named_before(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f, size_t i)
 {
     bool named = false;
     LOCAL_TEXT(name);
     ceduo_uncertainty_input_name(&name, r, f->order[i]);
     for (size_t k = 0; k < i && !named; k++) {
-        LOCAL_TEXT(other);
-        ceduo_uncertainty_input_name(&other, r, f->order[k]);
-        named = is_advised(r, f, f->order[k]) && strcmp(ceduo_text_string(&name), ceduo_text_string(&other)) == 0;
+        LOCAL_TEXT(earlier);
+        ceduo_uncertainty_input_name(&earlier, r, f->order[k]);
+        named = is_advised(r, f, f->order[k]) && strcmp(ceduo_text_string(&name), ceduo_text_string(&earlier)) == 0;
     }
     return named;
 }
@@ -384,9 +383,9 @@ size_t ceduo_uncertainty_advised_input(const struct ceduo_uncertainty_report *r,
 }
 
 void ceduo_uncertainty_advice(struct text *text, const struct ceduo_uncertainty_report *r,
-                              const struct ceduo_uncertainty_figure *f, size_t most)
+                              const struct ceduo_uncertainty_figure *f, size_t max)
 {
-    for (size_t i = 0, g; i < most && (g = ceduo_uncertainty_advised_input(r, f, i)) != SIZE_MAX; i++) {
+    for (size_t i = 0, g; i < max && (g = ceduo_uncertainty_advised_input(r, f, i)) != SIZE_MAX; i++) {
         LOCAL_TEXT(name);
         ceduo_uncertainty_input_name(&name, r, g);
         ceduo_text_append_joined(text, text->length > 0 ? " " : "", i == 0 ? _("Measure first: %s (%s).") : _("Then: %s (%s)."),
@@ -394,7 +393,6 @@ void ceduo_uncertainty_advice(struct text *text, const struct ceduo_uncertainty_
     }
 }
 
-/* "dbh, ADS 1 and per hectare, ADS 1" */
 bool ceduo_uncertainty_causes(struct text *text, const struct ceduo_uncertainty_report *r, size_t option,
                               enum ceduo_uncertainty_kind light)
 {
@@ -423,10 +421,10 @@ void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncerta
         ceduo_text_format(text, _("The test of %s depends on %s."), _(ceduo_light_names[light]), ceduo_text_string(&causes));
 }
 
-/* ---- the order of the options ---- */
+/* ---- ranking of options ---- */
 
-#define SURE   0.95
-#define LIKELY 0.8
+#define CLEAR_MIN  0.95
+#define LIKELY_MIN 0.8
 
 void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncertainty_report *r, size_t i)
 {
@@ -438,15 +436,15 @@ void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncerta
                       s->options[o->better].name, s->options[o->than].name, o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
-    ceduo_text_format(text, ": %s.", /* of two that differ in few cases the order is not sure, but neither is it open */
-                      o->probability >= SURE              ? _("clear")
-                      : o->probability >= LIKELY          ? _("likely")
-                      : o->equal >= SURE                  ? _("no difference")
-                      : o->probability + o->equal >= SURE ? _("hardly ever worse")
-                                                          : _("undecided"));
+    ceduo_text_format(text, ": %s.", /* options that rarely differ are neither ranked nor undecided */
+                      o->probability >= CLEAR_MIN              ? _("clear")
+                      : o->probability >= LIKELY_MIN           ? _("likely")
+                      : o->equal >= CLEAR_MIN                  ? _("no difference")
+                      : o->probability + o->equal >= CLEAR_MIN ? _("hardly ever worse")
+                                                               : _("undecided"));
 }
 
-/* Each option and the next one, and how far apart they may lie. */
+/* Append the comparison of each option with the next one, and the range of their difference. */
 static void add_orders(struct ceduo_page *page, const struct ceduo_uncertainty_report *r)
 {
     enum ceduo_uncertainty_kind kind = r->answer->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
@@ -490,7 +488,7 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     ceduo_uncertainty_advice(&advice, r, figure, 3);
     if (advice.length > 0)
         ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
-    for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change within what may be true */
+    for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change in plausible cases */
         LOCAL_TEXT(words);
         ceduo_uncertainty_light_words(&words, r, i / 3, i % 3);
         if (words.length > 0)
@@ -499,16 +497,16 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     }
     if (r->answer->rotation && all) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
-        struct ceduo_uncertainty_report over = *r;
-        over.over = true;
-        add_options(page, &over, false, 0, SIZE_MAX);
+        struct ceduo_uncertainty_report rotation = *r;
+        rotation.rotation_mean = true;
+        add_options(page, &rotation, false, 0, SIZE_MAX);
         add_inputs(page, r, ceduo_uncertainty_find_figure(r->answer, chosen, CEDUO_UNCERTAINTY_MEAN, false));
         ceduo_page_add(page, CEDUO_PAGE_GAP);
     }
     if (all)
         add_orders(page, r);
     uint64_t rocks;
-    measure_of(r, 0, &rocks);
+    make_measure(r, 0, &rocks);
     ceduo_page_para(page, CEDUO_PAGE_NOTE,
                     _("Sampling error: %llu rocks; more rocks reduce it. 90 %% range: uncertain inputs; only measurements "
                       "reduce it. Scenes computed: %llu."),
@@ -531,21 +529,21 @@ void ceduo_uncertainty_page(struct text *text, const struct ceduo_uncertainty_re
     ceduo_page_print(text, &page, plain);
 }
 
-/* ---- the picture ---- */
+/* ---- picture ---- */
 
-#define SHOWN_MIN  0.005 /* of the share of an input */
-#define INPUTS_MIN 2     /* lines: a head and one input */
+#define BAR_SHARE_MIN 0.005 /* min share of an input with a bar */
+#define INPUTS_MIN    2     /* lines: head and one input */
 
-/* Returns the lines that it takes. */
+/* Append the options; return the number of lines. */
 static int add_option_bars(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, size_t option, int height)
 {
     size_t n = r->file->scene.options_count, lines = height > 4 ? (size_t)height - 1 : 3;
-    size_t most = lines * 2 / 3, room = n + INPUTS_MIN <= lines ? n : most > 1 ? most - 1 : 1;
-    add_options(page, r, true, option >= room ? option - room + 1 : 0, room);
-    if (n > room)
-        ceduo_page_para(page, CEDUO_PAGE_NOTE, ngettext("%zu more option: ] goes on", "%zu more options: ] goes on", n - room),
-                        n - room);
-    return 1 + (int)(n > room ? room + 1 : n);
+    size_t max = lines * 2 / 3, rows = n + INPUTS_MIN <= lines ? n : max > 1 ? max - 1 : 1;
+    add_options(page, r, true, option >= rows ? option - rows + 1 : 0, rows);
+    if (n > rows)
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, ngettext("%zu more option: ] goes on", "%zu more options: ] goes on", n - rows),
+                        n - rows);
+    return 1 + (int)(n > rows ? rows + 1 : n);
 }
 
 static void add_input_bars(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, size_t option, int lines)
@@ -556,14 +554,14 @@ static void add_input_bars(struct ceduo_page *page, const struct ceduo_uncertain
     if (lines < 2)
         return;
     CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_text_format(&page->last->cells[3].text, _("of %.3g wide"), (f->fit.p95 - f->fit.p5) * scale_of(r));
+    ceduo_text_format(&page->last->cells[3].text, _("of %.3g wide"), (f->fit.p95 - f->fit.p5) * get_factor(r));
     for (size_t i = 0, n = 1; f->fit.enough && i < f->uses && n < (size_t)lines; i++)
-        if (f->fit.total[f->order[i]].value >= SHOWN_MIN) {
+        if (f->fit.total[f->order[i]].value >= BAR_SHARE_MIN) {
             double share = ceduo_uncertainty_share(f, f->order[i]);
             ceduo_uncertainty_input_name(ceduo_page_text(page), r, f->order[i]);
             ceduo_page_bar(page, share, CEDUO_ROLE_MEAN);
             ceduo_page_cell_format(page, "%.0f %%", share * 100);
-            append_left(ceduo_page_text(page), f, f->order[i], _("leaves %s"));
+            append_known_width(ceduo_page_text(page), f, f->order[i], _("leaves %s"));
             n++;
         }
 }

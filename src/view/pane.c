@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The column of figures that stands still beside every view, in the words of the paper; the energy that is left, in which the
- * paper's method ends; and what an option and its uncertainty mean in words. */
+/* Column of figures next to every view, and texts about an option and its uncertainty. The column follows the terms of the
+ * paper. */
 #include <math.h>
 #include <string.h>
 
@@ -10,10 +10,10 @@
 #include "plot.h"
 #include "report.h"
 
-#define HEIGHT_MIN 18 /* lines with room for what is seen elsewhere, too, … */
-#define HEIGHT_ALL 24 /* … and for everything */
+#define HEIGHT_MIN 18 /* min lines for figures that other views show, too … */
+#define HEIGHT_ALL 24 /* … and for all figures */
 
-/* ---- what falls on what ---- */
+/* ---- rock ---- */
 
 static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
@@ -27,14 +27,14 @@ static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
     }
     if (s->options_count > 1)
         ceduo_page_para_role(page, CEDUO_ROLE_TITLE, "%s", s->options[pane->option].name);
-    if (s->blocks_count > 0) /* no single size stands for them */
+    if (s->blocks_count > 0) /* no single size is representative */
         ceduo_page_para_role(page, CEDUO_ROLE_TEXT, _("Blocks %.3g\xe2\x80\x93%.3g m\xc2\xb3, %.3g/year"), min, max, per_year);
     else if (!isnan(rock.mass) && pane->height >= HEIGHT_MIN)
         ceduo_page_para_role(page, CEDUO_ROLE_TEXT, _("Rock %.3g m, %.4g kg%s"), rock.mean_diameter, rock.mass,
                              ceduo_notes_print(pane->report->file->notes, "assumed", "rock") ? "*" : "");
 }
 
-/* ---- all ---- */
+/* ---- column ---- */
 
 size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
@@ -47,7 +47,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     const struct ceduo_subject s = pane->year ? ceduo_subject_find_year(pane->report, pane->option, pane->year)
                                               : ceduo_subject_find(pane->report, pane->option, r->last_control);
     const struct ceduo_control *c = s.place;
-    bool nothing = ceduo_page_is_unassessable(r); /* why stands below, and takes the room */
+    bool nothing = ceduo_page_is_unassessable(r); /* the reason is printed below */
     if (pane->year)
         ceduo_page_para_role(page, CEDUO_ROLE_TITLE, pane->year->cut ? _("Year %u, just cut") : _("Year %u"), pane->year->year);
     ceduo_page_para_role(page, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
@@ -62,10 +62,10 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (!nothing && s.choice && ceduo_report_years_ahead(pane->report, pane->option) && pane->height >= HEIGHT_ALL)
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
     ceduo_page_para_role(page, CEDUO_ROLE_DIM, pane->report->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
-                         (unsigned long long)ceduo_released(s.wooded ? s.wooded : s.bare));
+                         (unsigned long long)ceduo_rocks_released(s.wooded ? s.wooded : s.bare));
     bool uncertainty =
         pane->height >= HEIGHT_ALL && !nothing && pane->report->uncertainty && pane->report->uncertainty->answer && !pane->year;
-    for (size_t i = 0; i < 3 && uncertainty; i++) { /* what turns a test within what may be true */
+    for (size_t i = 0; i < 3 && uncertainty; i++) { /* causes of a change of light in plausible cases */
         LOCAL_TEXT(causes);
         if (ceduo_uncertainty_causes(&causes, pane->report->uncertainty, pane->option, ceduo_uncertainty_lights[i]))
             ceduo_page_para_role(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]),
@@ -82,7 +82,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     return warnings;
 }
 
-/* ---- tables and words of views 4 and 7 ---- */
+/* ---- texts of views 4 and 7 ---- */
 
 void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
@@ -103,14 +103,14 @@ void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pa
     for (size_t i = 0; i < r->answer->orders_count; i++)
         if (r->answer->orders[i].better == pane->option || r->answer->orders[i].than == pane->option)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
-    for (size_t i = 0; i < 3 && !r->over; i++)
+    for (size_t i = 0; i < 3 && !r->rotation_mean; i++)
         ceduo_uncertainty_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
 }
 
-/* ---- the options ---- */
+/* ---- options ---- */
 
-/* True if the uncertainty of the mean over the years is known. Then it stands beside that, otherwise today's beside today. */
-static bool knows_rotation(const struct ceduo_pane *pane)
+/* True if the 90 % range of the mean over the years is known; otherwise that of today is shown. */
+static bool has_rotation(const struct ceduo_pane *pane)
 {
     return pane->report->uncertainty && pane->report->uncertainty->answer && pane->report->uncertainty->answer->rotation &&
            pane->report->verdict->wooded;
@@ -125,13 +125,13 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);
-        for (size_t i = 0; knows_rotation(pane) && i < pane->report->uncertainty->answer->orders_count; i++)
+        for (size_t i = 0; has_rotation(pane) && i < pane->report->uncertainty->answer->orders_count; i++)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->uncertainty, i);
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);
         if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
             ceduo_page_note(page, _("The years ahead are being computed."));
-        if (!knows_rotation(pane)) /* of which the energy law is a part */
+        if (!has_rotation(pane)) /* otherwise the energy law is one of the uncertain inputs */
             ceduo_words_rank_reversals(r, v, ceduo_page_note, page);
     }
     ceduo_words_windows(r->scene, ceduo_page_note, page);

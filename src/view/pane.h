@@ -6,27 +6,27 @@
 #include "plot.h"
 #include "report.h"
 
-/* What the panes of the terminal program say, as blocks of a page: the column of figures that stands beside every view, and the
- * tables of the views. */
+/* Texts of the panes of the terminal program, as blocks of a page: the column of figures next to every view, and the tables
+ * of views. */
 
 struct ceduo_pane {
     const struct ceduo_report *report;
-    const struct ceduo_year *year; /* that the column is of; NULL: today */
+    const struct ceduo_year *year; /* year of the column; NULL: today */
     size_t option;
-    int height; /* lines that are seen at once */
+    int height; /* visible lines */
 };
 
-/* The column: what arrives with the wood and without, the three tests, what the index says, warnings. Returns how many blocks
- * at its end are warnings. */
+/* Append the column: arrivals with and without forest, three tests, the index, warnings. Return the number of warning blocks
+ * at its end. */
 size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane);
 
-/* All of an option in words, and what is to be said of the run. */
+/* Append all results of an option in words, and remarks about the run. */
 void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane);
 
-/* What uncertainty means for the option: both errors, what to measure first, whether it separates from others, what tests depend on. */
+/* Append the effect of uncertainty on the option: both errors, inputs to measure, ranking, causes of failing tests. */
 void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pane);
 
-/* What is to be said of the options below their table. */
+/* Append the remarks below the table of options. */
 void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane);
 
 #endif

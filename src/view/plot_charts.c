@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two charts of all options with a legend: how often which energy arrives, and protection against yield. */
+/* Charts of all options with a legend: frequency of energies, and protection against yield. */
 #include <math.h>
 #include <stdio.h>
 
@@ -10,53 +10,53 @@
 struct chart_size {
     int axis, below;   /* columns of the left axis, rows of the bottom axis */
     int legend;        /* columns */
-    int width, height; /* the least of the picture */
+    int width, height; /* minimum size of the picture */
 };
 
-/* Places the frame of a chart, whose ranges stay 0, and its legend of so many lines: beside it where the area is wide, otherwise
- * below it, and nowhere where that leaves no `height`. False where there is no room. */
-static bool place_chart(struct ceduo_drawing *d, const struct chart_size *size, size_t lines)
+/* Place the frame of a chart (ranges stay 0) and its legend of `lines` lines: on the right of a wide area, otherwise below,
+ * or nowhere if the chart would be lower than `height`. False if the area is too small. */
+static bool set_chart_frame(struct ceduo_drawing *d, const struct chart_size *size, size_t lines)
 {
     const struct ceduo_area *a = &d->area;
-    bool beside = a->width >= size->width + size->axis + size->legend + 16;
-    int below = !beside && a->height - (int)lines >= size->height + 3 ? (int)lines : 0;
+    bool at_right = a->width >= size->width + size->axis + size->legend + 16;
+    int below = !at_right && a->height - (int)lines >= size->height + 3 ? (int)lines : 0;
     d->frame = (struct ceduo_frame){.left = a->left + size->axis,
                                     .top = a->top + 1,
-                                    .width = a->width - size->axis - 1 - (beside ? size->legend + 2 : 0),
+                                    .width = a->width - size->axis - 1 - (at_right ? size->legend + 2 : 0),
                                     .height = a->height - 1 - size->below - below};
     d->legend = (struct ceduo_area){a->left, a->top + a->height - below, a->width, below};
-    if (beside)
+    if (at_right)
         d->legend = (struct ceduo_area){a->left + a->width - size->legend, a->top + 1, size->legend, a->height - 1};
     return a->width >= size->width && a->height >= size->height;
 }
 
-/* A sign at a point, or beside it; a little lower where another stands there. */
-static void put_sign(const struct ceduo_drawing *d, double x, double y, bool beside, enum ceduo_role role, const char *sign)
+/* Draw a sign at a point or next to it; lower if the cell is occupied. */
+static void draw_sign(const struct ceduo_drawing *d, double x, double y, bool at_right, enum ceduo_role role, const char *sign)
 {
     const struct ceduo_frame *f = &d->frame;
     int column, row, width = ceduo_canvas_label_width(d->canvas, sign);
     if (!ceduo_frame_cell(f, d->canvas, x, y, &column, &row))
         return;
-    if (beside)
+    if (at_right)
         column += column + 1 + width > f->left + f->width ? -width : 1;
     while (row + 1 < f->top + f->height && !ceduo_canvas_is_blank(d->canvas, column, row))
         row++;
     ceduo_canvas_label(d->canvas, column, row, role, sign);
 }
 
-/* ---- how often ---- */
+/* ---- frequency ---- */
 
-/* How often which energy is exceeded at a control: years from one such rock to the next, upwards the more often, against
- * energy, both by decades. The slope without forest and each option by its number; the limits of Swiss practice are rules.
- * Rarer than once in a thousand years nothing is shown. */
+/* Return period of exceeding an energy at a control, upwards the more frequent, both axes logarithmic. Curves of the slope
+ * without forest and of each option by number; the limits of Swiss practice are rules. Return periods above 1000 years are
+ * not shown. */
 
-#define RAREST (-3) /* log10 of the lowest rate shown, 1/y */
-#define FIRST  10   /* of the energies: 1 kJ */
+#define RATE_MIN     (-3) /* log10 of the lowest rate shown, 1/year */
+#define FIRST_ENERGY 10   /* index of 1 kJ in the energies */
 
 static const struct chart_size hazard_size = {.axis = 8, .below = 1, .legend = 30, .width = 24, .height = 8};
 
-/* Item 0: without forest. NULL: not known. */
-static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_t item)
+/* Return the hazard without forest (item 0) or of option item - 1; NULL: unknown. */
+static const struct ceduo_hazard *find_hazard(const struct ceduo_drawing *d, size_t item)
 {
     const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_find(d->picture->snapshot, d->scene, item - 1);
     const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
@@ -64,15 +64,15 @@ static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_
     return h && h->curve ? h : NULL;
 }
 
-static enum ceduo_role role_of(size_t item)
+static enum ceduo_role get_role(size_t item)
 {
-    return item == 0 ? CEDUO_ROLE_BARE : CEDUO_ROLE_WOOD;
+    return item == 0 ? CEDUO_ROLE_BARE : CEDUO_ROLE_FOREST;
 }
 
-/* log10, of a rate of 0 as if it lay below the frame. */
+/* Return log10; a rate of 0 is below the frame. */
 static double logarithm(double value)
 {
-    return value > 0 ? log10(value) : 2 * RAREST;
+    return value > 0 ? log10(value) : 2 * RATE_MIN;
 }
 
 static double log_kJ(const struct ceduo_hazard_point *e)
@@ -80,26 +80,26 @@ static double log_kJ(const struct ceduo_hazard_point *e)
     return log10(e->energy * J_TO_KJ);
 }
 
-/* The curve, upright down to 0; with intervals, if the picture is of this option. */
+/* Draw a curve, vertical down to 0; with intervals for the picture's option. */
 static void draw_curve(const struct ceduo_drawing *d, size_t item)
 {
-    const struct ceduo_hazard *h = hazard_of(d, item);
+    const struct ceduo_hazard *h = find_hazard(d, item);
     const struct ceduo_frame *f = &d->frame;
-    for (size_t i = FIRST; h && i + 1 < h->curve->count && h->curve->at[i].rate.mean > 0; i++) {
+    for (size_t i = FIRST_ENERGY; h && i + 1 < h->curve->count && h->curve->at[i].rate.mean > 0; i++) {
         const struct ceduo_hazard_point *a = &h->curve->at[i], *b = a + 1;
-        ceduo_canvas_line(d->canvas, f, role_of(item), log_kJ(a), logarithm(a->rate.mean), log_kJ(b->rate.mean > 0 ? b : a),
+        ceduo_canvas_line(d->canvas, f, get_role(item), log_kJ(a), logarithm(a->rate.mean), log_kJ(b->rate.mean > 0 ? b : a),
                           logarithm(b->rate.mean));
     }
-    for (size_t i = FIRST; h && item == d->picture->option + 1 && i < h->curve->count; i += 2) {
+    for (size_t i = FIRST_ENERGY; h && item == d->picture->option + 1 && i < h->curve->count; i += 2) {
         const struct ceduo_hazard_point *e = &h->curve->at[i];
         double x = log_kJ(e);
-        if (x >= f->x0 && logarithm(e->rate.hi) > RAREST)
-            ceduo_canvas_line(d->canvas, f, CEDUO_ROLE_MEAN, x, fmax(RAREST, logarithm(e->rate.lo)), x,
+        if (x >= f->x0 && logarithm(e->rate.hi) > RATE_MIN)
+            ceduo_canvas_line(d->canvas, f, CEDUO_ROLE_MEAN, x, fmax(RATE_MIN, logarithm(e->rate.lo)), x,
                               fmin(f->y1, logarithm(e->rate.hi)));
     }
 }
 
-static void put_years(const struct ceduo_drawing *d, double years)
+static void draw_years_label(const struct ceduo_drawing *d, double years)
 {
     const struct ceduo_frame *f = &d->frame;
     int column, row;
@@ -109,11 +109,11 @@ static void put_years(const struct ceduo_drawing *d, double years)
         ceduo_plot_print(d->canvas, f->left - 2, row, 2 - hazard_size.axis, CEDUO_ROLE_AXIS, _("%g y"), years);
 }
 
-static void put_energy(const struct ceduo_drawing *d, double kJ)
+static void draw_energy_label(const struct ceduo_drawing *d, double kJ)
 {
     const struct ceduo_frame *f = &d->frame;
     int column, row;
-    if (!ceduo_frame_cell(f, d->canvas, log10(kJ), RAREST, &column, &row))
+    if (!ceduo_frame_cell(f, d->canvas, log10(kJ), RATE_MIN, &column, &row))
         return;
     ceduo_plot_print(d->canvas, column, f->top + f->height, 12, CEDUO_ROLE_AXIS, kJ == 1 ? _("%g kJ") : "%g", kJ);
 }
@@ -122,46 +122,46 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
 {
     static const double energies[] = {30, 300}, years[] = {30, 100, 300};
     bool blocks = d->scene->blocks_count > 0;
-    const struct ceduo_hazard *bare = blocks ? hazard_of(d, 0) : NULL;
+    const struct ceduo_hazard *bare = blocks ? find_hazard(d, 0) : NULL;
     size_t items = d->wooded ? d->scene->options_count + 1 : 1, last = bare ? bare->curve->count : 0;
     if (!bare)
         return blocks ? _("not computed yet") : _("the scene has no 'blocks'");
-    if (!place_chart(d, &hazard_size, items))
+    if (!set_chart_frame(d, &hazard_size, items))
         return _("too narrow");
-    while (last > 0 && logarithm(bare->curve->at[last - 1].rate.mean) < RAREST)
+    while (last > 0 && logarithm(bare->curve->at[last - 1].rate.mean) < RATE_MIN)
         last--;
     d->frame.x1 = last > 0 ? log10(bare->curve->at[last - 1].energy * J_TO_KJ * 1.3) : 0;
-    d->frame.y0 = RAREST;
+    d->frame.y0 = RATE_MIN;
     d->frame.y1 = ceil(logarithm(bare->reach.mean) + 1e-9);
-    if (!(d->frame.x1 > 0 && d->frame.y1 > RAREST))
+    if (!(d->frame.x1 > 0 && d->frame.y1 > RATE_MIN))
         return _("rocks arrive less than once in a thousand years");
     ceduo_plot_print(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
                      _("return period of a rock above this energy, years"));
     for (int i = 0; i < 2; i++) {
         ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_AXIS, log10(energies[i]));
-        put_energy(d, energies[i]);
+        draw_energy_label(d, energies[i]);
     }
     for (int i = 0; i < 3; i++) {
         ceduo_canvas_rule_y(d->canvas, &d->frame, CEDUO_ROLE_AXIS, -log10(years[i]));
-        put_years(d, years[i]);
+        draw_years_label(d, years[i]);
     }
-    for (int decade = (int)d->frame.y1; decade >= RAREST; decade--)
-        put_years(d, pow(10, -decade));
+    for (int decade = (int)d->frame.y1; decade >= RATE_MIN; decade--)
+        draw_years_label(d, pow(10, -decade));
     for (int decade = 0; decade <= (int)d->frame.x1; decade++)
-        put_energy(d, pow(10, decade));
+        draw_energy_label(d, pow(10, decade));
     for (size_t i = 0; i < items; i++)
         draw_curve(d, i);
     for (size_t i = 0; i < items; i++) {
-        const struct ceduo_hazard *h = hazard_of(d, i);
+        const struct ceduo_hazard *h = find_hazard(d, i);
         char sign[24];
-        size_t at = 14 + 4 * i; /* its number on the curve */
+        size_t point = 14 + 4 * i; /* label with the option's number */
         snprintf(sign, sizeof sign, "%zu", i);
-        while (h && at > 0 && (at >= h->curve->count || logarithm(h->curve->at[at].rate.mean) < RAREST))
-            at--;
+        while (h && point > 0 && (point >= h->curve->count || logarithm(h->curve->at[point].rate.mean) < RATE_MIN))
+            point--;
         if (h)
-            put_sign(d, log_kJ(&h->curve->at[at]), logarithm(h->curve->at[at].rate.mean), false, role_of(i), sign);
+            draw_sign(d, log_kJ(&h->curve->at[point]), logarithm(h->curve->at[point].rate.mean), false, get_role(i), sign);
         if ((int)i < d->legend.height)
-            ceduo_plot_print(d->canvas, d->legend.left, d->legend.top + (int)i, d->legend.width, role_of(i), "%zu %s", i,
+            ceduo_plot_print(d->canvas, d->legend.left, d->legend.top + (int)i, d->legend.width, get_role(i), "%zu %s", i,
                              i == 0 ? _("without forest") : d->scene->options[i - 1].name);
     }
     return NULL;
@@ -169,8 +169,8 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
 
 /* ---- protection against yield ---- */
 
-/* Protection against yield: what an option lets through over its rotation, upwards, and the wood it gives a year, to the right.
- * The best corner is below on the right. An option that another beats in both stands in brackets. */
+/* Judged share of an option over its rotation (y) against its yield per year (x). The lower right corner is best. Options
+ * dominated by another one are in brackets. */
 
 static bool is_known(const struct ceduo_choice *c)
 {
@@ -185,7 +185,7 @@ const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
     size_t known = 0;
     if (!v || !v->wooded)
         return !v ? _("not computed yet") : _("nothing to compare: no rocks are simulated among stems");
-    if (!place_chart(d, &size, v->n + 1))
+    if (!set_chart_frame(d, &size, v->n + 1))
         return _("too narrow");
     for (size_t i = 0; i < v->n; i++) {
         const struct ceduo_choice *c = &v->choices[i];
@@ -210,7 +210,7 @@ const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
                               1000 * (c->mean.mean - c->mean.half), c->yield.cut_per_year,
                               1000 * (c->mean.mean + c->mean.half));
     }
-    for (size_t i = 0; i <= v->n; i++) { /* signs and names, after all errors */
+    for (size_t i = 0; i <= v->n; i++) { /* signs and names over all error bars */
         const struct ceduo_choice *c = &v->choices[i];
         int row = d->legend.top + (int)i, width = (int)i < d->legend.height ? d->legend.width : 0;
         char sign[24];
@@ -219,7 +219,7 @@ const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
         } else if (is_known(c)) {
             enum ceduo_role role = c->beaten ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD;
             snprintf(sign, sizeof sign, c->beaten ? "(%zu)" : "%zu", i + 1);
-            put_sign(d, c->yield.cut_per_year, 1000 * c->mean.mean, true, role, sign);
+            draw_sign(d, c->yield.cut_per_year, 1000 * c->mean.mean, true, role, sign);
             ceduo_plot_print(d->canvas, d->legend.left, row, width, role, "%s %s", sign, d->scene->options[i].name);
         } else {
             ceduo_plot_print(d->canvas, d->legend.left, row, width, CEDUO_ROLE_AXIS, _("- %s: no yield known"),

@@ -7,23 +7,22 @@
 #include "base/utf8.h"
 #include "plot.h"
 
-/* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on one
- * axis. */
+/* An option over the years: ADC and limit, judged share, lights and cuts on one axis. */
 
 #define LIGHTS    3
-#define ADC_TOP   2.0 /* of the scale, in limits: how far beyond the limit a bad year lies says nothing more */
+#define ADC_TOP   2.0 /* top of the scale in limits; larger values are clipped */
 #define STRIP_MIN 3
 
-/* Stairs of a value of each year, under a caption. */
-static void draw_strip(struct ceduo_drawing *d, int top, int height, double most, double limit, const char *caption,
-                       const double *x, const double *y)
+/* Draw stairs of a value per year, under a caption. */
+static void draw_year_strip(struct ceduo_drawing *d, int top, int height, double max, double limit, const char *caption,
+                            const double *x, const double *y)
 {
     const struct ceduo_years *years = d->picture->years;
     ceduo_canvas_draw_text(d->canvas, d->frame.left, top, d->area.left + d->area.width - d->frame.left, CEDUO_ROLE_AXIS,
                            caption);
     d->frame.top = top + 1;
     d->frame.height = height - 1;
-    d->frame.y1 = most;
+    d->frame.y1 = max;
     if (!isnan(limit))
         ceduo_canvas_rule_y(d->canvas, &d->frame, CEDUO_ROLE_CONTROL, limit);
     if (d->picture->year < years->count)
@@ -32,12 +31,12 @@ static void draw_strip(struct ceduo_drawing *d, int top, int height, double most
     ceduo_canvas_axis_left(d->canvas, &d->frame);
 }
 
-/* What gets through over the years, and where there is room for two strips, above it the ADC. */
-static void draw_strips(struct ceduo_drawing *d, int height, const double *x, double *y)
+/* Draw the judged share over the years, and above it the ADC if both strips fit. */
+static void draw_year_strips(struct ceduo_drawing *d, int height, const double *x, double *y)
 {
     const struct ceduo_years *years = d->picture->years;
     int top = d->area.top + 1, first = height < 2 * STRIP_MIN ? 0 : height / 2;
-    double threshold = d->scene->simulation.threshold, accepted = d->control->accepted * J_TO_KJ, most = 0;
+    double threshold = d->scene->simulation.threshold, accepted = d->control->accepted * J_TO_KJ, max = 0;
     double limit = 1000 * ceduo_exceed_limit(d->scene, d->control);
     LOCAL_TEXT(adc);
     LOCAL_TEXT(share);
@@ -45,7 +44,7 @@ static void draw_strips(struct ceduo_drawing *d, int height, const double *x, do
     for (size_t i = 0; i < years->count; i++)
         y[i] = fmin(years->years[i].controls[d->picture->control].worst_adc, ADC_TOP * threshold);
     if (first > 0)
-        draw_strip(d, top, first, ADC_TOP * threshold, threshold, ceduo_text_string(&adc), x, y);
+        draw_year_strip(d, top, first, ADC_TOP * threshold, threshold, ceduo_text_string(&adc), x, y);
     if (!d->wooded)
         ceduo_text_append(&share, _("stems could take, kJ per 100 m (Eq. 4)"));
     else if (isnan(accepted))
@@ -58,14 +57,14 @@ static void draw_strips(struct ceduo_drawing *d, int height, const double *x, do
             y[i] = year->controls[d->picture->control].per_100m * J_TO_KJ;
         else
             y[i] = year->wooded.rocks > 0 ? 1000 * ceduo_judged_share(&year->wooded.arrivals[d->picture->control]).mean : NAN;
-        most = fmax(most, 1.1 * y[i]);
+        max = fmax(max, 1.1 * y[i]);
     }
-    most = d->wooded ? 1000 : most > 0 ? most : 1;
-    draw_strip(d, top + first, height - first, most, d->wooded && !isnan(accepted) ? limit : NAN, ceduo_text_string(&share), x,
-               y);
+    max = d->wooded ? 1000 : max > 0 ? max : 1;
+    draw_year_strip(d, top + first, height - first, max, d->wooded && !isnan(accepted) ? limit : NAN, ceduo_text_string(&share),
+                    x, y);
 }
 
-static int column_of(const struct ceduo_drawing *d, double year)
+static int find_column(const struct ceduo_drawing *d, double year)
 {
     int column, row;
     return ceduo_frame_cell(&d->frame, d->canvas, year, d->frame.y0, &column, &row) ? column : -1;
@@ -76,7 +75,7 @@ const char *ceduo_plot_rotation(struct ceduo_drawing *d)
     static const char *const names[LIGHTS] = {NP_("light", "C"), NP_("light", "F"), NP_("light", "E")};
     const struct ceduo_years *years = d->picture->years;
     const struct ceduo_area *a = &d->area;
-    int lights = a->height >= 1 + STRIP_MIN + 2 + LIGHTS ? LIGHTS : 0; /* no room: the curve alone */
+    int lights = a->height >= 1 + STRIP_MIN + 2 + LIGHTS ? LIGHTS : 0; /* 0 if only the curves fit */
     if (!years || !d->control)
         return !d->control ? _("no control") : _("not computed yet");
     if (a->height < 1 + STRIP_MIN + 2 || a->width < 24)
@@ -87,34 +86,34 @@ const char *ceduo_plot_rotation(struct ceduo_drawing *d)
         x[i] = years->years[i].year;
     double last = x[years->count - 1];
     d->frame = (struct ceduo_frame){
-        .left = a->left + 6, .width = a->width - 8, .x0 = x[0], .x_whole = true, .x1 = last > x[0] ? last : x[0] + 1};
-    /* a whole number of columns for each year, where there are as many, so that marks stand at even distances */
+        .left = a->left + 6, .width = a->width - 8, .x0 = x[0], .x_integer = true, .x1 = last > x[0] ? last : x[0] + 1};
+    /* use an integer number of columns per year, if possible, for evenly spaced marks */
     int steps = (int)years->count - 1, step = steps > 0 ? (d->frame.width - 1) / steps : 0;
     if (step > 0)
         d->frame.width = step * steps + 1;
-    draw_strips(d, a->height - 3 - lights, x, y);
+    draw_year_strips(d, a->height - 3 - lights, x, y);
     ceduo_canvas_axis_bottom(d->canvas, &d->frame, _("years"));
-    for (int k = 0; k < lights; k++) { /* a mark for each year; of years that share a column the worst is shown */
+    for (int k = 0; k < lights; k++) { /* one mark per year; years in one column show the worst */
         int row = a->top + a->height - lights + k;
         ceduo_canvas_label(d->canvas, a->left, row, CEDUO_ROLE_AXIS, ceduo_translate_in(names[k]));
         for (size_t i = 0; i < 2 * years->count; i++) {
             size_t year = i % years->count;
             const struct ceduo_index *s = &years->years[year].controls[d->picture->control];
             enum ceduo_light light = k == 0 ? s->contact : k == 1 ? s->free_run : s->energy;
-            int column = column_of(d, x[year]);
+            int column = find_column(d, x[year]);
             if (column >= 0 && (light == CEDUO_FAIL) == (i >= years->count))
                 ceduo_canvas_label(d->canvas, column, row, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));
         }
     }
-    /* a mark above each year of a cut, and a word behind it where that does not run into the next */
+    /* mark each year of a cut, with a label if it does not touch the next mark */
     const char *word = _("cut");
-    int room = (int)ceduo_utf8_width(word) + 2, next = a->left + a->width;
+    int min_gap = (int)ceduo_utf8_width(word) + 2, next = a->left + a->width;
     for (size_t i = years->count; i-- > 0;) {
-        int column = years->years[i].cut ? column_of(d, x[i]) : -1;
+        int column = years->years[i].cut ? find_column(d, x[i]) : -1;
         if (column < 0)
             continue;
         ceduo_canvas_label(d->canvas, column, a->top, CEDUO_ROLE_WARN, "\xe2\x96\xbc");
-        if (next - column >= room)
+        if (next - column >= min_gap)
             ceduo_canvas_label(d->canvas, column + 1, a->top, CEDUO_ROLE_WARN, word);
         next = column;
     }

@@ -8,17 +8,17 @@
 #include "base/must.h"
 #include "plot.h"
 
-/* Strips along the slope: curves of what the rocks that pass each place have in height or energy. */
+/* Strips along the slope: curves of height or energy of the passing rocks. */
 
 #define CURVES_MAX 4
 
-/* Each pair is of heights and of energies. */
+/* Curve; each pair is for heights and energies. */
 struct curve {
-    const char *names[2]; /* NULL: there is none */
+    const char *names[2]; /* NULL: none */
     enum ceduo_role role;
     enum ceduo_stroke stroke;
-    bool bare;         /* of the rocks without forest */
-    size_t offsets[2]; /* of its value in a cell */
+    bool bare;         /* without forest */
+    size_t offsets[2]; /* offsets of the value in an envelope */
 };
 
 struct content {
@@ -29,36 +29,40 @@ struct content {
 struct strip {
     struct ceduo_drawing *d;
     bool energy;
-    double from, to; /* the stretch */
+    double from, to; /* part of the slope */
     size_t n;        /* cells along the slope, … */
-    const double *x; /* … and where they are, m */
+    const double *x; /* … and their positions, m */
     int count;
     const struct curve *curves[CURVES_MAX];
-    double *y[CURVES_MAX]; /* of each curve, m or kJ; NaN where no rock passes */
-    double peak, peak_x;   /* the largest value, where it is, … */
-    const char *peak_name; /* … and of which curve */
+    double *y[CURVES_MAX]; /* per curve, m or kJ; NaN: no rock passes */
+    double peak, peak_x;   /* largest value, its position … */
+    const char *peak_name; /* … and its curve */
 };
 
-#define OF(heights, energies) offsetof(struct ceduo_envelope, heights), offsetof(struct ceduo_envelope, energies)
+#define OFFSETS(heights, energies) offsetof(struct ceduo_envelope, heights), offsetof(struct ceduo_envelope, energies)
 
-/* Without forest alone; both; both where there is no room to tell four curves apart. Curves through the forest are strokes,
- * those without it dots, so that the two differ without colour. */
+/* Curves without forest only; both; both in a small area. Curves with forest are strokes, those without are dots, so that
+ * they differ without colour. */
 static const struct content contents[3] = {
     {{N_("underside above the ground, m"), N_("energy, kJ")},
-     {{{N_("max"), N_("p50")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, false, {OF(height.max, energy.p50)}},
-      {{N_("p95"), N_("p95")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, {OF(height.p95, energy.p95)}},
-      {{N_("p50"), N_("mean")}, CEDUO_ROLE_MEAN, CEDUO_STROKE_PLAIN, false, {OF(height.p50, mean_energy)}},
-      {{NULL, N_("p5")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, {OF(height.p50, energy.p5)}}}},
+     {{{N_("max"), N_("p50")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, false, {OFFSETS(height.max, energy.p50)}},
+      {{N_("p95"), N_("p95")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, {OFFSETS(height.p95, energy.p95)}},
+      {{N_("p50"), N_("mean")}, CEDUO_ROLE_MEAN, CEDUO_STROKE_PLAIN, false, {OFFSETS(height.p50, mean_energy)}},
+      {{NULL, N_("p5")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, {OFFSETS(height.p50, energy.p5)}}}},
     {{N_("underside, m up"), N_("energy, kJ")},
-     {{{N_("bare p95"), N_("bare p95")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, true, {OF(height.p95, energy.p95)}},
-      {{N_("forest p95"), N_("forest p95")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_DASHES, false, {OF(height.p95, energy.p95)}},
-      {{N_("bare p50"), N_("bare mean")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OF(height.p50, mean_energy)}},
-      {{N_("forest p50"), N_("forest mean")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, {OF(height.p50, mean_energy)}}}},
+     {{{N_("bare p95"), N_("bare p95")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, true, {OFFSETS(height.p95, energy.p95)}},
+      {{N_("forest p95"), N_("forest p95")}, CEDUO_ROLE_FOREST, CEDUO_STROKE_DASHES, false, {OFFSETS(height.p95, energy.p95)}},
+      {{N_("bare p50"), N_("bare mean")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OFFSETS(height.p50, mean_energy)}},
+      {{N_("forest p50"), N_("forest mean")},
+       CEDUO_ROLE_FOREST,
+       CEDUO_STROKE_PLAIN,
+       false,
+       {OFFSETS(height.p50, mean_energy)}}}},
     {{N_("underside p95, m"), N_("mean energy, kJ")},
-     {{{N_("bare"), N_("bare")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OF(height.p95, mean_energy)}},
-      {{N_("forest"), N_("forest")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, {OF(height.p95, mean_energy)}}}}};
+     {{{N_("bare"), N_("bare")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OFFSETS(height.p95, mean_energy)}},
+      {{N_("forest"), N_("forest")}, CEDUO_ROLE_FOREST, CEDUO_STROKE_PLAIN, false, {OFFSETS(height.p95, mean_energy)}}}}};
 
-/* Columns for the names of the curves and a blank on either side. */
+/* Return the columns for names of curves, with a blank on either side. */
 static int name_columns(const struct ceduo_canvas *canvas, const struct content *content, bool energy)
 {
     int widest = 4;
@@ -70,24 +74,24 @@ static int name_columns(const struct ceduo_canvas *canvas, const struct content 
     return widest + 2;
 }
 
-/* ---- the curves ---- */
+/* ---- curves ---- */
 
-static bool in_stretch(const struct strip *s, size_t cell)
+static bool is_in_part(const struct strip *s, size_t cell)
 {
     return s->x[cell] >= s->from && s->x[cell] <= s->to;
 }
 
-/* Reads a curve; returns what 85 % of its cells in the stretch do not exceed, NaN where no rock passes. */
+/* Read a curve; return the 85th percentile of its cells, NaN if no rock passes. */
 static double read_curve(struct strip *s, const struct curve *curve)
 {
-    const struct ceduo_envelope *cells = (curve->bare ? s->d->bare : s->d->sight)->envelopes;
+    const struct ceduo_envelope *cells = (curve->bare ? s->d->bare : s->d->run)->envelopes;
     double *y = s->y[s->count] = ceduo_check_memory(malloc((s->n + 1) * sizeof *y)), usual = NAN;
     double *values = ceduo_check_memory(malloc((s->n + 1) * sizeof *values));
     size_t n = 0;
     for (size_t i = 0; i < s->n; i++) {
         double value = *(const double *)(const void *)((const char *)&cells[i] + curve->offsets[s->energy]);
         y[i] = cells[i].passed > 0 ? value * (s->energy ? J_TO_KJ : 1) : NAN;
-        if (isnan(y[i]) || !in_stretch(s, i))
+        if (isnan(y[i]) || !is_in_part(s, i))
             continue;
         if (y[i] > s->peak) {
             s->peak = y[i];
@@ -103,8 +107,8 @@ static double read_curve(struct strip *s, const struct curve *curve)
     return usual;
 }
 
-/* Reads all of them and sets the scale: its top is what is usual, where a few places (the foot of a wall) would flatten all the
- * rest. False where no rock passes. */
+/* Read all curves and set the scale: to the 85th percentile, so that single peaks do not flatten the curves. False if no
+ * rock passes. */
 static bool read_curves(struct strip *s, const struct content *content)
 {
     double usual = NAN;
@@ -113,21 +117,21 @@ static bool read_curves(struct strip *s, const struct content *content)
             usual = fmax(usual, read_curve(s, &content->curves[i]));
     bool cut = s->peak > 1.5 * 1.15 * usual && usual > 0;
     double top = cut ? 1.15 * usual : 1.05 * s->peak;
-    double most = s->energy ? 2 * top : 0; /* what the things at risk bear, as far as the strip can show it */
+    double max_accepted = s->energy ? 2 * top : 0; /* include accepted energies up to twice the top */
     for (size_t c = 0; c < s->d->scene->controls_count; c++) {
         double accepted = s->d->scene->controls[c].accepted * J_TO_KJ;
-        top = accepted <= most ? fmax(top, 1.1 * accepted) : top;
+        top = accepted <= max_accepted ? fmax(top, 1.1 * accepted) : top;
     }
     s->d->frame.y1 = top > 0 ? top : 1;
     return !isnan(usual);
 }
 
-/* The trajectories above the ground that they pass over. */
-static void draw_ways(const struct ceduo_drawing *d)
+/* Draw trajectories as heights above the ground. */
+static void draw_trajectories(const struct ceduo_drawing *d)
 {
     ceduo_canvas_cloud_start(d->canvas);
-    for (size_t i = 0; i < d->sight->trajectories_count; i++) {
-        const struct ceduo_polyline *t = &d->sight->trajectories[i];
+    for (size_t i = 0; i < d->run->trajectories_count; i++) {
+        const struct ceduo_polyline *t = &d->run->trajectories[i];
         double *heights = ceduo_check_memory(malloc((t->n + 1) * sizeof *heights));
         for (size_t k = 0; k < t->n; k++)
             heights[k] = fmax(t->z[k] - ceduo_slope_height(&d->scene->slope, t->x[k]), 0);
@@ -137,41 +141,41 @@ static void draw_ways(const struct ceduo_drawing *d)
     ceduo_canvas_cloud_show(d->canvas, 0);
 }
 
-/* Where a curve ends inside the frame: its value, cut at the top; NaN where no rock passes or it lies below. */
-static double end_of(const struct strip *s, int curve)
+/* Return the last value of a curve, clipped at the top; NaN if no rock passes or it is below the frame. */
+static double find_curve_end(const struct strip *s, int curve)
 {
     int column, row;
     size_t i = s->n;
-    while (i > 0 && (!in_stretch(s, i - 1) || isnan(s->y[curve][i - 1])))
+    while (i > 0 && (!is_in_part(s, i - 1) || isnan(s->y[curve][i - 1])))
         i--;
     double y = i > 0 ? fmin(s->y[curve][i - 1], s->d->frame.y1) : NAN;
     return i > 0 && ceduo_frame_cell(&s->d->frame, s->d->canvas, s->x[i - 1], y, &column, &row) ? y : NAN;
 }
 
-/* The name of each curve that ends inside the frame to the right of its end, the highest first, none in the row of another. */
-static void name_curves(const struct strip *s)
+/* Write the name of each curve to the right of its end, the highest first, each in its own row. */
+static void label_curves(const struct strip *s)
 {
     const struct ceduo_frame *f = &s->d->frame;
     double ends[CURVES_MAX];
-    int left = f->left + f->width + 1, room = s->d->area.left + s->d->area.width - left, n = 0;
-    if (room < 4 || f->height < s->count)
+    int left = f->left + f->width + 1, space = s->d->area.left + s->d->area.width - left, n = 0;
+    if (space < 4 || f->height < s->count)
         return;
     for (int i = 0; i < s->count; i++)
-        n += !isnan(ends[i] = end_of(s, i));
+        n += !isnan(ends[i] = find_curve_end(s, i));
     for (int next = f->top; n > 0; n--, next++) {
         int best = 0, lowest = f->top + f->height - n, column, row;
         for (int i = 1; i < s->count; i++)
             best = isnan(ends[best]) || ends[i] > ends[best] ? i : best;
         ceduo_frame_cell(f, s->d->canvas, f->x0, ends[best], &column, &row);
         next = row < next ? next : row > lowest ? lowest : row;
-        ceduo_canvas_draw_text(s->d->canvas, left, next, room, s->curves[best]->role, _(s->curves[best]->names[s->energy]));
+        ceduo_canvas_draw_text(s->d->canvas, left, next, space, s->curves[best]->role, _(s->curves[best]->names[s->energy]));
         ends[best] = NAN;
     }
 }
 
-/* ---- the strip ---- */
+/* ---- strip ---- */
 
-static void place_frame(struct strip *s, const struct content *content)
+static void set_strip_frame(struct strip *s, const struct content *content)
 {
     struct ceduo_frame *f = &s->d->frame;
     const struct ceduo_area *a = &s->d->area;
@@ -188,13 +192,13 @@ static void place_frame(struct strip *s, const struct content *content)
     f->x1 = s->to;
 }
 
-/* What is shown, how strokes tell the wooded curves from the bare ones, and what lies beyond the top. */
-static void put_caption(const struct strip *s, const struct content *content)
+/* Draw the caption, the legend of strokes, and the peak if it is clipped. */
+static void draw_caption(const struct strip *s, const struct content *content)
 {
     static const struct {
         enum ceduo_role role;
         const char *text;
-    } parts[] = {{CEDUO_ROLE_WOOD, N_("\xe2\x94\x80\xe2\x94\x80 forest")}, {CEDUO_ROLE_BARE, N_("\xc2\xb7\xc2\xb7 bare")}};
+    } parts[] = {{CEDUO_ROLE_FOREST, N_("\xe2\x94\x80\xe2\x94\x80 forest")}, {CEDUO_ROLE_BARE, N_("\xc2\xb7\xc2\xb7 bare")}};
     struct ceduo_canvas *canvas = s->d->canvas;
     int row = s->d->area.top, column = s->d->frame.left, end = s->d->area.left + s->d->area.width;
     if (s->d->frame.top == row)
@@ -207,13 +211,13 @@ static void put_caption(const struct strip *s, const struct content *content)
     if (!(s->peak > s->d->frame.y1) || column >= end)
         return;
     LOCAL_TEXT(words);
-    ceduo_text_append_joined(&words, "; ", _("%s up to %s %s, at %s m"), _(s->peak_name), WRITTEN(s->peak, 3),
-                             s->energy ? _("kJ") : _("m"), WRITTEN(s->peak_x + s->d->scene->slope.origin_x, 3));
+    ceduo_text_append_joined(&words, "; ", _("%s up to %s %s, at %s m"), _(s->peak_name), SIG(s->peak, 3),
+                             s->energy ? _("kJ") : _("m"), SIG(s->peak_x + s->d->scene->slope.origin_x, 3));
     ceduo_canvas_draw_text(canvas, column, row, end - column, CEDUO_ROLE_WARN, words.bytes);
 }
 
-#define FULL_ROWS  8  /* four curves need so many rows, */
-#define FULL_WIDTH 56 /* so many columns, and names beside them */
+#define FULL_ROWS  8  /* min rows for four curves */
+#define FULL_WIDTH 56 /* min columns, next to the names */
 
 static const char *draw_strip(struct ceduo_drawing *d, bool energy)
 {
@@ -225,29 +229,29 @@ static const char *draw_strip(struct ceduo_drawing *d, bool energy)
                  names < name_columns(d->canvas, &contents[1], energy) - 1;
     const struct content *content = &contents[!d->wooded ? 0 : small ? 2 : 1];
     const char *why = NULL;
-    if (!d->sight || !d->bare)
+    if (!d->run || !d->bare)
         return _("not computed yet");
     s.n = snapshot->cells;
     s.x = snapshot->cell_x;
     if (!read_curves(&s, content))
         why = _("no rock passes here");
-    place_frame(&s, content);
+    set_strip_frame(&s, content);
     if (!why && (d->frame.width < 2 || d->frame.height < 1 || !(d->frame.x1 > d->frame.x0)))
         why = _("too narrow");
     if (!why) {
-        put_caption(&s, content);
-        if (d->picture->ways && !energy)
-            draw_ways(d);
+        draw_caption(&s, content);
+        if (d->picture->trajectories && !energy)
+            draw_trajectories(d);
         for (int i = 0; i < s.count; i++)
             ceduo_canvas_polyline(d->canvas, &d->frame, s.curves[i]->role, s.curves[i]->stroke, s.n, s.x, s.y[i]);
-        for (size_t c = 0; c < d->scene->controls_count; c++) { /* with a mark at what it bears; how much stands beside */
+        for (size_t c = 0; c < d->scene->controls_count; c++) { /* rule with a mark at the accepted energy */
             double x = d->scene->controls[c].x, accepted = d->scene->controls[c].accepted * J_TO_KJ;
             double reach = 0.03 * (d->frame.x1 - d->frame.x0);
             ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_CONTROL, x);
             if (energy)
                 ceduo_canvas_line(d->canvas, &d->frame, CEDUO_ROLE_BAD, x - reach, accepted, x + reach, accepted);
         }
-        name_curves(&s);
+        label_curves(&s);
         ceduo_plot_axes(d, d->scene->slope.origin_x, 0, d->picture->no_x_axis ? NULL : _("m"));
     }
     for (int i = 0; i < s.count; i++)

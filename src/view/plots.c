@@ -6,7 +6,7 @@
 #include "base/language.h"
 #include "plot.h"
 
-/* ---- the pictures ---- */
+/* ---- pictures ---- */
 
 const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS] = {
 #define X(NAME, name, flags, title) [CEDUO_PLOT_##NAME] = {#name, title, flags},
@@ -31,28 +31,28 @@ const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_run_snapshot
     return run && control < run->flown.controls ? &run->flown.arrivals[control] : NULL;
 }
 
-static struct ceduo_drawing drawing_of(const struct ceduo_picture *p)
+static struct ceduo_drawing make_drawing(const struct ceduo_picture *p)
 {
     const struct ceduo_scene *s = p->scene;
     const struct ceduo_slope *slope = &s->slope;
     const double *last = &slope->x[slope->vertices - 1];
-    bool whole = !(p->to > p->from);
+    bool all = !(p->to > p->from);
     struct ceduo_drawing d = {.picture = p,
                               .scene = s,
                               .option = p->option < s->options_count ? &s->options[p->option] : NULL,
                               .control = p->control < s->controls_count ? &s->controls[p->control] : NULL,
-                              .sight = ceduo_snapshot_find(p->snapshot, s, p->option),
+                              .run = ceduo_snapshot_find(p->snapshot, s, p->option),
                               .bare = p->snapshot ? p->snapshot->bare : NULL,
                               .wooded = s->simulation.contact_model != CEDUO_INDEX,
-                              .from = whole ? slope->x[0] : fmax(p->from, slope->x[0]),
-                              .to = whole ? *last : fmin(p->to, *last)};
+                              .from = all ? slope->x[0] : fmax(p->from, slope->x[0]),
+                              .to = all ? *last : fmin(p->to, *last)};
     d.belt = d.option && p->belt < d.option->belts_count ? &d.option->belts[p->belt] : NULL;
-    d.arrivals = ceduo_plot_arrivals(d.sight, p->control);
+    d.arrivals = ceduo_plot_arrivals(d.run, p->control);
     d.bare_arrivals = ceduo_plot_arrivals(d.bare, p->control);
     return d;
 }
 
-static const char *draw(enum ceduo_plot plot, struct ceduo_drawing *drawing)
+static const char *draw_picture(enum ceduo_plot plot, struct ceduo_drawing *drawing)
 {
     static ceduo_plot_function *const functions[CEDUO_PLOTS] = {
 #define X(NAME, name, flags, title) [CEDUO_PLOT_##NAME] = ceduo_plot_##name,
@@ -64,30 +64,30 @@ static const char *draw(enum ceduo_plot plot, struct ceduo_drawing *drawing)
 
 bool ceduo_plot_add(enum ceduo_plot plot, struct ceduo_page *page, const struct ceduo_picture *picture, int height)
 {
-    struct ceduo_drawing d = drawing_of(picture);
+    struct ceduo_drawing d = make_drawing(picture);
     d.page = page;
     d.height = height;
-    const char *why = draw(plot, &d);
+    const char *why = draw_picture(plot, &d);
     if (why)
         ceduo_page_para(page, CEDUO_PAGE_NOTE, "%s", why);
     return !why;
 }
 
-#define PAGE_WIDTH_MIN 30 /* columns below which words and bars have no room beside one another */
+#define PAGE_WIDTH_MIN 30 /* min columns for text next to bars */
 
 void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
                      const struct ceduo_picture *picture)
 {
     LOCAL_PAGE(page, (size_t)area->width);
-    struct ceduo_drawing d = drawing_of(picture);
+    struct ceduo_drawing d = make_drawing(picture);
     bool is_page = ceduo_plot_kinds[plot].flags & CEDUO_PICTURE_PAGE;
-    if (canvas->words_alone)
+    if (canvas->text_only)
         return;
     d.canvas = canvas;
     d.area = *area;
     d.page = &page;
     d.height = area->height;
-    const char *why = draw(plot, &d);
+    const char *why = draw_picture(plot, &d);
     if (is_page && !why && area->width < PAGE_WIDTH_MIN)
         why = _("too narrow");
     if (is_page && !why)
@@ -98,7 +98,7 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
     ceduo_canvas_draw_text(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT, why);
 }
 
-/* The share of the rocks that lie farther down, as it was seen, over the band of the simulated rocks. */
+/* Share of rocks that stop farther down: observed curve over the band of simulated rocks. */
 #define SEEN_WIDTH  30
 #define SEEN_HEIGHT 6
 
@@ -114,7 +114,7 @@ void ceduo_plot_observed(struct ceduo_canvas *canvas, const struct ceduo_area *a
                                         .x1 = s->x[CEDUO_STOPS_PLACES - 1],
                                         .y1 = 1}};
     int axis = ceduo_frame_axis_width(&d.frame, canvas);
-    if (canvas->words_alone)
+    if (canvas->text_only)
         return;
     if (area->width < SEEN_WIDTH || area->height < SEEN_HEIGHT) {
         ceduo_canvas_draw_text(canvas, area->left, area->top, area->width, CEDUO_ROLE_TEXT, _("too narrow"));
@@ -134,7 +134,7 @@ void ceduo_plot_observed(struct ceduo_canvas *canvas, const struct ceduo_area *a
 
 void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *picture)
 {
-    const struct ceduo_drawing d = drawing_of(picture);
+    const struct ceduo_drawing d = make_drawing(picture);
     const struct ceduo_plot_kind *kind = &ceduo_plot_kinds[plot];
     LOCAL_TEXT(place);
     if (plot == CEDUO_PLOT_STAND)
@@ -150,9 +150,9 @@ void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct cedu
         ceduo_text_append_joined(text, ", ", _("without forest"));
 }
 
-/* ---- words ---- */
+/* ---- text ---- */
 
-int ceduo_plot_print(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
+int ceduo_plot_print(struct ceduo_canvas *canvas, int column, int row, int max, enum ceduo_role role, const char *format, ...)
 {
     LOCAL_TEXT(text);
     va_list args;
@@ -160,8 +160,8 @@ int ceduo_plot_print(struct ceduo_canvas *canvas, int column, int row, int most,
     ceduo_text_vformat(&text, format, args);
     va_end(args);
     int width = ceduo_canvas_label_width(canvas, ceduo_text_string(&text));
-    width = width < abs(most) ? width : abs(most);
-    return ceduo_canvas_draw_text(canvas, most < 0 ? column + 1 - width : column, row, width, role, ceduo_text_string(&text));
+    width = width < abs(max) ? width : abs(max);
+    return ceduo_canvas_draw_text(canvas, max < 0 ? column + 1 - width : column, row, width, role, ceduo_text_string(&text));
 }
 
 void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt)
@@ -218,12 +218,12 @@ void ceduo_plot_axes(const struct ceduo_drawing *d, double x, double y, const ch
 double ceduo_plot_round(double value, bool up)
 {
     static const double round[] = {1, 2, 5, 10};
-    double power = pow(10, floor(log10(value))), before = power;
+    double power = pow(10, floor(log10(value))), prev = power;
     for (int i = 0; i < 4; i++) {
-        double here = round[i] * power;
-        if (here * (1 + 1e-9) >= value)
-            return up || here <= value * (1 + 1e-9) ? here : before;
-        before = here;
+        double step = round[i] * power;
+        if (step * (1 + 1e-9) >= value)
+            return up || step <= value * (1 + 1e-9) ? step : prev;
+        prev = step;
     }
-    return before;
+    return prev;
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draws pictures as vectors. Lines that follow one another become one path, from which points are left out as long as the path
- * stays within TOLERANCE of them; paths are written in the order of their roles' ranks. A grid of cells is drawn on along with
- * it: it holds the text, and knows what is taken. All characters, also those of a screen, are <text> in the reader's monospace
- * font, set to the width of their cells. */
+/* Draw pictures as vectors. Connected lines become one path, simplified within TOLERANCE. Paths are written in order of the
+ * roles' ranks. A grid of cells is drawn in parallel: it holds text and occupied cells. Characters, also of a screen, are
+ * monospace <text> set to the width of their cells. */
 #include "svg.h"
 
 #include <limits.h>
@@ -13,55 +12,55 @@
 #include "base/must.h"
 #include "base/utf8.h"
 
-#define CELL       8            /* units across a cell */
-#define HIGH       (2 * CELL)   /* and down */
-#define BASELINE   12           /* of the text in a cell */
-#define DRAWN      0xE000       /* code of a cell whose content is a vector */
-#define DOT        (CELL / 2.0) /* cells have 2 x 4 dots */
-#define TOLERANCE  0.3          /* units */
-#define TO_AND_FRO 400          /* lines of a way that gets no farther: by then all of it is to be seen */
-#define BELOW      19           /* units from the top of the bottom axis to the foot of its labels */
+#define CELL_WIDTH  8                  /* width of a cell, units */
+#define CELL_HEIGHT (2 * CELL_WIDTH)   /* height of a cell */
+#define BASELINE    12                 /* baseline of text in a cell */
+#define DRAWN       0xE000             /* code of a cell drawn as a vector */
+#define DOT         (CELL_WIDTH / 2.0) /* cells have 2 x 4 dots */
+#define TOLERANCE   0.3                /* units */
+#define STALL_MAX   400                /* max lines of a trajectory without progress */
+#define BELOW       19                 /* units from the bottom axis to the baseline of its labels */
 
-enum { FILLED = CEDUO_STROKES, STYLES }; /* paths beside those of strokes */
+enum { FILLED = CEDUO_STROKES, STYLES }; /* path styles after the strokes */
 
-/* The path that is being drawn. Points from `start` to `last` lie within the tolerance of a straight line, as do all that go on
- * from `start` between the directions lo and hi. */
+/* Current path. Points from `start` to `last` are within TOLERANCE of a straight line, and so is any point between the
+ * directions lo and hi. */
 struct stroke {
     bool open;
     enum ceduo_role role;
     unsigned style;
     struct ceduo_position start, last;
     double lo, hi;
-    bool straight; /* lo and hi are set */
+    bool straight; /* lo and hi are valid */
 };
 
 struct ceduo_svg {
     struct ceduo_cells *cells;
     struct text paths[CEDUO_ROLE_COUNT][STYLES];
-    struct text axes, numbers; /* numbers: labels of the axes, elements */
+    struct text axes, numbers; /* numbers: labels of axes as elements */
     struct stroke stroke;
-    double way_lo, way_hi; /* the stretch that the way drawn now has come through */
-    int idle;              /* its lines since that grew by a unit */
+    double trajectory_lo, trajectory_hi; /* x range of the current trajectory */
+    int idle;                            /* lines since the range grew by a unit */
 };
 
-/* On paper lightness and the width of lines tell roles apart, too; a dark terminal shows some in bold. Text has a contrast of 4.5
- * to what is behind it at least. */
+/* On paper, lightness and width distinguish roles; a dark terminal uses bold. Text has a contrast of at least 4.5 to its
+ * background. */
 #define DARK "#15181c"
-static const struct look {
+static const struct paint {
     const char *colour;
-    double width;                 /* of lines, units */
-    const char *on_dark, *weight; /* weight: of text; NULL: normal */
-} looks[CEDUO_ROLE_COUNT] = {
+    double width;                 /* width of lines, units */
+    const char *on_dark, *weight; /* weight of text; NULL: normal */
+} paints[CEDUO_ROLE_COUNT] = {
     [CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, "#d6dbe1", NULL},    [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, "#d6dbe1", NULL},
     [CEDUO_ROLE_DIM] = {"#595959", 1, "#8d96a0", NULL},      [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, "#f2f5f8", "bold"},
     [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, "#8d96a0", NULL},     [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, "#d9b45b", NULL},
     [CEDUO_ROLE_CLOUD] = {"#2f4f6e", 0.9, "#56b6c2", NULL},  [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, "#7aa7f0", NULL},
-    [CEDUO_ROLE_MEAN] = {"#111111", 2.2, "#f2f5f8", "bold"}, [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, "#e08ce0", "bold"},
+    [CEDUO_ROLE_MEAN] = {"#111111", 2.2, "#f2f5f8", "bold"}, [CEDUO_ROLE_TRAJECTORY] = {"#8a1c7c", 2, "#e08ce0", "bold"},
     [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, "#7ec46b", NULL},   [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, "#7ec46b", NULL},
     [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, "#7ec46b", NULL},   [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, "#f2777a", NULL},
     [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, "#8fd97a", "bold"}, [CEDUO_ROLE_BAD] = {"#a3161c", 2, "#ff8a85", "bold"},
     [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, "#d9b45b", NULL},   [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, "#56b6c2", NULL},
-    [CEDUO_ROLE_WOOD] = {"#14532d", 2, "#7ec46b", NULL},     [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, "#d6dbe1", NULL}};
+    [CEDUO_ROLE_FOREST] = {"#14532d", 2, "#7ec46b", NULL},   [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, "#d6dbe1", NULL}};
 
 /* ---- paths ---- */
 
@@ -78,7 +77,7 @@ static void append_point(struct text *path, char command, struct ceduo_position 
     append_number(path, p.y);
 }
 
-static struct text *path_of(struct ceduo_svg *svg)
+static struct text *current_path(struct ceduo_svg *svg)
 {
     return &svg->paths[svg->stroke.role][svg->stroke.style];
 }
@@ -89,20 +88,20 @@ static void end_stroke(struct ceduo_svg *svg)
     if (!s->open)
         return;
     if (s->straight)
-        append_point(path_of(svg), 'L', s->last);
+        append_point(current_path(svg), 'L', s->last);
     else
-        ceduo_text_append(path_of(svg), "h0"); /* a dot */
+        ceduo_text_append(current_path(svg), "h0"); /* dot */
     s->open = false;
 }
 
-/* An angle seen from another, -pi..pi. */
-static double turn(double from, double to)
+/* Return the angle between two directions, -pi..pi. */
+static double angle_between(double from, double to)
 {
     return remainder(to - from, 2 * M_PI);
 }
 
-/* Goes on to a point: the last one is left out where a straight line to this one passes all left out near enough. */
-static void go_on(struct ceduo_svg *svg, struct ceduo_position to)
+/* Extend the path; drop points within TOLERANCE of a straight line (cone test). */
+static void extend_path(struct ceduo_svg *svg, struct ceduo_position to)
 {
     struct stroke *s = &svg->stroke;
     if (hypot(to.x - s->start.x, to.y - s->start.y) < TOLERANCE)
@@ -112,66 +111,66 @@ static void go_on(struct ceduo_svg *svg, struct ceduo_position to)
         double dx = to.x - s->start.x, dy = to.y - s->start.y, length = hypot(dx, dy);
         angle = atan2(dy, dx);
         half = asin(fmin(TOLERANCE / length, 1));
-        bool ahead = length >= hypot(s->last.x - s->start.x, s->last.y - s->start.y);
-        if (!s->straight || (ahead && turn(s->lo, angle) >= 0 && turn(angle, s->hi) >= 0))
+        bool farther = length >= hypot(s->last.x - s->start.x, s->last.y - s->start.y);
+        if (!s->straight || (farther && angle_between(s->lo, angle) >= 0 && angle_between(angle, s->hi) >= 0))
             break;
-        append_point(path_of(svg), 'L', s->last);
+        append_point(current_path(svg), 'L', s->last);
         s->start = s->last;
         s->straight = false;
     }
     double lo = angle - half, hi = angle + half;
-    s->lo = s->straight && turn(s->lo, lo) < 0 ? s->lo : lo;
-    s->hi = s->straight && turn(hi, s->hi) < 0 ? s->hi : hi;
+    s->lo = s->straight && angle_between(s->lo, lo) < 0 ? s->lo : lo;
+    s->hi = s->straight && angle_between(hi, s->hi) < 0 ? s->hi : hi;
     s->straight = true;
     s->last = to;
 }
 
-static struct ceduo_position unit_of(const struct ceduo_raster *raster, struct ceduo_position p)
+static struct ceduo_position to_units(const struct ceduo_raster *raster, struct ceduo_position p)
 {
     return (struct ceduo_position){(raster->left + p.x + 0.5) * DOT, (raster->top + p.y + 0.5) * DOT};
 }
 
-/* ---- the surface ---- */
+/* ---- surface ---- */
 
-/* Whether a way adds something to see: a rock in a pit goes to and fro without end. */
-static bool gets_on(struct ceduo_svg *svg, bool first, double from, double to)
+/* True if the trajectory makes progress. A rock in a pit oscillates without end. */
+static bool makes_progress(struct ceduo_svg *svg, bool first, double from, double to)
 {
     if (first)
-        svg->way_lo = svg->way_hi = from;
-    bool on = first || to < svg->way_lo - 1 || to > svg->way_hi + 1;
-    svg->way_lo = on ? fmin(svg->way_lo, to) : svg->way_lo;
-    svg->way_hi = on ? fmax(svg->way_hi, to) : svg->way_hi;
+        svg->trajectory_lo = svg->trajectory_hi = from;
+    bool on = first || to < svg->trajectory_lo - 1 || to > svg->trajectory_hi + 1;
+    svg->trajectory_lo = on ? fmin(svg->trajectory_lo, to) : svg->trajectory_lo;
+    svg->trajectory_hi = on ? fmax(svg->trajectory_hi, to) : svg->trajectory_hi;
     svg->idle = on ? 0 : svg->idle + 1;
-    return svg->idle <= TO_AND_FRO;
+    return svg->idle <= STALL_MAX;
 }
 
-static void draw_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
+static void svg_draw_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
 {
     struct ceduo_svg *svg = to;
     struct stroke *s = &svg->stroke;
-    bool first = pen->last_x == INT_MIN, way = pen->stroke == CEDUO_STROKE_TRAJECTORY;
+    bool first = pen->last_x == INT_MIN, trajectory = pen->stroke == CEDUO_STROKE_TRAJECTORY;
     if (pen->role == CEDUO_ROLE_BLANK)
         return;
     ceduo_cells_surface.line(svg->cells, pen, a, b);
     pen->last_x = pen->last_x == INT_MIN ? 0 : pen->last_x;
-    struct ceduo_position from = unit_of(&pen->raster, a), end = unit_of(&pen->raster, b);
-    if (way && !gets_on(svg, first, from.x, end.x))
+    struct ceduo_position from = to_units(&pen->raster, a), end = to_units(&pen->raster, b);
+    if (trajectory && !makes_progress(svg, first, from.x, end.x))
         return;
-    bool follows = fabs(s->last.x - from.x) < 0.01 && fabs(s->last.y - from.y) < 0.01 && !(way && first);
+    bool follows = fabs(s->last.x - from.x) < 0.01 && fabs(s->last.y - from.y) < 0.01 && !(trajectory && first);
     if (!s->open || s->role != pen->role || s->style != pen->stroke || !follows) {
         end_stroke(svg);
         *s = (struct stroke){.open = true, .role = pen->role, .style = pen->stroke, .start = from, .last = from};
-        append_point(path_of(svg), 'M', from);
+        append_point(current_path(svg), 'M', from);
     }
-    go_on(svg, end);
+    extend_path(svg, end);
 }
 
-static void draw_disc(void *to, const struct ceduo_raster *raster, enum ceduo_role role, struct ceduo_position centre,
-                      struct ceduo_position radii)
+static void svg_draw_disc(void *to, const struct ceduo_raster *raster, enum ceduo_role role, struct ceduo_position centre,
+                          struct ceduo_position radii)
 {
     struct ceduo_svg *svg = to;
     struct text *path = &svg->paths[role][FILLED];
-    struct ceduo_position c = unit_of(raster, centre), r = {fmax(radii.x * DOT, 1), fmax(radii.y * DOT, 1)};
+    struct ceduo_position c = to_units(raster, centre), r = {fmax(radii.x * DOT, 1), fmax(radii.y * DOT, 1)};
     for (int half = 1; half >= -1; half -= 2) {
         if (half > 0)
             append_point(path, 'M', (struct ceduo_position){c.x - r.x, c.y});
@@ -184,61 +183,62 @@ static void draw_disc(void *to, const struct ceduo_raster *raster, enum ceduo_ro
             ceduo_cells_set_dot(svg->cells, (int)(x / DOT), (int)(y / DOT), role);
 }
 
-/* Cells of which the vectors show the content. */
+/* Mark cells as drawn by vectors. */
 static void mark_drawn(struct ceduo_svg *svg, int column, int row, int width)
 {
     for (int i = 0; i < width; i++)
         ceduo_cells_set_code(svg->cells, column + i, row, CEDUO_ROLE_AXIS, DRAWN);
 }
 
-static void draw_bar(void *to, int column, int row, int width, double fraction, enum ceduo_role role)
+static void svg_draw_bar(void *to, int column, int row, int width, double fraction, enum ceduo_role role)
 {
     struct ceduo_svg *svg = to;
     struct text *path = &svg->paths[role][FILLED];
-    double length = fmax(fraction * width * CELL, 1);
-    append_point(path, 'M', (struct ceduo_position){column * CELL, row * HIGH + 3});
+    double length = fmax(fraction * width * CELL_WIDTH, 1);
+    append_point(path, 'M', (struct ceduo_position){column * CELL_WIDTH, row * CELL_HEIGHT + 3});
     ceduo_text_append_char(path, 'h');
     append_number(path, length);
     ceduo_text_append(path, "v10h");
     append_number(path, -length);
     ceduo_text_append_char(path, 'z');
-    mark_drawn(svg, column, row, (int)ceil(length / CELL));
+    mark_drawn(svg, column, row, (int)ceil(length / CELL_WIDTH));
 }
 
-/* The label of a tick; `anchor`: as SVG names it. */
+/* Append the label of a tick; `anchor`: SVG's text-anchor. */
 static void append_label(struct ceduo_svg *svg, double x, double y, const char *anchor, const char *label)
 {
     struct ceduo_html html = {.text = &svg->numbers};
     char across[16], down[16];
     snprintf(across, sizeof across, "%g", x);
     snprintf(down, sizeof down, "%g", y);
-    ceduo_html_leaf(&html, "text", label, "x", across, "y", down, "fill", looks[CEDUO_ROLE_AXIS].colour, "text-anchor", anchor,
+    ceduo_html_leaf(&html, "text", label, "x", across, "y", down, "fill", paints[CEDUO_ROLE_AXIS].colour, "text-anchor", anchor,
                     NULL);
 }
 
-static void draw_axis(void *to, const struct ceduo_frame *frame, bool bottom, int count, const struct ceduo_tick *ticks)
+static void svg_draw_axis(void *to, const struct ceduo_frame *frame, bool bottom, int count, const struct ceduo_tick *ticks)
 {
     struct ceduo_svg *svg = to;
     int below = frame->top + frame->height;
-    double left = frame->left * CELL - 2.5, top = below * HIGH + 2.5;
+    double left = frame->left * CELL_WIDTH - 2.5, top = below * CELL_HEIGHT + 2.5;
     if (bottom)
-        ceduo_text_format(&svg->axes, "M%.1f %.1fH%d", left, top, (frame->left + frame->width) * CELL);
+        ceduo_text_format(&svg->axes, "M%.1f %.1fH%d", left, top, (frame->left + frame->width) * CELL_WIDTH);
     else
-        ceduo_text_format(&svg->axes, "M%.1f %dV%d", left, frame->top * HIGH, below * HIGH);
+        ceduo_text_format(&svg->axes, "M%.1f %dV%d", left, frame->top * CELL_HEIGHT, below * CELL_HEIGHT);
     for (const struct ceduo_tick *t = ticks; t < ticks + count; t++) {
         int length = ceduo_canvas_label_width(&svg->cells->canvas, t->label);
-        double at = floor(t->at * (bottom ? CELL : HIGH)) + 0.5;
+        double position = floor(t->position * (bottom ? CELL_WIDTH : CELL_HEIGHT)) + 0.5;
         bool unit = t->cell < 0, moved = t->start != t->cell - (length - 1) / 2;
         if (!unit && bottom)
-            ceduo_text_format(&svg->axes, "M%.1f %.1fv4", at, top);
+            ceduo_text_format(&svg->axes, "M%.1f %.1fv4", position, top);
         else if (!unit)
-            ceduo_text_format(&svg->axes, "M%.1f %.1fh-4", left, at);
+            ceduo_text_format(&svg->axes, "M%.1f %.1fh-4", left, position);
         if (unit)
-            append_label(svg, t->start * CELL, below * HIGH + BELOW, "start", t->label);
+            append_label(svg, t->start * CELL_WIDTH, below * CELL_HEIGHT + BELOW, "start", t->label);
         else if (bottom)
-            append_label(svg, moved ? (t->start + length / 2.0) * CELL : at, below * HIGH + BELOW, "middle", t->label);
+            append_label(svg, moved ? (t->start + length / 2.0) * CELL_WIDTH : position, below * CELL_HEIGHT + BELOW, "middle",
+                         t->label);
         else if (t->start >= 0)
-            append_label(svg, left - 6, fmax(at + 4, frame->top * HIGH + 12), "end", t->label); /* below a title */
+            append_label(svg, left - 6, fmax(position + 4, frame->top * CELL_HEIGHT + 12), "end", t->label); /* below a title */
         mark_drawn(svg, t->start, bottom ? below + 1 : t->cell, t->start >= 0 ? length : 0);
     }
     if (bottom)
@@ -248,13 +248,13 @@ static void draw_axis(void *to, const struct ceduo_frame *frame, bool bottom, in
 }
 
 static const struct ceduo_surface surface = {
-    .line = draw_line,
-    .bar = draw_bar,
-    .axis = draw_axis,
-    .disc = draw_disc,
+    .line = svg_draw_line,
+    .bar = svg_draw_bar,
+    .axis = svg_draw_axis,
+    .disc = svg_draw_disc,
 };
 
-/* ---- the picture ---- */
+/* ---- picture ---- */
 
 struct ceduo_svg *ceduo_svg_create(int width, int height)
 {
@@ -283,12 +283,12 @@ struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg)
     return &svg->cells->canvas;
 }
 
-static void write_path(struct ceduo_html *html, const struct look *look, const struct text *path, const char *const extra[2])
+static void write_path(struct ceduo_html *html, const struct paint *paint, const struct text *path, const char *const extra[2])
 {
     char width[16];
-    snprintf(width, sizeof width, "%g", look->width);
+    snprintf(width, sizeof width, "%g", paint->width);
     if (path->length > 0)
-        ceduo_html_empty(html, "path", "fill", "none", "stroke", look->colour, "stroke-width", width, "d", path->bytes,
+        ceduo_html_empty(html, "path", "fill", "none", "stroke", paint->colour, "stroke-width", width, "d", path->bytes,
                          extra[0], extra[1], NULL);
 }
 
@@ -304,31 +304,31 @@ static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
         for (unsigned role = 0; role < CEDUO_ROLE_COUNT; role++) {
             const struct text *paths = svg->paths[role];
             if (ceduo_role_ranks[role] == rank && paths[FILLED].length > 0)
-                ceduo_html_empty(html, "path", "fill", looks[role].colour, "d", paths[FILLED].bytes, NULL);
+                ceduo_html_empty(html, "path", "fill", paints[role].colour, "d", paths[FILLED].bytes, NULL);
             for (int stroke = 0; ceduo_role_ranks[role] == rank && stroke < CEDUO_STROKES; stroke++)
-                write_path(html, &looks[role], &paths[stroke], strokes[stroke]);
+                write_path(html, &paints[role], &paths[stroke], strokes[stroke]);
         }
     ceduo_html_close(html);
-    write_path(html, &looks[CEDUO_ROLE_AXIS], &svg->axes, strokes[CEDUO_STROKE_PLAIN]);
+    write_path(html, &paints[CEDUO_ROLE_AXIS], &svg->axes, strokes[CEDUO_STROKE_PLAIN]);
 }
 
 /* ---- characters ---- */
 
-/* Writes the text of a row: one element for each run of a role, which two blanks end. The cursor is written reversed. */
-static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, bool screen, int row)
+/* Write a row: one element per run of a role, ended by two blanks. The cursor is reversed. */
+static void write_text_row(struct ceduo_html *html, const struct ceduo_cells *cells, bool screen, int row)
 {
     for (int from = 0, end; from < cells->width; from = end) {
         enum ceduo_role role = ceduo_cells_role(cells, from, row);
-        const struct look *look = &looks[role];
-        const char *colour = screen ? look->on_dark : look->colour;
+        const struct paint *paint = &paints[role];
+        const char *colour = screen ? paint->on_dark : paint->colour;
         bool reversed = role == CEDUO_ROLE_CURSOR && ceduo_cells_at(cells, from, row)->code != 0;
         LOCAL_TEXT(word);
         char x[16], y[16], width[16];
-        size_t length = 0; /* up to the last that is no blank */
+        size_t length = 0; /* up to the last non-blank */
         int used = 0;
         for (end = from; end < cells->width && ceduo_cells_role(cells, end, row) == role; end++) {
             char bytes[4];
-            uint32_t code = ceduo_cells_at(cells, end, row)->code; /* of a picture no dots, which are vectors there */
+            uint32_t code = ceduo_cells_at(cells, end, row)->code; /* dots of a picture are vectors */
             code = code == DRAWN || (code == 0 && !screen) ? ' ' : ceduo_cells_glyph(cells, end, row);
             if (code == ' ' && !reversed && (used == 0 || end > from + used))
                 break;
@@ -339,21 +339,21 @@ static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, 
             }
         }
         end += end == from;
-        snprintf(x, sizeof x, "%d", from * CELL);
+        snprintf(x, sizeof x, "%d", from * CELL_WIDTH);
         if (reversed) {
-            snprintf(y, sizeof y, "%d", row * HIGH);
-            snprintf(width, sizeof width, "%d", (end - from) * CELL);
+            snprintf(y, sizeof y, "%d", row * CELL_HEIGHT);
+            snprintf(width, sizeof width, "%d", (end - from) * CELL_WIDTH);
             ceduo_html_empty(html, "rect", "x", x, "y", y, "width", width, "height", "16", "fill", colour, NULL);
         }
-        snprintf(y, sizeof y, "%d", row * HIGH + BASELINE);
-        snprintf(width, sizeof width, "%d", used * CELL);
+        snprintf(y, sizeof y, "%d", row * CELL_HEIGHT + BASELINE);
+        snprintf(width, sizeof width, "%d", used * CELL_WIDTH);
         if (used > 0) {
             word.bytes[length] = '\0';
             ceduo_html_leaf(html, "text", word.bytes, "x", x, "y", y, "textLength", width, "fill",
                             !reversed ? colour
                             : screen  ? DARK
                                       : "#fff",
-                            "font-weight", screen ? look->weight : NULL, NULL);
+                            "font-weight", screen ? paint->weight : NULL, NULL);
         }
     }
 }
@@ -361,7 +361,7 @@ static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, 
 static void write_cells(struct ceduo_html *html, const struct ceduo_cells *cells, bool screen)
 {
     for (int row = 0; row < cells->height; row++)
-        write_row(html, cells, screen, row);
+        write_text_row(html, cells, screen, row);
 }
 
 #define FONT "font-family", "monospace", "font-size", "13.3", "xml:space", "preserve"
@@ -369,7 +369,7 @@ static void write_cells(struct ceduo_html *html, const struct ceduo_cells *cells
 void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const char *id, const char *title, const char *description)
 {
     char box[64], described[64];
-    snprintf(box, sizeof box, "0 0 %d %d", svg->cells->width * CELL, svg->cells->height * HIGH);
+    snprintf(box, sizeof box, "0 0 %d %d", svg->cells->width * CELL_WIDTH, svg->cells->height * CELL_HEIGHT);
     snprintf(described, sizeof described, "%s-d", id);
     end_stroke(svg);
     ceduo_html_open(html, "svg", "viewBox", box, "role", "img", "aria-label", title, "aria-describedby", described, NULL);
@@ -387,9 +387,9 @@ void ceduo_svg_screen(struct text *text, const struct ceduo_cells *cells, const 
 {
     struct ceduo_html html = {.text = text};
     char box[64], width[16], height[16];
-    snprintf(width, sizeof width, "%d", (cells->width + 2) * CELL);
-    snprintf(height, sizeof height, "%d", cells->height * HIGH + 2 * CELL);
-    snprintf(box, sizeof box, "%d %d %s %s", -CELL, -CELL, width, height);
+    snprintf(width, sizeof width, "%d", (cells->width + 2) * CELL_WIDTH);
+    snprintf(height, sizeof height, "%d", cells->height * CELL_HEIGHT + 2 * CELL_WIDTH);
+    snprintf(box, sizeof box, "%d %d %s %s", -CELL_WIDTH, -CELL_WIDTH, width, height);
     ceduo_html_open(&html, "svg", "xmlns", "http://www.w3.org/2000/svg", "width", width, "height", height, "viewBox", box,
                     "role", "img", NULL);
     ceduo_html_leaf(&html, "title", title, NULL);

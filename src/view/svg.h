@@ -4,50 +4,43 @@
 
 #include "canvas.h"
 
-/* Writes HTML and SVG. All that comes from outside goes through here and nowhere else: text and values of attributes
- * are escaped, control characters and bytes that are no UTF-8 become visible. Names of elements and attributes are the
- * program's own. */
+/* HTML and SVG writer. Every untrusted string is escaped here: text and attribute values; control characters and invalid
+ * UTF-8 become visible. Names of elements and attributes are constants of the program. */
 
 #define CEDUO_HTML_DEPTH_MAX 24
 
 struct ceduo_html {
     struct text *text;
-    const char *open[CEDUO_HTML_DEPTH_MAX]; /* elements not yet closed; constant strings */
+    const char *open[CEDUO_HTML_DEPTH_MAX]; /* open elements; constant strings */
     size_t depth;
 };
 
-/* Opens an element with attributes, name and value in turn, then NULL. An attribute whose value is NULL is left out. */
+/* Open an element. Attributes are pairs of name and value, then NULL. A value of NULL omits the attribute. */
 void ceduo_html_open(struct ceduo_html *html, const char *name, ...) __attribute__((sentinel));
-void ceduo_html_close(struct ceduo_html *html); /* the one opened last */
+void ceduo_html_close(struct ceduo_html *html); /* closes the last element */
 
-/* An element with nothing in it, and one with a text alone, attributes as above. */
+/* Write an empty element; an element with text only. */
 void ceduo_html_empty(struct ceduo_html *html, const char *name, ...) __attribute__((sentinel));
 void ceduo_html_leaf(struct ceduo_html *html, const char *name, const char *text, ...) __attribute__((sentinel));
 
-/*
- * The second surface of the canvas: vectors for a page. A picture is laid out in the same cells as in a terminal;
- * lines, axes, bars and discs are drawn where they are and not at the nearest dot; text is in the reader's monospace
- * font, each word as wide as its cells. A grid of cells goes along that holds the text and knows which cells are taken.
- *
- * Colours have a contrast of 4.5 to white at least, and differ in lightness and stroke, too, so that a grey print can
- * be read.
- */
+/* Vector surface of the canvas. Layout is in cells, as in a terminal. Lines, axes, bars and discs keep their exact
+ * positions. Text is monospace, each word as wide as its cells. A grid of cells holds text and occupied cells. Colours have
+ * a contrast of at least 4.5 to white, and differ in lightness and stroke for grey prints. */
 
 struct ceduo_svg;
 
-/* Its size in cells, as that of ceduo_cells_create(). */
+/* Create a picture; size in cells as in ceduo_cells_create(). */
 struct ceduo_svg *ceduo_svg_create(int width, int height);
-void ceduo_svg_free(struct ceduo_svg *svg); /* NULL is allowed */
+void ceduo_svg_free(struct ceduo_svg *svg); /* may be NULL */
 
-/* To draw on. */
+/* Return the canvas. */
 struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg);
 
-/* Adds the picture as an element of a page, with what is told of it beside what is drawn. `id` is unlike that of every other
- * picture of the page. May be called once. */
+/* Write the picture as an element, with title and description. `id` is unique in the page. Call at most once. */
 void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const char *id, const char *title,
                      const char *description);
 
-/* A screen of the terminal program as a file of its own, in the colours of a dark terminal. */
+/* Write a screen of the terminal program as an SVG file in the colours of a dark terminal. */
 void ceduo_svg_screen(struct text *text, const struct ceduo_cells *cells, const char *title);
 
 #endif

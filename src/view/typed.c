@@ -7,8 +7,8 @@
 #include "base/language.h"
 #include "words.h"
 
-#define TYPED_MAX  1024 /* bytes of what is typed in a line */
-#define EVERYWHERE 2e9  /* a range so wide tells a person nothing */
+#define TYPED_MAX       1024 /* bytes of a typed line */
+#define RANGE_WIDTH_MAX 2e9  /* wider ranges are not worth showing */
 
 static bool is_number(const struct field *f)
 {
@@ -19,44 +19,44 @@ static bool is_number(const struct field *f)
 
 enum ceduo_number_reading ceduo_input_parse_number(const char *typed, double *value)
 {
-    char room[TYPED_MAX];
+    char buffer[TYPED_MAX];
     typed += strspn(typed, " ");
     size_t n = strlen(typed);
     while (n > 0 && typed[n - 1] == ' ')
         n--;
-    if (n >= sizeof room)
+    if (n >= sizeof buffer)
         return CEDUO_NUMBER_NONE;
-    memcpy(room, typed, n);
-    room[n] = '\0';
-    char *comma = strchr(room, ',');
-    if (comma && !strchr(room, '.') && !strchr(comma + 1, ','))
+    memcpy(buffer, typed, n);
+    buffer[n] = '\0';
+    char *comma = strchr(buffer, ',');
+    if (comma && !strchr(buffer, '.') && !strchr(comma + 1, ','))
         *comma = '.';
-    return ceduo_number_read(room, value);
+    return ceduo_number_read(buffer, value);
 }
 
-/* A number of the file that is so many of what is shown; without what dividing adds. */
-static const char *as_file(const struct field *f, double shown, char room[CEDUO_NUMBER_SIZE])
+/* Convert a displayed number to the file's unit, without rounding noise. */
+static const char *to_file_unit(const struct field *f, double shown, char buffer[CEDUO_NUMBER_SIZE])
 {
     char digits[CEDUO_NUMBER_SIZE];
     double value = shown / f->shown.per;
     snprintf(digits, sizeof digits, "%.14g", value);
     if (f->shown.per != 1)
         ceduo_number_read(digits, &value);
-    return ceduo_number_shortest(value, room);
+    return ceduo_number_shortest(value, buffer);
 }
 
-/* Numbers with blanks or semicolons between, and commas where they are none of a number; 0 where something else is among them. */
-static size_t read_numbers(const char *typed, bool commas_part, double *values, size_t most)
+/* Parse numbers separated by blanks or semicolons; also by commas if `commas_separate`. Return 0 if any is invalid. */
+static size_t read_numbers(const char *typed, bool commas_separate, double *values, size_t max)
 {
-    const char *between = commas_part ? " \t;,[]" : " \t;[]";
+    const char *between = commas_separate ? " \t;,[]" : " \t;[]";
     for (size_t n = 0;; n++) {
-        char room[64];
+        char buffer[64];
         typed += strspn(typed, between);
         size_t length = strcspn(typed, between), used = length;
         while (used > 0 && typed[used - 1] == ',')
             used--;
-        snprintf(room, sizeof room, "%.*s", (int)used, typed);
-        if (n == most || used == 0 || used >= sizeof room || ceduo_input_parse_number(room, &values[n]) != CEDUO_NUMBER_GOOD)
+        snprintf(buffer, sizeof buffer, "%.*s", (int)used, typed);
+        if (n == max || used == 0 || used >= sizeof buffer || ceduo_input_parse_number(buffer, &values[n]) != CEDUO_NUMBER_GOOD)
             return typed[strspn(typed, " \t;,[]")] == '\0' ? n : 0;
         typed += length;
     }
@@ -84,46 +84,46 @@ bool ceduo_input_parse_points(const char *typed, struct text *vertices, double *
     return true;
 }
 
-/* "2,6 ± 0,1", with u behind it where all between is alike. */
-static bool put_spread(const struct field *f, const char *typed, struct text *value)
+/* Convert "2,6 ± 0,1"; with u appended: uniform. */
+static bool append_spread(const struct field *f, const char *typed, struct text *value)
 {
     const char *sign = strstr(typed, "\xc2\xb1"), *plain = sign ? sign : strstr(typed, "+-");
     double mean, spread;
-    char room[TYPED_MAX], a[CEDUO_NUMBER_SIZE], b[CEDUO_NUMBER_SIZE];
-    if (!plain || strlen(typed) >= sizeof room)
+    char buffer[TYPED_MAX], a[CEDUO_NUMBER_SIZE], b[CEDUO_NUMBER_SIZE];
+    if (!plain || strlen(typed) >= sizeof buffer)
         return false;
-    snprintf(room, sizeof room, "%.*s", (int)(plain - typed), typed);
-    bool good = ceduo_input_parse_number(room, &mean) == CEDUO_NUMBER_GOOD;
-    snprintf(room, sizeof room, "%s", plain + 2);
-    char *uniform = strchr(room, 'u');
+    snprintf(buffer, sizeof buffer, "%.*s", (int)(plain - typed), typed);
+    bool good = ceduo_input_parse_number(buffer, &mean) == CEDUO_NUMBER_GOOD;
+    snprintf(buffer, sizeof buffer, "%s", plain + 2);
+    char *uniform = strchr(buffer, 'u');
     if (uniform)
         *uniform = '\0';
-    if (!good || ceduo_input_parse_number(room, &spread) != CEDUO_NUMBER_GOOD)
+    if (!good || ceduo_input_parse_number(buffer, &spread) != CEDUO_NUMBER_GOOD)
         return false;
-    ceduo_text_format(value, "{mean: %s, spread: %s%s}", as_file(f, mean, a), as_file(f, spread, b),
+    ceduo_text_format(value, "{mean: %s, spread: %s%s}", to_file_unit(f, mean, a), to_file_unit(f, spread, b),
                       uniform ? ", kind: uniform" : "");
     return true;
 }
 
-/* "End - 10,5" as "end-10.5". */
-static bool put_place(const char *typed, struct text *value)
+/* Convert "End - 10,5" to "end-10.5". */
+static bool append_place(const char *typed, struct text *value)
 {
     double back = 0;
-    char room[CEDUO_NUMBER_SIZE];
+    char buffer[CEDUO_NUMBER_SIZE];
     typed += strspn(typed, " ");
     if (strncasecmp(typed, "end", 3) != 0)
         return false;
     typed += 3 + strspn(typed + 3, " ");
     if (*typed && (*typed != '-' || ceduo_input_parse_number(typed + 1, &back) != CEDUO_NUMBER_GOOD || back < 0))
         return false;
-    ceduo_text_format(value, back > 0 ? "end-%s" : "end", ceduo_number_shortest(back, room));
+    ceduo_text_format(value, back > 0 ? "end-%s" : "end", ceduo_number_shortest(back, buffer));
     return true;
 }
 
-/* The same for a list of which some are places from the end: 60 end-10. */
-static bool put_places(const struct field *f, const char *typed, struct text *value)
+/* Convert a list that contains places from the end: 60 end-10. */
+static bool append_places(const struct field *f, const char *typed, struct text *value)
 {
-    char word[64], room[CEDUO_NUMBER_SIZE];
+    char word[64], buffer[CEDUO_NUMBER_SIZE];
     double number;
     LOCAL_TEXT(list);
     for (size_t n; *(typed += strspn(typed, " ;")); typed += n) {
@@ -131,28 +131,28 @@ static bool put_places(const struct field *f, const char *typed, struct text *va
         snprintf(word, sizeof word, "%.*s", (int)n, typed);
         ceduo_text_append(&list, list.length > 0 ? ", " : "[");
         if (ceduo_input_parse_number(word, &number) == CEDUO_NUMBER_GOOD)
-            ceduo_text_append(&list, as_file(f, number, room));
-        else if (!put_place(word, &list))
+            ceduo_text_append(&list, to_file_unit(f, number, buffer));
+        else if (!append_place(word, &list))
             return false;
     }
     ceduo_text_format(value, "%s]", ceduo_text_string(&list));
     return true;
 }
 
-/* Numbers with blanks between as a list; what is in brackets already is YAML. */
-static bool put_numbers(const struct field *f, const char *typed, struct text *value)
+/* Convert numbers separated by blanks to a list; text in brackets is already YAML. */
+static bool append_numbers(const struct field *f, const char *typed, struct text *value)
 {
     double values[TYPED_MAX / 2];
-    char room[CEDUO_NUMBER_SIZE];
+    char buffer[CEDUO_NUMBER_SIZE];
     if (typed[0] == '[')
         return false;
     size_t n = read_numbers(typed, false, values, TYPED_MAX / 2);
-    if (n == 0) /* no decimal commas: they part */
+    if (n == 0) /* commas are separators, not decimal */
         n = read_numbers(typed, true, values, TYPED_MAX / 2);
     if (n == 0 && ceduo_schema_is_place(f))
-        return put_places(f, typed, value);
+        return append_places(f, typed, value);
     for (size_t i = 0; i < n; i++)
-        ceduo_text_format(value, "%s%s", i ? ", " : "[", as_file(f, values[i], room));
+        ceduo_text_format(value, "%s%s", i ? ", " : "[", to_file_unit(f, values[i], buffer));
     ceduo_text_append(value, n > 0 ? "]" : "");
     return n > 0;
 }
@@ -160,19 +160,19 @@ static bool put_numbers(const struct field *f, const char *typed, struct text *v
 void ceduo_input_parse_value(const struct field *f, const char *typed, struct text *value)
 {
     double number;
-    char room[CEDUO_NUMBER_SIZE];
-    if (ceduo_schema_is_place(f) && put_place(typed, value))
+    char buffer[CEDUO_NUMBER_SIZE];
+    if (ceduo_schema_is_place(f) && append_place(typed, value))
         return;
     bool list = f->type == FIELD_NUMBERS || f->type == FIELD_POINTS || f->type == FIELD_SPREADS;
-    if (list && put_numbers(f, typed, value))
+    if (list && append_numbers(f, typed, value))
         return;
-    if (f->type == FIELD_SPREAD && put_spread(f, typed, value))
+    if (f->type == FIELD_SPREAD && append_spread(f, typed, value))
         return;
     if (f->type == FIELD_FLAG && (strcmp(typed, _("true")) == 0 || strcmp(typed, _("false")) == 0))
         typed = strcmp(typed, _("true")) == 0 ? "true" : "false";
     if (is_number(f) && (f->shown.per != 1 || strchr(typed, ',')) &&
         ceduo_input_parse_number(typed, &number) == CEDUO_NUMBER_GOOD)
-        typed = as_file(f, number, room);
+        typed = to_file_unit(f, number, buffer);
     ceduo_text_append(value, typed);
 }
 
@@ -217,7 +217,7 @@ const char *ceduo_format_unit(const struct field *f)
 
 bool ceduo_format_range(const struct field *f, struct text *text)
 {
-    if (f->hi - f->lo >= EVERYWHERE)
+    if (f->hi - f->lo >= RANGE_WIDTH_MAX)
         return false;
     struct field shown = *f;
     shown.lo *= f->shown.per;
@@ -225,65 +225,65 @@ bool ceduo_format_range(const struct field *f, struct text *text)
     return ceduo_schema_range_text(&shown, text);
 }
 
-const char *ceduo_format_number(const struct field *f, double value, char room[CEDUO_NUMBER_SIZE])
+const char *ceduo_format_number(const struct field *f, double value, char buffer[CEDUO_NUMBER_SIZE])
 {
     if (!f)
-        return ceduo_number_localize(ceduo_number_shortest(value, room));
-    snprintf(room, CEDUO_NUMBER_SIZE, "%.12g", value * f->shown.per);
-    return ceduo_number_localize(room);
+        return ceduo_number_localize(ceduo_number_shortest(value, buffer));
+    snprintf(buffer, CEDUO_NUMBER_SIZE, "%.12g", value * f->shown.per);
+    return ceduo_number_localize(buffer);
 }
 
 void ceduo_format_value(const struct field *f, const char *written, struct text *shown)
 {
-    /* words of files that are people's words, too; others stay as files have them */
-    static const char *const known[] = {N_("simple coppice"),
-                                        N_("coppice with standards"),
-                                        N_("selection coppice"),
-                                        N_("large reserves"),
-                                        N_("high forest"),
-                                        N_("bare"),
-                                        N_("sphere"),
-                                        N_("cylinder"),
-                                        N_("ellipsoid"),
-                                        N_("block"),
-                                        N_("stems"),
-                                        N_("index"),
-                                        N_("auto"),
-                                        N_("whole"),
-                                        N_("fit"),
-                                        N_("check"),
-                                        N_("against"),
-                                        N_("both"),
-                                        N_("good"),
-                                        N_("poor"),
-                                        N_("true"),
-                                        N_("false")};
+    /* words of files that have a translation; other words are unchanged */
+    static const char *const translated[] = {N_("simple coppice"),
+                                             N_("coppice with standards"),
+                                             N_("selection coppice"),
+                                             N_("large reserves"),
+                                             N_("high forest"),
+                                             N_("bare"),
+                                             N_("sphere"),
+                                             N_("cylinder"),
+                                             N_("ellipsoid"),
+                                             N_("block"),
+                                             N_("stems"),
+                                             N_("index"),
+                                             N_("auto"),
+                                             N_("whole"),
+                                             N_("fit"),
+                                             N_("check"),
+                                             N_("against"),
+                                             N_("both"),
+                                             N_("good"),
+                                             N_("poor"),
+                                             N_("true"),
+                                             N_("false")};
     double value;
     size_t n;
-    char room[CEDUO_NUMBER_SIZE];
+    char buffer[CEDUO_NUMBER_SIZE];
     LOCAL_TEXT(words);
     if (!f || (f->type != FIELD_CHOICE && f->type != FIELD_FLAG)) {
-        bool other = f && is_number(f) && f->shown.per != 1 && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD;
+        bool converted = f && is_number(f) && f->shown.per != 1 && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD;
         size_t start = shown->length;
-        ceduo_text_append(shown, other ? ceduo_format_number(f, value, room) : written);
+        ceduo_text_append(shown, converted ? ceduo_format_number(f, value, buffer) : written);
         if (f && is_number(f) && shown->bytes)
             ceduo_number_localize(shown->bytes + start);
         return;
     }
     for (const char *c = written; *c; c++)
         ceduo_text_append_char(&words, *c == '-' ? ' ' : *c);
-    const char *said = ceduo_text_string(&words);
+    const char *phrase = ceduo_text_string(&words);
     int species = f->choices == &ceduo_species_words ? ceduo_species_find(written) : -1;
     if (species >= 0) { /* "hop hornbeam (Ostrya carpinifolia)" */
-        ceduo_text_format(shown, "%s (%c%s)", _(ceduo_species_list(&n)[species].common), said[0] - 'a' + 'A', said + 1);
+        ceduo_text_format(shown, "%s (%c%s)", _(ceduo_species_list(&n)[species].common), phrase[0] - 'a' + 'A', phrase + 1);
         return;
     }
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (strcmp(known[i], said) == 0)
-            said = _(known[i]);
+    for (size_t i = 0; i < sizeof translated / sizeof translated[0]; i++)
+        if (strcmp(translated[i], phrase) == 0)
+            phrase = _(translated[i]);
     int ground = f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, written) : -1;
     const char *law = ground >= 0 ? _(f->choices->names[ground]) : ceduo_words_law(written);
-    ceduo_text_append(shown, strcmp(law, written) != 0 ? law : said);
+    ceduo_text_append(shown, strcmp(law, written) != 0 ? law : phrase);
 }
 
 /* ---- paths ---- */
@@ -294,8 +294,8 @@ void ceduo_format_path(const char *path, struct text *text)
     const struct field *f = NULL, *named = NULL;
     struct path_step step;
     LOCAL_TEXT(places);
-    size_t at = 0, n = strlen(path);
-    while (ceduo_path_next(path, n, &at, &step)) {
+    size_t offset = 0, n = strlen(path);
+    while (ceduo_path_next(path, n, &offset, &step)) {
         if (step.bracket && f) {
             size_t i;
             LOCAL_TEXT(place);

@@ -25,204 +25,205 @@ double ceduo_words_accepted(const struct ceduo_control *control)
     return control->accepted / 1000;
 }
 
-const char *ceduo_words_sig(double value, int digits, char room[CEDUO_NUMBER_SIZE])
+const char *ceduo_words_sig(double value, int digits, char buffer[CEDUO_NUMBER_SIZE])
 {
     double size = fabs(value);
     int decimals = size > 0 && isfinite(size) ? digits - (int)floor(log10(size)) - 1 : 0;
     if (isnan(value))
-        snprintf(room, CEDUO_NUMBER_SIZE, "-");
+        snprintf(buffer, CEDUO_NUMBER_SIZE, "-");
     else if (isinf(value))
-        snprintf(room, CEDUO_NUMBER_SIZE, "%s", P_("number", "none"));
+        snprintf(buffer, CEDUO_NUMBER_SIZE, "%s", P_("number", "none"));
     else if (size > 0 && (decimals > 6 || size >= 1e9))
-        snprintf(room, CEDUO_NUMBER_SIZE, "%.*g", digits, value);
+        snprintf(buffer, CEDUO_NUMBER_SIZE, "%.*g", digits, value);
     else
-        snprintf(room, CEDUO_NUMBER_SIZE, "%.*f", decimals > 0 ? decimals : 0, size > 0 ? value : 0);
-    return ceduo_number_localize(room);
+        snprintf(buffer, CEDUO_NUMBER_SIZE, "%.*f", decimals > 0 ? decimals : 0, size > 0 ? value : 0);
+    return ceduo_number_localize(buffer);
 }
 
 const char *ceduo_words_law(const char *word)
 {
-    static const char *const said[] = {N_("lumped"),          N_("crsp"),           N_("arm"),
+    static const char *const laws[] = {N_("lumped"),          N_("crsp"),           N_("arm"),
                                        N_("brauner"),         N_("dorren"),         N_("interception"),
                                        N_("gsteiger-stools"), N_("gsteiger-stems"), N_("crofton")};
-    for (size_t k = 0; k < sizeof said / sizeof said[0]; k++)
-        if (strcmp(word, said[k]) == 0)
-            return _(said[k]);
+    for (size_t k = 0; k < sizeof laws / sizeof laws[0]; k++)
+        if (strcmp(word, laws[k]) == 0)
+            return _(laws[k]);
     return word;
 }
 
-const char *ceduo_words_sig_trimmed(double value, int digits, char room[CEDUO_NUMBER_SIZE])
+const char *ceduo_words_sig_trimmed(double value, int digits, char buffer[CEDUO_NUMBER_SIZE])
 {
-    snprintf(room, CEDUO_NUMBER_SIZE, "%.*g", digits, value);
-    return ceduo_number_localize(room);
+    snprintf(buffer, CEDUO_NUMBER_SIZE, "%.*g", digits, value);
+    return ceduo_number_localize(buffer);
 }
 
-/* As many digits, or decimals, as it takes to write a value on the side of a limit where it lies. */
-static int digits_beside(double value, double limit, int digits, bool decimals)
+/* Return the digits, or decimals, needed to keep a value on its side of the limit. */
+static int digits_vs_limit(double value, double limit, int digits, bool decimals)
 {
-    char room[CEDUO_NUMBER_SIZE];
+    char buffer[CEDUO_NUMBER_SIZE];
     for (; digits < 9; digits++) {
-        snprintf(room, sizeof room, decimals ? "%.*f" : "%.*g", digits, value);
-        double shown = strtod(room, NULL);
+        snprintf(buffer, sizeof buffer, decimals ? "%.*f" : "%.*g", digits, value);
+        double shown = strtod(buffer, NULL);
         if ((shown < limit) == (value < limit) && (shown > limit) == (value > limit))
             break;
     }
     return digits;
 }
 
-const char *ceduo_words_against_limit(double value, int digits, double limit, char room[CEDUO_NUMBER_SIZE])
+const char *ceduo_words_against_limit(double value, int digits, double limit, char buffer[CEDUO_NUMBER_SIZE])
 {
-    return ceduo_words_sig(value, digits_beside(value, limit, digits, false), room);
+    return ceduo_words_sig(value, digits_vs_limit(value, limit, digits, false), buffer);
 }
 
-const char *ceduo_words_percent(double share, double limit, char room[CEDUO_NUMBER_SIZE])
+const char *ceduo_words_percent(double share, double limit, char buffer[CEDUO_NUMBER_SIZE])
 {
-    snprintf(room, CEDUO_NUMBER_SIZE, "%.*f", digits_beside(100 * share, 100 * limit, 1, true), 100 * share);
-    return ceduo_number_localize(room);
+    snprintf(buffer, CEDUO_NUMBER_SIZE, "%.*f", digits_vs_limit(100 * share, 100 * limit, 1, true), 100 * share);
+    return ceduo_number_localize(buffer);
 }
 
 void ceduo_words_number(struct text *text, double value, int digits)
 {
-    ceduo_text_append(text, WRITTEN(value, digits));
+    ceduo_text_append(text, SIG(value, digits));
 }
 
 void ceduo_words_place(struct text *text, const struct ceduo_control *control)
 {
     if (control->name)
-        ceduo_text_format(text, _("%s (%s m)"), NAME_OF(control), SHORTEST(control->x_given));
+        ceduo_text_format(text, _("%s (%s m)"), NAME_OF(control), LOCALIZED(control->x_given));
     else
-        ceduo_text_format(text, _("%s m"), SHORTEST(control->x_given));
+        ceduo_text_format(text, _("%s m"), LOCALIZED(control->x_given));
 }
 
 void ceduo_text_append_with(struct text *text, const char *sentence, const char *string)
 {
-    const char *at = strstr(sentence, "%s");
-    size_t n = at ? (size_t)(at - sentence) : strlen(sentence);
+    const char *mark = strstr(sentence, "%s");
+    size_t n = mark ? (size_t)(mark - sentence) : strlen(sentence);
     ceduo_text_append_n(text, sentence, n);
-    if (!at)
+    if (!mark)
         return;
     ceduo_text_append(text, string);
-    ceduo_text_append(text, at + 2);
+    ceduo_text_append(text, mark + 2);
 }
 
-void ceduo_words_format(ceduo_sentence_sink *say, void *context, const char *format, ...)
+void ceduo_words_format(ceduo_sentence_sink *sink, void *context, const char *format, ...)
 {
     LOCAL_TEXT(sentence);
     va_list args;
     va_start(args, format);
     ceduo_text_vformat(&sentence, format, args);
     va_end(args);
-    say(context, sentence.bytes);
+    sink(context, sentence.bytes);
 }
 
-/* Shoots, then trees; NULL behind the last. */
-static const struct ceduo_stems *stems_at(const struct ceduo_stand *s, size_t i)
+/* Return shoots, then trees; NULL after the last. */
+static const struct ceduo_stems *get_stems(const struct ceduo_stand *s, size_t i)
 {
     return i < s->shoots_count ? &s->shoots[i] : i < s->shoots_count + s->trees_count ? &s->trees[i - s->shoots_count] : NULL;
 }
 
-static const struct ceduo_stems *first_unlikely(const struct ceduo_stand *s, unsigned how)
+static const struct ceduo_stems *find_implausible(const struct ceduo_stand *s, unsigned warning)
 {
     size_t i = 0;
-    while (stems_at(s, i) && !(ceduo_stem_warnings(s, stems_at(s, i)) & how))
+    while (get_stems(s, i) && !(ceduo_stem_warnings(s, get_stems(s, i)) & warning))
         i++;
-    return stems_at(s, i);
+    return get_stems(s, i);
 }
 
-void ceduo_words_implausible(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_sentence_sink *say,
+void ceduo_words_implausible(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_sentence_sink *sink,
                              void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
-    const struct ceduo_stems *const odd[] = {first_unlikely(s, CEDUO_WARN_SLENDER), first_unlikely(s, CEDUO_WARN_STOUT)};
+    const struct ceduo_stems *const odd[] = {find_implausible(s, CEDUO_WARN_SLENDER), find_implausible(s, CEDUO_WARN_STOUT)};
     if (r->warnings & CEDUO_WARN_BASAL_AREA)
-        ceduo_words_format(say, context,
+        ceduo_words_format(sink, context,
                            _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."),
                            NAME_OF(belt), r->basal_area, CEDUO_BASAL_AREA_MAX);
     if (r->warnings & CEDUO_WARN_MANY_SHOOTS)
-        ceduo_words_format(say, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."), NAME_OF(belt),
-                           ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MAX);
+        ceduo_words_format(sink, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."),
+                           NAME_OF(belt), ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MAX);
     for (size_t i = 0; i < 2; i++)
         if (odd[i])
             ceduo_words_format(
-                say, context,
+                sink, context,
                 _("%s: %.3g cm stems, %.3g m tall: unusual height/diameter ratio (usual %d\xe2\x80\x93%d). Check both."),
                 NAME_OF(belt), odd[i]->dbh * 100, odd[i]->height, CEDUO_SLENDERNESS_MIN, CEDUO_SLENDERNESS_MAX);
-    for (size_t i = 0; stems_at(s, i); i++) {
-        const struct ceduo_curve_comparison at = ceduo_stems_compare_to_curve(s, belt->cut_year, i);
-        if (fabs(at.basal_area - at.by_curve) > CEDUO_CURVE_DEVIATION_MAX * at.by_curve)
-            ceduo_words_format(say, context,
+    for (size_t i = 0; get_stems(s, i); i++) {
+        const struct ceduo_curve_comparison curve = ceduo_stems_compare_to_curve(s, belt->cut_year, i);
+        if (fabs(curve.basal_area - curve.by_curve) > CEDUO_CURVE_DEVIATION_MAX * curve.by_curve)
+            ceduo_words_format(sink, context,
                                i < s->shoots_count
                                    ? _("%s: the shoots of %g years have %.1f m2/ha of basal area. The stand's own growth "
                                        "gives %.1f at that age: check diameter, age and growth.")
                                    : _("%s: the trees of %g years have %.1f m2/ha of basal area. The stand's own growth "
                                        "gives %.1f at that age: check diameter, age and growth."),
-                               NAME_OF(belt), at.age, at.basal_area, at.by_curve);
+                               NAME_OF(belt), curve.age, curve.basal_area, curve.by_curve);
     }
 }
 
-void ceduo_words_thick_stems(const struct ceduo_belt *belt, ceduo_sentence_sink *say, void *context)
+void ceduo_words_thick_stems(const struct ceduo_belt *belt, ceduo_sentence_sink *sink, void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
-    const struct ceduo_stems *thick = first_unlikely(s, CEDUO_WARN_THICK);
+    const struct ceduo_stems *thick = find_implausible(s, CEDUO_WARN_THICK);
     size_t n;
     if (thick)
-        ceduo_words_format(say, context,
+        ceduo_words_format(sink, context,
                            _("%s: %.3g cm stems are thicker than the volume tables of their species, %g cm: check them."),
                            NAME_OF(belt), thick->dbh * 100, ceduo_species_list(&n)[s->species].d_hi);
 }
 
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
-                                const struct ceduo_stand_result *r, ceduo_sentence_sink *say, void *context)
+                                const struct ceduo_stand_result *r, ceduo_sentence_sink *sink, void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
     if ((!r->bare || r->felled) && r->trees_per_ha < scene->reserves_minimum)
-        ceduo_words_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."),
+        ceduo_words_format(sink, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."),
                            NAME_OF(belt), r->trees_per_ha, scene->reserves_minimum);
-    ceduo_words_implausible(belt, r, say, context);
-    ceduo_words_thick_stems(belt, say, context);
+    ceduo_words_implausible(belt, r, sink, context);
+    ceduo_words_thick_stems(belt, sink, context);
     double diameter = ceduo_rock_mean(&scene->rock).mean_diameter;
     if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
-        ceduo_words_format(say, context,
+        ceduo_words_format(sink, context,
                            _("%s: Eq. 6 gives %.2f m between contacts, below the mean free path of %.2f m over all stems. This "
                              "is impossible: spacing %g m is too wide for %.1f shoots per stool."),
                            NAME_OF(belt), r->adc.interception, r->adc.gsteiger_stems, s->spacing,
                            ceduo_stand_shoots(s) / s->stools_per_ha);
     if (r->warnings & CEDUO_WARN_NEAR_JUMP)
         ceduo_words_format(
-            say, context,
+            sink, context,
             _("%s: the rock (%.2f m) is within 10 %% of the shoots' spacing (%g m), where the paper's rule jumps "
               "between %.2f m (all stems) and %.2f m (Eq. 6)."),
             NAME_OF(belt), diameter, s->spacing, r->adc.gsteiger_stems, r->adc.interception);
     if (r->warnings & CEDUO_WARN_WIDE_SPACING)
-        ceduo_words_format(say, context,
+        ceduo_words_format(sink, context,
                            _("%s: the shoots of a stool stand so far apart (%g m) that the rock can pass between two of them."),
                            NAME_OF(belt), s->spacing);
     if (r->warnings & CEDUO_WARN_DORREN_THIN)
         ceduo_words_format(
-            say, context,
+            sink, context,
             _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overshoots there."),
             NAME_OF(belt));
     if (r->warnings & CEDUO_WARN_RATIO_ASSUMED)
-        ceduo_words_format(say, context, _("%s: no fracture ratio is published for this species; 1 is assumed."),
+        ceduo_words_format(sink, context, _("%s: no fracture ratio is published for this species; 1 is assumed."),
                            NAME_OF(belt));
     if (r->warnings & CEDUO_WARN_LOW)
         ceduo_words_format(
-            say, context,
+            sink, context,
             _("%s: stumps and logs are among the contacts of the index, but the lights of contact and free run do "
               "not count them: a rock flies over them."),
             NAME_OF(belt));
-    const struct ceduo_stems *first = NULL; /* kind of stem with a volume by form factor; of those too thick it is said above */
+    const struct ceduo_stems *first =
+        NULL; /* first kind of stem with a volume by form factor; too thick ones are reported above */
     size_t n = 0;
-    for (size_t i = 0; r->warnings & CEDUO_WARN_FORM_FACTOR && stems_at(s, i); i++) {
+    for (size_t i = 0; r->warnings & CEDUO_WARN_FORM_FACTOR && get_stems(s, i); i++) {
         enum ceduo_volume_from from;
-        ceduo_stem_volume(s, stems_at(s, i), &from);
-        if (from == CEDUO_VOLUME_FORM_FACTOR && stems_at(s, i)->per_ha > 0 &&
-            !(ceduo_stem_warnings(s, stems_at(s, i)) & CEDUO_WARN_THICK))
-            first = n++ == 0 ? stems_at(s, i) : first;
+        ceduo_stem_volume(s, get_stems(s, i), &from);
+        if (from == CEDUO_VOLUME_FORM_FACTOR && get_stems(s, i)->per_ha > 0 &&
+            !(ceduo_stem_warnings(s, get_stems(s, i)) & CEDUO_WARN_THICK))
+            first = n++ == 0 ? get_stems(s, i) : first;
     }
     if (n > 0)
         ceduo_words_format(
-            say, context,
+            sink, context,
             s->species < 0
                 ? ngettext("%s: no species is given, and no volume for %zu kind of stem (%.3g cm, %.3g m high); form "
                            "factor 0.5 is assumed.",
@@ -236,7 +237,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
                            n),
             NAME_OF(belt), n, first->dbh * 100, first->height);
     if (r->warnings & CEDUO_WARN_U_ASSUMED)
-        ceduo_words_format(say, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."),
+        ceduo_words_format(sink, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."),
                            NAME_OF(belt), ceduo_stand_u(s));
 }
 
@@ -247,20 +248,20 @@ const char *ceduo_words_verdict(enum ceduo_light light)
     return light == CEDUO_PASS ? _("passes") : light == CEDUO_FAIL ? _("FAILS") : _("unknown");
 }
 
-/* Why contact or free run holds, or not. */
-static void say_reason(struct text *text, const struct ceduo_index *s, double limit, bool contact)
+/* Append why contact or free run passes or fails. */
+static void append_test_reason(struct text *text, const struct ceduo_index *s, double limit, bool contact)
 {
-    const char *adc = BESIDE(s->worst_adc, 3, limit);
+    const char *adc = VS_LIMIT(s->worst_adc, 3, limit);
     if (contact && s->contact == CEDUO_PASS)
         ceduo_text_format(text, _("Every belt has an ADC below %g m (%s m at most) and no gap is longer."), limit, adc);
     else if (!(s->length > 0))
         ceduo_text_append(text, _("No stem stands on the path."));
     else if (s->longest_gap > limit)
         ceduo_text_format(text, _("A gap of %s m has no forest; a rock reaches full speed in %g m."),
-                          ROUNDED(s->longest_gap, 6), limit);
+                          SIG_TRIMMED(s->longest_gap, 6), limit);
     else if (!contact)
         ceduo_text_format(text, _("Chance of %g m without a contact at worst %s %% (10 %% is allowed)."), limit,
-                          PERCENT(s->worst_free_run, CEDUO_FREE_RUN_MAX));
+                          PERCENT_VS_LIMIT(s->worst_free_run, CEDUO_FREE_RUN_MAX));
     else if (isinf(s->worst_adc))
         ceduo_text_format(text, _("In a belt no stem counts; a rock reaches full speed in %g m."), limit);
     else
@@ -279,7 +280,7 @@ void ceduo_words_test(struct text *text, const struct ceduo_result *result, size
         ceduo_words_judgement_reason(text, result, control, ceduo_result_wooded(result, option, control));
         return;
     }
-    say_reason(text, s, limit, test == 0);
+    append_test_reason(text, s, limit, test == 0);
     if (test == 0 && counted > 0)
         ceduo_text_append_joined(text, " ", _("Stems below %g cm do not count."), counted * 100);
     if (thick[test] == lights[test])
@@ -288,33 +289,33 @@ void ceduo_words_test(struct text *text, const struct ceduo_result *result, size
     ceduo_text_append_joined(text, " ", _("Counting only stems from %g cm on it fails: %s%s."),
                              fmax(counted, CEDUO_THICK_DBH) * 100,
                              !stems      ? _("no stems")
-                             : test == 0 ? BESIDE(s->thick.worst_adc, 3, limit)
-                                         : PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MAX),
+                             : test == 0 ? VS_LIMIT(s->thick.worst_adc, 3, limit)
+                                         : PERCENT_VS_LIMIT(s->thick.worst_free_run, CEDUO_FREE_RUN_MAX),
                              !stems      ? ""
                              : test == 0 ? " m"
                                          : " %");
 }
 
-#define NAMED_MAX 2 /* options; more are counted */
+#define NAMED_MAX 2 /* more options are only counted */
 
-void ceduo_words_thin_stems(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
+void ceduo_words_thin_stems(const struct ceduo_result *r, ceduo_sentence_sink *sink, void *context)
 {
-    LOCAL_TEXT(where);
+    LOCAL_TEXT(options);
     size_t n = 0;
     for (size_t i = 0; r->scene->controls_count > 0 && i < r->options_count; i++)
         if (ceduo_index_depends_on_thin_stems(ceduo_result_last_index(r, i)))
-            ceduo_text_format(&where, "%s'%s'", n++ > 0 ? ", " : ": ", NAME_OF(&r->scene->options[i]));
+            ceduo_text_format(&options, "%s'%s'", n++ > 0 ? ", " : ": ", NAME_OF(&r->scene->options[i]));
     if (n == 0)
         return;
     if (r->options_count == 1 || n > NAMED_MAX)
-        ceduo_text_cut(&where, 0);
+        ceduo_text_cut(&options, 0);
     if (n > NAMED_MAX)
-        ceduo_text_format(&where, _(" in %zu of %zu options"), n, r->options_count);
-    ceduo_words_format(say, context, _("Counting only stems from %g cm on, contact or free run fails today%s."),
-                       CEDUO_THICK_DBH * 100, ceduo_text_string(&where));
+        ceduo_text_format(&options, _(" in %zu of %zu options"), n, r->options_count);
+    ceduo_words_format(sink, context, _("Counting only stems from %g cm on, contact or free run fails today%s."),
+                       CEDUO_THICK_DBH * 100, ceduo_text_string(&options));
 }
 
-/* ---- the profile ---- */
+/* ---- profile ---- */
 
 void ceduo_words_points(struct text *text, const struct ceduo_slope *slope)
 {

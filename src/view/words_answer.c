@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What can be said of a control, and why: yes, no, not decided, or nothing. */
+/* Judgement of a control, with the reason. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,7 +9,7 @@
 #include "report.h"
 #include "words.h"
 
-/* What files and people call it. */
+/* Word in files, text for people, and light of each judgement. */
 static const struct {
     const char *word, *verdict;
     enum ceduo_light light;
@@ -25,10 +25,10 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement)
     return judgements[judgement].word;
 }
 
-/* ---- nothing ---- */
+/* ---- cannot be judged ---- */
 
-/* Appends why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, what is usual, and what to check. */
-static void say_contradiction(struct text *text, const struct ceduo_arrivals *bare)
+/* Append why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, the usual one, and what to check. */
+static void append_contradiction(struct text *text, const struct ceduo_arrivals *bare)
 {
     double reach = ceduo_topography_find(bare)->reach * DEGREES, shadow = ceduo_topography_find(bare)->shadow * DEGREES;
     if (shadow > CEDUO_SHADOW_STEEP)
@@ -50,15 +50,15 @@ static void say_contradiction(struct text *text, const struct ceduo_arrivals *ba
 void ceduo_words_too_few_arrivals(struct text *text, const struct ceduo_result *r, size_t control)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
-    LOCAL_TEXT(where);
-    ceduo_words_place(&where, &r->scene->controls[control]);
+    LOCAL_TEXT(place_name);
+    ceduo_words_place(&place_name, &r->scene->controls[control]);
     ceduo_text_format(text, _("The forest above %s cannot be assessed: of %llu rocks only %llu arrive even without it."),
-                      ceduo_text_string(&where), (unsigned long long)ceduo_released(bare),
-                      (unsigned long long)ceduo_reached(bare));
-    /* where rocks start without forest, and how far they come */
+                      ceduo_text_string(&place_name), (unsigned long long)ceduo_rocks_released(bare),
+                      (unsigned long long)ceduo_rocks_reached(bare));
+    /* start and reach of the rocks without forest */
     const struct ceduo_slope *s = &r->scene->slope;
     double start = r->scene->release.x.mean, falls = atan(ceduo_slope_fall(s, start)) * 180 / M_PI;
-    double farthest = r->bare.ends.stop_max, way = farthest - start; /* NaN: none comes to rest */
+    double farthest = r->bare.ends.stop_max, distance = farthest - start; /* NaN: no rock stops */
     double face = ceduo_slope_face(s);
     ceduo_text_append_joined(text, " ",
                              falls < 0 ? _("They start at %.10g m, where the ground rises by %.0f\xc2\xb0.")
@@ -66,18 +66,18 @@ void ceduo_words_too_few_arrivals(struct text *text, const struct ceduo_result *
                              start + s->origin_x, fabs(falls));
     if (r->scene->release.x_assumed)
         ceduo_text_append_joined(text, " ", "%s", _("That is where the profile begins: release.x_m is not given."));
-    if (!isnan(way))
-        ceduo_text_append_joined(text, " ", _("They come to rest within %s m of it."), WRITTEN(way < 0.05 ? 0 : way, 2));
+    if (!isnan(distance))
+        ceduo_text_append_joined(text, " ", _("They come to rest within %s m of it."), SIG(distance < 0.05 ? 0 : distance, 2));
     if (falls < 0)
         ceduo_text_append_joined(text, " ", "%s", _("The profile may have been drawn upward."));
-    /* what to do: a face that they do not reach is where they should start */
+    /* remedy: an unreached face is probably the release area */
     if (face > start && !(farthest > face))
         ceduo_text_append_joined(
             text, " ",
             _("The ground is steeper than 45\xc2\xb0 from %.10g m on: if they start there, write release.x_m: %.10g."),
             face + s->origin_x, face + s->origin_x);
     else if (ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS)
-        say_contradiction(text, bare);
+        append_contradiction(text, bare);
     else if (!(farthest > s->x[ceduo_slope_segment(s, start) + 1]))
         ceduo_text_append_joined(
             text, " ", "%s",
@@ -86,19 +86,19 @@ void ceduo_words_too_few_arrivals(struct text *text, const struct ceduo_result *
         ceduo_text_append_joined(text, " ", "%s", _("If release and ground are right, rocks do not reach this place."));
 }
 
-void ceduo_words_warn_no_answer(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
+void ceduo_words_warn_no_answer(const struct ceduo_result *r, ceduo_sentence_sink *sink, void *context)
 {
     for (size_t c = 0; c < r->scene->controls_count; c++) {
         LOCAL_TEXT(sentence);
         if (!ceduo_too_few_arrivals(&r->bare.arrivals[c]))
             continue;
         ceduo_words_too_few_arrivals(&sentence, r, c);
-        say(context, ceduo_text_string(&sentence));
-        return; /* what lies behind it is not reached either */
+        sink(context, ceduo_text_string(&sentence));
+        return; /* controls farther down are not reached either */
     }
 }
 
-/* ---- why ---- */
+/* ---- reason ---- */
 
 void ceduo_words_judgement_reason(struct text *text, const struct ceduo_result *r, size_t control,
                                   const struct ceduo_arrivals *wooded)
@@ -120,22 +120,22 @@ void ceduo_words_judgement_reason(struct text *text, const struct ceduo_result *
     const struct ceduo_arrivals *shown = wooded ? wooded : bare;
     if (r->scene->blocks_count > 0)
         ceduo_text_format(text, _("A rock with more than %s kJ arrives every %s years (one in %s years is accepted)."),
-                          SHORTEST(ceduo_words_accepted(c)), YEARS(ceduo_judged_rate(shown)),
-                          SHORTEST(ceduo_accepted_return(c)));
+                          LOCALIZED(ceduo_words_accepted(c)), RETURN_PERIOD_RANGE(ceduo_judged_rate(shown)),
+                          LOCALIZED(ceduo_accepted_return(c)));
     else
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
                           INTERVAL(ceduo_measure_exceeding(c, shown)), ceduo_words_accepted(c), CEDUO_EXCEED_MAX * 1000);
     if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
         ceduo_text_append_joined(text, " ", _("%llu rocks were still moving when the simulation stopped; they may arrive."),
-                                 (unsigned long long)ceduo_unfinished(shown));
+                                 (unsigned long long)ceduo_rocks_unfinished(shown));
     else if (judgement == CEDUO_NOT_DECIDED)
         ceduo_text_append_joined(text, " ", _("%llu rocks are too few to decide; simulate more."),
-                                 (unsigned long long)ceduo_released(shown));
+                                 (unsigned long long)ceduo_rocks_released(shown));
     else if (also_bare)
         ceduo_text_append_joined(text, " ", "%s", _("The slope meets the limit even without forest."));
 }
 
-/* ---- in one line ---- */
+/* ---- single line ---- */
 
 struct ceduo_outcome ceduo_report_outcome(const struct ceduo_report *report, size_t option, size_t control)
 {
@@ -156,10 +156,10 @@ struct ceduo_subject ceduo_subject_find(const struct ceduo_report *report, size_
                               .wooded = forest ? ceduo_result_wooded(r, option, control) : &r->bare.arrivals[control],
                               .index = forest ? &r->options[option].controls[control] : NULL,
                               .choice = v && option < v->n ? &v->choices[option] : NULL};
-    const struct ceduo_alternative_energy *other = forest ? &r->options[option].others[control] : NULL;
-    s.other = other && other->known && other->stems ? other : NULL;
+    const struct ceduo_alternative_energy *alternative = forest ? &r->options[option].others[control] : NULL;
+    s.alternative = alternative && alternative->known && alternative->stems ? alternative : NULL;
     s.today = ceduo_measure_exceeding(s.place, s.wooded);
-    s.mean = ceduo_share(s.choice ? s.choice->mean : (struct ceduo_mean_share){NAN, NAN});
+    s.mean = ceduo_measure_share(s.choice ? s.choice->mean : (struct ceduo_mean_share){NAN, NAN});
     if (forest) {
         s.outcome = ceduo_report_outcome(report, option, control);
         ceduo_measure_uncertainty(&s.today, report->uncertainty, option, control);
@@ -183,27 +183,27 @@ const char *ceduo_words_judgement_name(enum ceduo_judgement judgement)
     return _(judgements[judgement].verdict);
 }
 
-const char *ceduo_words_judgement_mark(enum ceduo_judgement judgement, char room[CEDUO_WORDS_SIZE])
+const char *ceduo_words_judgement_mark(enum ceduo_judgement judgement, char buffer[CEDUO_WORDS_SIZE])
 {
     if (judgement != CEDUO_UNANSWERED)
-        snprintf(room, CEDUO_WORDS_SIZE, "%s %s", ceduo_plot_light_mark(judgements[judgement].light),
+        snprintf(buffer, CEDUO_WORDS_SIZE, "%s %s", ceduo_plot_light_mark(judgements[judgement].light),
                  ceduo_words_judgement_name(judgement));
-    return room;
+    return buffer;
 }
 
-/* From the longest to the shortest; a line takes the first that fits. */
+/* From the longest to the shortest; the first that fits is used. */
 enum length { FULL, LONG, MIDDLE, SHORT, BRIEF, LENGTHS };
 
-/* "; today 31 of 1000 (YES)" */
-static void say_today(struct text *text, const struct ceduo_outcome *o, double today, bool word)
+/* Append "; today 31 (YES)". */
+static void append_today(struct text *text, const struct ceduo_outcome *o, double today, bool word)
 {
     ceduo_text_format(text, _("; today %.0f"), today);
     if (word && o->today != CEDUO_UNANSWERED)
         ceduo_text_format(text, " (%s)", ceduo_words_judgement_name(o->today));
 }
 
-/* Years above the limit: "17", or "0–12" if that leaves the answer open. */
-static void say_count(struct text *text, const struct ceduo_outcome *o)
+/* Append years above the limit: "17", or "0–12" if the answer is open. */
+static void append_count(struct text *text, const struct ceduo_outcome *o)
 {
     if (o->answer == CEDUO_NO || !(o->failing_lo < o->failing_hi))
         ceduo_text_format(text, "%.0f", o->failing);
@@ -218,21 +218,21 @@ static bool is_due(const struct ceduo_subject *s)
     return o->ahead && s->choice && s->choice->cut > 0 && o->today != o->answer && !o->impossible;
 }
 
-/* Over the years: in how many the limit is exceeded, and by how much. */
-static void say_years(struct text *text, const struct ceduo_subject *s, enum length length)
+/* Append the years in which the limit is exceeded, and by how much. */
+static void append_years(struct text *text, const struct ceduo_subject *s, enum length length)
 {
     const struct ceduo_outcome *o = &s->outcome;
-    const struct ceduo_years_summary *over = &s->choice->ahead[s->control];
-    const char *limit = SHORTEST(s->today.limit);
-    double accepted = 1000 * CEDUO_EXCEED_MAX, worst = 1000 * over->worst;
+    const struct ceduo_years_summary *summary = &s->choice->ahead[s->control];
+    const char *limit = LOCALIZED(s->today.limit);
+    double accepted = 1000 * CEDUO_EXCEED_MAX, worst = 1000 * summary->worst;
     LOCAL_TEXT(count);
-    say_count(&count, o);
+    append_count(&count, o);
     if (is_due(s)) {
-        ceduo_text_format(text, length < BRIEF ? _("%.0f of 1000 in year %u") : _("%.0f of 1000"), worst, over->worst_year);
+        ceduo_text_format(text, length < BRIEF ? _("%.0f of 1000 in year %u") : _("%.0f of 1000"), worst, summary->worst_year);
         if (length < SHORT)
             ceduo_text_format(
                 text, length < MIDDLE ? _(", more than %.0f of 1000 in %s of %zu years") : _(", above %.0f in %s of %zu years"),
-                accepted, ceduo_text_string(&count), over->years);
+                accepted, ceduo_text_string(&count), summary->years);
         return;
     }
     if (o->answer == CEDUO_YES)
@@ -240,64 +240,67 @@ static void say_years(struct text *text, const struct ceduo_subject *s, enum len
                           length <= LONG     ? _("in every year of %zu at most %.0f of 1000 rocks exceed %s kJ")
                           : length == MIDDLE ? _("in every year of %zu at most %.0f of 1000 exceed %s kJ")
                                              : _("in every year of %zu at most %.0f of 1000"),
-                          over->years, worst, limit);
+                          summary->years, worst, limit);
     else
         ceduo_text_format(text,
                           length <= LONG     ? _("in %s of %zu years more than %.0f of 1000 rocks exceed %s kJ")
                           : length == MIDDLE ? _("in %s of %zu years more than %.0f of 1000 exceed %s kJ")
                           : length == SHORT  ? _("above the limit in %s of %zu years")
                                              : _("in %s of %zu years"),
-                          ceduo_text_string(&count), over->years, accepted, limit);
-    if (length == FULL && o->answer != CEDUO_YES && !s->apart)
-        ceduo_text_format(text, _(": mean %.0f, worst %.0f in year %u"), 1000 * over->exceed.mean, worst, over->worst_year);
-    if (length <= SHORT && !s->apart)
-        say_today(text, o, s->today.value, length <= LONG || (length == SHORT && o->today != o->answer));
+                          ceduo_text_string(&count), summary->years, accepted, limit);
+    if (length == FULL && o->answer != CEDUO_YES && !s->mean_shown)
+        ceduo_text_format(text, _(": mean %.0f, worst %.0f in year %u"), 1000 * summary->exceed.mean, worst,
+                          summary->worst_year);
+    if (length <= SHORT && !s->mean_shown)
+        append_today(text, o, s->today.value, length <= LONG || (length == SHORT && o->today != o->answer));
 }
 
-/* With blocks: how often, beside what is accepted. */
-static void say_rate(struct text *text, const struct ceduo_subject *s, enum length length)
+/* Append the return period and the accepted one, for scenes with blocks. */
+static void append_rate(struct text *text, const struct ceduo_subject *s, enum length length)
 {
-    bool ahead = s->outcome.ahead;
+    bool years_ahead = s->outcome.ahead;
     if (length <= LONG)
-        ceduo_text_format(text, _("more than %s kJ every %s years"), SHORTEST(ceduo_words_accepted(s->place)),
-                          YEARS(s->outcome.rate));
+        ceduo_text_format(text, _("more than %s kJ every %s years"), LOCALIZED(ceduo_words_accepted(s->place)),
+                          RETURN_PERIOD_RANGE(s->outcome.rate));
     else
-        ceduo_text_format(text, _("every %s years"), YEARS(s->outcome.rate));
+        ceduo_text_format(text, _("every %s years"), RETURN_PERIOD_RANGE(s->outcome.rate));
     if (length <= MIDDLE)
-        ceduo_text_format(text, _(" (accepted: %s)"), SHORTEST(ceduo_accepted_return(s->place)));
-    if (length == FULL && ahead)
+        ceduo_text_format(text, _(" (accepted: %s)"), LOCALIZED(ceduo_accepted_return(s->place)));
+    if (length == FULL && years_ahead)
         ceduo_text_format(text, _(", mean of %zu years"), s->choice->ahead[s->control].years);
-    if (length <= SHORT && ahead && s->wooded)
-        ceduo_text_format(text, _("; today every %s"), EVERY(ceduo_judged_rate(s->wooded)));
+    if (length <= SHORT && years_ahead && s->wooded)
+        ceduo_text_format(text, _("; today every %s"), RETURN_PERIOD(ceduo_judged_rate(s->wooded)));
 }
 
-/* "479 of 1000 arrive with more than 50 kJ (at most 50 rocks are accepted); may be 234–748" */
-static void say_shares(struct text *text, const struct ceduo_measure *m, const struct ceduo_measure *bare, enum length length)
+/* Append "479 of 1000 arrive with more than 50 kJ (at most 50 rocks are accepted); may be 234–748". */
+static void append_shares(struct text *text, const struct ceduo_measure *m, const struct ceduo_measure *bare,
+                          enum length length)
 {
     if (length == BRIEF) {
         ceduo_text_format(text, _("%.0f of 1000"), m->value);
         return;
     }
-    ceduo_text_format(text, _("%s of 1000 %s"), VALUE_OF(*m), NAMED(*m, length <= LONG ? CEDUO_PHRASE : CEDUO_SHORT_HEAD));
+    ceduo_text_format(text, _("%s of 1000 %s"), MEASURE_VALUE(*m),
+                      MEASURE_NAME(*m, length <= LONG ? CEDUO_PHRASE : CEDUO_SHORT_HEAD));
     if (length == FULL && m->limit > 0)
         ceduo_text_format(text, _(" (at most %.0f rocks accepted)"), 1000 * CEDUO_EXCEED_MAX);
     else if (length == FULL && bare)
         ceduo_text_format(text, _(" (%.0f without forest)"), bare->value);
-    bool uncertain = !isnan(m->may_lo);
+    bool uncertain = !isnan(m->p5);
     if (length > MIDDLE)
         return;
     ceduo_text_format(text, uncertain ? _("; may be %s") : _("; %s by the rocks"),
-                      uncertain ? MAY_BE(*m) : SPAN(*m, m->lo, m->hi));
+                      uncertain ? PLAUSIBLE_RANGE(*m) : SPAN(*m, m->lo, m->hi));
 }
 
-/* What follows the verdict, in so many columns; nothing where it has no room. */
-static void say_reason(struct text *text, const struct ceduo_subject *s, size_t width)
+/* Append the reason in at most `width` columns; nothing if no form fits. */
+static void append_reason(struct text *text, const struct ceduo_subject *s, size_t width)
 {
     const struct ceduo_scene *scene = s->report->result->scene;
     const struct ceduo_outcome *o = &s->outcome;
     const struct ceduo_measure bare = ceduo_measure_exceeding(s->place, s->bare);
-    const char *left = WRITTEN(s->index->residual * J_TO_KJ, 3),
-               *mean = WRITTEN(ceduo_measured(CEDUO_MEAN_KJ, s->bare).value, 3);
+    const char *remaining = SIG(s->index->residual * J_TO_KJ, 3),
+               *mean = SIG(ceduo_measure_figure(CEDUO_MEAN_KJ, s->bare).value, 3);
     for (enum length i = FULL; i < LENGTHS; i++) {
         ceduo_text_free(text);
         if (o->impossible)
@@ -305,21 +308,23 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, size_t 
                               i < BRIEF ? _("more stems than a forest can hold: check the stand") : _("impossible stand"));
         else if (o->answer == CEDUO_CANNOT_JUDGE)
             ceduo_text_format(text, _("of %llu rocks only %llu arrive, even without forest"),
-                              (unsigned long long)ceduo_released(s->bare), (unsigned long long)ceduo_reached(s->bare));
+                              (unsigned long long)ceduo_rocks_released(s->bare),
+                              (unsigned long long)ceduo_rocks_reached(s->bare));
         else if (!s->wooded && s->report->result->wooded)
             ceduo_text_append(text, _("not computed yet"));
         else if (!s->wooded && o->answer != CEDUO_YES)
             ceduo_text_format(
-                text, i == FULL ? _("by the index %s of %s kJ remain on average") : _("by the index %s of %s kJ remain"), left,
-                mean);
+                text, i == FULL ? _("by the index %s of %s kJ remain on average") : _("by the index %s of %s kJ remain"),
+                remaining, mean);
         else if (scene->blocks_count > 0 && !isnan(o->rate.mean))
-            say_rate(text, s, i);
+            append_rate(text, s, i);
         else if (o->answer == CEDUO_YES && o->also_bare)
-            say_shares(text, &bare, NULL, i);
+            append_shares(text, &bare, NULL, i);
         else if (o->ahead && o->answer != CEDUO_UNANSWERED)
-            say_years(text, s, i);
+            append_years(text, s, i);
         else
-            say_shares(text, s->wooded ? &s->today : &bare, ceduo_plot_has_stems(&scene->options[s->option]) ? &bare : NULL, i);
+            append_shares(text, s->wooded ? &s->today : &bare, ceduo_plot_has_stems(&scene->options[s->option]) ? &bare : NULL,
+                          i);
         if (ceduo_utf8_width(text->bytes) <= width)
             return;
     }
@@ -329,7 +334,7 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, size_t 
 void ceduo_words_reason(struct text *text, const struct ceduo_subject *s)
 {
     LOCAL_TEXT(reason);
-    say_reason(&reason, s, SIZE_MAX);
+    append_reason(&reason, s, SIZE_MAX);
     ceduo_text_format(text, "%s.", ceduo_text_string(&reason));
 }
 
@@ -340,15 +345,15 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
     LOCAL_TEXT(reason);
     LOCAL_TEXT(place);
     if (is_due(s)) /* "✔ YES today; ✘ NO after the cut" */
-        ceduo_text_format(&verdict, _("%s today; %s after the cut"), DECISION(o->today), DECISION(o->answer));
+        ceduo_text_format(&verdict, _("%s today; %s after the cut"), JUDGEMENT_MARK(o->today), JUDGEMENT_MARK(o->answer));
     else
-        ceduo_text_append(&verdict, DECISION(o->answer));
-    if (s->so_far)
+        ceduo_text_append(&verdict, JUDGEMENT_MARK(o->answer));
+    if (s->preliminary)
         ceduo_text_append(&verdict, _(" so far"));
     if (o->answer == CEDUO_YES && o->also_bare)
         ceduo_text_append(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
-    if (s->report->result->scene->controls_count > 1) { /* the one that it is about */
+    if (s->report->result->scene->controls_count > 1) { /* name the control */
         ceduo_words_place(&place, s->place);
         ceduo_text_append(&place, ": ");
         if (ceduo_utf8_width(place.bytes) + taken <= width) {
@@ -356,7 +361,7 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
             taken += ceduo_utf8_width(place.bytes);
         }
     }
-    say_reason(&reason, s, width > taken ? width - taken : 0);
+    append_reason(&reason, s, width > taken ? width - taken : 0);
     ceduo_text_append(text, ceduo_text_string(&verdict));
     if (reason.length > 0)
         ceduo_text_format(text, "%s%s", verdict.length > 0 ? ": " : "", reason.bytes);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which option is best, in sentences, and what the other energy law of stems makes of that. */
+/* Best option in sentences, and the effect of the other energy law. */
 #include <math.h>
 
 #include "base/language.h"
@@ -7,37 +7,37 @@
 #include "scene/choices.h"
 #include "words.h"
 
-/* ---- the years that are compared ---- */
+/* ---- compared years ---- */
 
-/* The window, which all options have. */
-static const struct ceduo_window *window_of(const struct ceduo_verdict *v)
+/* Return the window, which is common to all options. */
+static const struct ceduo_window *get_window(const struct ceduo_verdict *v)
 {
     return &v->choices[0].window;
 }
 
 void ceduo_words_window(struct text *text, const struct ceduo_option *option)
 {
-    const struct ceduo_belt *still = NULL;
+    const struct ceduo_belt *standing = NULL;
     enum ceduo_window_kind kind = ceduo_window_compute(option).kind;
     for (size_t i = 0; i < option->belts_count; i++)
-        if (!still && !ceduo_stand_is_bare(&option->belts[i].stand))
-            still = &option->belts[i];
+        if (!standing && !ceduo_stand_is_bare(&option->belts[i].stand))
+            standing = &option->belts[i];
     if (kind == CEDUO_WINDOW_AHEAD)
         ceduo_text_format(text, _("'%s' grows and is never cut."), NAME_OF(option));
-    else if (kind == CEDUO_WINDOW_CONSTANT && !still)
+    else if (kind == CEDUO_WINDOW_CONSTANT && !standing)
         ceduo_text_format(text, _("'%s' does not change: no stem stands in it."), NAME_OF(option));
     else if (kind == CEDUO_WINDOW_CONSTANT)
         ceduo_text_format(text, _("'%s' does not change: stand '%s' has no growth and cutting data."), NAME_OF(option),
-                          NAME_OF(still));
+                          NAME_OF(standing));
 }
 
-void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_sentence_sink *say, void *context)
+void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_sentence_sink *sink, void *context)
 {
     for (size_t i = 0; i < scene->options_count; i++) {
         LOCAL_TEXT(sentence);
         ceduo_words_window(&sentence, &scene->options[i]);
         if (sentence.length > 0)
-            say(context, sentence.bytes);
+            sink(context, sentence.bytes);
     }
 }
 
@@ -45,19 +45,19 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
 {
     const struct ceduo_years_summary s = ceduo_years_summarize(years, r->last_control);
     const struct ceduo_window *w = &years->window;
-    bool says = !isnan(s.exceed.mean);
+    bool has_energy = !isnan(s.exceed.mean);
     if (w->kind == CEDUO_WINDOW_CONSTANT)
         ceduo_text_append(text, _("Each:"));
     else
         ceduo_text_format(text, _("Years %u to %u:"), w->first, w->last);
-    const char *share = WITH_ERROR(ceduo_share(ceduo_share_over_years(years, &s)), " ");
+    const char *share = WITH_ERROR(ceduo_measure_share(ceduo_share_over_years(years, &s)), " ");
     if (s.simulated > 0)
         ceduo_text_append_joined(text, " ", _("mean %s of 1000, worst %.0f (year %u)."), share, s.worst * 1000, s.worst_year);
     else if (!s.nothing)
         ceduo_text_append_joined(text, " ", _("the ADC is largest in year %u."), s.worst_year);
     if (s.nothing)
         ceduo_text_append_joined(text, " ", "%s", _("The forest cannot be assessed: no rock arrives, even without it."));
-    else if (s.simulated > 0 && says)
+    else if (s.simulated > 0 && has_energy)
         ceduo_text_append_joined(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."),
                                  s.unprotected_energy, s.unprotected_contact, s.unprotected_free_run, s.years);
     else
@@ -67,10 +67,10 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
         ceduo_text_append_joined(text, " ", _("From %g cm on: contact %zu, free run %zu."), CEDUO_THICK_DBH * 100,
                                  s.thick_contact, s.thick_free_run);
     if (!isnan(s.passes_per_year) && !isnan(s.exceeds_per_year))
-        ceduo_text_append_joined(text, " ", _("Expected a year: %s pass, %s with too much."), WRITTEN(s.passes_per_year, 2),
-                                 WRITTEN(s.exceeds_per_year, 2));
+        ceduo_text_append_joined(text, " ", _("Expected a year: %s pass, %s with too much."), SIG(s.passes_per_year, 2),
+                                 SIG(s.exceeds_per_year, 2));
     else if (!isnan(s.passes_per_year))
-        ceduo_text_append_joined(text, " ", _("Expected a year: %s pass."), WRITTEN(s.passes_per_year, 2));
+        ceduo_text_append_joined(text, " ", _("Expected a year: %s pass."), SIG(s.passes_per_year, 2));
 }
 
 void ceduo_words_year_numbering(struct text *text, uint64_t rocks)
@@ -82,20 +82,19 @@ void ceduo_words_year_numbering(struct text *text, uint64_t rocks)
         ceduo_text_append(text, _("Years are counted from today."));
 }
 
-/* ---- the best ---- */
+/* ---- best option ---- */
 
-static double mean_of(const struct ceduo_verdict *v, bool rotation, size_t i)
+static double get_mean(const struct ceduo_verdict *v, bool rotation, size_t i)
 {
     return 1000 * (rotation ? v->choices[i].mean.mean : v->choices[i].today.mean);
 }
 
-/* The best and those that it does not clearly beat, in their order: their names, "'large reserves' and 'selection
- * coppice'", or their numbers. */
+/* Append the best option and its rivals in order: names, "'large reserves' and 'selection coppice'", or numbers. */
 static void append_leaders(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v,
                            const struct ceduo_leader *leader, bool rotation, bool names)
 {
-    LOCAL_TEXT(said);
-    size_t left = leader->rivals + 1;
+    LOCAL_TEXT(list);
+    size_t remaining = leader->rivals + 1;
     for (size_t i = 0; i < v->n; i++) {
         LOCAL_TEXT(one);
         if (i != leader->best && !leader->rival[i])
@@ -103,23 +102,23 @@ static void append_leaders(struct text *text, const struct ceduo_scene *scene, c
         if (names)
             ceduo_text_format(&one, "'%s'", NAME_OF(&scene->options[i]));
         else
-            ceduo_text_format(&one, "%.0f", mean_of(v, rotation, i));
-        if (--left > 0 || leader->rivals == 0)
-            ceduo_text_format(&said, "%s%s", said.length > 0 ? ", " : "", ceduo_text_string(&one));
+            ceduo_text_format(&one, "%.0f", get_mean(v, rotation, i));
+        if (--remaining > 0 || leader->rivals == 0)
+            ceduo_text_format(&list, "%s%s", list.length > 0 ? ", " : "", ceduo_text_string(&one));
         else
-            ceduo_text_format(text, _("%s and %s"), ceduo_text_string(&said), ceduo_text_string(&one));
+            ceduo_text_format(text, _("%s and %s"), ceduo_text_string(&list), ceduo_text_string(&one));
     }
     if (leader->rivals == 0)
-        ceduo_text_append(text, ceduo_text_string(&said));
+        ceduo_text_append(text, ceduo_text_string(&list));
 }
 
-/* "In years 1 to 25 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
-static void say_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, bool rotation,
-                     const char *when)
+/* Append "In years 1 to 25 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
+static void append_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, bool rotation,
+                        const char *when)
 {
     const struct ceduo_leader *leader = rotation ? &v->rotation : &v->today;
     const char *rocks = v->accepted ? _("dangerous rocks") : _("rocks");
-    double mean = mean_of(v, rotation, leader->best);
+    double mean = get_mean(v, rotation, leader->best);
     LOCAL_TEXT(names);
     LOCAL_TEXT(numbers);
     ceduo_text_format(text, "%s ", when);
@@ -142,30 +141,30 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 {
     if (v->nothing)
         ceduo_text_append(text, _("The forest cannot be assessed: no rock arrives, even without it."));
-    LOCAL_TEXT(over);
-    ceduo_text_format(&over, _("In years %u to %u"), window_of(v)->first, window_of(v)->last);
-    const char *when = over.bytes;
-    bool years = v->rotation.known && !v->rotation.uneven && window_of(v)->kind != CEDUO_WINDOW_CONSTANT;
+    LOCAL_TEXT(period);
+    ceduo_text_format(&period, _("In years %u to %u"), get_window(v)->first, get_window(v)->last);
+    const char *when = period.bytes;
+    bool years = v->rotation.known && !v->rotation.uneven && get_window(v)->kind != CEDUO_WINDOW_CONSTANT;
     bool today = v->today.known && !v->today.uneven;
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
     if (years && today && a->best == b->best && a->rivals == 0 && b->rivals == 0) {
-        /* one sentence where the same option is clearly best over the years and today */
+        /* one option is clearly best over the years and today */
         ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), when,
                           NAME_OF(&scene->options[a->best]), v->accepted ? _("dangerous rocks") : _("rocks"),
-                          mean_of(v, true, a->best), mean_of(v, false, a->best));
+                          get_mean(v, true, a->best), get_mean(v, false, a->best));
         return;
     }
     if (years)
-        say_best(text, scene, v, true, when);
+        append_best(text, scene, v, true, when);
     if (years && today)
         ceduo_text_append_char(text, '\n');
     if (today)
-        say_best(text, scene, v, false, _("Today"));
+        append_best(text, scene, v, false, _("Today"));
 }
 
-/* ---- by the other energy law of stems ---- */
+/* ---- other energy law ---- */
 
-#define TURNED_MAX 3 /* pairs of options that are named */
+#define REVERSALS_MAX 3 /* max pairs that are named */
 
 void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
@@ -174,46 +173,47 @@ void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r
     const char *law = ceduo_words_law(ceduo_energy_words.names[o->model]);
     if (!o->known || !o->stems)
         return;
-    const struct ceduo_measure energy = ceduo_measured(CEDUO_MEAN_KJ, a);
+    const struct ceduo_measure energy = ceduo_measure_figure(CEDUO_MEAN_KJ, a);
     if (isnan(energy.value)) {
         ceduo_text_format(text, _("With the energy law %s no rock arrives."), law);
         return;
     }
-    const char *mean = WRITTEN(energy.value, 3), *half = WRITTEN(energy.half, 2), *reach = INTERVAL(ceduo_measure_arriving(a));
+    const char *mean = SIG(energy.value, 3), *half_width = SIG(energy.half_width, 2),
+               *reach = INTERVAL(ceduo_measure_arriving(a));
     const struct ceduo_control *c = &r->scene->controls[control];
     if (isnan(c->accepted))
         ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
-                          mean, half);
+                          mean, half_width);
     else
         ceduo_text_format(text,
                           _("With the energy law %s: %s of 1000 arrive, %s with more than the accepted energy; their mean is "
                             "%s \xc2\xb1%s kJ."),
-                          law, reach, INTERVAL(ceduo_measure_exceeding(c, a)), mean, half);
-    if (ceduo_released(a) < ceduo_result_rocks(r))
+                          law, reach, INTERVAL(ceduo_measure_exceeding(c, a)), mean, half_width);
+    if (ceduo_rocks_released(a) < ceduo_result_rocks(r))
         ceduo_text_append_joined(text, " ", _("Under this law the first %llu rocks alone were simulated."),
-                                 (unsigned long long)ceduo_released(a));
+                                 (unsigned long long)ceduo_rocks_released(a));
 }
 
-static double of_1000(const struct ceduo_result *r, size_t option, bool other)
+static double get_share(const struct ceduo_result *r, size_t option, bool by_other_law)
 {
     const struct ceduo_alternative_energy *o = &r->options[option].others[r->last_control];
-    const struct ceduo_arrivals *by_other = o->known ? &o->arrivals : NULL;
-    return 1000 * ceduo_share_judged(other ? by_other : ceduo_result_wooded(r, option, r->last_control)).mean;
+    const struct ceduo_arrivals *other_arrivals = o->known ? &o->arrivals : NULL;
+    return 1000 * ceduo_share_judged(by_other_law ? other_arrivals : ceduo_result_wooded(r, option, r->last_control)).mean;
 }
 
-void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_sentence_sink *say,
+void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_sentence_sink *sink,
                                 void *context)
 {
     for (size_t i = 0; i < v->turned_count; i++) {
-        size_t a = v->turned[i].better, b = v->turned[i].than, left = v->turned_count - i;
+        size_t a = v->turned[i].better, b = v->turned[i].than, remaining = v->turned_count - i;
         LOCAL_TEXT(sentence);
-        if (isnan(of_1000(r, a, true) + of_1000(r, b, true))) /* the rocks of that law still fall */
+        if (isnan(get_share(r, a, true) + get_share(r, b, true))) /* not computed yet */
             continue;
-        if (i >= TURNED_MAX) {
+        if (i >= REVERSALS_MAX) {
             ceduo_text_format(&sentence,
                               ngettext("The order of %zu other pair of options depends on the energy law, too.",
-                                       "The order of %zu other pairs of options depends on the energy law, too.", left),
-                              left);
+                                       "The order of %zu other pairs of options depends on the energy law, too.", remaining),
+                              remaining);
             i = v->turned_count;
         } else {
             bool stems = r->options[a].others[r->last_control].stems;
@@ -221,11 +221,11 @@ void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo
             ceduo_text_format(&sentence,
                               _("Ranking of '%s' and '%s' depends on the energy law. By the law of the scene %.0f and %.0f of "
                                 "1000, by %s %.0f and %.0f."),
-                              NAME_OF(&r->scene->options[a]), NAME_OF(&r->scene->options[b]), of_1000(r, a, false),
-                              of_1000(r, b, false), ceduo_words_law(ceduo_energy_words.names[o->model]), of_1000(r, a, true),
-                              of_1000(r, b, true));
+                              NAME_OF(&r->scene->options[a]), NAME_OF(&r->scene->options[b]), get_share(r, a, false),
+                              get_share(r, b, false), ceduo_words_law(ceduo_energy_words.names[o->model]),
+                              get_share(r, a, true), get_share(r, b, true));
         }
         if (sentence.bytes)
-            say(context, sentence.bytes);
+            sink(context, sentence.bytes);
     }
 }

@@ -57,7 +57,7 @@ static void draw(struct drawing *d, char *command)
     else if (IS("widen"))
         d->frame.left = ceduo_frame_axis_width(&d->frame, c);
     else if (IS("whole"))
-        d->frame.x_whole = true;
+        d->frame.x_integer = true;
     else if (IS("no-cell"))
         assert_false(ceduo_frame_cell(&d->frame, c, v[0], v[1], &k[0], &k[1]));
     else if (IS("number") || IS("role"))
@@ -106,7 +106,7 @@ TEST(drawings_look_as_they_should)
                                                  charset[0] == 'a'   ? ASCII
                                                  : charset[1] == 'r' ? BRAILLE
                                                                      : BLOCK);
-            struct drawing d = {cells, dots_of(cells), CEDUO_ROLE_WAY, 0};
+            struct drawing d = {cells, dots_of(cells), CEDUO_ROLE_TRAJECTORY, 0};
             snprintf(commands, sizeof commands, "%s", row.at[1]);
             for (char *command; (command = strsep(&rest, ";"));)
                 draw(&d, command);
@@ -128,7 +128,8 @@ TEST(true_scale_moves_one_dot_across_for_each_dot_up)
     double dot = (frame.x1 - frame.x0) / 59;
     assert_float_equal((frame.y1 - frame.y0) / 35, dot, 1e-12);
     /* From the lower left dot on, each further dot to the right is one further up. */
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, frame.x0, frame.y0, frame.x0 + 7 * dot, frame.y0 + 7 * dot);
+    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_TRAJECTORY, frame.x0, frame.y0, frame.x0 + 7 * dot,
+                      frame.y0 + 7 * dot);
     expect_text(cells, "\n\n\n\n\n\n\n  ⡠⠊\n⡠⠊\n");
 }
 
@@ -166,8 +167,8 @@ TEST(frame_cell_is_where_the_point_is_drawn)
             bool inside = ceduo_frame_cell(&frame, kind_of(charset), x, y, &column, &row);
             assert_int_equal(inside, y > 10 - 0.5);
             ceduo_cells_clear(cells);
-            draw_point(cells, &frame, CEDUO_ROLE_WAY, x, y);
-            assert_int_equal(ceduo_cells_role(cells, column, row), CEDUO_ROLE_WAY);
+            draw_point(cells, &frame, CEDUO_ROLE_TRAJECTORY, x, y);
+            assert_int_equal(ceduo_cells_role(cells, column, row), CEDUO_ROLE_TRAJECTORY);
         }
         int column, row;
         assert_false(ceduo_frame_cell(&frame, kind_of(charset), 9, 11, &column, &row));

@@ -39,8 +39,8 @@ TEST(text_of_a_row_ends_at_its_last_character)
 TEST(rank_decides_the_role_whoever_draws_first)
 {
     static const enum ceduo_role falling[] = {
-        CEDUO_ROLE_CURSOR, CEDUO_ROLE_WAY,    CEDUO_ROLE_CONTROL, CEDUO_ROLE_MEAN, CEDUO_ROLE_ENVELOPE, CEDUO_ROLE_STEM,
-        CEDUO_ROLE_STOOL,  CEDUO_ROLE_GROUND, CEDUO_ROLE_CLOUD,   CEDUO_ROLE_AXIS, CEDUO_ROLE_DIM,
+        CEDUO_ROLE_CURSOR, CEDUO_ROLE_TRAJECTORY, CEDUO_ROLE_CONTROL, CEDUO_ROLE_MEAN, CEDUO_ROLE_ENVELOPE, CEDUO_ROLE_STEM,
+        CEDUO_ROLE_STOOL,  CEDUO_ROLE_GROUND,     CEDUO_ROLE_CLOUD,   CEDUO_ROLE_AXIS, CEDUO_ROLE_DIM,
     };
     LOCAL(ceduo_cells, cells) = cells_in(2, 1, BRAILLE);
     struct ceduo_frame frame = dots_of(cells);

@@ -189,7 +189,7 @@ static const struct ceduo_figure *with_key(const struct ceduo_figure *f, const c
 {
     const struct ceduo_figure *row = NULL;
     for (; !ceduo_figure_is_end(f) && !row; f++)
-        row = !f->key ? with_key(f->of, key) : strcmp(f->key, key) == 0 ? f : NULL;
+        row = !f->key ? with_key(f->table, key) : strcmp(f->key, key) == 0 ? f : NULL;
     return row;
 }
 
@@ -201,10 +201,10 @@ static void expect_rows(const struct ceduo_figure *table, const struct ceduo_fig
             fail_msg("'%s' stands there twice", f->key);
         if (f->key && (!f->unit || !f->meaning || !f->meaning[0]))
             fail_msg("'%s' has no meaning", f->key);
-        if (!!f->value + !!f->of + !!f->say != 1)
+        if (!!f->value + !!f->table + !!f->sentences != 1)
             fail_msg("'%s' is not one thing", f->key ? f->key : "");
-        if (f->of && !f->plain)
-            expect_rows(f->key ? f->of : table, f->of);
+        if (f->table && !f->plain)
+            expect_rows(f->key ? f->table : table, f->table);
     }
 }
 

@@ -235,14 +235,14 @@ TEST_BARE(span_tells_where_the_slope_stands)
 TEST_BARE(the_selected_way_is_drawn_over_all)
 {
     struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, 60, 20, BRAILLE);
-    assert_int_equal(cells_of(cells, CEDUO_ROLE_WAY), 0);
+    assert_int_equal(cells_of(cells, CEDUO_ROLE_TRAJECTORY), 0);
     assert_true(cells_of(cells, CEDUO_ROLE_STEM) > 5);
     assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
     assert_true(cells_of(cells, CEDUO_ROLE_CLOUD) > 0);
     ceduo_cells_free(cells);
     p.selected = &s.line;
     cells = draw(CEDUO_PLOT_PROFILE, 60, 20, BRAILLE);
-    assert_true(cells_of(cells, CEDUO_ROLE_WAY) > 10);
+    assert_true(cells_of(cells, CEDUO_ROLE_TRAJECTORY) > 10);
     ceduo_cells_free(cells);
 }
 
@@ -303,7 +303,7 @@ TEST_WOODED(logs_stand_in_no_plan)
 TEST_WOODED(strips_show_the_wood_beside_the_bare_slope)
 {
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 16, BRAILLE);
-    assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
+    assert_true(cells_of(cells, CEDUO_ROLE_FOREST) > 30);
     assert_true(cells_of(cells, CEDUO_ROLE_BARE) > 30);
 }
 
@@ -343,7 +343,7 @@ TEST_WOODED(strips_without_wooded_rocks)
     s.wooded[0] = NULL;
     p.option = 1; /* no stems: both runs are one, drawn in strokes */
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 8, BRAILLE);
-    assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
+    assert_true(cells_of(cells, CEDUO_ROLE_FOREST) > 30);
     assert_in_range(cells_of(cells, CEDUO_ROLE_BARE), 13, 20); /* 13: the words */
 }
 
@@ -399,10 +399,10 @@ TEST_BARE(what_the_rock_meets_lies_in_its_strip)
         for (int column = 0; column < 80; column++) {
             double off = fabs(0.503 * (row + 0.5 - 20)); /* m */
             enum ceduo_role role = ceduo_cells_role(cells, column, row);
-            assert_false(role == CEDUO_ROLE_WAY && off > 1.6 + 0.3);
+            assert_false(role == CEDUO_ROLE_TRAJECTORY && off > 1.6 + 0.3);
             assert_false(role == CEDUO_ROLE_STEM && off < 1.5 - 0.3);
         }
-    assert_true(cells_of(cells, CEDUO_ROLE_WAY) > 10);
+    assert_true(cells_of(cells, CEDUO_ROLE_TRAJECTORY) > 10);
     assert_true(cells_of(cells, CEDUO_ROLE_STEM) > 50);
 }
 
@@ -412,7 +412,7 @@ TEST_WOODED(the_stand_shows_the_way_of_the_rock)
     p.stems = passed;
     p.stems_count = 3;
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_STAND, 60, 14, BRAILLE);
-    assert_true(cells_of(cells, CEDUO_ROLE_WAY) >= 2);
+    assert_true(cells_of(cells, CEDUO_ROLE_TRAJECTORY) >= 2);
     assert_true(cells_of(cells, CEDUO_ROLE_DIM) >= 1);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_STEM) + cells_of(cells, CEDUO_ROLE_STOOL), 0);
 }

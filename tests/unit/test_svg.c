@@ -41,7 +41,7 @@ TEST(lines_are_where_they_are)
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
     struct ceduo_frame frame = frame_of(10, 5);
     double x[] = {0, 1.25, 2.5, 10}, y[] = {0, 0, 0, 5.5};
-    ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, 4, x, y);
+    ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_FOREST, CEDUO_STROKE_PLAIN, 4, x, y);
     ceduo_canvas_rule_x(canvas, &frame, CEDUO_ROLE_CONTROL, 4);
     assert_false(ceduo_canvas_is_blank(canvas, 2, 5));
     assert_true(ceduo_canvas_is_blank(canvas, 15, 8));
@@ -195,9 +195,9 @@ TEST(screens)
     LOCAL(ceduo_cells, cells) = ceduo_cells_create(10, 2, CEDUO_CHARSET_BRAILLE);
     LOCAL_TEXT(text);
     ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_CURSOR, " ok ");
-    ceduo_cells_set_dot(cells, 0, 4, CEDUO_ROLE_WAY);
-    ceduo_cells_set_dot(cells, 3, 7, CEDUO_ROLE_WAY);
-    ceduo_cells_set_code(cells, 5, 1, CEDUO_ROLE_WOOD, 0x2584); /* lower half */
+    ceduo_cells_set_dot(cells, 0, 4, CEDUO_ROLE_TRAJECTORY);
+    ceduo_cells_set_dot(cells, 3, 7, CEDUO_ROLE_TRAJECTORY);
+    ceduo_cells_set_code(cells, 5, 1, CEDUO_ROLE_FOREST, 0x2584); /* lower half */
     ceduo_svg_screen(&text, cells, "t");
     expect_has(text.bytes, "xmlns=\"http://www.w3.org/2000/svg\" width=\"96\" height=\"48\"");
     expect_has(text.bytes, "x=\"0\" y=\"0\" width=\"32\" height=\"16\""); /* reversed behind the word and its blanks */

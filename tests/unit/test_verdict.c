@@ -312,7 +312,7 @@ TEST_WITH(beaten_by_one_of_equal_yield, open_made, close_made)
 /* How often the pane of options says "worst": above the column of the worst year, and beside an option. */
 static int count_worst(const struct ceduo_verdict *v)
 {
-    const struct ceduo_report report = {.file = &file, .result = &made.result, .verdict = v, .ahead = made.of};
+    const struct ceduo_report report = {.file = &file, .result = &made.result, .verdict = v, .years_ahead = made.of};
     LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 120};
     LOCAL_TEXT(text);
     int n = 0;

@@ -19,16 +19,16 @@
 TEST(numbers_are_shown_with_their_digits)
 {
     for (TABLE(row, "unit/texts.txt", "digits"))
-        assert_string_equal(WRITTEN(strtod(row.at[0], NULL), atoi(row.at[1])), row.at[2]);
+        assert_string_equal(SIG(strtod(row.at[0], NULL), atoi(row.at[1])), row.at[2]);
 }
 
 /* Beside its limit a figure lies where it is judged to lie; elsewhere it has the digits that all have. */
 TEST(figures_lie_on_their_side_of_a_limit)
 {
     for (TABLE(row, "unit/words.txt", "beside a limit"))
-        assert_string_equal(BESIDE(strtod(row.at[0], NULL), 3, strtod(row.at[1], NULL)), row.at[2]);
+        assert_string_equal(VS_LIMIT(strtod(row.at[0], NULL), 3, strtod(row.at[1], NULL)), row.at[2]);
     for (TABLE(row, "unit/words.txt", "percent beside 10"))
-        assert_string_equal(PERCENT(strtod(row.at[0], NULL), .1), row.at[1]);
+        assert_string_equal(PERCENT_VS_LIMIT(strtod(row.at[0], NULL), .1), row.at[1]);
 }
 
 /* The estimate of a share may lie below 0 or above 1; what is shown does not. */
@@ -188,15 +188,15 @@ TEST(an_interval_is_rounded_outward)
 /* ---- the answer in one line ---- */
 
 /* Of 1000 through the wood of 'a' so many with too much energy, and what may be true of that; of uncertainty NAN: not computed. */
-static void expect_answer(double share, double may_lo, double may_hi, size_t width, const char *wanted)
+static void expect_answer(double share, double p5, double p95, size_t width, const char *wanted)
 {
     LOCAL_TEXT(text);
     struct ceduo_uncertainty_figure figures[(2 * OPTIONS - 1) * CEDUO_UNCERTAINTY_KINDS] = {0};
     struct ceduo_uncertainty_result answer = {.figures = figures, .figures_count = sizeof figures / sizeof figures[0]};
     struct scene_file file = {.scene = scene.scene};
-    const struct ceduo_uncertainty_report uncertainty = {.file = &file, .answer = isnan(may_lo) ? NULL : &answer};
+    const struct ceduo_uncertainty_report uncertainty = {.file = &file, .answer = isnan(p5) ? NULL : &answer};
     for (size_t i = 0; i < answer.figures_count; i++)
-        figures[i].fit = (struct ceduo_surface_fit){.p5 = may_lo, .p95 = may_hi};
+        figures[i].fit = (struct ceduo_surface_fit){.p5 = p5, .p95 = p95};
     *(isnan(scene.control.accepted) ? &arrivals[0].reach.mean : &arrivals[0].exceed.mean) = share;
     arrivals[0].reach.lo = arrivals[0].exceed.lo = fmax(0, share - .01);
     arrivals[0].reach.hi = arrivals[0].exceed.hi = share + .01;
