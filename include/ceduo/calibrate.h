@@ -47,7 +47,7 @@ struct ceduo_calibration_def {
     uint64_t rocks;          /* of each evaluation and setting */
     uint64_t seed;
     unsigned threads;         /* at most CEDUO_THREADS_MAX; 0: one */
-    size_t steps_most;        /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: default */
+    size_t steps_max;         /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: default */
     const ceduo_flag *cancel; /* may be NULL */
     void (*progress)(void *context,
                      const struct ceduo_calibration_state *state); /* may be NULL; called by one thread at a time */
@@ -59,15 +59,15 @@ struct ceduo_calibration_def ceduo_calibration_def_default(void);
 
 struct ceduo_fitted {
     double lo, hi, best, p2_5, p50, p97_5; /* in the unit of files; NaN: not computed yet */
-    bool determined, at_bound;
+    bool identified, at_bound;
 };
 
 /* An observation and its prediction by the fit. */
 struct ceduo_predicted {
     size_t scene, observation;
     struct ceduo_observation_fit at_best;
-    double p_value;      /* share of predicted samples that deviate at least as much as the observation */
-    double seen, lo, hi; /* observed mean or count; its predicted 95 % interval */
+    double p_value;          /* share of predicted samples that deviate at least as much as the observation */
+    double observed, lo, hi; /* observed mean or count; its predicted 95 % interval */
     bool inside;
     double one_lo, one_hi; /* predicted 95 % interval of single rocks; NaN: not computed */
     size_t one_inside;     /* observed values within it */
@@ -80,8 +80,8 @@ struct ceduo_calibration {
     size_t predicted_count;
     struct ceduo_predicted *predicted; /* of all scenes */
     bool misfit;                       /* a fitted observation contradicts the fit */
-    bool refuted;                      /* an observation held back for checking contradicts the fit */
-    bool settled; /* converged; otherwise stopped at the step limit, or early if convergence was out of reach */
+    bool check_failed;                 /* an observation held back for checking contradicts the fit */
+    bool converged; /* converged; otherwise stopped at the step limit, or early if convergence was out of reach */
     uint64_t evaluations;
     double rhat, effective_size;
     size_t draws_count;

@@ -37,7 +37,7 @@ struct ceduo_observation {
     const double *values;                /* NULL: only mean and sd are given */
     double mean, sd;
     uint64_t count;    /* of passed */
-    uint64_t of;       /* rocks released; 0: not given */
+    uint64_t released; /* rocks released; 0: not given */
     double share_seen; /* of scars; NaN: not given */
 };
 
@@ -52,13 +52,13 @@ struct ceduo_observation ceduo_observation_default(void);
 /* Simulated rocks compared with one observation. */
 #define CEDUO_SOME_VALUES 40
 struct ceduo_observation_fit {
-    uint64_t rocks;                                           /* simulated rocks */
-    size_t classes;                                           /* 0: means are compared */
-    double seen[CEDUO_CLASSES_MAX], count[CEDUO_CLASSES_MAX]; /* in each class: observed, simulated */
-    double mean, sd;                                          /* of the simulated values */
-    size_t some_count; /* the first values; rocks are exchangeable, so these are a random sample */
-    double some[CEDUO_SOME_VALUES];
-    double seen_mean;
+    uint64_t rocks;                                               /* simulated rocks */
+    size_t classes;                                               /* 0: means are compared */
+    double observed[CEDUO_CLASSES_MAX], count[CEDUO_CLASSES_MAX]; /* in each class: observed, simulated */
+    double mean, sd;                                              /* of the simulated values */
+    size_t sample_count; /* the first values; rocks are exchangeable, so these are a random sample */
+    double sample[CEDUO_SOME_VALUES];
+    double observed_mean;
     double variance;                 /* of the difference of the means, with the errors of both */
     double scars, scars_variance;    /* expected number for the rocks released; NaN: not a count of scars */
     double log_likelihood, deviance; /* deviance: twice the log-likelihood ratio against the saturated model */

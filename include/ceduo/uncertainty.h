@@ -107,9 +107,9 @@ struct ceduo_uncertainty_figure {
     /* Over the plausible cases. fit.below is the share of them whose judged share is at most CEDUO_EXCEED_MAX. p5 and p95 are
      * widened to include `value`; NaN with fewer than CEDUO_UNCERTAINTY_MIN points. */
     struct ceduo_surface_fit fit;
-    double (*at)[2]; /* for each input the figure at its lower and upper end, all others as given; over a rotation NaN */
-    size_t uses;     /* inputs of the figure's options */
-    size_t *order;   /* these inputs, sorted by the width of p5…p95 that remains if the input were known, smallest first */
+    double (*at_ends)[2]; /* for each input the figure at its lower and upper end, all others as given; over a rotation NaN */
+    size_t uses;          /* inputs of the figure's options */
+    size_t *order; /* these inputs, sorted by the width of p5…p95 that remains if the input were known, smallest first */
 };
 
 /* Probabilities that one option is better than another, worse, or equal (CEDUO_UNCERTAINTY_EQUAL). They add up to 1. */

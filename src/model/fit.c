@@ -135,7 +135,7 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
     def.seed = file->scene.simulation.seed;
     if (request->n > 1) { /* what the observations do not hold */
         struct ceduo_calibration_def first = def;
-        first.steps_most = FIRST_STEPS;
+        first.steps_max = FIRST_STEPS;
         enum ceduo_status status = ceduo_calibrate(&first, &f->answer);
         if (status != CEDUO_OK)
             return status;

@@ -46,8 +46,8 @@ static void note_best(struct fitting *f, const double *u, double log_likelihood)
     f->evaluations++;
     while (i < n && u[i] == f->best[i])
         i++;
-    if (log_likelihood > f->most || (log_likelihood == f->most && i < n && u[i] < f->best[i]))
-        memcpy(f->best, u, n * sizeof *u), f->most = log_likelihood;
+    if (log_likelihood > f->best_log_likelihood || (log_likelihood == f->best_log_likelihood && i < n && u[i] < f->best[i]))
+        memcpy(f->best, u, n * sizeof *u), f->best_log_likelihood = log_likelihood;
     pthread_mutex_unlock(&f->lock);
 }
 
@@ -64,7 +64,7 @@ static void tell(struct fitting *f, enum ceduo_calibration_stage stage, double r
     struct ceduo_calibration_state state = {.stage = stage, .rhat = rhat, .effective_size = effective_size};
     pthread_mutex_lock(&f->lock);
     state.evaluations = f->evaluations;
-    state.log_likelihood = f->most;
+    state.log_likelihood = f->best_log_likelihood;
     for (size_t i = 0; i < f->def->parameters_count; i++)
         state.best[i] = value_of(f, i, f->best[i]);
     pthread_mutex_unlock(&f->lock);
@@ -164,9 +164,9 @@ static double guess_at(void *context, const double *y)
 static enum ceduo_status learn(void *context, const double *y, const double *log_densities, size_t n)
 {
     struct fitting *f = context;
-    size_t d = f->def->parameters_count, known = f->known_count, more = POINTS + n - known, room = f->known_room;
+    size_t d = f->def->parameters_count, known = f->known_count, more = POINTS + n - known, room = f->known_capacity;
     f->known = ceduo_arena_grow(&f->memory, f->known, known, more, &room, d * sizeof *f->known);
-    f->known_values = ceduo_arena_grow(&f->memory, f->known_values, known, more, &f->known_room, sizeof *f->known_values);
+    f->known_values = ceduo_arena_grow(&f->memory, f->known_values, known, more, &f->known_capacity, sizeof *f->known_values);
     if (f->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t i = known - POINTS; i < n; i++) {
@@ -192,11 +192,11 @@ static enum ceduo_status run_chains(struct fitting *f, struct chains *chains)
                              .first_step = FIRST_STEP,
                              .seed = f->def->seed,
                              .threads = f->def->threads,
-                             .steps_least = STEPS_MIN,
-                             .steps_most = f->def->steps_most > 0 ? f->def->steps_most : STEPS_MAX,
-                             .rhat_most = CEDUO_RHAT_MAX,
-                             .effective_least = CEDUO_EFFECTIVE_MIN,
-                             .hopeless = f->def->steps_most == 0,
+                             .steps_min = STEPS_MIN,
+                             .steps_max = f->def->steps_max > 0 ? f->def->steps_max : STEPS_MAX,
+                             .rhat_max = CEDUO_RHAT_MAX,
+                             .effective_min = CEDUO_EFFECTIVE_MIN,
+                             .stop_early = f->def->steps_max == 0,
                              .density = density,
                              .guess = guess_at,
                              .learn = learn,
@@ -223,9 +223,9 @@ static void read_parameter(const struct fitting *f, const struct ceduo_calibrati
     p->p2_5 = ceduo_quantile(sorted, n, 0.025);
     p->p50 = ceduo_quantile(sorted, n, 0.5);
     p->p97_5 = ceduo_quantile(sorted, n, 0.975);
-    p->determined = p->p97_5 - p->p2_5 <= CEDUO_NOT_DETERMINED * width;
+    p->identified = p->p97_5 - p->p2_5 <= CEDUO_NOT_DETERMINED * width;
     double middle = (p->p50 - input->lo) / width;
-    p->at_bound = p->determined && (fmin(u, 1 - u) < NEAR_BOUND || fmin(middle, 1 - middle) < HALF_THERE);
+    p->at_bound = p->identified && (fmin(u, 1 - u) < NEAR_BOUND || fmin(middle, 1 - middle) < HALF_THERE);
 }
 
 static bool read_draws(const struct fitting *f, const struct chains *chains, struct ceduo_calibration *a)
@@ -272,7 +272,7 @@ size_t ceduo_calibration_unidentified(const struct ceduo_calibration *a, bool lo
 {
     size_t most = a->parameters_count - 1, n = 0;
     for (size_t i = 0; i <= most; i++) {
-        loose[i] = n < most && a->draws_count > 0 && !a->parameters[i].determined;
+        loose[i] = n < most && a->draws_count > 0 && !a->parameters[i].identified;
         n += loose[i];
     }
     for (size_t i; (i = worse_of_a_pair(a, loose)) != SIZE_MAX; n++) /* one of them stays */
@@ -312,12 +312,12 @@ static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_cali
 {
     enum ceduo_status status = CEDUO_OK;
     size_t n = def->parameters_count;
-    *f = (struct fitting){.def = def, .most = -INFINITY, .guess = ceduo_guess_begin(n)};
+    *f = (struct fitting){.def = def, .best_log_likelihood = -INFINITY, .guess = ceduo_guess_begin(n)};
     f->workers_count = def->threads > CHAINS ? def->threads : CHAINS;
     pthread_mutex_init(&f->lock, NULL);
     f->known = ceduo_arena_alloc(&f->memory, POINTS * n * sizeof *f->known);
     f->known_values = ceduo_arena_alloc(&f->memory, POINTS * sizeof *f->known_values);
-    f->known_count = f->known_room = POINTS;
+    f->known_count = f->known_capacity = POINTS;
     f->scenes = ceduo_arena_alloc(&f->memory, def->scenes_count * sizeof *f->scenes);
     f->workers = ceduo_arena_alloc(&f->memory, f->workers_count * sizeof *f->workers);
     for (size_t s = 0; s < def->scenes_count && !f->memory.failed && status == CEDUO_OK; s++) {
@@ -383,7 +383,7 @@ enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struc
     a->evaluations = f.evaluations;
     a->rhat = chains.rhat;
     a->effective_size = chains.effective_size;
-    a->settled = chains.settled;
+    a->converged = chains.converged;
     ceduo_chains_release(&chains);
     close_fitting(&f);
     if (status != CEDUO_OK)

@@ -160,10 +160,10 @@ static bool make_room(double **array, size_t n, size_t numbers)
 
 static bool grow(struct chains *c, size_t steps)
 {
-    if (steps <= c->room)
+    if (steps <= c->capacity)
         return true;
     size_t n = 2 * steps * c->chains;
-    c->room = 2 * steps;
+    c->capacity = 2 * steps;
     return make_room(&c->x, n, c->dimensions) && make_room(&c->tried, n, c->dimensions) && make_room(&c->tried_density, n, 1);
 }
 
@@ -185,13 +185,13 @@ static bool is_done(struct work *w)
     struct chains *c = w->chains;
     if (w->rounds >= 4)
         diagnose(c, def->cancel);
-    c->settled = c->steps >= def->steps_least && c->rhat < def->rhat_most && c->effective_size >= def->effective_least;
+    c->converged = c->steps >= def->steps_min && c->rhat < def->rhat_max && c->effective_size >= def->effective_min;
     /* chains that go so slowly that they would have far from enough draws at their end: from an eighth of the way on less than a
      * quarter, from a quarter on less than half of what is wanted */
-    double way = (double)c->steps / (double)def->steps_most;
-    bool hopeless = def->hopeless && way >= 0.125 && c->effective_size / way < fmin(0.5, 2 * way) * def->effective_least;
+    double way = (double)c->steps / (double)def->steps_max;
+    bool hopeless = def->stop_early && way >= 0.125 && c->effective_size / way < fmin(0.5, 2 * way) * def->effective_min;
     bool goes_on = !def->round || def->round(def->context, c->steps, c->rhat, c->effective_size);
-    return c->settled || c->steps >= def->steps_most || hopeless || !goes_on;
+    return c->converged || c->steps >= def->steps_max || hopeless || !goes_on;
 }
 
 static enum ceduo_status begin(struct work *w)

@@ -24,9 +24,9 @@ struct chains_def {
     double first_step;    /* the standard deviation of the first steps, in each dimension */
     uint64_t seed;
     unsigned threads;
-    size_t steps_least, steps_most; /* of each chain */
-    double rhat_most, effective_least;
-    bool hopeless; /* whether chains that would have far less than effective_least at their end are ended early */
+    size_t steps_min, steps_max; /* of each chain */
+    double rhat_max, effective_min;
+    bool stop_early; /* whether chains that would have far less than effective_least at their end are ended early */
     /* The logarithm of the density; -INFINITY where it is 0. `chain` is the caller's: one thread at a time asks for it. */
     enum ceduo_status (*density)(void *context, size_t chain, const double *x, double *log_density);
     /* The guess, up to a constant; learns between rounds from n places, in rows, and their densities. NULL: none. */
@@ -38,12 +38,12 @@ struct chains_def {
 };
 
 struct chains {
-    size_t dimensions, chains, steps, room;
+    size_t dimensions, chains, steps, capacity;
     double *x; /* [step][chain][dimension] */
     size_t tried_count;
     double *tried, *tried_density; /* proposals likewise: all but the starts */
     double rhat, effective_size;   /* the worst of all dimensions; NaN before two rounds */
-    bool settled;
+    bool converged;
 };
 
 /* CEDUO_NO_MEMORY, or what `density` or `learn` says: what was drawn before stays. Release it in any case. */

@@ -83,7 +83,7 @@ enum ceduo_status ceduo_check_observations(const struct ceduo_observation *seen,
     for (size_t i = 0; good && i < n; i++) {
         const struct ceduo_observation *o = &seen[i];
         good = (size_t)o->kind < CEDUO_OBSERVED_KINDS && (options == 0 || o->option < options) &&
-               (o->kind != CEDUO_OBSERVED_PASSED || o->count <= o->of) && (!o->values || o->n > 0);
+               (o->kind != CEDUO_OBSERVED_PASSED || o->count <= o->released) && (!o->values || o->n > 0);
         for (size_t k = 0; good && o->values && k < o->n; k++)
             good = !isnan(o->values[k]);
     }
@@ -108,7 +108,7 @@ enum ceduo_status ceduo_check_calibration_def(const struct ceduo_calibration_def
     enum ceduo_status status =
         good_or_not(def->scenes && def->scenes_count > 0 && def->parameters_count > 0 &&
                     def->parameters_count <= CEDUO_CALIBRATION_MAX && def->rocks > 0 && def->rocks <= CEDUO_ROCKS_MAX &&
-                    def->threads <= CEDUO_THREADS_MAX && def->steps_most <= CEDUO_CALIBRATION_STEPS);
+                    def->threads <= CEDUO_THREADS_MAX && def->steps_max <= CEDUO_CALIBRATION_STEPS);
     for (size_t i = 0; status == CEDUO_OK && i < def->scenes_count; i++)
         status = check_fitted_scene(&def->scenes[i], def->parameters_count);
     return status;

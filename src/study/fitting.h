@@ -31,11 +31,11 @@ struct fitting {
     struct fitting_worker *workers;
     struct guess guess;
     double *known, *known_values; /* what it learns from: Sobol' points, then what the chains have tried; log-likelihoods */
-    size_t known_count, known_room;
+    size_t known_count, known_capacity;
     double starts[CEDUO_CALIBRATION_CHAINS * CEDUO_CALIBRATION_MAX];
     pthread_mutex_t lock;
     struct talk talk;
-    double best[CEDUO_CALIBRATION_MAX], most; /* under `lock`, as are: */
+    double best[CEDUO_CALIBRATION_MAX], best_log_likelihood; /* under `lock`, as are: */
     uint64_t evaluations;
     const double *draws;                 /* that predictions are made from: [draw][parameter] in 0…1; the last is the best */
     struct ceduo_observation_fit *drawn; /* [draw][observation] */

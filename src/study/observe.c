@@ -118,8 +118,8 @@ static void make_classes(struct plan *p)
     p->classes = p->bounds_count + 1;
     for (size_t i = 0; i < n; i++)
         p->counts[class_of(p, seen->values[i])]++;
-    if (seen->kind == CEDUO_OBSERVED_STOPS && seen->of > 0)
-        p->counts[p->classes++] = (double)(seen->of - n);
+    if (seen->kind == CEDUO_OBSERVED_STOPS && seen->released > 0)
+        p->counts[p->classes++] = (double)(seen->released - n);
 }
 
 static bool make_plan(struct ceduo_observer *o, const struct ceduo_observation *seen, struct plan *p)
@@ -142,7 +142,7 @@ static bool make_plan(struct ceduo_observer *o, const struct ceduo_observation *
     } else if (seen->kind == CEDUO_OBSERVED_PASSED) {
         p->classes = 2;
         p->counts[0] = (double)seen->count;
-        p->counts[1] = (double)(seen->of - seen->count);
+        p->counts[1] = (double)(seen->released - seen->count);
     }
     return true;
 }
@@ -320,8 +320,8 @@ static void sum_values(const struct plan *p, const double *values, size_t n, str
     for (size_t i = 0; i < n; i++) {
         if (!isnan(values[i]))
             ceduo_moments_add(&m, values[i]);
-        if (!isnan(values[i]) && c->some_count < CEDUO_SOME_VALUES)
-            c->some[c->some_count++] = values[i];
+        if (!isnan(values[i]) && c->sample_count < CEDUO_SOME_VALUES)
+            c->sample[c->sample_count++] = values[i];
         if (p->classes > 0 && !isnan(values[i]))
             c->count[p->seen->kind == CEDUO_OBSERVED_PASSED ? 0 : class_of(p, values[i])]++;
         else if (p->classes > 0 && rest)
@@ -336,7 +336,7 @@ static void sum_values(const struct plan *p, const double *values, size_t n, str
 static bool compare_scars(const struct plan *p, const struct flown *f, struct ceduo_observation_fit *c)
 {
     const struct ceduo_observation *seen = p->seen;
-    double share = isnan(seen->share_seen) ? 1 : seen->share_seen, of = (double)seen->of, n = (double)f->rocks;
+    double share = isnan(seen->share_seen) ? 1 : seen->share_seen, of = (double)seen->released, n = (double)f->rocks;
     double *each = calloc((size_t)f->rocks + 1, sizeof *each);
     struct ceduo_moments m = {0};
     if (!each)
@@ -362,24 +362,24 @@ static bool compare(const struct plan *p, const struct flown *f, const double *v
     for (size_t i = 0; seen->values && i < seen->n; i++)
         sum += seen->values[i];
     *c = (struct ceduo_observation_fit){.classes = p->classes,
-                                        .seen_mean = seen->values ? sum / (double)seen->n : seen->mean,
+                                        .observed_mean = seen->values ? sum / (double)seen->n : seen->mean,
                                         .scars = NAN,
                                         .scars_variance = NAN};
-    memcpy(c->seen, p->counts, sizeof c->seen);
+    memcpy(c->observed, p->counts, sizeof c->observed);
     sum_values(p, values, n, c);
     c->variance = seen->sd * seen->sd / (double)seen->n + c->sd * c->sd / (double)c->rocks;
     if (p->classes > 0) { /* a multinomial sample */
         double rocks = rocks_of_classes(c->count, c->classes), all = 0;
         for (size_t i = 0; i < c->classes; i++) {
-            all += c->seen[i];
-            c->log_likelihood += c->seen[i] * log((c->count[i] + 0.5) / rocks) - lgamma(c->seen[i] + 1);
+            all += c->observed[i];
+            c->log_likelihood += c->observed[i] * log((c->count[i] + 0.5) / rocks) - lgamma(c->observed[i] + 1);
         }
         c->log_likelihood += lgamma(all + 1);
-        c->deviance += ceduo_classes_deviance(c->seen, c->count, c->classes);
+        c->deviance += ceduo_classes_deviance(c->observed, c->count, c->classes);
     } else {
-        compare_normal(c, c->seen_mean - c->mean, c->variance);
+        compare_normal(c, c->observed_mean - c->mean, c->variance);
     }
-    return seen->kind != CEDUO_OBSERVED_SCARS || seen->of == 0 || compare_scars(p, f, c);
+    return seen->kind != CEDUO_OBSERVED_SCARS || seen->released == 0 || compare_scars(p, f, c);
 }
 
 enum ceduo_status ceduo_observer_simulate(const struct ceduo_observer *o, const struct ceduo_scene *scene, uint64_t rocks,

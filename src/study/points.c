@@ -101,7 +101,7 @@ static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run 
     (void)rocks;
     const struct item *item = context;
     for (size_t c = 0; c < item->work->points->def->scene->controls_count; c++)
-        ceduo_run_group_means(run, c, CEDUO_SURFACE_GROUPS, brought_by(item, i)[c].of);
+        ceduo_run_group_means(run, c, CEDUO_SURFACE_GROUPS, brought_by(item, i)[c].group);
     tell_variant(item, i, true);
     uint64_t effort = ceduo_points_met(ceduo_run_contacts(run), ceduo_run_stems(run));
     uint64_t most = item->work->points->def->effort_max;
@@ -195,6 +195,6 @@ double ceduo_groups_mean(const struct ceduo_replicates *y, uint64_t rocks)
 {
     double sum = 0;
     for (uint64_t g = 0, groups = CEDUO_SURFACE_GROUPS; g < groups; g++)
-        sum += y->of[g] * (double)(rocks * (g + 1) / groups - rocks * g / groups) / (double)rocks;
+        sum += y->value[g] * (double)(rocks * (g + 1) / groups - rocks * g / groups) / (double)rocks;
     return sum;
 }

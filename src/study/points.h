@@ -20,7 +20,7 @@ struct point {
 
 /* What each group of the rocks brings to a control. */
 struct control_means {
-    struct ceduo_group_means of[CEDUO_SURFACE_GROUPS];
+    struct ceduo_group_means group[CEDUO_SURFACE_GROUPS];
 };
 
 struct points {

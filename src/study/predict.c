@@ -32,7 +32,7 @@ static int look_at_draw(void *context, size_t i, size_t worker)
 /* A new count: the share as the simulated rocks leave it open (a beta law), then as many as were released. Returns its deviance. */
 static double sample_count(const struct ceduo_observation_fit *c, gsl_rng *random, double *value)
 {
-    double share = gsl_ran_beta(random, c->count[0] + 0.5, c->count[1] + 0.5), n = c->seen[0] + c->seen[1];
+    double share = gsl_ran_beta(random, c->count[0] + 0.5, c->count[1] + 0.5), n = c->observed[0] + c->observed[1];
     double passed = gsl_ran_binomial(random, share, (unsigned)n), seen[2] = {passed, n - passed};
     *value = passed;
     return ceduo_classes_deviance(seen, c->count, 2);
@@ -65,15 +65,15 @@ static double sample_list(const struct ceduo_observation_fit *c, bool rest, gsl_
     unsigned count[CEDUO_CLASSES_MAX];
     for (size_t i = 0; i < c->classes; i++) {
         rocks += c->count[i];
-        n += c->seen[i];
-        seen[i] = c->seen[i];
+        n += c->observed[i];
+        seen[i] = c->observed[i];
     }
     if (rest) {
-        double missing = c->count[lists], without = n - c->seen[lists], before = 0, up_to = 0, with;
+        double missing = c->count[lists], without = n - c->observed[lists], before = 0, up_to = 0, with;
         have = gsl_ran_beta(random, rocks - missing + 0.5, missing + 0.5);
         with = gsl_ran_binomial(random, have, (unsigned)n);
         for (size_t i = 0; i < lists; i++, before = up_to) {
-            up_to += c->seen[i];
+            up_to += c->observed[i];
             seen[i] = round(up_to * with / without) - round(before * with / without);
         }
         seen[lists] = n - with;
@@ -99,7 +99,7 @@ static double sample_normal(double mean, double variance, gsl_rng *random, doubl
 static double sample(const struct ceduo_observation *o, const struct ceduo_observation_fit *c, gsl_rng *random, double *value)
 {
     double ignored, deviance;
-    bool rest = o->kind == CEDUO_OBSERVED_STOPS && o->of > 0;
+    bool rest = o->kind == CEDUO_OBSERVED_STOPS && o->released > 0;
     double spread = c->sd * c->sd * (1 / (double)(o->n > 0 ? o->n : 1) + 1 / (double)c->rocks);
     if (o->kind == CEDUO_OBSERVED_PASSED)
         return sample_count(c, random, value);
@@ -126,7 +126,7 @@ static void read_one(const struct drawn *d, const struct ceduo_observation *o, g
 {
     size_t n = 0;
     double farther = 0;
-    to->seen = o->kind == CEDUO_OBSERVED_PASSED ? (double)o->count : to->at_best.seen_mean;
+    to->observed = o->kind == CEDUO_OBSERVED_PASSED ? (double)o->count : to->at_best.observed_mean;
     to->p_value = to->lo = to->hi = NAN;
     for (size_t i = 0; i < d->draws; i++) {
         const struct ceduo_observation_fit *c = &d->first[i * d->stride];
@@ -143,7 +143,7 @@ static void read_one(const struct drawn *d, const struct ceduo_observation *o, g
     to->p_value = farther / (double)(d->draws * d->samples);
     to->lo = ceduo_quantile(values, n, 0.025);
     to->hi = ceduo_quantile(values, n, 0.975);
-    to->inside = to->seen >= to->lo && to->seen <= to->hi;
+    to->inside = to->observed >= to->lo && to->observed <= to->hi;
 }
 
 /* The range of single values, of all draws alike: what is not known of the ground and how rocks differ, together. `values`:
@@ -155,8 +155,8 @@ static void read_single(const struct drawn *d, const struct ceduo_observation *o
     to->one_inside = 0;
     for (size_t i = 0; i < d->draws && o->kind != CEDUO_OBSERVED_PASSED; i++) {
         const struct ceduo_observation_fit *c = &d->first[i * d->stride];
-        for (size_t k = 0; k < c->some_count; k++)
-            values[n++] = c->some[k];
+        for (size_t k = 0; k < c->sample_count; k++)
+            values[n++] = c->sample[k];
     }
     if (n < SINGLE_MIN)
         return;
@@ -183,7 +183,7 @@ static void read_all(struct fitting *f, size_t draws, gsl_rng *random, double *v
             read_single(&drawn, o, values, to);
             bool misfit = to->p_value < CEDUO_MISFIT;
             a->misfit |= misfit && o->use == CEDUO_OBSERVED_FIT;
-            a->refuted |= misfit && o->use == CEDUO_OBSERVED_CHECK;
+            a->check_failed |= misfit && o->use == CEDUO_OBSERVED_CHECK;
         }
 }
 

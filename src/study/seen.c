@@ -18,12 +18,12 @@ void ceduo_observed_stops_find(const struct ceduo_observation *o, const double *
                                struct ceduo_observed_stops *to)
 {
     double first = fmin(values[0], o->values[0]), last = fmax(values[n - 1], o->values[o->n - 1]);
-    size_t of = o->of > 0 ? (size_t)o->of : o->n, all = o->of > 0 ? rocks : n;
+    size_t of = o->released > 0 ? (size_t)o->released : o->n, all = o->released > 0 ? rocks : n;
     to->known = last > first;
     for (size_t i = 0; i < CEDUO_SEEN_PLACES; i++) {
         double x = to->x[i] = first + (last - first) * (double)i / (CEDUO_SEEN_PLACES - 1);
         double p = (double)(beyond(values, n, x) + all - n) / (double)all;
-        to->seen[i] = (double)(beyond(o->values, o->n, x) + of - o->n) / (double)of;
+        to->observed[i] = (double)(beyond(o->values, o->n, x) + of - o->n) / (double)of;
         size_t lo, hi; /* of how many lie beyond, which is binomial */
         ceduo_quantile_interval(of, p, &lo, &hi);
         to->lo[i] = (double)lo / (double)of;

@@ -11,7 +11,7 @@
 struct ceduo_observed_stops {
     bool known;
     double x[CEDUO_SEEN_PLACES]; /* m, relative, evenly apart */
-    double seen[CEDUO_SEEN_PLACES], lo[CEDUO_SEEN_PLACES], hi[CEDUO_SEEN_PLACES];
+    double observed[CEDUO_SEEN_PLACES], lo[CEDUO_SEEN_PLACES], hi[CEDUO_SEEN_PLACES];
 };
 
 /* `values`: sorted, of the n simulated rocks, of so many, that stopped where rocks were looked for. The others count

@@ -91,9 +91,9 @@ static size_t place_cells(const struct ceduo_scene *scene, double *x)
 
 static enum ceduo_status read_energies(const struct ceduo_run *run, struct ceduo_run_snapshot *s)
 {
-    for (size_t c = 0; c < s->flown.controls; c++) {
+    for (size_t c = 0; c < s->simulated.controls; c++) {
         struct ceduo_energies *e = &s->energies[c];
-        uint64_t reached = s->flown.arrivals[c].reached;
+        uint64_t reached = s->simulated.arrivals[c].reached;
         size_t max = reached < CEDUO_SNAPSHOT_SAMPLE ? (size_t)reached : CEDUO_SNAPSHOT_SAMPLE;
         e->values = ceduo_arena_alloc(&s->memory, (max + 1) * sizeof *e->values);
         if (!e->values)
@@ -107,7 +107,7 @@ static void let_go(struct ceduo_run_snapshot *s)
 {
     if (!s || atomic_fetch_sub(&s->references, 1) != 1)
         return;
-    ceduo_simulated_free(&s->flown);
+    ceduo_simulated_free(&s->simulated);
     ceduo_arena_free(&s->memory);
     free(s);
 }
@@ -129,7 +129,7 @@ static enum ceduo_status read_envelopes(const struct ceduo_snapshot_def *def, co
     const struct ceduo_run_snapshot *last = find_sight(def->last, s->key);
     if (o->cells == 0)
         return CEDUO_OK;
-    s->envelope_rocks = s->flown.rocks < def->envelope_rocks ? s->flown.rocks : def->envelope_rocks;
+    s->envelope_rocks = s->simulated.rocks < def->envelope_rocks ? s->simulated.rocks : def->envelope_rocks;
     if (last && last->envelope_rocks == s->envelope_rocks) {
         memcpy(s->envelopes, last->envelopes, o->cells * sizeof *s->envelopes);
         return CEDUO_OK;
@@ -149,10 +149,10 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
 {
     const struct ceduo_slope *slope = &def->scene->slope;
     size_t controls = def->scene->controls_count;
-    enum ceduo_status status = ceduo_simulated_read(run, controls, &s->flown);
+    enum ceduo_status status = ceduo_simulated_read(run, controls, &s->simulated);
     if (status != CEDUO_OK)
         return status;
-    size_t trajectories = def->trajectories < s->flown.rocks ? def->trajectories : (size_t)s->flown.rocks;
+    size_t trajectories = def->trajectories < s->simulated.rocks ? def->trajectories : (size_t)s->simulated.rocks;
     s->energies = ceduo_arena_alloc(&s->memory, (controls + 1) * sizeof *s->energies);
     s->envelopes = ceduo_arena_alloc(&s->memory, (o->cells + 1) * sizeof *s->envelopes);
     s->trajectories = ceduo_arena_alloc(&s->memory, (trajectories + 1) * sizeof *s->trajectories);
@@ -195,7 +195,7 @@ static enum ceduo_status get_sight(const struct ceduo_snapshot_def *def, const s
     uint64_t key = ceduo_option_key(def->scene, option), rocks = ceduo_run_rocks(run);
     struct ceduo_run_snapshot *s = find_sight(o, key);
     s = s ? s : find_sight(def->last, key);
-    if (s && s->flown.rocks == rocks) {
+    if (s && s->simulated.rocks == rocks) {
         atomic_fetch_add(&s->references, 1);
         *sight = s;
         return CEDUO_OK;

@@ -30,7 +30,7 @@ struct ceduo_run_snapshot {
     atomic_uint references;
     struct arena memory; /* of envelopes, energies and trajectories */
     uint64_t key;        /* ceduo_option_key() of its forest */
-    struct ceduo_simulated flown;
+    struct ceduo_simulated simulated;
     uint64_t envelope_rocks;          /* of the envelopes */
     struct ceduo_envelope *envelopes; /* one for each cell */
     struct ceduo_energies *energies;  /* one for each control: the first CEDUO_SNAPSHOT_SAMPLE at most */

@@ -21,7 +21,7 @@ struct sure {
 
 static struct ceduo_replicates *values_of(const struct sure *s, size_t row, size_t control)
 {
-    return s->values + (row * s->def->of.scene->controls_count + control) * s->slots;
+    return s->values + (row * s->def->uncertainty.scene->controls_count + control) * s->slots;
 }
 
 /* An ADC has no end where nothing stands; its inverse has. The other goals are as they are. */
@@ -45,7 +45,7 @@ static struct ceduo_replicates energy_of(const struct point *point, const struct
     if (point->scene->simulation.contact_model == CEDUO_INDEX)
         left = ceduo_assess_index(point->scene, point->forest, control, mean).residual;
     for (size_t g = 0; g < GROUPS && left > 0; g++)
-        y.of[g] = (left + (briefs[g].energy_per_released - mean * briefs[g].reach_probability) / reach) * 1e-3;
+        y.value[g] = (left + (briefs[g].energy_per_released - mean * briefs[g].reach_probability) / reach) * 1e-3;
     return y;
 }
 
@@ -60,26 +60,26 @@ static struct ceduo_replicates value_of(enum ceduo_goal goal, const struct point
     if (!briefs)
         index = ceduo_assess_index(point->scene, point->forest, at, NAN);
     for (size_t g = 0; g < GROUPS; g++)
-        y.of[g] = goal == CEDUO_GOAL_ADC            ? scaled(goal, index.worst_adc)
-                  : goal == CEDUO_GOAL_FREE_RUN     ? index.worst_free_run
-                  : ceduo_goal_needs_accepted(goal) ? briefs[g].exceed_probability
-                                                    : briefs[g].reach_probability;
+        y.value[g] = goal == CEDUO_GOAL_ADC            ? scaled(goal, index.worst_adc)
+                     : goal == CEDUO_GOAL_FREE_RUN     ? index.worst_free_run
+                     : ceduo_goal_needs_accepted(goal) ? briefs[g].exceed_probability
+                                                       : briefs[g].reach_probability;
     return y;
 }
 
 static void read_point(void *context, const struct point *point, const struct control_means *at)
 {
     const struct sure *s = context;
-    for (size_t c = 0; c < s->def->of.scene->controls_count; c++)
+    for (size_t c = 0; c < s->def->uncertainty.scene->controls_count; c++)
         values_of(s, point->row, c)[point->slot > 0 ? point->slot - 1 : 0] =
-            value_of(s->def->goal, point, &point->scene->controls[c], at ? at[c].of : NULL);
+            value_of(s->def->goal, point, &point->scene->controls[c], at ? at[c].group : NULL);
 }
 
 static double mean_of(const struct ceduo_replicates *y)
 {
     double mean = 0;
     for (size_t g = 0; g < GROUPS; g++)
-        mean += y->of[g] / GROUPS;
+        mean += y->value[g] / GROUPS;
     return mean;
 }
 
@@ -90,9 +90,9 @@ static struct ceduo_replicates over_years(const struct sure *s, const struct ced
     for (size_t k = 1; k < s->slots && !ceduo_goal_is_mean(s->def->goal); k++)
         y = mean_of(&years[k]) > mean_of(&y) ? years[k] : y;
     for (size_t g = 0; g < GROUPS && ceduo_goal_is_mean(s->def->goal); g++) {
-        y.of[g] = 0;
+        y.value[g] = 0;
         for (size_t k = 0; k < s->slots; k++)
-            y.of[g] += years[k].of[g] / (double)s->slots;
+            y.value[g] += years[k].value[g] / (double)s->slots;
     }
     return y;
 }
@@ -115,7 +115,7 @@ static enum ceduo_status read_worst(const struct sure *s, struct ceduo_surface *
         size_t worst = p;
         for (size_t i = p; i < n; i += points)
             worst = values[i] > values[worst] ? i : worst;
-        ceduo_replicates_from_half_samples(&y[p], values[worst], changes[worst].of);
+        ceduo_replicates_from_half_samples(&y[p], values[worst], changes[worst].value);
     }
     free(years);
     free(values);
@@ -129,7 +129,7 @@ static enum ceduo_status fill_column(const struct sure *s, struct ceduo_surface 
     bool worst = surface && s->slots > 1 && ceduo_goal_is_worst(s->def->goal);
     struct ceduo_replicates *y = malloc(points * sizeof *y);
     enum ceduo_status status = y ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t c = 0; c < s->def->of.scene->controls_count && status == CEDUO_OK; c++) {
+    for (size_t c = 0; c < s->def->uncertainty.scene->controls_count && status == CEDUO_OK; c++) {
         for (size_t p = 0; p < points && !worst; p++)
             y[p] = over_years(s, values_of(s, p, c));
         if (worst)
@@ -161,9 +161,10 @@ static enum ceduo_status read_surface(const struct reliability_def *def, struct 
                                                 .limit = scaled(def->goal, def->target)};
     enum ceduo_status status = ceduo_surface_fit(surface, &figure, &fit);
     if (status == CEDUO_OK) {
-        double half = fmax(CEDUO_Z95 * fit.below.se, 2 / (double)points); /* a share and its quantile have steps of a point */
+        double half =
+            fmax(CEDUO_Z95 * fit.share_below.se, 2 / (double)points); /* a share and its quantile have steps of a point */
         gsl_sort(fit.values, 1, points);
-        *answer = (struct reliability_result){fit.below, quantile_above(&fit, points, def->sure, figure.limit),
+        *answer = (struct reliability_result){fit.share_below, quantile_above(&fit, points, def->sure, figure.limit),
                                               quantile_above(&fit, points, def->sure - half, figure.limit),
                                               quantile_above(&fit, points, def->sure + half, figure.limit)};
     }
@@ -174,7 +175,7 @@ static enum ceduo_status read_surface(const struct reliability_def *def, struct 
 enum ceduo_status ceduo_reliability_compute(const struct reliability_def *def, struct reliability_result *answer)
 {
     GSL_RETURNS_ERRORS;
-    struct ceduo_uncertainty_def of = def->of;
+    struct ceduo_uncertainty_def of = def->uncertainty;
     const struct ceduo_scene *scene = of.scene;
     size_t points = of.inputs_count > 0 ? of.points : 1, n = of.inputs_count;
     struct sure s = {.def = def, .slots = 1};

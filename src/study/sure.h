@@ -9,7 +9,7 @@
 struct reliability_def {
     /* the scene, one option alone, the inputs that it has (ceduo_input_is_of()), points and rocks; over a rotation: not of
      * CEDUO_GOAL_ENERGY. More points are never taken, and progress is not told */
-    struct ceduo_uncertainty_def of;
+    struct ceduo_uncertainty_def uncertainty;
     enum ceduo_goal goal;
     double target; /* a goal up to it is reached; */
     double sure;   /* in so much of what may be true */

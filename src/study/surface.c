@@ -483,7 +483,7 @@ static void fill_column(struct column *c, const struct ceduo_replicates *groups,
     for (size_t g = 0; g < GROUPS; g++) {
         double *y = c->y + g * c->points;
         for (size_t i = 0; i < n * c->points; i++)
-            y[i % c->points] += groups[i].of[g];
+            y[i % c->points] += groups[i].value[g];
         c->means[g] = gsl_stats_mean(y, 1, c->points);
         c->means[GROUPS] += c->means[g] / GROUPS; /* exactly 0 if groups cancel out */
         for (size_t p = 0; p < c->points; p++) {
@@ -741,13 +741,13 @@ static void read_solution(struct ceduo_surface *s, struct solution *f, struct ce
     }
     fit->p5 = band.ends[P5], fit->p50 = band.ends[P50], fit->p95 = band.ends[P95];
     fit->p5_se = band_se(&band, P5), fit->p95_se = band_se(&band, P95);
-    fit->below = (struct ceduo_share){band.ends[BELOW], band_se(&band, BELOW)};
+    fit->share_below = (struct ceduo_share){band.ends[BELOW], band_se(&band, BELOW)};
     for (size_t i = 0; f && i < found->n; i++)
         fit->first[i] = (struct ceduo_share){share_of(found, fit->noise, i),
                                              sqrt(of_rocks[i] * student() * (GROUPS - 1) / GROUPS + of_points[i] / SAMPLES)};
-    fit->whole = fit->first[found->n - 1];
+    fit->unexplained = fit->first[found->n - 1];
     for (size_t i = 0; f && i < s->inputs_count; i++) /* in the mean no more than now: what seems more is error */
-        fit->left[i] = fmin(left_of(f, fit->values, i), fit->p95 - fit->p5);
+        fit->width_if_known[i] = fmin(left_of(f, fit->values, i), fit->p95 - fit->p5);
 }
 
 /* Sorts the inputs by the variance that they bring in a fit without products, the most first; words before all, as they decide
@@ -810,12 +810,12 @@ static bool allocate_fit(struct ceduo_surface_fit *fit, size_t points, size_t n)
     if (!fit->first)
         return false;
     fit->total = fit->first + n;
-    fit->left = (double *)(fit->first + 2 * n + 1);
-    fit->values = fit->left + n;
+    fit->width_if_known = (double *)(fit->first + 2 * n + 1);
+    fit->values = fit->width_if_known + n;
     for (size_t i = 0; i <= 2 * n; i++)
         fit->first[i] = (struct ceduo_share){NAN, NAN};
     for (size_t i = 0; i < n; i++)
-        fit->left[i] = NAN;
+        fit->width_if_known[i] = NAN;
     return true;
 }
 
@@ -830,9 +830,9 @@ enum ceduo_status ceduo_surface_fit(struct ceduo_surface *s, const struct ceduo_
     fill_column(&s->c, figure->y, 1);
     fit->mean = s->c.means[GROUPS], fit->variance = s->c.variance, fit->noise = s->c.noise;
     bool good = allocate_fit(fit, s->points, s->inputs_count) && choose(s, &chosen);
-    fit->enough = good && chosen.enough;
+    fit->enough_points = good && chosen.enough;
     fit->linear = good && chosen.linear;
-    if (fit->enough)
+    if (fit->enough_points)
         good = (f = fit_terms(s, &chosen));
     if (good)
         read_solution(s, f, fit);
@@ -870,7 +870,7 @@ enum ceduo_status ceduo_surface_values(struct ceduo_surface *s, const struct ced
         for (size_t half = 1; half < GROUPS; half++) {
             read_changes(&s->c, half, s->values);
             for (size_t p = 0; p < s->points; p++)
-                changes[i * s->points + p].of[half] = s->values[p];
+                changes[i * s->points + p].value[half] = s->values[p];
         }
     }
     return CEDUO_OK;
@@ -881,8 +881,8 @@ void ceduo_replicates_from_half_samples(struct ceduo_replicates *groups, double 
                                         const double changes[CEDUO_SURFACE_GROUPS])
 {
     for (size_t g = 0; g < GROUPS; g++) {
-        groups->of[g] = value;
+        groups->value[g] = value;
         for (size_t half = 1; half < GROUPS; half++)
-            groups->of[g] += side_of(half, g) * changes[half];
+            groups->value[g] += side_of(half, g) * changes[half];
     }
 }

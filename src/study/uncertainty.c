@@ -77,21 +77,21 @@ static void read_point(void *context, const struct point *point, const struct co
     /* With blocks a share means a rate: if more come down, as large a share is more. */
     double weight = limit_of(r->def->scene) / limit_of(point->scene);
     for (size_t g = 0; g < GROUPS && point->slot > 0; g++) {
-        const struct ceduo_group_means *b = &at[last].of[g];
+        const struct ceduo_group_means *b = &at[last].group[g];
         double share = r->judged == CEDUO_UNCERTAINTY_EXCEED ? weight * b->exceed_probability : b->reach_probability;
-        double *mean = &values[CEDUO_UNCERTAINTY_MEAN].of[g]; /* of the years, added up as they come */
-        r->shares[(point->option * r->years + point->slot - 1) * r->most + point->row - r->ends].of[g] = share;
+        double *mean = &values[CEDUO_UNCERTAINTY_MEAN].value[g]; /* of the years, added up as they come */
+        r->shares[(point->option * r->years + point->slot - 1) * r->most + point->row - r->ends].value[g] = share;
         *mean = (point->slot == 1 ? 0 : *mean) + share / (double)r->years;
     }
     if (point->slot > 0)
         return;
     struct ceduo_index index = ceduo_assess_index(point->scene, point->forest, &point->scene->controls[last], NAN);
     for (size_t g = 0; g < GROUPS; g++) {
-        values[CEDUO_UNCERTAINTY_REACH].of[g] = at[last].of[g].reach_probability;
-        values[CEDUO_UNCERTAINTY_EXCEED].of[g] = weight * at[last].of[g].exceed_probability;
-        values[CEDUO_UNCERTAINTY_ENERGY].of[g] = at[last].of[g].energy_per_released;
-        values[CEDUO_UNCERTAINTY_CONTACT].of[g] = 1 / index.worst_adc; /* no rock decides it: the same in all groups */
-        values[CEDUO_UNCERTAINTY_FREE_RUN].of[g] = index.worst_free_run;
+        values[CEDUO_UNCERTAINTY_REACH].value[g] = at[last].group[g].reach_probability;
+        values[CEDUO_UNCERTAINTY_EXCEED].value[g] = weight * at[last].group[g].exceed_probability;
+        values[CEDUO_UNCERTAINTY_ENERGY].value[g] = at[last].group[g].energy_per_released;
+        values[CEDUO_UNCERTAINTY_CONTACT].value[g] = 1 / index.worst_adc; /* no rock decides it: the same in all groups */
+        values[CEDUO_UNCERTAINTY_FREE_RUN].value[g] = index.worst_free_run;
     }
 }
 
@@ -184,7 +184,7 @@ static struct ceduo_replicates value_at(const struct rows *r, const struct subje
 {
     struct ceduo_replicates y = values_of(r, row, s->option)[kind];
     for (size_t g = 0; s->option != s->against && g < GROUPS; g++)
-        y.of[g] -= values_of(r, row, s->against)[kind].of[g];
+        y.value[g] -= values_of(r, row, s->against)[kind].value[g];
     return y;
 }
 
@@ -218,7 +218,7 @@ static void set_range(const struct rows *r, double value, struct ceduo_surface_f
     if (r->points < CEDUO_UNCERTAINTY_MIN) {
         fit->p5 = fit->p50 = fit->p95 = fit->p5_se = fit->p95_se = NAN;
         for (size_t i = 0; i < r->def->inputs_count; i++)
-            fit->left[i] = NAN;
+            fit->width_if_known[i] = NAN;
         return;
     }
     if (!isnan(value))
@@ -235,7 +235,7 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
         max = r->year_count;
     for (size_t row = 0; row < r->ends; row++) {
         const struct ceduo_replicates y = value_at(r, s, row, f->kind);
-        f->at[row / 2][row % 2] = is_rotation(f->kind) ? NAN : ceduo_groups_mean(&y, def->rocks);
+        f->at_ends[row / 2][row % 2] = is_rotation(f->kind) ? NAN : ceduo_groups_mean(&y, def->rocks);
     }
     ceduo_surface_release(&f->fit);
     const struct ceduo_surface_figure figure = {
@@ -247,7 +247,7 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
     f->uses = 0;
     for (size_t i = 0; i < def->inputs_count; i++) {
         f->uses += s->uses[i];
-        s->left[i] = !s->uses[i] ? INFINITY : isnan(f->fit.left[i]) ? 0 : f->fit.left[i];
+        s->left[i] = !s->uses[i] ? INFINITY : isnan(f->fit.width_if_known[i]) ? 0 : f->fit.width_if_known[i];
         ceduo_insert_index(s->left, i, i, f->order);
     }
     return CEDUO_OK;
@@ -326,7 +326,7 @@ static int count_years(void *context, size_t option, size_t worker)
             all += each * (values[k] > limit);
             for (size_t half = 1; half < GROUPS; half++)
                 halves[half] +=
-                    each / 2 * ((values[k] + changes[k].of[half] > limit) - (values[k] - changes[k].of[half] > limit));
+                    each / 2 * ((values[k] + changes[k].value[half] > limit) - (values[k] - changes[k].value[half] > limit));
         }
         ceduo_replicates_from_half_samples(failing, all, halves);
     }
@@ -342,8 +342,8 @@ static bool wants_more(const struct rows *r)
         for (size_t over = is_asked(r, i) ? 0 : 2; over < (r->years > 0 ? 2 : 1); over++) {
             const struct ceduo_surface_fit *fit =
                 &ceduo_uncertainty_find_figure(a, i, over ? CEDUO_UNCERTAINTY_MEAN : a->main, false)->fit;
-            if (fit->enough && !fit->linear ? fit->explained < CEDUO_UNCERTAINTY_EXPLAINED
-                                            : fit->variance > 0 && r->points >= CEDUO_UNCERTAINTY_POINTS)
+            if (fit->enough_points && !fit->linear ? fit->explained < CEDUO_UNCERTAINTY_EXPLAINED
+                                                   : fit->variance > 0 && r->points >= CEDUO_UNCERTAINTY_POINTS)
                 return true;
         }
     return false;
@@ -504,19 +504,19 @@ static enum ceduo_status open_answer(struct rows *r)
 {
     struct ceduo_uncertainty_result *a = r->answer;
     size_t n = r->def->inputs_count, count = (2 * r->options - 1) * CEDUO_UNCERTAINTY_KINDS;
-    a->figures = calloc(count, sizeof *a->figures + n * (sizeof *a->figures->at + sizeof *a->figures->order));
+    a->figures = calloc(count, sizeof *a->figures + n * (sizeof *a->figures->at_ends + sizeof *a->figures->order));
     if (!a->figures)
         return CEDUO_NO_MEMORY;
     double(*at)[2] = (void *)(a->figures + count);
     size_t *order = (void *)(at + count * n);
     for (; a->figures_count < count; a->figures_count++) {
         struct ceduo_uncertainty_figure *f = &a->figures[a->figures_count];
-        f->at = at + a->figures_count * n;
+        f->at_ends = at + a->figures_count * n;
         f->order = order + a->figures_count * n;
         set_sampling(f, CEDUO_NO_ESTIMATE);
         f->fit.p5 = f->fit.p95 = NAN;
         for (size_t i = 0; i < n; i++)
-            f->at[i][0] = f->at[i][1] = NAN;
+            f->at_ends[i][0] = f->at_ends[i][1] = NAN;
     }
     return read_sampling(r);
 }
@@ -588,7 +588,7 @@ size_t ceduo_uncertainty_dominant_inputs(const struct ceduo_scene *scene, const 
     const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
     double gap = ceduo_assess_index(scene, &scene->options[option], control, NAN).longest_gap;
     bool decided = light != CEDUO_UNCERTAINTY_EXCEED && gap > scene->simulation.threshold; /* whatever the stands are */
-    if (decided || !f->fit.enough || !(f->fit.p5 <= limit && f->fit.p95 > limit))
+    if (decided || !f->fit.enough_points || !(f->fit.p5 <= limit && f->fit.p95 > limit))
         return 0;
     const struct ceduo_share *total = f->fit.total;
     size_t first = SIZE_MAX, second = SIZE_MAX;

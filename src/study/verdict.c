@@ -111,15 +111,15 @@ static void read_years(const struct ceduo_years *years, struct arena *memory, st
         return;
     for (size_t k = 0; k < controls; k++)
         ahead[k] = ceduo_years_sum(years, k);
-    c->ahead = ahead;
-    c->over = &ahead[years->last_control];
+    c->summaries = ahead;
+    c->last_summary = &ahead[years->last_control];
     c->rocks = years->rocks;
-    c->energy_known &= !c->over->nothing;
-    c->worst.mean = c->over->worst; /* by the index an ADC: it has no error */
+    c->energy_known &= !c->last_summary->nothing;
+    c->worst.mean = c->last_summary->worst; /* by the index an ADC: it has no error */
     for (size_t i = 0; i < years->count; i++)
-        if (years->years[i].year == c->over->worst_year && years->years[i].wooded.rocks > 0)
+        if (years->years[i].year == c->last_summary->worst_year && years->years[i].wooded.rocks > 0)
             c->worst = ceduo_share_at(&years->years[i].wooded.arrivals[years->last_control]);
-    c->mean = ceduo_share_over_years(years, c->over);
+    c->mean = ceduo_share_over_years(years, c->last_summary);
 }
 
 /* Year of the next cut if it is due, otherwise 0. */
@@ -143,7 +143,7 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
     const struct ceduo_option *o = &r->scene->options[option];
     struct ceduo_window rotation = ceduo_window_compute(o);
     *c = (struct ceduo_choice){
-        .today = unknown, .worst = unknown, .mean = unknown, .rotation = unknown, .over = &no_years, .cut = due_cut(o)};
+        .today = unknown, .worst = unknown, .mean = unknown, .rotation = unknown, .last_summary = &no_years, .cut = due_cut(o)};
     c->window = years ? years->window : ceduo_window_in(r->scene);
     if (r->scene->controls_count > 0) {
         c->today = ceduo_share_at(ceduo_result_wooded(r, option, r->last_control));
@@ -190,10 +190,10 @@ static void find_turned(const struct ceduo_result *r, struct ceduo_verdict *v)
             double now = errors_worse(difference_today, r, k, i), other = errors_worse(difference_by_other_law, r, i, k);
             if (i == k || !(fmin(now, other) > 1 && fmax(now, other) > CEDUO_CLEAR))
                 continue;
-            v->turned = ceduo_arena_grow(&v->memory, v->turned, v->turned_count, 1, &room, sizeof *v->turned);
+            v->reversals = ceduo_arena_grow(&v->memory, v->reversals, v->reversals_count, 1, &room, sizeof *v->reversals);
             if (v->memory.failed)
                 return;
-            v->turned[v->turned_count++] = (struct ceduo_rank_reversal){i, k};
+            v->reversals[v->reversals_count++] = (struct ceduo_rank_reversal){i, k};
         }
 }
 
@@ -281,20 +281,20 @@ static bool is_impossible(const struct ceduo_result *r, size_t option, size_t co
 struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const struct ceduo_verdict *v,
                                            const struct ceduo_uncertainty_result *uncertainty, size_t option, size_t control)
 {
-    const struct ceduo_choice *c = v && option < v->n && v->choices[option].ahead ? &v->choices[option] : NULL;
-    const struct ceduo_years_summary *s = c ? &c->ahead[control] : NULL;
+    const struct ceduo_choice *c = v && option < v->n && v->choices[option].summaries ? &v->choices[option] : NULL;
+    const struct ceduo_years_summary *s = c ? &c->summaries[control] : NULL;
     const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control);
     bool blocks = r->scene->blocks_count > 0, last = control == r->last_control;
     enum ceduo_judgement today = judge_today(r, uncertainty, option, control);
     struct ceduo_outcome o = {.answer = today,
                               .today = today,
-                              .ahead = s && s->simulated > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT,
+                              .over_years = s && s->simulated > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT,
                               .also_bare = ceduo_judge_control(&r->bare.arrivals[control], NULL) == CEDUO_YES,
                               .rate = CEDUO_NO_ESTIMATE};
     bool years = last && uncertainty && uncertainty->rotation;
     if (today == CEDUO_UNANSWERED || today == CEDUO_NOTHING)
         return o;
-    if (o.ahead) {
+    if (o.over_years) {
         const struct ceduo_surface_fit *fit =
             years ? &ceduo_uncertainty_find_figure(uncertainty, option, CEDUO_UNCERTAINTY_FAILING, false)->fit : NULL;
         o.uncertain = fit && !isnan(fit->p5);
@@ -304,17 +304,17 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
         o.answer = judge_years(s, &o);
     }
     if (blocks && wooded) {
-        enum ceduo_uncertainty_kind kind = o.ahead ? CEDUO_UNCERTAINTY_MEAN : CEDUO_UNCERTAINTY_EXCEED;
-        o.rate = o.ahead ? s->rate : ceduo_hazard_feared(&wooded->hazard);
+        enum ceduo_uncertainty_kind kind = o.over_years ? CEDUO_UNCERTAINTY_MEAN : CEDUO_UNCERTAINTY_EXCEED;
+        o.rate = o.over_years ? s->rate : ceduo_hazard_feared(&wooded->hazard);
         o.answer = judge_rate(r,
-                              last && uncertainty && (years || !o.ahead)
+                              last && uncertainty && (years || !o.over_years)
                                   ? &ceduo_uncertainty_find_figure(uncertainty, option, kind, false)->fit
                                   : NULL,
                               control, &o);
     }
     o.impossible = o.answer == CEDUO_YES && is_impossible(r, option, control);
     o.answer = o.impossible ? CEDUO_NOTHING : o.answer;
-    o.today = o.impossible && !o.ahead ? CEDUO_NOTHING : today;
+    o.today = o.impossible && !o.over_years ? CEDUO_NOTHING : today;
     return o;
 }
 
@@ -327,7 +327,7 @@ enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ced
     *v = (struct ceduo_verdict){
         .wooded = r->wooded && r->scene->controls_count > 0,
         .accepted = r->scene->controls_count > 0 && !isnan(r->scene->controls[r->last_control].accepted),
-        .nothing = r->scene->controls_count > 0 && ceduo_too_few_arrivals(&r->bare.arrivals[r->last_control]),
+        .too_few_arrivals = r->scene->controls_count > 0 && ceduo_too_few_arrivals(&r->bare.arrivals[r->last_control]),
     };
     v->choices = ceduo_arena_alloc(&v->memory, (n + 1) * sizeof *v->choices);
     v->today.rival = ceduo_arena_alloc(&v->memory, (n + 1) * sizeof *v->today.rival);
@@ -337,7 +337,7 @@ enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ced
         status = read_choice(r, years ? years[i] : NULL, rotations ? rotations[i] : NULL, i, &v->memory, &v->choices[i]);
         v->n = i + 1;
     }
-    if (status == CEDUO_OK && !v->nothing) {
+    if (status == CEDUO_OK && !v->too_few_arrivals) {
         find_leader(r, NULL, v, &v->today);
         if (years)
             find_leader(r, years, v, &v->rotation);

@@ -35,12 +35,12 @@ struct ceduo_estimate ceduo_share_to_first(const struct ceduo_result *result, si
 
 /* What is known of one option. */
 struct ceduo_choice {
-    struct ceduo_mean_share today, worst, mean; /* worst and mean: of the years */
-    const struct ceduo_years_summary *ahead;    /* of the years, at each control; NULL: not known */
-    const struct ceduo_years_summary *over;     /* at the last control; years 0: not known */
-    struct ceduo_mean_share rotation;           /* mean over a whole rotation, ceduo_window_compute(); NaN: not known */
-    uint64_t rocks;                             /* in each of them, which may be fewer than today */
-    bool energy_known;                          /* in how many of them the light of energy fails */
+    struct ceduo_mean_share today, worst, mean;     /* worst and mean: of the years */
+    const struct ceduo_years_summary *summaries;    /* of the years, at each control; NULL: not known */
+    const struct ceduo_years_summary *last_summary; /* at the last control; years 0: not known */
+    struct ceduo_mean_share rotation;               /* mean over a whole rotation, ceduo_window_compute(); NaN: not known */
+    uint64_t rocks;                                 /* in each of them, which may be fewer than today */
+    bool energy_known;                              /* in how many of them the light of energy fails */
     bool beaten; /* another option yields as much and lets clearly fewer rocks through, or yields more and lets no more
                   * through */
     struct ceduo_window window;
@@ -63,25 +63,25 @@ struct ceduo_leader {
 /* Two options whose order today depends on the energy law (other.h): clear under one of the two laws, and the other way
  * round, by more than a standard error, under the other. */
 struct ceduo_rank_reversal {
-    size_t better, than; /* under the law of the scene; under the other law it is the other way round */
+    size_t better, worse; /* under the law of the scene; under the other law it is the other way round */
 };
 
 struct ceduo_verdict {
     struct arena memory;
     bool wooded, accepted; /* rocks fly through the forests; an accepted energy is given */
-    bool nothing;          /* nothing can be said of any forest (ceduo_too_few_arrivals()): no option is best, no year fails */
+    bool too_few_arrivals; /* nothing can be said of any forest (ceduo_too_few_arrivals()): no option is best, no year fails */
     size_t n;
     struct ceduo_choice *choices;
     struct ceduo_leader today, rotation;
-    size_t turned_count;
-    struct ceduo_rank_reversal *turned;
+    size_t reversals_count;
+    struct ceduo_rank_reversal *reversals;
 };
 
 /* What is said of an option at a control. */
 struct ceduo_outcome {
     enum ceduo_judgement answer; /* over the window; of today if `ahead` is false */
     enum ceduo_judgement today;
-    bool ahead;      /* the window has other years than today, and they are known */
+    bool over_years; /* the window has other years than today, and they are known */
     bool also_bare;  /* the slope keeps within the limit without forest, today */
     bool impossible; /* a stand has more stems than a forest can hold: it supports no yes */
     double failing, failing_lo,

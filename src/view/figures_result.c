@@ -60,7 +60,7 @@ static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
 static const struct ceduo_choice *window_at(const struct ceduo_place *p)
 {
     const struct ceduo_choice *c = ceduo_report_ahead(p->report, p->option);
-    return c && c->over->simulated > 0 ? c : NULL;
+    return c && c->last_summary->simulated > 0 ? c : NULL;
 }
 
 static const struct ceduo_stand_result *belt_result(const struct ceduo_place *p)
@@ -171,7 +171,7 @@ static void say_because(const struct ceduo_place *p, ceduo_sentence_sink *say, v
     const struct ceduo_outcome o = outcome_of(p);
     const struct ceduo_subject subject = ceduo_subject_find(p->report, p->option, p->control);
     LOCAL_TEXT(why);
-    if ((o.ahead && o.answer != CEDUO_NOTHING) || o.impossible)
+    if ((o.over_years && o.answer != CEDUO_NOTHING) || o.impossible)
         ceduo_words_reason(&why, &subject);
     else
         ceduo_words_because(&why, p->report->result, p->control, through_the_wood(p));
@@ -215,8 +215,8 @@ VALUE(judgement_today, place, TEXT, WORD(o->year ? NULL : ceduo_words_judgement(
 VALUE(window_lo, choice, NUMBER, NUMBER(fmax(0, o->mean.mean - o->mean.half)))
 VALUE(window_hi, choice, NUMBER, NUMBER(fmin(1, o->mean.mean + o->mean.half)))
 VALUE(window_worst, choice, NUMBER, NUMBER(o->worst.mean))
-VALUE(window_worst_year, choice, COUNT, COUNT(o->over->worst_year))
-VALUE(window_failing, choice, COUNT, o->energy_known ? COUNT(o->over->unprotected_energy) : NOTHING)
+VALUE(window_worst_year, choice, COUNT, COUNT(o->last_summary->worst_year))
+VALUE(window_failing, choice, COUNT, o->energy_known ? COUNT(o->last_summary->unprotected_energy) : NOTHING)
 VALUE(judgement_of_other, alternative_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
 VALUE(felled_of, place, NUMBER, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, TEXT, WORD("ceduo-find-1"))

@@ -113,9 +113,9 @@ static void say_paths(const struct ceduo_place *p, ceduo_sentence_sink *say, voi
 VALUE(input_measured, place, TEXT, WORD(ceduo_uncertainty_measured(o->uncertainty, o->input)))
 VALUE(input_lo, place, ANY, end_of(o, 0))
 VALUE(input_hi, place, ANY, end_of(o, 1))
-VALUE(input_at_lo, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][0])))
-VALUE(input_at_hi, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][1])))
-VALUE(input_left, place, NUMBER, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
+VALUE(input_at_lo, place, NUMBER, NUMBER(shown(o, figure_of(o)->at_ends[o->input][0])))
+VALUE(input_at_hi, place, NUMBER, NUMBER(shown(o, figure_of(o)->at_ends[o->input][1])))
+VALUE(input_left, place, NUMBER, NUMBER(shown(o, figure_of(o)->fit.width_if_known[o->input])))
 VALUE(order_better, place, TEXT, WORD(scene_of(o)->options[order_of(o)->better].name_given))
 VALUE(order_than, place, TEXT, WORD(scene_of(o)->options[order_of(o)->than].name_given))
 VALUE(order_over, place, TEXT, WORD(o->uncertainty->answer->rotation ? "rotation" : "today"))
@@ -152,14 +152,14 @@ static const struct ceduo_figure uncertainty_figure_rows[] = {
     {"sampling_lo", "", "lower end of its 95 % interval, by the rocks", FIGURE(sampling_lo), .null = UNSAID},
     {"sampling_hi", "", "upper end of its 95 % interval", FIGURE(sampling_hi), .null = UNSAID},
     {"uncertainty", "", "by the uncertain inputs", .of = band_rows},
-    {"within", "", "share of what may be true in which no more exceed than are allowed", FIGURE(fit.below.value),
+    {"within", "", "share of what may be true in which no more exceed than are allowed", FIGURE(fit.share_below.value),
      .null = "the figure is not the share that exceeds, today or in the mean of the years"},
-    {"within_se", "", "its standard error", FIGURE(fit.below.se),
+    {"within_se", "", "its standard error", FIGURE(fit.share_below.se),
      .null = "the figure is not the share that exceeds, today or in the mean of the years"},
     {"q2", "", "share of the variance that the surface predicts, leaving out each point in turn", .from = uncertain_figure,
      AT(uncertainty_figure, fit.q2), .null = FEW_POINTS},
     {"unexplained", "", "share of the variance that neither single inputs nor pairs explain", .from = uncertain_figure,
-     AT(uncertainty_figure, fit.whole.value), .null = FEW_POINTS},
+     AT(uncertainty_figure, fit.unexplained.value), .null = FEW_POINTS},
     END};
 
 static const struct ceduo_figure input_range_rows[] = {
@@ -293,7 +293,7 @@ static const struct ceduo_figure fitted_rows[] = {
     {"p2_5", "", "lower end of what is not refuted, 95 %", .from = fitted_of, AT(fitted, p2_5), .null = NO_RANGE},
     {"p50", "", "its median", .from = fitted_of, AT(fitted, p50), .null = NO_RANGE},
     {"p97_5", "", "its upper end", .from = fitted_of, AT(fitted, p97_5), .null = NO_RANGE},
-    {"determined", "", "whether the observations determine it", .from = fitted_of, AT(fitted, determined)},
+    {"determined", "", "whether the observations determine it", .from = fitted_of, AT(fitted, identified)},
     {"at_bound", "", "whether it lies at a bound", .from = fitted_of, AT(fitted, at_bound)},
     END};
 
@@ -310,7 +310,7 @@ static const struct ceduo_figure observation_rows[] = {
     {"deviance", "", "deviance at the best values", .from = prediction_of, AT(predicted, at_best.deviance)},
     {"p_value", "", "how often simulated rocks deviate as much", .from = prediction_of, AT(predicted, p_value),
      .null = NO_RANGE},
-    {"seen", "", "mean of what was observed", SEEN(seen)},
+    {"seen", "", "mean of what was observed", SEEN(observed)},
     {"predicted_lo", "", "lower end of what the fit predicts of that mean, 95 %", SEEN(lo), .null = NO_RANGE},
     {"predicted_hi", "", "its upper end", SEEN(hi), .null = NO_RANGE},
     {"inside", "", "whether the mean lies between the two", .from = prediction_of, AT(predicted, inside)},
@@ -331,8 +331,9 @@ const struct ceduo_figure ceduo_calibration_figures[] = {
     {"observations", "", "an object for each observation", .of = observation_rows, .enter = enter_predicted},
     {"misfit", "", "whether the model cannot give something that it was fitted to", .from = calibration_of,
      AT(calibration, misfit)},
-    {"refuted", "", "whether the fit does not hold for what was to check it", .from = calibration_of, AT(calibration, refuted)},
-    {"settled", "", "whether the chains agree", .from = calibration_of, AT(calibration, settled)},
+    {"refuted", "", "whether the fit does not hold for what was to check it", .from = calibration_of,
+     AT(calibration, check_failed)},
+    {"settled", "", "whether the chains agree", .from = calibration_of, AT(calibration, converged)},
     {"evaluations", "", "scenes computed", .from = calibration_of, AT(calibration, evaluations)},
     {"rhat", "", "largest potential scale reduction of the values", .from = calibration_of, AT(calibration, rhat)},
     {"effective_size", "", "smallest effective size of the values", .from = calibration_of, AT(calibration, effective_size)},

@@ -87,26 +87,26 @@ void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
 
 void ceduo_page_worst(struct ceduo_page *page, const struct ceduo_choice *c)
 {
-    ceduo_page_cell_format(page, c->over->years > 0 ? "%s (%u)" : "-",
-                           c->over->simulated > 0 ? WRITTEN(1000 * c->worst.mean, 0) : WRITTEN(c->worst.mean, 3),
-                           c->over->worst_year);
+    ceduo_page_cell_format(page, c->last_summary->years > 0 ? "%s (%u)" : "-",
+                           c->last_summary->simulated > 0 ? WRITTEN(1000 * c->worst.mean, 0) : WRITTEN(c->worst.mean, 3),
+                           c->last_summary->worst_year);
 }
 
 void ceduo_page_fails(struct ceduo_page *page, const struct ceduo_choice *c, size_t fails, bool known)
 {
-    ceduo_page_cell_format(page, known && c->over->years > 0 ? "%zu/%zu" : "-", fails, c->over->years);
+    ceduo_page_cell_format(page, known && c->last_summary->years > 0 ? "%zu/%zu" : "-", fails, c->last_summary->years);
 }
 
 static void add_choice(struct ceduo_page *page, const char *name, const struct ceduo_choice *c)
 {
     ceduo_page_cell_format(page, "%s", name);
-    if (c->over->simulated > 0)
+    if (c->last_summary->simulated > 0)
         ceduo_page_cell_format(page, "%s", WITH_ERROR(ceduo_share(c->mean), " "));
     ceduo_page_worst(page, c);
-    ceduo_page_fails(page, c, c->over->unprotected_contact, !c->over->nothing);
-    ceduo_page_fails(page, c, c->over->unprotected_free_run, !c->over->nothing);
-    if (c->over->simulated > 0)
-        ceduo_page_fails(page, c, c->over->unprotected_energy, c->energy_known);
+    ceduo_page_fails(page, c, c->last_summary->unprotected_contact, !c->last_summary->nothing);
+    ceduo_page_fails(page, c, c->last_summary->unprotected_free_run, !c->last_summary->nothing);
+    if (c->last_summary->simulated > 0)
+        ceduo_page_fails(page, c, c->last_summary->unprotected_energy, c->energy_known);
     ceduo_page_number(page, c->yield.cut_per_year, 2);
     ceduo_page_number(page, c->yield.standing, 3);
 }
@@ -142,7 +142,7 @@ static void add_rotations(struct ceduo_page *page, const struct ceduo_result *r,
             _("Over %s: the worst year, counted from today; years in which a test fails; wood felled per hectare and "
               "year, and standing:"),
             span);
-    if (v->choices[0].over->simulated > 0) {
+    if (v->choices[0].last_summary->simulated > 0) {
         CEDUO_PAGE_TABLE_OF(page, simulated);
         ceduo_page_limit(page, last_control(r), CEDUO_SHORT_HEAD);
     } else {
@@ -178,7 +178,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     bool known = false;
     if (ceduo_report_ahead(report, 0))
         add_rotations(page, r, v);
-    for (size_t i = 0; v->choices[0].over->years > 0 && i < v->n; i++) { /* what a yield leaves out */
+    for (size_t i = 0; v->choices[0].last_summary->years > 0 && i < v->n; i++) { /* what a yield leaves out */
         known |= !isnan(v->choices[i].yield.cut_per_year);
         if (v->choices[i].yield.space > 1)
             ceduo_page_para(
@@ -197,7 +197,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
         ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
                                 "quality of the wood are not modelled."));
     ceduo_words_rank_reversals(r, v, ceduo_page_note, page); /* which is best stands at the head of the page */
-    if (v->choices[0].over->years > 0)
+    if (v->choices[0].last_summary->years > 0)
         ceduo_words_windows(r->scene, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
         ceduo_page_note(page, _(ceduo_words_unjudged));

@@ -123,7 +123,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_report *repor
         ceduo_page_cell_format(page, "%s", VALUE_OF(s.mean));
         ceduo_page_cell_format(page, "%s", isnan(s.mean.may_lo) ? "-" : MAY_BE(s.mean));
         ceduo_page_worst(page, s.choice);
-        ceduo_page_fails(page, s.choice, s.choice->over->unprotected_energy, s.choice->energy_known);
+        ceduo_page_fails(page, s.choice, s.choice->last_summary->unprotected_energy, s.choice->energy_known);
     }
     if (form != RATES)
         ceduo_page_cell_format(page, "%s", VALUE_OF(s.today));
@@ -196,7 +196,7 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     ceduo_words_thin_stems(r, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_rules(notes, r, i, false);
-    if (n > 1 && report->verdict && report->verdict->choices[0].over->years > 0)
+    if (n > 1 && report->verdict && report->verdict->choices[0].last_summary->years > 0)
         ceduo_words_windows(r->scene, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_warnings(notes, r, i);

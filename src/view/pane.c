@@ -123,7 +123,7 @@ static void add_light(struct ceduo_page *page, const struct ceduo_pane *pane, en
     const struct ceduo_choice *c = choice_ahead(pane);
     ceduo_page_light(page, today);
     if (c)
-        ceduo_page_light(page, !known || c->over->nothing ? CEDUO_UNKNOWN : fails > 0 ? CEDUO_FAIL : CEDUO_PASS);
+        ceduo_page_light(page, !known || c->last_summary->nothing ? CEDUO_UNKNOWN : fails > 0 ? CEDUO_FAIL : CEDUO_PASS);
     else
         ceduo_page_cell_format(page, "%s", "");
 }
@@ -145,17 +145,17 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
     else
         ceduo_page_cell_format(page, _("ADC %s m %s %g"), BESIDE(index->worst_adc, 3, threshold),
                                than(index->contact, "<", "\xe2\x89\xa5"), threshold);
-    add_light(page, pane, index->contact, c->over->unprotected_contact, true);
+    add_light(page, pane, index->contact, c->last_summary->unprotected_contact, true);
     ceduo_page_cell_format(page, _("%g m free %s %% %s %g"), threshold, PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MAX),
                            index->worst_free_run <= CEDUO_FREE_RUN_MAX ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MAX * 100);
-    add_light(page, pane, index->free_run, c->over->unprotected_free_run, true);
+    add_light(page, pane, index->free_run, c->last_summary->unprotected_free_run, true);
     if (index->energy != CEDUO_UNKNOWN && wood)
         ceduo_page_cell_format(page, _("energy %s %% %s %s"), PERCENT(wood->exceed.mean, wood->limit),
                                than(index->energy, "\xe2\x89\xa4", ">"), ROUNDED(wood->limit * 100, 3));
     else
         ceduo_page_cell_format(page, "%s",
                                wood || !pane->report->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));
-    add_light(page, pane, index->energy, c->over->unprotected_energy, c->energy_known);
+    add_light(page, pane, index->energy, c->last_summary->unprotected_energy, c->energy_known);
     if (pane->height >= HEIGHT_ALL && choice_ahead(pane))
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
 }

@@ -71,7 +71,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     const struct ceduo_verdict *v = pane->report->verdict;
     const struct ceduo_choice *c = &v->choices[i];
     const struct ceduo_subject s = ceduo_subject_find(pane->report, i, r->last_control);
-    bool years = c->over->years > 0, rates = has_rates(pane), rotation = knows_rotation(pane);
+    bool years = c->last_summary->years > 0, rates = has_rates(pane), rotation = knows_rotation(pane);
     ceduo_page_cell_role(page, i == pane->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
     if (rates)
         ceduo_page_cell_format(page, "%s", s.wooded ? EVERY(ceduo_hazard_feared(&s.wooded->hazard)) : "-");
@@ -91,7 +91,8 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     if (!years)
         ceduo_page_cell_format(page, PENDING);
     else if (rates)
-        ceduo_page_cell_format(page, "%s (%u)", WRITTEN(1 / (c->worst.mean * s.bare->hazard.per_year), 2), c->over->worst_year);
+        ceduo_page_cell_format(page, "%s (%u)", WRITTEN(1 / (c->worst.mean * s.bare->hazard.per_year), 2),
+                               c->last_summary->worst_year);
     else if (v->wooded)
         ceduo_page_worst(page, c);
     else
@@ -99,8 +100,8 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     if (!years || rates)
         ceduo_page_cell_format(page, "%s", years ? DECISION(s.outcome.answer) : PENDING);
     else
-        ceduo_page_fails(page, c, v->wooded ? c->over->unprotected_energy : c->over->unprotected_contact,
-                         v->wooded ? c->energy_known : !c->over->nothing);
+        ceduo_page_fails(page, c, v->wooded ? c->last_summary->unprotected_energy : c->last_summary->unprotected_contact,
+                         v->wooded ? c->energy_known : !c->last_summary->nothing);
     ceduo_page_number(page, c->yield.cut_per_year, 2);
     /* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all */
     bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;

@@ -205,7 +205,7 @@ static inline const struct ceduo_choice *ceduo_report_ahead(const struct ceduo_r
 {
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && option < v->n ? &v->choices[option] : NULL;
-    return c && c->over->years > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT ? c : NULL;
+    return c && c->last_summary->years > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT ? c : NULL;
 }
 
 /* Whether no place is asked for, or nothing can be said of the last one. */

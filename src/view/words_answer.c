@@ -200,14 +200,14 @@ static void say_count(struct text *text, const struct ceduo_outcome *o)
 static bool is_due(const struct ceduo_subject *s)
 {
     const struct ceduo_outcome *o = &s->outcome;
-    return o->ahead && s->choice && s->choice->cut > 0 && o->today != o->answer && !o->impossible;
+    return o->over_years && s->choice && s->choice->cut > 0 && o->today != o->answer && !o->impossible;
 }
 
 /* Over the years: in how many the limit is exceeded, and by how much. */
 static void say_years(struct text *text, const struct ceduo_subject *s, enum length length)
 {
     const struct ceduo_outcome *o = &s->outcome;
-    const struct ceduo_years_summary *over = &s->choice->ahead[s->control];
+    const struct ceduo_years_summary *over = &s->choice->summaries[s->control];
     const char *limit = SHORTEST(s->today.limit);
     double accepted = 1000 * CEDUO_EXCEED_MAX, worst = 1000 * over->worst;
     LOCAL_TEXT(count);
@@ -242,7 +242,7 @@ static void say_years(struct text *text, const struct ceduo_subject *s, enum len
 /* With blocks: how often, beside what is accepted. */
 static void say_rate(struct text *text, const struct ceduo_subject *s, enum length length)
 {
-    bool ahead = s->outcome.ahead;
+    bool ahead = s->outcome.over_years;
     if (length <= LONG)
         ceduo_text_format(text, _("more than %s kJ every %s years"), SHORTEST(ceduo_words_accepted(s->place)),
                           YEARS(s->outcome.rate));
@@ -251,7 +251,7 @@ static void say_rate(struct text *text, const struct ceduo_subject *s, enum leng
     if (length <= MIDDLE)
         ceduo_text_format(text, _(" (accepted: %s)"), SHORTEST(ceduo_accepted_return(s->place)));
     if (length == FULL && ahead)
-        ceduo_text_format(text, _(", mean of %zu years"), s->choice->ahead[s->control].years);
+        ceduo_text_format(text, _(", mean of %zu years"), s->choice->summaries[s->control].years);
     if (length <= SHORT && ahead && s->wooded)
         ceduo_text_format(text, _("; today every %s"), EVERY(ceduo_hazard_feared(&s->wooded->hazard)));
 }
@@ -301,7 +301,7 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, size_t 
             say_rate(text, s, i);
         else if (o->answer == CEDUO_YES && o->also_bare)
             say_shares(text, &bare, NULL, i);
-        else if (o->ahead && o->answer != CEDUO_UNANSWERED)
+        else if (o->over_years && o->answer != CEDUO_UNANSWERED)
             say_years(text, s, i);
         else
             say_shares(text, s->wooded ? &s->today : &bare, ceduo_plot_has_stems(&scene->options[s->option]) ? &bare : NULL, i);

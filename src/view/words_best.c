@@ -140,7 +140,7 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
 
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
 {
-    if (v->nothing)
+    if (v->too_few_arrivals)
         ceduo_text_append(text, _("Nothing can be said: no rock arrives, even without forest."));
     LOCAL_TEXT(over);
     ceduo_text_format(&over, _("In years %u to %u"), window_of(v)->first, window_of(v)->last);
@@ -204,8 +204,8 @@ static double of_1000(const struct ceduo_result *r, size_t option, bool other)
 void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_sentence_sink *say,
                                 void *context)
 {
-    for (size_t i = 0; i < v->turned_count; i++) {
-        size_t a = v->turned[i].better, b = v->turned[i].than, left = v->turned_count - i;
+    for (size_t i = 0; i < v->reversals_count; i++) {
+        size_t a = v->reversals[i].better, b = v->reversals[i].worse, left = v->reversals_count - i;
         LOCAL_TEXT(sentence);
         if (isnan(of_1000(r, a, true) + of_1000(r, b, true))) /* the rocks of that law still fall */
             continue;
@@ -214,7 +214,7 @@ void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo
                               ngettext("The order of %zu other pair of options depends on the energy law, too.",
                                        "The order of %zu other pairs of options depends on the energy law, too.", left),
                               left);
-            i = v->turned_count;
+            i = v->reversals_count;
         } else {
             bool stems = r->options[a].others[r->last_control].stems;
             const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].others[r->last_control];

@@ -95,10 +95,10 @@ static void see(struct ceduo_observation seen[4])
     seen[0].values = stops;
     seen[1] = something(CEDUO_OBSERVED_PASSED);
     seen[1].count = 2;
-    seen[1].of = 3;
+    seen[1].released = 3;
     seen[2] = something(CEDUO_OBSERVED_SCARS);
     seen[2].values = scars;
-    seen[2].of = 10;
+    seen[2].released = 10;
     seen[3] = something(CEDUO_OBSERVED_ENERGY);
     seen[3].mean = 1e5;
     seen[3].sd = 1e4;
@@ -168,7 +168,7 @@ static enum ceduo_status fit_of(const struct ceduo_input *input, double x, struc
     const struct ceduo_calibration_scene scene = {&ground.of.scene, input, SEEN, seen}, scenes[2] = {scene, scene};
     struct ceduo_calibration a;
     def.scenes = scenes;
-    def.parameters_count = def.seed = def.steps_most = 1;
+    def.parameters_count = def.seed = def.steps_max = 1;
     enum ceduo_status status = ceduo_calibrate(&def, &a);
     if (status == CEDUO_OK) {
         add(&a.parameters[0].best, sizeof a.parameters[0].best);
@@ -296,9 +296,9 @@ static bool draw(void)
                                    .first_step = 1,
                                    .seed = 1,
                                    .threads = 2,
-                                   .steps_most = 201,
-                                   .rhat_most = 1.01,
-                                   .effective_least = 1e9,
+                                   .steps_max = 201,
+                                   .rhat_max = 1.01,
+                                   .effective_min = 1e9,
                                    .density = normal,
                                    .guess = guess_at,
                                    .learn = learn,

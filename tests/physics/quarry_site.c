@@ -77,7 +77,7 @@ static bool see(const struct quarry_site *s, const struct quarry_trial *trial, d
         gsl_sort(values[k], 1, m);
         seen[k].values = values[k];
         seen[k].n = m;
-        seen[k].of = k == 0 ? trial->seen : 0;
+        seen[k].released = k == 0 ? trial->seen : 0;
         good = good && m >= FEWEST;
     }
     ceduo_observer_free(observer);
@@ -94,7 +94,7 @@ static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, con
                                         .rocks = trial->rocks,
                                         .seed = s->scene.simulation.seed,
                                         .threads = trial->threads > 0 ? trial->threads : 1,
-                                        .steps_most = trial->steps_most};
+                                        .steps_max = trial->steps_most};
     return ceduo_calibrate(&def, answer) == CEDUO_OK;
 }
 

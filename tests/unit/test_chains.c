@@ -56,10 +56,10 @@ static struct chains_def two_dimensions(void)
                                .first_step = 1,
                                .seed = 3,
                                .threads = 1,
-                               .steps_least = 500,
-                               .steps_most = 40000,
-                               .rhat_most = 1.01,
-                               .effective_least = 4000,
+                               .steps_min = 500,
+                               .steps_max = 40000,
+                               .rhat_max = 1.01,
+                               .effective_min = 4000,
                                .density = normal};
 }
 
@@ -86,7 +86,7 @@ static void expect_normal(const struct chains_def *def)
 {
     LOCAL_BY(ceduo_chains_release) struct chains c;
     EXPECT(ceduo_chains_run(def, &c), ==, CEDUO_OK);
-    assert_true(c.settled);
+    assert_true(c.converged);
     EXPECT(c.effective_size, >=, 4000);
     EXPECT_NEAR(mean_of(&c, 0), 1, 4 * 2 / sqrt(4000));
     EXPECT_NEAR(mean_of(&c, 1), -2, 4 * 0.5 / sqrt(4000));
@@ -119,7 +119,7 @@ TEST(chains_begin_where_they_start)
     LOCAL_BY(ceduo_chains_release) struct chains c;
     def.density = at_its_start;
     def.context = begun;
-    def.steps_most = 500;
+    def.steps_max = 500;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     for (size_t k = 0; k < 4; k++)
         assert_true(begun[k]);
@@ -140,7 +140,7 @@ TEST(threads_change_no_bit)
     LOCAL_BY(ceduo_chains_release) struct chains one, four;
     def.guess = wrong_guess;
     def.learn = learn_nothing;
-    def.steps_most = 600;
+    def.steps_max = 600;
     EXPECT(ceduo_chains_run(&def, &one), ==, CEDUO_OK);
     def.threads = 4;
     EXPECT(ceduo_chains_run(&def, &four), ==, CEDUO_OK);
@@ -156,7 +156,7 @@ TEST(threads_change_no_bit)
 /* Four chains of independent normal draws, chain k around k·apart; or each the draw before times phi and a new one. */
 static struct chains made(double apart, double phi)
 {
-    struct chains c = {.dimensions = 1, .chains = 4, .steps = STEPS, .room = STEPS};
+    struct chains c = {.dimensions = 1, .chains = 4, .steps = STEPS, .capacity = STEPS};
     struct line_random random = {.state = 5};
     c.x = malloc(4 * STEPS * sizeof *c.x);
     assert_non_null(c.x);
@@ -197,7 +197,7 @@ TEST(draws_that_hang_together_count_less)
 TEST(short_chains_by_hand)
 {
     double rhat, size, x[] = {100, 100, 100, 100, 100, 100, 100, 100, 1, 0, 3, 4, 2, 9, 6, 9};
-    const struct chains c = {.dimensions = 1, .chains = 2, .steps = 8, .room = 8, .x = x};
+    const struct chains c = {.dimensions = 1, .chains = 2, .steps = 8, .capacity = 8, .x = x};
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
     EXPECT_NEAR(rhat, sqrt((4.5 / 2 + 131. / 12) / 4.5), 1e-12);
 }
@@ -206,7 +206,7 @@ TEST(short_chains_by_hand)
 static double effective_of(size_t run)
 {
     double rhat, size, x[64];
-    const struct chains c = {.dimensions = 1, .chains = 1, .steps = 64, .room = 64, .x = x};
+    const struct chains c = {.dimensions = 1, .chains = 1, .steps = 64, .capacity = 64, .x = x};
     for (size_t i = 0; i < 64; i++)
         x[i] = i / run % 2 == 0 ? 1 : -1;
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
@@ -378,14 +378,14 @@ TEST(chains_are_ended)
         def.context = &e;
         EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_CANCELLED);
         EXPECT(c.steps, ==, steps[i]);
-        assert_false(c.settled);
+        assert_false(c.converged);
         ceduo_chains_release(&c);
     }
     def = two_dimensions();
     def.round = stop;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     EXPECT(c.steps, ==, 1 + 2 * CEDUO_CHAINS_ROUND);
-    assert_false(c.settled);
+    assert_false(c.converged);
     ceduo_chains_release(&c);
 }
 
@@ -395,7 +395,7 @@ TEST(a_look_at_all_chains_is_ended)
     LOCAL_BY(ceduo_chains_release) struct chains c;
     struct chains_def def = two_dimensions();
     const atomic_bool cancel = true;
-    def.steps_most = 4 * CEDUO_CHAINS_ROUND;
+    def.steps_max = 4 * CEDUO_CHAINS_ROUND;
     def.cancel = &cancel;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     EXPECT(c.effective_size, ==, INFINITY);
@@ -470,9 +470,9 @@ TEST(chains_that_stand_still)
     struct chains_def def = two_dimensions();
     def.density = one_place;
     def.starts = nowhere;
-    def.steps_most = 5 * CEDUO_CHAINS_ROUND;
+    def.steps_max = 5 * CEDUO_CHAINS_ROUND;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     assert_true(isnan(c.rhat));
-    assert_false(c.settled);
+    assert_false(c.converged);
     EXPECT(ceduo_chains_draw(&c, 0)[0], ==, 0);
 }

@@ -100,7 +100,7 @@ static enum ceduo_status fit_surface(void)
     for (int p = 0; p < POINTS; p++) {
         u[p] = (p + .5) / POINTS;
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
-            y[p].of[g] = u[p] * u[p] + g;
+            y[p].value[g] = u[p] * u[p] + g;
     }
     enum ceduo_status status = ceduo_surface_open(&input, 1, u, POINTS, &surface);
     if (status != CEDUO_OK)
@@ -481,7 +481,7 @@ TEST(one_thread_at_a_time_calls_the_caller)
                                         .parameters_count = 1,
                                         .rocks = 20,
                                         .threads = 4,
-                                        .steps_most = 250,
+                                        .steps_max = 250,
                                         .progress = on_fit};
     EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_OK);
     ceduo_calibration_free(&fit);
