@@ -23,7 +23,7 @@ static int look_at_draw(void *context, size_t i, size_t worker)
 {
     struct fitting *f = context;
     struct ceduo_observation_fit *to = f->drawn + i * f->all_count;
-    enum ceduo_status status = ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, to);
+    enum ceduo_status status = ceduo_fitting_simulate(f, worker, f->draws + i * f->def->parameters_count, true, to);
     return (int)(status == CEDUO_OK || status == CEDUO_CANCELLED ? status : CEDUO_NO_MEMORY);
 }
 
