@@ -64,9 +64,9 @@ struct ceduo_observation_fit {
     double log_likelihood, deviance; /* deviance: twice the log-likelihood ratio against the saturated model */
 };
 
-/* Return the deviance of a multinomial law with the simulated shares against one with the observed shares. `seen`, `simulated`:
+/* Return the deviance of a multinomial law with the simulated shares against one with the observed shares. `observed`, `simulated`:
  * numbers in each class. */
-double ceduo_classes_deviance(const double *seen, const double *simulated, size_t classes);
+double ceduo_classes_deviance(const double *observed, const double *simulated, size_t classes);
 
 /* Prepared observations. Observations with the same rock, release and option share one simulation. */
 struct ceduo_observer;

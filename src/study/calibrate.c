@@ -23,7 +23,7 @@
 #define TEMPERING         0.7 /* factor of the surrogate: its tails must be heavier, or chains get stuck in those of the posterior */
 #define STEPS_MIN         250
 #define STEPS_MAX         8000
-#define BEST_NEAR_BOUND   0.02 /* of the bounds: a value is at a bound if its best value is this close, */
+#define BEST_NEAR_BOUND   0.02 /* share of the bounds: a value is at a bound if its best is this close, */
 #define MEDIAN_NEAR_BOUND 0.05 /* or its median this close */
 
 #define PARAMETERS CEDUO_CALIBRATION_MAX
@@ -36,7 +36,7 @@ static double inverse_logit(double y)
     return 1 / (1 + exp(-y));
 }
 
-/* Keep the best point. Of equal ones the lexicographically smallest wins, whatever the order of evaluation. */
+/* Keep the best point; on a tie the lexicographically smaller one, so that the order of evaluation does not matter. */
 static void update_best(struct fitting *f, const double *u, double log_likelihood)
 {
     size_t i = 0, n = f->def->parameters_count;

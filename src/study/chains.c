@@ -14,7 +14,7 @@
 
 #define TARGET_ACCEPTANCE 0.28
 #define SURROGATE_STEPS   100  /* steps by the surrogate for one evaluation of the density */
-#define BYPASS_EVERY      8    /* steps; bypassing the surrogate, so that chains cannot be trapped where it is wrong */
+#define BYPASS_EVERY      8    /* steps; such a step bypasses the surrogate, so a wrong one cannot trap chains */
 #define RIDGE             1e-6 /* relative to the variances; keeps the covariance positive definite */
 
 struct walk {
@@ -71,7 +71,7 @@ static double run_surrogate(struct work *w, size_t chain, const double *from, do
 }
 
 /* Take one step: the next draw is the accepted proposal, or the last draw again. */
-static enum ceduo_status take_step(struct work *w, size_t chain, size_t step)
+static enum ceduo_status advance(struct work *w, size_t chain, size_t step)
 {
     const struct chains_def *def = w->def;
     struct walk *walk = &w->walks[chain];
@@ -105,7 +105,7 @@ static int run_chain(void *context, size_t c, size_t worker)
     enum ceduo_status status = CEDUO_OK;
     (void)worker;
     for (size_t i = 0; i < CEDUO_CHAINS_ROUND && status == CEDUO_OK; i++)
-        status = take_step(w, c, w->chains->steps + i);
+        status = advance(w, c, w->chains->steps + i);
     return (int)status;
 }
 
@@ -135,7 +135,7 @@ static void adapt(struct work *w)
     gsl_matrix_scale(w->root, w->factor);
 }
 
-/* Train the surrogate whenever the rounds have grown by an eighth. Training less often traps chains where an early surrogate is
+/* Train the surrogate whenever the rounds have grown by an eighth. Training less often traps chains if an early surrogate is
  * too low. */
 static enum ceduo_status train(struct work *w)
 {

@@ -24,7 +24,7 @@ struct chains_def {
     double first_step;    /* standard deviation of the first proposals, in each dimension */
     uint64_t seed;
     unsigned threads;
-    size_t steps_min, steps_max; /* of each chain */
+    size_t steps_min, steps_max; /* per chain */
     double rhat_max, effective_min;
     bool stop_early; /* stop if effective_min is out of reach within steps_max */
     /* Set the log-density; -INFINITY: 0. A `chain` is evaluated by one thread at a time. */
@@ -43,7 +43,7 @@ struct chains {
     double *x; /* [step][chain][dimension] */
     size_t proposed_count;
     double *proposed, *proposed_density; /* proposals and their log-densities, without the starts */
-    double rhat, effective_size;         /* of the worst dimension; NaN before the fourth round */
+    double rhat, effective_size;         /* worst dimension; NaN before the fourth round */
     bool converged;
 };
 
