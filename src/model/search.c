@@ -70,7 +70,7 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
         return CEDUO_BAD_SLOPE; /* reported in problems */
     struct ceduo_request q = ceduo_request_default(&s->file->scene);
     struct ceduo_results answer;
-    q.rocks = ceduo_goals[s->def.goal].flies ? s->def.rocks : 0;
+    q.rocks = ceduo_goals[s->def.goal].needs_rocks ? s->def.rocks : 0;
     q.only = s->def.option;
     q.run.rocks_most = s->def.rocks;
     q.run.threads = s->threads;

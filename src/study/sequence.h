@@ -5,8 +5,8 @@
 #include <gsl/gsl_rng.h>
 #include <stdint.h>
 
-/* The program's one generator (base/random.h) as GSL draws from it: numbers one after the other, of a seed and one of many
- * streams. Nothing is allocated: the generator lasts as long as its sequence. */
+/* The random numbers of base/random.h as a generator of GSL, by seed and stream. Allocates nothing. The generator is valid as long as
+ * `sequence`. */
 struct sequence {
     uint64_t seed, stream, drawn;
 };

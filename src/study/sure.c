@@ -182,7 +182,7 @@ enum ceduo_status ceduo_reliability_compute(const struct reliability_def *def, s
     if (of.rotation)
         s.slots = ceduo_points_years(&of);
     of.alone = true;
-    of.rocks = !ceduo_goals[def->goal].flies ? 0 : of.rocks > GROUPS ? of.rocks : GROUPS;
+    of.rocks = !ceduo_goals[def->goal].needs_rocks ? 0 : of.rocks > GROUPS ? of.rocks : GROUPS;
     double *u = malloc((points * n + 1) * sizeof *u);
     struct ceduo_replicates *column = malloc(points * sizeof *column);
     struct ceduo_surface *surface = NULL;
