@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fits scene values to observations. Sobol' points over the bounds are evaluated on all threads. Chains start at the best points.
- * A point is a row u of numbers in (0, 1), one for each parameter. Chains move in y = log(u/(1 - u)), so they cannot cross a
- * bound. Each worker has its own copies of the scenes. At the end predict.c predicts all observations from draws of the chains. */
+/* Fits scene values to observations. Sobol' points over the bounds are evaluated on all threads. Chains start at the best
+ * points. A point is a row u of numbers in (0, 1), one for each parameter. Chains move in y = log(u/(1 - u)), so they cannot
+ * cross a bound. Each worker has its own copies of the scenes. At the end predict.c predicts all observations from draws of
+ * the chains. */
 #include "ceduo/calibrate.h"
 
 #include <gsl/gsl_sort.h>
@@ -20,7 +21,7 @@
 
 #define POINTS            256
 #define FIRST_STEP        0.3 /* standard deviation of the first steps, in y */
-#define TEMPERING         0.7 /* factor of the surrogate: its tails must be heavier, or chains get stuck in those of the posterior */
+#define TEMPERING         0.7 /* factor of the surrogate: heavier tails, so that chains do not get stuck in them */
 #define STEPS_MIN         250
 #define STEPS_MAX         8000
 #define BEST_NEAR_BOUND   0.02 /* share of the bounds: a value is at a bound if its best is this close, */

@@ -111,7 +111,8 @@ static int run_chain(void *context, size_t c, size_t worker)
 
 /* ---- all chains ---- */
 
-/* Adapt the proposal to the covariance of the draws after burn-in, and its scale to the acceptance rate, in decreasing steps. */
+/* Adapt the proposal to the covariance of the draws after burn-in, and its scale to the acceptance rate, in decreasing
+ * steps. */
 static void adapt(struct work *w)
 {
     const struct chains_def *def = w->def;

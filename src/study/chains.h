@@ -9,11 +9,11 @@
 
 #include "ceduo/status.h"
 
-/* Adaptive Metropolis chains (Haario, Saksman and Tamminen 2001) that draw from a density in R^d. Proposals are normal. Their
- * covariance is that of the draws times 2.38²/d and a factor, which adapts to the acceptance rate. With a cheap surrogate of the
- * density most proposals come from many steps accepted by the surrogate alone. The density then corrects its error (delayed
- * acceptance: Liu 2001, 9.4.3; Christen and Fox 2005). The first half of each chain is burn-in. The result does not depend on the
- * number of threads, bit for bit. */
+/* Adaptive Metropolis chains (Haario, Saksman and Tamminen 2001) that draw from a density in R^d. Proposals are normal.
+ * Their covariance is that of the draws times 2.38²/d and a factor, which adapts to the acceptance rate. With a cheap
+ * surrogate of the density most proposals come from many steps accepted by the surrogate alone. The density then corrects
+ * its error (delayed acceptance: Liu 2001, 9.4.3; Christen and Fox 2005). The first half of each chain is burn-in. The
+ * result does not depend on the number of threads, bit for bit. */
 
 #define CEDUO_CHAINS_MAX   8
 #define CEDUO_CHAINS_ROUND 50 /* steps between two adaptations */
@@ -29,8 +29,8 @@ struct chains_def {
     bool stop_early; /* stop if effective_min is out of reach within steps_max */
     /* Set the log-density; -INFINITY: 0. A `chain` is evaluated by one thread at a time. */
     enum ceduo_status (*density)(void *context, size_t chain, const double *x, double *log_density);
-    /* Return the log-density of the surrogate, up to a constant. NULL: no surrogate. It is trained between rounds with n points, in
-     * rows, and their log-densities. */
+    /* Return the log-density of the surrogate, up to a constant. NULL: no surrogate. It is trained between rounds with n
+     * points, in rows, and their log-densities. */
     double (*surrogate)(void *context, const double *x);
     enum ceduo_status (*train)(void *context, const double *x, const double *log_densities, size_t n);
     const atomic_bool *cancel; /* stops diagnostics only: `density` and `train` must check it themselves; may be NULL */
@@ -47,8 +47,8 @@ struct chains {
     bool converged;
 };
 
-/* Return CEDUO_OK, CEDUO_NO_MEMORY or the status of `density` or `train`. Earlier draws are kept. The caller releases *chains in
- * any case. */
+/* Return CEDUO_OK, CEDUO_NO_MEMORY or the status of `density` or `train`. Earlier draws are kept. The caller releases
+ * *chains in any case. */
 enum ceduo_status ceduo_chains_run(const struct chains_def *def, struct chains *chains);
 void ceduo_chains_release(struct chains *chains);
 

@@ -7,8 +7,8 @@
 #include "ceduo/survey.h"
 #include "ceduo/uncertainty.h"
 
-/* Checks of the definitions that callers of studies fill in, as core/runs/check.h. Return CEDUO_OK, CEDUO_BAD_ARGUMENT or the status
- * of ceduo_scene_check(). */
+/* Checks of the definitions that callers of studies fill in, as core/runs/check.h. Return CEDUO_OK, CEDUO_BAD_ARGUMENT or
+ * the status of ceduo_scene_check(). */
 
 /* `has_places`: check the places, too, not only the distributions. */
 enum ceduo_status ceduo_check_inputs(const struct ceduo_input *inputs, size_t n, bool has_places);

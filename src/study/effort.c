@@ -56,8 +56,8 @@ static size_t reduce_points(const struct plan *plan, struct ceduo_uncertainty_de
     return def->points;
 }
 
-/* Reduce points to a quarter of `points`, then rocks and points equally, then years, then points alone. From about 64 points on the
- * sampling error of the rocks dominates the error of a range. Return false if too few points remain. */
+/* Reduce points to a quarter of `points`, then rocks and points equally, then years, then points alone. From about 64 points
+ * on the sampling error of the rocks dominates the error of a range. Return false if too few points remain. */
 static bool reduce(const struct plan *plan, struct ceduo_uncertainty_def *def, size_t points, uint64_t rocks)
 {
     uint64_t rocks_min = rocks < ROCKS_MIN ? rocks : ROCKS_MIN;

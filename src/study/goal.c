@@ -51,7 +51,7 @@ void ceduo_goal_words(struct text *text)
 
 double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_scene *scene)
 {
-    double exceed = 1; /* of the control with the strictest limit */
+    double exceed = 1; /* at the control with the strictest limit */
     for (size_t c = 0; c < scene->controls_count; c++)
         exceed = fmin(exceed, ceduo_exceed_limit(scene, &scene->controls[c]));
     const double limits[CEDUO_GOALS] = {scene->simulation.threshold, CEDUO_FREE_RUN_MAX, NAN, exceed, NAN, exceed, NAN};

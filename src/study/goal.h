@@ -67,9 +67,8 @@ struct ceduo_search {
     double target; /* in the goal's unit; NaN: replaced by ceduo_goal_limit() */
     double lo, hi; /* in the file's units */
     uint64_t rocks;
-    bool
-        rotation; /* over a rotation, not today; set if the parameter affects only the years, or the goal is of the worst year */
-    double sure;  /* probability of reaching the goal under uncertain inputs, at most 1; 0: not required */
+    bool rotation;       /* not today; set if the parameter affects only the years, or the goal is of the worst year */
+    double sure;         /* probability of reaching the goal under uncertain inputs, at most 1; 0: not required */
     uint64_t sure_rocks; /* rocks per point for it; 0: CEDUO_UNCERTAINTY_ROCKS */
 };
 

@@ -16,7 +16,8 @@ struct input_scene {
     struct input_place *places; /* all places of the first input, then of the next */
 };
 
-/* Return CEDUO_OK, CEDUO_NO_MEMORY, or CEDUO_BAD_PLACE if the scene has no such place. The caller releases *copy in any case. */
+/* Return CEDUO_OK, CEDUO_NO_MEMORY, or CEDUO_BAD_PLACE if the scene has no such place. The caller releases *copy in any
+ * case. */
 enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo_scene *scene, const struct ceduo_input *inputs,
                                     size_t n);
 void ceduo_inputs_release(struct input_scene *copy);
@@ -27,8 +28,8 @@ bool ceduo_input_is_of(const struct ceduo_input *input, size_t option);
 /* True if the input changes only future years: its places are numbers of growth, age or cuts. */
 bool ceduo_input_is_of_years(const struct ceduo_input *input);
 
-/* Set each input to its quantile u[i], 0…1; NaN: as given. The density of shoots given per stool is updated, unless their per_ha is an
- * input. The number of stools is limited to that of the shoots. */
+/* Set each input to its quantile u[i], 0…1; NaN: as given. The density of shoots given per stool is updated, unless their
+ * per_ha is an input. The number of stools is limited to that of the shoots. */
 void ceduo_inputs_set(struct input_scene *copy, const double *u);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Compares simulated rocks with observations. Observations with the same rock, release and option form a setting and share its
- * rocks. A setting is simulated by a run whose controls are the observed places, or rock by rock (record.c) if a run does not keep
- * the observed quantity. This yields one value per observation and rock; NaN: the rock has no value. */
+/* Compares simulated rocks with observations. Observations with the same rock, release and option form a setting and share
+ * its rocks. A setting is simulated by a run whose controls are the observed places, or rock by rock (record.c) if a run
+ * does not keep the observed quantity. This yields one value per observation and rock; NaN: the rock has no value. */
 #include "ceduo/observe.h"
 
 #include <math.h>
@@ -281,8 +281,8 @@ static double *collect_values(const struct simulated_setting *f, const struct pl
 
 /* ---- comparison ---- */
 
-/* Return the denominator of class shares: at least CEDUO_CLASS_ROCKS_MIN rocks per class, plus the half rock that is added to each
- * class so that none has probability 0. */
+/* Return the denominator of class shares: at least CEDUO_CLASS_ROCKS_MIN rocks per class, plus the half rock that is added
+ * to each class so that none has probability 0. */
 static double count_class_rocks(const double *simulated, size_t classes)
 {
     double rocks = 0;
@@ -330,8 +330,8 @@ static void sum_values(const struct plan *p, const double *values, size_t n, str
     c->sd = ceduo_moments_sd(&m);
 }
 
-/* Compare the number of scars with that expected for the released rocks. The number varies from rock to rock, and the survey finds
- * only a share. Return false on failure of memory. */
+/* Compare the number of scars with that expected for the released rocks. The number varies from rock to rock, and the survey
+ * finds only a share. Return false on failure of memory. */
 static bool compare_scars(const struct plan *p, const struct simulated_setting *f, struct ceduo_observation_fit *c)
 {
     const struct ceduo_observation *observation = p->observation;

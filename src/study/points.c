@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Threads take items, each with its own copy of the scene, and write only to the rows of the item. So the result does not depend on the
- * number of threads, bit for bit. An item is a list of variants; equal variants are simulated once. */
+/* Threads take items, each with its own copy of the scene, and write only to the rows of the item. So the result does not
+ * depend on the number of threads, bit for bit. An item is a list of variants; equal variants are simulated once. */
 #include "points.h"
 
 #include <stdlib.h>
@@ -17,7 +17,7 @@ struct work {
     size_t each, today;         /* variants of a row, and of them those of today, which come first */
     struct point *variants;     /* option and slot of each variant of a row */
     struct input_scene *copies; /* one for each thread */
-    _Atomic uint64_t effort;    /* of the variants simulated */
+    _Atomic uint64_t effort;    /* sum over the simulated variants */
     atomic_bool failed;         /* a thread has failed: the others stop */
 };
 
@@ -27,8 +27,8 @@ struct item {
     struct input_scene *copy;
     size_t row, each;          /* first row; variants of a row */
     struct point point;        /* current point */
-    struct ceduo_scene scene;  /* of a year, with the rocks of that year */
-    struct ceduo_years *years; /* of the current option */
+    struct ceduo_scene scene;  /* scene of a year, with its own rocks */
+    struct ceduo_years *years; /* years of the current option */
 };
 
 static struct ceduo_window find_window(const struct ceduo_uncertainty_def *def, const struct ceduo_scene *scene)

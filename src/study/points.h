@@ -8,8 +8,8 @@
 #include "ceduo/uncertainty.h"
 #include "ceduo/years.h"
 
-/* Simulates plausible scenes. Each row of input quantiles is a scene; its options are simulated today and year by year. The result
- * does not depend on the number of threads. */
+/* Simulates plausible scenes. Each row of input quantiles is a scene; its options are simulated today and year by year. The
+ * result does not depend on the number of threads. */
 
 /* An option in a row; slot 0: today; slots 1…: its years. */
 struct point {
@@ -29,17 +29,18 @@ struct points {
     const struct ceduo_uncertainty_def *def;
     const double *u; /* rows of input quantiles, 0…1 */
     bool today;      /* include slot 0 */
-    /* Read a point. `means`: one for each control; NULL: no rocks are simulated. Called by several threads at once, each with its own
-     * rows. May be NULL. */
+    /* Read a point. `means`: one for each control; NULL: no rocks are simulated. Called by several threads at once, each
+     * with its own rows. May be NULL. */
     void (*read)(void *context, const struct point *point, const struct control_means *means);
     void (*done)(void *context); /* called after each row, by several threads at once; may be NULL */
     void *context;
     uint64_t *effort; /* set to the sum of ceduo_points_met(); may be NULL */
 };
 
-/* Simulate rows from…to - 1. The first `together` rows share most of their forests: one thread simulates them, today only. Each year has
- * its own rocks, the same in all rows, which reduces the error of a mean over years. If the window has more years than slots, each
- * slot is the middle year of an equal part. Return CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or the status of ceduo_scene_check(). */
+/* Simulate rows from…to - 1. The first `together` rows share most of their forests: one thread simulates them, today only.
+ * Each year has its own rocks, the same in all rows, which reduces the error of a mean over years. If the window has more
+ * years than slots, each slot is the middle year of an equal part. Return CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or the
+ * status of ceduo_scene_check(). */
 enum ceduo_status ceduo_points_run(const struct points *points, size_t from, size_t to, size_t together);
 
 /* Return the effort of contacts and stems. A stem that is hit costs three contacts. */

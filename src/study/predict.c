@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Posterior predictive checks. For each posterior draw new samples of the observed size are drawn, with the sampling error of the
- * simulated rocks. The p-value is the share of samples that deviate at least as much as the observation. Other rocks than those of
- * the fit are simulated, because the fit prefers values whose rocks match the observations by chance. */
+/* Posterior predictive checks. For each posterior draw new samples of the observed size are drawn, with the sampling error
+ * of the simulated rocks. The p-value is the share of samples that deviate at least as much as the observation. Other rocks
+ * than those of the fit are simulated, because the fit prefers values whose rocks match the observations by chance. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
@@ -29,8 +29,8 @@ static int simulate_draw(void *context, size_t i, size_t worker)
 
 /* ---- samples ---- */
 
-/* Draw a count: its share from the beta posterior of the simulated rocks, the count from the binomial of the released rocks. Return
- * its deviance. */
+/* Draw a count: its share from the beta posterior of the simulated rocks, the count from the binomial of the released rocks.
+ * Return its deviance. */
 static double draw_count(const struct ceduo_observation_fit *c, gsl_rng *random, double *value)
 {
     double share = gsl_ran_beta(random, c->count[0] + 0.5, c->count[1] + 0.5), n = c->observed[0] + c->observed[1];
@@ -39,8 +39,8 @@ static double draw_count(const struct ceduo_observation_fit *c, gsl_rng *random,
     return ceduo_classes_deviance(observed, c->count, 2);
 }
 
-/* Draw the true shares of classes whose bounds lie halfway between two values of the sample itself. The gaps between uniform values
- * are exponential variates over their sum. `n`: values in each class. */
+/* Draw the true shares of classes whose bounds lie halfway between two values of the sample itself. The gaps between uniform
+ * values are exponential variates over their sum. `n`: values in each class. */
 static void draw_shares(const double *n, size_t classes, gsl_rng *random, double *share)
 {
     double sum = 0, half = 0;
@@ -56,8 +56,8 @@ static void draw_shares(const double *n, size_t classes, gsl_rng *random, double
         share[i] /= sum;
 }
 
-/* Draw a list and return its deviance, binned at its own quantiles like the observation. This deviance is smaller than that of fixed
- * classes. It has the observed number of values. If the number released is given (`rest`), that number is binomial. */
+/* Draw a list and return its deviance, binned at its own quantiles like the observation. This deviance is smaller than that
+ * of fixed classes. It has the observed number of values. If the number released is given (`rest`), that number is binomial. */
 static double draw_list(const struct ceduo_observation_fit *c, bool rest, gsl_rng *random)
 {
     size_t value_classes = c->classes - rest;
@@ -149,8 +149,8 @@ static void predict_one(const struct drawn *d, const struct ceduo_observation *o
     to->inside = to->observed >= to->lo && to->observed <= to->hi;
 }
 
-/* Set the interval of single rocks, pooled over all draws: parameter uncertainty and variability of rocks. `values`: buffer for the
- * samples of all draws. */
+/* Set the interval of single rocks, pooled over all draws: parameter uncertainty and variability of rocks. `values`: buffer
+ * for the samples of all draws. */
 static void predict_single(const struct drawn *d, const struct ceduo_observation *o, double *values, struct ceduo_predicted *to)
 {
     size_t n = 0;

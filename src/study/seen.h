@@ -4,8 +4,8 @@
 
 #include "ceduo/observe.h"
 
-/* Observed and simulated stops: at places along the slope the share of the rocks that stop farther, as observed, and the central
- * 95 % of samples of the observed size from the simulated rocks. */
+/* Observed and simulated stops: at places along the slope the share of the rocks that stop farther, as observed, and the
+ * central 95 % of samples of the observed size from the simulated rocks. */
 #define CEDUO_SEEN_PLACES 160
 
 struct ceduo_observed_stops {
@@ -14,8 +14,8 @@ struct ceduo_observed_stops {
     double observed[CEDUO_SEEN_PLACES], lo[CEDUO_SEEN_PLACES], hi[CEDUO_SEEN_PLACES];
 };
 
-/* `values`: sorted stops of the n simulated rocks, among `rocks`, that stopped in the surveyed part. The other rocks count as farther
- * if the number released is given, and are left out otherwise. */
+/* `values`: sorted stops of the n simulated rocks, among `rocks`, that stopped in the surveyed part. The other rocks count
+ * as farther if the number released is given, and are left out otherwise. */
 void ceduo_observed_stops_find(const struct ceduo_observation *observation, const double *values, size_t n, size_t rocks,
                                struct ceduo_observed_stops *stops);
 

@@ -5,8 +5,8 @@
 #include <gsl/gsl_rng.h>
 #include <stdint.h>
 
-/* The random numbers of base/random.h as a generator of GSL, by seed and stream. Allocates nothing. The generator is valid as long as
- * `sequence`. */
+/* The random numbers of base/random.h as a generator of GSL, by seed and stream. Allocates nothing. The generator is valid
+ * as long as `sequence`. */
 struct sequence {
     uint64_t seed, stream, drawn;
 };

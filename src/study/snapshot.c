@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Copies results of runs for pictures. The snapshot of a run holds arrivals, envelopes, some energies and some trajectories. It is
- * reference-counted: a snapshot shares unchanged runs with the last one. */
+/* Copies results of runs for pictures. The snapshot of a run holds arrivals, envelopes, some energies and some trajectories.
+ * It is reference-counted: a snapshot shares unchanged runs with the last one. */
 #include "snapshot.h"
 
 #include <math.h>

@@ -10,8 +10,8 @@
 #include "ceduo/result.h"
 #include "core/walk/envelope.h"
 
-/* Results of runs for pictures. A snapshot never changes, so that one thread may create it and another draw it. x and z are relative to
- * the first vertex of the slope. */
+/* Results of runs for pictures. A snapshot never changes, so that one thread may create it and another draw it. x and z are
+ * relative to the first vertex of the slope. */
 
 /* A trajectory as a polyline. */
 struct ceduo_polyline {
@@ -65,8 +65,8 @@ struct ceduo_snapshot_def {
 enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, struct ceduo_snapshot **snapshot);
 void ceduo_snapshot_free(struct ceduo_snapshot *snapshot); /* may be NULL */
 
-/* Return the latest snapshot of an option, with its forest; without forest if the contact model is index. If the forest has just
- * changed, return the old one, unless another option has it now. NULL: not simulated yet. */
+/* Return the latest snapshot of an option, with its forest; without forest if the contact model is index. If the forest has
+ * just changed, return the old one, unless another option has it now. NULL: not simulated yet. */
 const struct ceduo_run_snapshot *ceduo_snapshot_find(const struct ceduo_snapshot *snapshot, const struct ceduo_scene *scene,
                                                      size_t option);
 

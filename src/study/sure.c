@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Computes the probability of reaching a goal under uncertain inputs, from plausible scenes (points.c). The goal of a scene is that of
- * its worst control. Over a rotation shares of rocks are means over the years; other goals are those of the worst year. */
+/* Computes the probability of reaching a goal under uncertain inputs, from plausible scenes (points.c). The goal of a scene
+ * is that of its worst control. Over a rotation shares of rocks are means over the years; other goals are those of the worst
+ * year. */
 #include "sure.h"
 
 #include <gsl/gsl_sort.h>
@@ -30,8 +31,8 @@ static double transform(enum ceduo_goal goal, double value)
     return goal == CEDUO_GOAL_ADC ? -1 / value : value;
 }
 
-/* Return the mean energy of arriving rocks, kJ, as linearized replicates: each group has the common mean plus its contribution to it.
- * With contact_model: index the mean is the energy left by the index. */
+/* Return the mean energy of arriving rocks, kJ, as linearized replicates: each group has the common mean plus its
+ * contribution to it. With contact_model: index the mean is the energy left by the index. */
 static struct ceduo_replicates compute_energy(const struct point *point, const struct ceduo_control *control,
                                               const struct ceduo_group_means *means)
 {
@@ -97,8 +98,8 @@ static struct ceduo_replicates combine_years(const struct reliability *s, const 
     return y;
 }
 
-/* Set the share in the worst year at each point. The maximum of noisy shares is biased upward, so the shares are read from the surfaces
- * of the years. */
+/* Set the share in the worst year at each point. The maximum of noisy shares is biased upward, so the shares are read from
+ * the surfaces of the years. */
 static enum ceduo_status read_worst(const struct reliability *s, struct ceduo_surface *surface, size_t points, size_t control,
                                     struct ceduo_replicates *y)
 {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fits a polynomial chaos surrogate to the values of a figure at points. Each input has basis functions with mean 0 and variance 1;
- * those of words and calibration draws are tables. Terms are products of functions, so the square of a coefficient is a part of the
- * variance. Terms are fitted by ridge regression; generalised cross-validation chooses the ridge. With too few points for all terms
- * a fit without products ranks the inputs, and only the leading inputs have products.
+/* Fits a polynomial chaos surrogate to the values of a figure at points. Each input has basis functions with mean 0 and
+ * variance 1; those of words and calibration draws are tables. Terms are products of functions, so the square of a coefficient
+ * is a part of the variance. Terms are fitted by ridge regression; generalised cross-validation chooses the ridge. With too few
+ * points for all terms a fit without products ranks the inputs, and only the leading inputs have products.
  *
- * The rocks form groups, the same at every point. Each group is fitted separately, because the product of two groups' estimates is not
- * biased by sampling noise. The residual of the terms is common to all groups; its contribution to a squared coefficient is
- * subtracted. Errors have two parts. The sampling error of the rocks is a jackknife over groups; more points do not reduce it. The
- * residuals of the terms give a wild bootstrap (Wu 1986). */
+ * The rocks form groups, the same at every point. Each group is fitted separately, because the product of two groups'
+ * estimates is not biased by sampling noise. The residual of the terms is common to all groups; its contribution to a
+ * squared coefficient is subtracted. Errors have two parts. The sampling error of the rocks is a jackknife over groups; more
+ * points do not reduce it. The residuals of the terms give a wild bootstrap (Wu 1986). */
 #include "ceduo/surface.h"
 
 #include <gsl/gsl_blas.h>
@@ -91,29 +91,30 @@ struct solution {
     struct term_set set;
     struct terms terms;
     gsl_matrix_view x; /* [point][term] */
-    double *means;     /* of each term over the points */
+    double *means;     /* mean of each term over the points */
     gsl_multifit_linear_workspace *workspace;
     double lambda, dof;                  /* ridge; residual degrees of freedom */
     double *coefficient, *mean;          /* [group][term]; mean: of the mean of the groups */
-    double *residuals, *mean_residuals;  /* [group][point], with noise; of the mean of the groups */
-    double *leverage;                    /* of each point */
+    double *residuals, *mean_residuals;  /* [group][point], with noise; residuals of the mean of the groups */
+    double *leverage;                    /* one per point */
     double *delta;                       /* change of `mean` in a bootstrap sample */
     double *unit_variance;               /* variance of each coefficient for values of variance 1 */
     double residual_variance, shrinkage; /* without noise; factor that removes the noise of mean_residuals */
 };
 
-/* Values of a figure at the points, for each group and their mean (GROUPS), centered over the points: the same rocks at every point
- * shift a group by a constant. Without a fit `residuals` are the values themselves. */
+/* Values of a figure at the points, for each group and their mean (GROUPS), centered over the points: the same rocks at
+ * every point shift a group by a constant. Without a fit `residuals` are the values themselves. */
 struct response {
     const struct ceduo_surface_figure *figure;
     size_t points;
     double *y, means[GROUPS + 1];
-    double variance, noise; /* of the mean of the groups: without sampling noise; sampling variance */
+    double variance, noise; /* variance of the mean without sampling noise; sampling variance */
     const double *residuals;
     double shrinkage;
 };
 
-/* Variance of each input's terms, first alone, then with interactions; last the residual variance. `explained`: of all terms. */
+/* Variance of each input's terms, first alone, then with interactions; last the residual variance. `explained`: of all
+ * terms. */
 struct variance_parts {
     size_t n;
     double *part, explained, *residual_variance;
@@ -125,19 +126,19 @@ struct ceduo_surface {
     size_t points, inputs_count, functions_count;
     struct arena memory;
     struct basis *bases;
-    size_t *input;                          /* of each function */
+    size_t *input;                          /* input of each function */
     double *function_values;                /* [function][point] */
     double *multipliers;                    /* [sample][point], standard normal */
     struct solution solutions[2];           /* the last ones, without and with products */
     struct response response;               /* the current figure */
-    struct variance_parts parts, resampled; /* of the figure; of a jackknife or bootstrap sample */
+    struct variance_parts parts, resampled; /* parts of the figure, and of a jackknife or bootstrap sample */
     double *squares;                        /* sums of squared differences of their shares: jackknife, then bootstrap */
     size_t *used;                           /* buffer for term_set.used */
     double *scratch, *values;               /* buffers: functions at the points; one value per point */
 };
 
-/* Return a value of a column before orthonormalization. Words: an indicator for each but the last. Draws: standardized values of each
- * place, then their squares. */
+/* Return a value of a column before orthonormalization. Words: an indicator for each but the last. Draws: standardized
+ * values of each place, then their squares. */
 static double table_value(const struct ceduo_input *input, size_t column, size_t level)
 {
     if (input->kind == CEDUO_INPUT_WORDS)
@@ -336,7 +337,8 @@ static int decompose(void *solution)
     return gsl_multifit_linear_svd(&f->x.matrix, f->workspace);
 }
 
-/* List and decompose the terms, for which the points must suffice. Reuses the last solution of the same terms. NULL on failure. */
+/* List and decompose the terms, for which the points must suffice. Reuses the last solution of the same terms. NULL on
+ * failure. */
 static struct solution *find_solution(struct ceduo_surface *s, const struct term_set *set)
 {
     struct solution *f = &s->solutions[set->leading > 0];
@@ -385,8 +387,8 @@ static void solve(const struct solution *f, const double *y, double *coefficient
     gsl_multifit_linear_solve(f->lambda, &f->x.matrix, &values.vector, &to.vector, &ignored[0], &ignored[1], f->workspace);
 }
 
-/* Set the ridge with the smallest cross-validation score. GSL's own grid ends at the smallest singular value, which is too strong for
- * orthonormal functions. `scratch`: one number per term. */
+/* Set the ridge with the smallest cross-validation score. GSL's own grid ends at the smallest singular value, which is too
+ * strong for orthonormal functions. `scratch`: one number per term. */
 static void choose_ridge(struct solution *f, const double *y, double *scratch)
 {
     double tried[RIDGES], scores[RIDGES], delta, max = gsl_vector_get(f->workspace->S, 0);
@@ -468,7 +470,7 @@ static struct solution *fit_terms(struct ceduo_surface *s, const struct term_set
 
 /* ---- values ---- */
 
-/* Set the current figure from the groups of each point; of n figures their sum. */
+/* Set the current figure from the groups of each point. n figures are added up. */
 static void set_response(struct response *c, const struct ceduo_replicates *groups, size_t n)
 {
     double common = 0, *mean = c->y + GROUPS * c->points;
@@ -543,8 +545,8 @@ static double student_factor(void)
     return pow(gsl_cdf_tdist_Pinv(.975, GROUPS - 1) / CEDUO_Z95, 2);
 }
 
-/* Statistics of the values, for bootstrap samples of the points, and differences of complementary half samples of the rocks. Half
- * samples (McCarthy 1969) are used because a jackknife is inconsistent for quantiles. */
+/* Statistics of the values, for bootstrap samples of the points, and differences of complementary half samples of the rocks.
+ * Half samples (McCarthy 1969) are used because a jackknife is inconsistent for quantiles. */
 struct band {
     double statistics[STATISTICS], samples[SAMPLES][STATISTICS], halves[GROUPS - 1][STATISTICS];
 };
@@ -621,8 +623,8 @@ static void bootstrap_parts(const struct solution *f, size_t sample, struct vari
     *parts->residual_variance = residual_variance;
 }
 
-/* Set s->values to a bootstrap sample: the surface with f->delta at randomly shifted points, plus resampled residuals. Without a fit
- * (`f` NULL) resample `values`. */
+/* Set s->values to a bootstrap sample: the surface with f->delta at randomly shifted points, plus resampled residuals.
+ * Without a fit (`f` NULL) resample `values`. */
 static void bootstrap_values(const struct ceduo_surface *s, const struct solution *f, size_t sample, const double *values)
 {
     for (size_t i = 0; f && i < f->set.n; i++) {
@@ -749,8 +751,8 @@ static void read_fit(struct ceduo_surface *s, struct solution *f, struct ceduo_s
         fit->width_if_known[i] = fmin(expected_width(f, fit->values, i), fit->p95 - fit->p5);
 }
 
-/* Sort the inputs by their variance in a fit without products, largest first. Words come first, because they decide what other inputs do. Return false
- * on failure of memory. */
+/* Sort the inputs by their variance in a fit without products, largest first. Words come first, because they decide what
+ * other inputs do. Return false on failure of memory. */
 static bool rank_inputs(struct ceduo_surface *s, const struct term_set *set)
 {
     const struct solution *f = fit_terms(s, &(const struct term_set){.used = set->used, .n = set->n, .linear = set->linear});

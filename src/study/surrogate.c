@@ -40,7 +40,8 @@ static void fill_terms(const struct surrogate *g, const double *u, double *terms
             *terms++ = first[i] * first[k];
 }
 
-/* Return the bandwidth of the weights, in log-likelihood below the best point; NaN: too few finite values. `down`: buffer for n. */
+/* Return the bandwidth of the weights, in log-likelihood below the best point; NaN: too few finite values. `down`: buffer
+ * for n. */
 static double find_bandwidth(const struct surrogate *g, const double *values, size_t n, double *down, size_t *best)
 {
     size_t rank = PER_TERM * g->terms < n ? PER_TERM * g->terms : n - 1, count = 0;

@@ -18,8 +18,8 @@ struct surrogate {
 struct surrogate ceduo_surrogate_begin(size_t dimensions);
 void ceduo_surrogate_free(struct surrogate *surrogate);
 
-/* Fit to n points, rows of `u`. Values that are not finite are left out. Keeps the old fit if there are too few points, and unless
- * it returns CEDUO_OK. Return CEDUO_OK, CEDUO_NO_MEMORY, or CEDUO_CANCELLED if `cancel` (may be NULL) is set. */
+/* Fit to n points, rows of `u`. Values that are not finite are left out. Keeps the old fit if there are too few points, and
+ * unless it returns CEDUO_OK. Return CEDUO_OK, CEDUO_NO_MEMORY, or CEDUO_CANCELLED if `cancel` (may be NULL) is set. */
 enum ceduo_status ceduo_surrogate_train(struct surrogate *surrogate, const double *u, const double *values, size_t n,
                                         const atomic_bool *cancel);
 

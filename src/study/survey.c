@@ -51,7 +51,7 @@ static struct ceduo_estimate read_density(struct surveyor *s)
     return density;
 }
 
-/* Count the stools, and set the mean spacing of those with a measurement. Return false on failure of memory. */
+/* Count the stools, and set the mean spacing over the measured ones. Return false on failure of memory. */
 static bool count_stools(struct surveyor *s)
 {
     const struct ceduo_survey *survey = s->survey;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Computes the effect of uncertain inputs on the figures of a scene. Plausible scenes are simulated with the same few rocks (points.c),
- * also with each input at the ends of its range. A surface through each figure yields the shares of the inputs (surface.c). Over a
- * rotation each year has its own surface, whose values are free of sampling noise; they decide which years fail. */
+/* Computes the effect of uncertain inputs on the figures of a scene. Plausible scenes are simulated with the same few rocks
+ * (points.c), also with each input at the ends of its range. A surface through each figure yields the shares of the inputs
+ * (surface.c). Over a rotation each year has its own surface, whose values are free of sampling noise; they decide which
+ * years fail. */
 #include "ceduo/uncertainty.h"
 
 #include <math.h>
@@ -152,7 +153,7 @@ struct subject {
     struct arena memory;
     struct ceduo_surface *surface;
     bool *has, *uses; /* inputs of the options; inputs that affect the current figure */
-    double *widths;   /* of each input, for the order */
+    double *widths;   /* one per input, for the order */
     struct ceduo_replicates *column;
 };
 
@@ -178,7 +179,7 @@ static void close_subject(struct subject *s)
     ceduo_arena_free(&s->memory);
 }
 
-/* Return the value of a subject in a row; of a difference the option's minus that of `against`. */
+/* Return the value of a subject in a row: of the option, minus that of `against` if they differ. */
 static struct ceduo_replicates subject_value(const struct rows *r, const struct subject *s, size_t row,
                                              enum ceduo_uncertainty_kind kind)
 {
@@ -262,8 +263,8 @@ static bool is_computed(const struct rows *r, enum ceduo_uncertainty_kind kind)
     return !r->def->brief || (share ? kind == r->judged : kind != CEDUO_UNCERTAINTY_ENERGY || kind == r->answer->main);
 }
 
-/* Read all figures of an item: an option or, after the options, a difference to the first one. They share the decomposition of the
- * surface. */
+/* Read all figures of an item: an option or, after the options, a difference to the first one. They share the decomposition
+ * of the surface. */
 static int read_item(void *context, size_t item, size_t worker)
 {
     (void)worker;
@@ -296,8 +297,8 @@ static enum ceduo_status read_figures(struct rows *r, bool deciding)
 
 /* ---- which years fail ---- */
 
-/* Count, at each point, the years whose surface exceeds the limit. The groups get this number as their mean, with the noise implied by
- * half samples of the rocks. */
+/* Count, at each point, the years whose surface exceeds the limit. The groups get this number as their mean, with the noise
+ * implied by half samples of the rocks. */
 static int count_years(void *context, size_t option, size_t worker)
 {
     (void)worker;

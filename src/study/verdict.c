@@ -37,7 +37,7 @@ static struct ceduo_estimate judged_difference(const struct ceduo_result *r, con
 
 struct ceduo_estimate ceduo_share_to_first(const struct ceduo_result *r, size_t option)
 {
-    return compared(r, &r->options[option].differences[r->last_control]);
+    return judged_difference(r, &r->options[option].differences[r->last_control]);
 }
 
 /* ---- ranking ---- */
@@ -84,7 +84,7 @@ static struct ceduo_estimate difference_by_alternative_law(const void *context, 
     const struct ceduo_alternative_energy *two = &r->options[less].others[r->last_control];
     if (!one->known || !two->known || (one->model != two->model && one->stems && two->stems))
         return CEDUO_NO_ESTIMATE;
-    return subtract_differences(compared(r, &one->to_first), compared(r, &two->to_first));
+    return subtract_differences(judged_difference(r, &one->to_first), judged_difference(r, &two->to_first));
 }
 
 static struct ceduo_estimate difference_over_years(const void *context, size_t option, size_t less)

@@ -7,12 +7,12 @@
 #include "ceduo/years.h"
 #include "ceduo/yield.h"
 
-/* Comparison of the options at the last control: today, over the same future years, and their yield. The judged share is the share of
- * released rocks that arrive with too much energy; without an accepted energy the share that arrives. All options have the same
- * rocks, so a difference has its own, smaller error.
+/* Comparison of the options at the last control: today, over the same future years, and their yield. The judged share is the
+ * share of released rocks that arrive with too much energy; without an accepted energy the share that arrives. All options have
+ * the same rocks, so a difference has its own, smaller error.
  *
- * Two options differ clearly if their difference exceeds CEDUO_CLEAR standard errors. The threshold is high because several options
- * are compared repeatedly while rocks are added: a verdict, once shown, should not be reversed. */
+ * Two options differ clearly if their difference exceeds CEDUO_CLEAR standard errors. The threshold is high because several
+ * options are compared repeatedly while rocks are added: a verdict, once shown, should not be reversed. */
 #define CEDUO_CLEAR 3.0
 
 /* Share of released rocks, and half the width of its 95 % interval; NaN: unknown (yet). */
@@ -39,7 +39,8 @@ struct ceduo_choice {
     struct ceduo_mean_share rotation;               /* mean over a rotation, ceduo_window_compute(); NaN: unknown */
     uint64_t rocks;                                 /* per year, perhaps fewer than today */
     bool energy_known;                              /* the number of failing years is known */
-    /* another option is better: its yield is not lower and its share clearly lower, or its yield is higher and its share not higher */
+    /* another option is better: its yield is not lower and its share clearly lower, or its yield is higher and its share not
+     * higher */
     bool beaten;
     struct ceduo_window window;
     unsigned cut; /* year of the first cut if it is at most CEDUO_CUT_SOON; otherwise 0 */
@@ -58,8 +59,8 @@ struct ceduo_leader {
     bool uneven;   /* the options have different numbers of rocks (still computing): none is called best */
 };
 
-/* Two options whose order today depends on the energy law (other.h): clear under one law, and reversed by more than one standard error
- * under the other. */
+/* Two options whose order today depends on the energy law (other.h): clear under one law, and reversed by more than one
+ * standard error under the other. */
 struct ceduo_rank_reversal {
     size_t better, worse; /* under the law of the scene; reversed under the other law */
 };
@@ -90,15 +91,16 @@ struct ceduo_outcome {
 
 /* Judge an option at a control. `verdict` may be NULL (today only), and `uncertainty`, too (sampling error only).
  *
- * Over the window: CEDUO_YES if no year is above the limit and the upper end of the range is 0. CEDUO_NO if the lower end is at least
- * 1. Otherwise CEDUO_DEPENDS if uncertain inputs leave it open, CEDUO_NOT_DECIDED if only sampling error does. With blocks the mean rate
- * over the window is compared with the accepted return period: yes if its upper end is below the limit, no if its lower end is above. */
+ * Over the window: CEDUO_YES if no year is above the limit and the upper end of the range is 0. CEDUO_NO if the lower end is
+ * at least 1. Otherwise CEDUO_DEPENDS if uncertain inputs leave it open, CEDUO_NOT_DECIDED if only sampling error does. With
+ * blocks the mean rate over the window is compared with the accepted return period: yes if its upper end is below the limit,
+ * no if its lower end is above. */
 struct ceduo_uncertainty_result;
 struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *result, const struct ceduo_verdict *verdict,
                                            const struct ceduo_uncertainty_result *uncertainty, size_t option, size_t control);
 
-/* Compare the options of a result, with their years and rotations. `years`, `rotations` and each item of them may be NULL. Return
- * CEDUO_OK, or CEDUO_NO_MEMORY, with nothing to free. */
+/* Compare the options of a result, with their years and rotations. `years`, `rotations` and each item of them may be NULL.
+ * Return CEDUO_OK, or CEDUO_NO_MEMORY, with nothing to free. */
 enum ceduo_status ceduo_compare_options(const struct ceduo_result *result, struct ceduo_years *const *years,
                                         struct ceduo_years *const *rotations, struct ceduo_verdict *verdict);
 void ceduo_verdict_release(struct ceduo_verdict *verdict);
