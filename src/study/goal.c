@@ -9,8 +9,8 @@
 
 const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
     [CEDUO_GOAL_ADC] = {"adc", N_("ADC"), "m", true, false, "the ADC of the worst belt", "the threshold of the scene"},
-    [CEDUO_GOAL_FREE_RUN] = {"free-run", N_("probability of a free run"), "%", false, false,
-                             "the probability of a free run in the worst belt", "0.1"},
+    [CEDUO_GOAL_FREE_RUN] = {"free-run", N_("chance of a free run"), "%", false, false,
+                             "the chance of a free run in the worst belt", "0.1"},
     [CEDUO_GOAL_ENERGY] = {"energy", N_("mean energy"), "kJ", false, true,
                            "the mean energy of the rocks that arrive through the forest (with contact_model: index "
                            "the energy left by the index)",
