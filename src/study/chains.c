@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Chains run in rounds, each chain on its own thread. After a round the proposal is adapted and convergence is checked. */
+/* Chains run in rounds, in parallel. After a round the proposal is adapted and convergence is checked. */
 #include "chains.h"
 
 #include <gsl/gsl_linalg.h>
@@ -21,7 +21,7 @@ struct walk {
     struct sequence sequence;
     gsl_rng random;
     double density, surrogate; /* log-density of the last draw, by the density and by the surrogate */
-    double accepted;           /* accepted steps of this round */
+    double accepted;           /* accepted steps of this round; a surrogate step counts 1/SURROGATE_STEPS */
 };
 
 struct work {
@@ -32,7 +32,7 @@ struct work {
     gsl_matrix *proposals, *trials; /* a row for each chain */
     double factor;
     bool has_surrogate;
-    size_t rounds, trained; /* learnt: rounds that the surrogate was trained with */
+    size_t rounds, trained; /* trained: rounds that the surrogate was trained with */
 };
 
 static double *draw_at(const struct chains *c, size_t chain, size_t step)
@@ -212,7 +212,7 @@ static enum ceduo_status begin(struct work *w)
         gsl_matrix_set(w->root, i, i, w->factor * def->first_step);
     memcpy(w->chains->x, def->starts, def->chains * d * sizeof *w->chains->x);
     for (size_t c = 0; c < def->chains && status == CEDUO_OK; c++) {
-        w->walks[c].random = ceduo_sequence(&w->walks[c].sequence, def->seed, c);
+        w->walks[c].random = ceduo_sequence_begin(&w->walks[c].sequence, def->seed, c);
         status = def->density(def->context, c, def->starts + c * d, &w->walks[c].density);
     }
     w->chains->steps = 1;

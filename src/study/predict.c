@@ -196,7 +196,7 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
     size_t draws = a->draws_count < max ? a->draws_count : max;
     double *points = calloc((draws + 1) * d, sizeof *points), *values = calloc(draws * CEDUO_SOME_VALUES + 1, sizeof *values);
     struct sequence sequence;
-    gsl_rng random = ceduo_sequence(&sequence, f->def->seed, CEDUO_CALIBRATION_CHAINS);
+    gsl_rng random = ceduo_sequence_begin(&sequence, f->def->seed, CEDUO_CALIBRATION_CHAINS);
     f->drawn = calloc((draws + 1) * f->all_count + 1, sizeof *f->drawn);
     a->predicted = calloc(f->all_count + 1, sizeof *a->predicted);
     a->predicted_count = f->all_count;
@@ -241,7 +241,7 @@ enum ceduo_status ceduo_compare_with_observations(const struct ceduo_calibration
     struct ceduo_observation_fit *fits = calloc(n + 1, sizeof *fits);
     double *values = calloc(SAMPLES_ONE, sizeof *values);
     struct sequence sequence;
-    gsl_rng random = ceduo_sequence(&sequence, scene->scene->simulation.seed, CEDUO_CALIBRATION_CHAINS);
+    gsl_rng random = ceduo_sequence_begin(&sequence, scene->scene->simulation.seed, CEDUO_CALIBRATION_CHAINS);
     status = fits && values ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_observer_create(scene->observations, n, &observer);

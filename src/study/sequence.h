@@ -11,6 +11,6 @@ struct sequence {
     uint64_t seed, stream, drawn;
 };
 
-gsl_rng ceduo_sequence(struct sequence *sequence, uint64_t seed, uint64_t stream);
+gsl_rng ceduo_sequence_begin(struct sequence *sequence, uint64_t seed, uint64_t stream);
 
 #endif
