@@ -100,7 +100,7 @@ enum ceduo_status ceduo_compare_with_observations(const struct ceduo_calibration
 
 /* Select parameters to fix so that the observations identify the rest: first those that are not identified, then one of each
  * strongly correlated pair. At least one parameter stays. Return the number of selected parameters. */
-size_t ceduo_calibration_unidentified(const struct ceduo_calibration *answer, bool loose[CEDUO_CALIBRATION_MAX]);
+size_t ceduo_calibration_unidentified(const struct ceduo_calibration *answer, bool selected[CEDUO_CALIBRATION_MAX]);
 
 /* Fit. Return CEDUO_OK, CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or the status of ceduo_scene_check(). The caller
  * frees *answer after CEDUO_OK only. */
