@@ -36,9 +36,9 @@ struct ceduo_observation {
     size_t n;                            /* number of values, or of rocks that `mean` covers */
     const double *values;                /* NULL: only mean and sd are given */
     double mean, sd;
-    uint64_t count;    /* rocks passed */
-    uint64_t released; /* rocks released; 0: not given */
-    double share_seen; /* share of the scars that a survey finds; NaN: not given */
+    uint64_t count;          /* rocks passed */
+    uint64_t released_count; /* rocks released; 0: not given */
+    double share_seen;       /* share of the scars that a survey finds; NaN: not given */
 };
 
 /* An observation of stops, to be fitted; all numbers are NaN or 0. */

@@ -84,7 +84,7 @@ enum ceduo_status ceduo_check_observations(const struct ceduo_observation *obser
     for (size_t i = 0; good && i < n; i++) {
         const struct ceduo_observation *o = &observations[i];
         good = (size_t)o->kind < CEDUO_OBSERVED_KINDS && (options == 0 || o->option < options) &&
-               (o->kind != CEDUO_OBSERVED_PASSED || o->count <= o->released) && (!o->values || o->n > 0);
+               (o->kind != CEDUO_OBSERVED_PASSED || o->count <= o->released_count) && (!o->values || o->n > 0);
         for (size_t k = 0; good && o->values && k < o->n; k++)
             good = !isnan(o->values[k]);
     }

@@ -116,8 +116,8 @@ static void make_classes(struct plan *p)
     p->classes = p->bounds_count + 1;
     for (size_t i = 0; i < n; i++)
         p->counts[find_class(p, observation->values[i])]++;
-    if (observation->kind == CEDUO_OBSERVED_STOPS && observation->released > 0)
-        p->counts[p->classes++] = (double)(observation->released - n);
+    if (observation->kind == CEDUO_OBSERVED_STOPS && observation->released_count > 0)
+        p->counts[p->classes++] = (double)(observation->released_count - n);
 }
 
 static bool make_plan(struct ceduo_observer *o, const struct ceduo_observation *observation, struct plan *p)
@@ -140,7 +140,7 @@ static bool make_plan(struct ceduo_observer *o, const struct ceduo_observation *
     } else if (observation->kind == CEDUO_OBSERVED_PASSED) {
         p->classes = 2;
         p->counts[0] = (double)observation->count;
-        p->counts[1] = (double)(observation->released - observation->count);
+        p->counts[1] = (double)(observation->released_count - observation->count);
     }
     return true;
 }
@@ -335,7 +335,7 @@ static void sum_values(const struct plan *p, const double *values, size_t n, str
 static bool compare_scars(const struct plan *p, const struct simulated_setting *f, struct ceduo_observation_fit *c)
 {
     const struct ceduo_observation *observation = p->observation;
-    double share = isnan(observation->share_seen) ? 1 : observation->share_seen, released = (double)observation->released,
+    double share = isnan(observation->share_seen) ? 1 : observation->share_seen, released = (double)observation->released_count,
            n = (double)f->rocks;
     double *scars_per_rock = calloc((size_t)f->rocks + 1, sizeof *scars_per_rock);
     struct ceduo_moments m = {0};
@@ -379,7 +379,7 @@ static bool compare(const struct plan *p, const struct simulated_setting *f, con
     } else {
         compare_normal(c, c->observed_mean - c->mean, c->variance);
     }
-    return observation->kind != CEDUO_OBSERVED_SCARS || observation->released == 0 || compare_scars(p, f, c);
+    return observation->kind != CEDUO_OBSERVED_SCARS || observation->released_count == 0 || compare_scars(p, f, c);
 }
 
 enum ceduo_status ceduo_observer_simulate(const struct ceduo_observer *o, const struct ceduo_scene *scene, uint64_t rocks,

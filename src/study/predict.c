@@ -102,7 +102,7 @@ static double draw_sample(const struct ceduo_observation *o, const struct ceduo_
                           double *value)
 {
     double ignored, deviance;
-    bool rest = o->kind == CEDUO_OBSERVED_STOPS && o->released > 0;
+    bool rest = o->kind == CEDUO_OBSERVED_STOPS && o->released_count > 0;
     double spread = c->sd * c->sd * (1 / (double)(o->n > 0 ? o->n : 1) + 1 / (double)c->rocks);
     if (o->kind == CEDUO_OBSERVED_PASSED)
         return draw_count(c, random, value);

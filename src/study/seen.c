@@ -18,7 +18,7 @@ void ceduo_observed_stops_find(const struct ceduo_observation *o, const double *
                                struct ceduo_observed_stops *to)
 {
     double first = fmin(values[0], o->values[0]), last = fmax(values[n - 1], o->values[o->n - 1]);
-    size_t released = o->released > 0 ? (size_t)o->released : o->n, all = o->released > 0 ? rocks : n;
+    size_t released = o->released_count > 0 ? (size_t)o->released_count : o->n, all = o->released_count > 0 ? rocks : n;
     to->known = last > first;
     for (size_t i = 0; i < CEDUO_SEEN_PLACES; i++) {
         double x = to->x[i] = first + (last - first) * (double)i / (CEDUO_SEEN_PLACES - 1);

@@ -95,10 +95,10 @@ static void see(struct ceduo_observation seen[4])
     seen[0].values = stops;
     seen[1] = something(CEDUO_OBSERVED_PASSED);
     seen[1].count = 2;
-    seen[1].released = 3;
+    seen[1].released_count = 3;
     seen[2] = something(CEDUO_OBSERVED_SCARS);
     seen[2].values = scars;
-    seen[2].released = 10;
+    seen[2].released_count = 10;
     seen[3] = something(CEDUO_OBSERVED_ENERGY);
     seen[3].mean = 1e5;
     seen[3].sd = 1e4;

@@ -38,7 +38,7 @@ static struct ceduo_observation speed(double mean, double sd)
 /* All pass, whatever is fitted. */
 static struct ceduo_observation all_pass(void)
 {
-    return (struct ceduo_observation){.kind = CEDUO_OBSERVED_PASSED, .x = 0.001, .count = 10, .released = 10};
+    return (struct ceduo_observation){.kind = CEDUO_OBSERVED_PASSED, .x = 0.001, .count = 10, .released_count = 10};
 }
 
 static unsigned threads = 1;

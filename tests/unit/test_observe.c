@@ -101,7 +101,7 @@ TEST(a_count_is_binomial)
     make_ground(0, HIGH, FAST, 0);
     struct ceduo_observation o = at(CEDUO_OBSERVED_PASSED, 10);
     o.count = 3;
-    o.released = 4;
+    o.released_count = 4;
     struct ceduo_observation_fit c = look(o);
     double p = 100.5 / 101;
     EXPECT(c.classes, ==, 2);
@@ -130,7 +130,7 @@ TEST(stops_are_multinomial)
     EXPECT_NEAR(c.mean, at, 1e-9);
     EXPECT_NEAR(c.log_likelihood, log(252) + 5 * log(p[0]) + 5 * log(p[1]), 1e-10);
     EXPECT_NEAR(c.deviance, 2 * (5 * log(0.5 / p[0]) + 5 * log(0.5 / p[1])), 1e-10);
-    o.released = 12; /* two more did not stop: a class of their own */
+    o.released_count = 12; /* two more did not stop: a class of their own */
     c = look(o);
     EXPECT(c.classes, ==, 3);
     EXPECT(c.observed[2], ==, 2);
@@ -138,7 +138,7 @@ TEST(stops_are_multinomial)
     /* 12!/(5!5!2!) ways; 101.5 = 100 + 3/2 */
     EXPECT_NEAR(c.log_likelihood, log(16632) + 5 * log(100.5 / 101.5) + 5 * log(0.5 / 101.5) + 2 * log(0.5 / 101.5), 1e-10);
     o.from = at + 1; /* nobody looked where they lie: none is of it, and two classes want twenty rocks */
-    o.released = 0;
+    o.released_count = 0;
     c = look(o);
     EXPECT(c.rocks, ==, 0);
     EXPECT_NEAR(c.log_likelihood, log(252) + 10 * log(0.5 / 21), 1e-10);
@@ -460,7 +460,7 @@ TEST(scars_are_counted_and_measured)
     EXPECT((double)heights_alone.rocks, ==, sum);
     EXPECT_NEAR(heights_alone.mean, 0.5, 0.05); /* rocks roll: their centre is half a metre above the ground */
     assert_true(isnan(heights_alone.scars));
-    o.released = 10;
+    o.released_count = 10;
     o.share_seen = 0.75;
     struct ceduo_observation_fit c = look(o);
     double mean = sum / ROCKS, variance = (square - sum * mean) / (ROCKS - 1);

@@ -21,6 +21,7 @@ static struct ceduo_arrivals bare, wooded;
 static struct ceduo_stand_result stand;
 static struct ceduo_index index_;
 static struct ceduo_option_result option_result;
+static struct ceduo_alternative_energy other;
 static struct ceduo_result result;
 static struct ceduo_years_summary years;
 static struct ceduo_choice choice;
@@ -56,7 +57,8 @@ static int open_site(void **state)
     set_share(&wooded, .031, .022, .043);
     stand = (struct ceduo_stand_result){0};
     option_result = (struct ceduo_option_result){
-        .stands = &stand, .controls = &index_, .wooded = {.rocks = 1000, .controls = 1, .arrivals = &wooded}};
+
+        .stands = &stand, .controls = &index_, .others = &other, .wooded = {.rocks = 1000, .controls = 1, .arrivals = &wooded}};
     result = (struct ceduo_result){.scene = &scene,
                                    .wooded = true,
                                    .bare = {.rocks = 1000, .controls = 1, .arrivals = &bare},

@@ -42,7 +42,7 @@ TEST(half_of_ten)
 TEST(those_that_go_on_lie_farther)
 {
     double seen[4] = {2, 3, 4, 5}, simulated[4] = {1, 2, 3, 6};
-    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .released = 10, .values = seen};
+    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .released_count = 10, .values = seen};
     struct ceduo_observed_stops s = {0};
     ceduo_observed_stops_find(&o, simulated, 4, 8, &s);
     EXPECT_NEAR(s.x[FIRST], 1, 1e-12);
@@ -73,7 +73,7 @@ TEST(a_flight_as_it_is)
     const struct ceduo_observation o[] = {
         {.kind = CEDUO_OBSERVED_SPEED, .x = 20, .n = 5, .mean = 22, .sd = 0.5},
         {.kind = CEDUO_OBSERVED_SPEED, .x = 20, .n = 5, .mean = 20, .sd = 0.5},
-        {.kind = CEDUO_OBSERVED_PASSED, .x = 20, .count = 10, .released = 10},
+        {.kind = CEDUO_OBSERVED_PASSED, .x = 20, .count = 10, .released_count = 10},
     };
     const struct ceduo_calibration_scene asked = {.scene = &g.scene, .observations_count = 3, .observations = o};
     struct ceduo_predicted p[3];

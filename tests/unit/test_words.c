@@ -120,7 +120,7 @@ TEST(the_other_law_is_compared_with_what_is_known)
         assert_int_equal(ceduo_result_assess(&scene.scene, &bare, wooded, differences, others, &result), CEDUO_OK);
         LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 80};
         LOCAL_TEXT(text);
-        ceduo_page_laws(&page, result);
+        ceduo_page_laws(&page, &(struct ceduo_report){.result = result});
         ceduo_page_print(&text, &page, true);
         int rows = 0;
         for (const char *p = ceduo_text_string(&text); (p = strstr(p, "dorren")); p++)
