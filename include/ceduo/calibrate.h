@@ -15,14 +15,14 @@
 #define CEDUO_CALIBRATION_CHAINS   4
 #define CEDUO_CALIBRATION_DRAWS    200 /* for predictions */
 #define CEDUO_CALIBRATION_ROCKS    2000
-#define CEDUO_CALIBRATION_STEPS    1000000 /* of a chain */
+#define CEDUO_CALIBRATION_STEPS    1000000 /* per chain */
 #define CEDUO_RHAT_MAX             1.05    /* convergence of the chains (Gelman and Rubin 1992) */
 #define CEDUO_EFFECTIVE_MIN        200     /* effective sample size that the chains must reach */
-#define CEDUO_IDENTIFIED_WIDTH_MAX 0.8     /* of the bounds: a value with a wider range is not identified */
+#define CEDUO_IDENTIFIED_WIDTH_MAX 0.8     /* share of the bounds: a value with a wider range is not identified */
 #define CEDUO_MISFIT               0.05    /* p-value below which the model cannot reproduce an observation */
 
-/* One scene, with the places of the fitted values in it: inputs of kind CEDUO_INPUT_RANGE. Number and bounds are the same in each
- * scene. A value that the scene does not have has no places. */
+/* One scene, with the places of the fitted values in it: inputs of kind CEDUO_INPUT_RANGE. Number and bounds are the same in
+ * each scene. A value that the scene does not have has no places. */
 struct ceduo_calibration_scene {
     const struct ceduo_scene *scene;
     const struct ceduo_input *inputs;
@@ -44,10 +44,10 @@ struct ceduo_calibration_def {
     size_t scenes_count;
     const struct ceduo_calibration_scene *scenes;
     size_t parameters_count; /* 1…CEDUO_CALIBRATION_MAX */
-    uint64_t rocks;          /* of each evaluation and setting */
+    uint64_t rocks;          /* per evaluation and setting */
     uint64_t seed;
     unsigned threads;         /* at most CEDUO_THREADS_MAX; 0: one */
-    size_t steps_max;         /* of each chain, at most CEDUO_CALIBRATION_STEPS; 0: default */
+    size_t steps_max;         /* per chain, at most CEDUO_CALIBRATION_STEPS; 0: default */
     const ceduo_flag *cancel; /* may be NULL */
     void (*progress)(void *context,
                      const struct ceduo_calibration_state *state); /* may be NULL; called by one thread at a time */
@@ -59,15 +59,15 @@ struct ceduo_calibration_def ceduo_calibration_def_default(void);
 
 struct ceduo_fitted {
     double lo, hi, best, p2_5, p50, p97_5; /* in the unit of files; NaN: not computed yet */
-    bool determined, at_bound;
+    bool identified, at_bound;
 };
 
 /* An observation and its prediction by the fit. */
 struct ceduo_predicted {
     size_t scene, observation;
     struct ceduo_observation_fit at_best;
-    double p_value;      /* share of predicted samples that deviate at least as much as the observation */
-    double seen, lo, hi; /* observed mean or count; its predicted 95 % interval */
+    double p_value;          /* share of predicted samples that deviate at least as much as the observation */
+    double observed, lo, hi; /* observed mean or count; its predicted 95 % interval */
     bool inside;
     double one_lo, one_hi; /* predicted 95 % interval of single rocks; NaN: not computed */
     size_t one_inside;     /* observed values within it */
@@ -78,10 +78,10 @@ struct ceduo_calibration {
     struct ceduo_fitted parameters[CEDUO_CALIBRATION_MAX];
     double correlation[CEDUO_CALIBRATION_MAX][CEDUO_CALIBRATION_MAX];
     size_t predicted_count;
-    struct ceduo_predicted *predicted; /* of all scenes */
+    struct ceduo_predicted *predicted; /* observations of all scenes */
     bool misfit;                       /* a fitted observation contradicts the fit */
-    bool refuted;                      /* an observation held back for checking contradicts the fit */
-    bool settled; /* converged; otherwise stopped at the step limit, or early if convergence was out of reach */
+    bool check_failed;                 /* an observation held back for checking contradicts the fit */
+    bool converged; /* converged; otherwise stopped at the step limit, or early if convergence was out of reach */
     uint64_t evaluations;
     double rhat, effective_size;
     size_t draws_count;
@@ -92,15 +92,15 @@ struct ceduo_calibration {
  * cannot identify it. */
 bool ceduo_calibration_identifies_mu(const struct ceduo_calibration_scene *scenes, size_t n);
 
-/* Compare a scene with its observations without fitting it. Sets to[] for each observation, with the p-value and the interval of
- * new samples of the observed size. Simulates `rocks` rocks for each setting on this thread. Return CEDUO_OK, CEDUO_NO_MEMORY,
- * CEDUO_CANCELLED or the status of ceduo_scene_check(). */
+/* Compare a scene with its observations without fitting it. Sets to[] for each observation, with the p-value and the
+ * interval of new samples of the observed size. Simulates `rocks` rocks for each setting on this thread. Return CEDUO_OK,
+ * CEDUO_NO_MEMORY, CEDUO_CANCELLED or the status of ceduo_scene_check(). */
 enum ceduo_status ceduo_compare_with_observations(const struct ceduo_calibration_scene *scene, uint64_t rocks,
                                                   const ceduo_flag *cancel, struct ceduo_predicted *to);
 
 /* Select parameters to fix so that the observations identify the rest: first those that are not identified, then one of each
  * strongly correlated pair. At least one parameter stays. Return the number of selected parameters. */
-size_t ceduo_calibration_unidentified(const struct ceduo_calibration *answer, bool loose[CEDUO_CALIBRATION_MAX]);
+size_t ceduo_calibration_unidentified(const struct ceduo_calibration *answer, bool selected[CEDUO_CALIBRATION_MAX]);
 
 /* Fit. Return CEDUO_OK, CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or the status of ceduo_scene_check(). The caller
  * frees *answer after CEDUO_OK only. */

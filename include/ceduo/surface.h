@@ -18,8 +18,8 @@ struct ceduo_input;
  * values, orthonormalized over the rows, and their squares for calibration draws. Terms: these functions, products of
  * degree 1 of two inputs, and products of two words with another input. */
 
-/* Set points in [0, 1), row by row: Sobol' points, shifted at random by the seed (Cranley and Patterson 1976). The first n points
- * do not depend on their number. Inputs beyond GSL's 40 dimensions are random. Return CEDUO_NO_MEMORY or CEDUO_OK. */
+/* Set points in [0, 1), row by row: Sobol' points, shifted at random by the seed (Cranley and Patterson 1976). The first n
+ * points do not depend on their number. Inputs beyond GSL's 40 dimensions are random. Return CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_surface_points(uint64_t seed, size_t points, size_t inputs, double *u);
 
 /* Values of the functions at the points. Both arrays must outlive it. One thread at a time may use it: it caches the
@@ -33,7 +33,7 @@ void ceduo_surface_free(struct ceduo_surface *surface);
  * product of two groups has no bias by noise. */
 #define CEDUO_SURFACE_GROUPS 16
 struct ceduo_replicates {
-    double of[CEDUO_SURFACE_GROUPS];
+    double value[CEDUO_SURFACE_GROUPS];
 };
 
 struct ceduo_share {
@@ -42,26 +42,26 @@ struct ceduo_share {
 
 /* A figure at the points. */
 struct ceduo_surface_figure {
-    const struct ceduo_replicates *y; /* of each point */
+    const struct ceduo_replicates *y; /* one per point */
     const bool *uses;                 /* inputs that it depends on; NULL: all */
     double lo, hi;                    /* bounds; surface values outside are clamped */
     double limit;                     /* compute the share of values at or below it, too; NaN: do not */
 };
 
 struct ceduo_surface_fit {
-    double mean, variance;    /* over the plausible cases, without sampling noise */
-    double noise;             /* sampling variance of a value at a point */
-    double q2;                /* share of the total variance that the surface predicts, by leave-one-out cross-validation */
-    double explained;         /* share of the variance without noise that the surface explains */
-    bool enough;              /* true if points suffice for the terms; otherwise shares are NaN */
-    bool linear;              /* terms of degree 1 and their products only */
-    struct ceduo_share whole; /* unexplained share */
-    double p5, p50, p95;      /* of the values */
-    double p5_se, p95_se;     /* over other points and other rocks */
-    struct ceduo_share below; /* share of the values at or below the limit */
-    double *values;           /* for each point the surface plus its residual, shrunk by noise */
+    double mean, variance; /* over the plausible cases, without sampling noise */
+    double noise;          /* sampling variance of a value at a point */
+    double q2;             /* share of the total variance that the surface predicts, by leave-one-out cross-validation */
+    double explained;      /* share of the variance without noise that the surface explains */
+    bool enough_points;    /* true if points suffice for the terms; otherwise shares are NaN */
+    bool linear;           /* terms of degree 1 and their products only */
+    struct ceduo_share unexplained;    /* unexplained share */
+    double p5, p50, p95;               /* percentiles of the values */
+    double p5_se, p95_se;              /* over other points and other rocks */
+    struct ceduo_share share_below;    /* share of the values at or below the limit */
+    double *values;                    /* for each point the surface plus its residual, shrunk by noise */
     struct ceduo_share *first, *total; /* for each input: alone, and with all interactions */
-    double *left;                      /* for each input the expected p95 - p5 if it were known; at most p95 - p5 */
+    double *width_if_known;            /* for each input the expected p95 - p5 if it were known; at most p95 - p5 */
 };
 
 /* Fit a figure. The caller releases *fit. Return CEDUO_NO_MEMORY or CEDUO_OK. */

@@ -32,11 +32,11 @@ struct ceduo_survey_stem {
     size_t plot;
     enum ceduo_survey_kind kind;
     int species;    /* index into ceduo_species_list(); -1: not given */
-    size_t stool;   /* of a shoot: index among the stools of all plots */
-    double dbh;     /* m, > 0; of a stump its diameter */
+    size_t stool;   /* for a shoot: index among the stools of all plots */
+    double dbh;     /* m, > 0; for a stump its diameter */
     double height;  /* m; NaN: not measured */
-    double spacing; /* m; of a shoot: to the next shoots of its stool; NaN: not measured */
-    double energy;  /* J; of a stump: energy that it absorbs; NaN: not given */
+    double spacing; /* m; for a shoot: to the next shoots of its stool; NaN: not measured */
+    double energy;  /* J; for a stump: energy that it absorbs; NaN: not given */
 };
 
 struct ceduo_survey {
@@ -84,7 +84,7 @@ enum ceduo_survey_heights_from {
 struct ceduo_survey_heights {
     size_t given, missing;
     enum ceduo_survey_heights_from from;
-    struct ceduo_naslund curve; /* of CEDUO_HEIGHTS_CURVE, _SHOOTS, _USUAL; the first two also set: */
+    struct ceduo_naslund curve; /* for CEDUO_HEIGHTS_CURVE, _SHOOTS, _USUAL; the first two also set: */
     size_t beyond;              /* stems without height that are thicker than all with height */
     double thickest;            /* m, largest dbh of the stems whose height is by the curve */
     double mean;                /* m, of the given heights; NaN: none given */

@@ -13,7 +13,7 @@
 
 /* One uncertain input. It may stand at several places of the scene, which then change together. */
 struct ceduo_input {
-    const char *path; /* of its first place, or the common part of its places */
+    const char *path; /* path of its first place, or the common part of its places */
     enum ceduo_input_kind kind;
     double lo, hi;   /* in the unit of files */
     double mean, sd; /* CEDUO_INPUT_NORMAL, CEDUO_INPUT_GAMMA: sd at most CEDUO_GAMMA_MAX of the mean */
@@ -72,8 +72,8 @@ struct ceduo_uncertainty_def {
     const struct ceduo_input *inputs;
     size_t points;      /* 2…CEDUO_UNCERTAINTY_POINTS_MAX */
     size_t points_max;  /* limit of the doubling; 0: CEDUO_UNCERTAINTY_POINTS_MAX */
-    uint64_t rocks;     /* of each evaluation; raised to CEDUO_SURFACE_GROUPS */
-    uint64_t own_rocks; /* of the scene as given; 0: `rocks` */
+    uint64_t rocks;     /* per evaluation; raised to CEDUO_SURFACE_GROUPS */
+    uint64_t own_rocks; /* for the scene as given; 0: `rocks` */
     /* Results of the scene as given, with the years of each option if `rotation` is true. Requires `brief`. NULL: computed here
      * with own_rocks. */
     const struct ceduo_results *own;
@@ -103,25 +103,25 @@ struct ceduo_uncertainty_figure {
     size_t option;
     enum ceduo_uncertainty_kind kind;
     bool difference;
-    double value, sampling_lo, sampling_hi; /* of the scene as given, with sampling error; NaN: not computed */
+    double value, sampling_lo, sampling_hi; /* scene as given, with sampling error; NaN: not computed */
     /* Over the plausible cases. fit.below is the share of them whose judged share is at most CEDUO_EXCEED_MAX. p5 and p95 are
      * widened to include `value`; NaN with fewer than CEDUO_UNCERTAINTY_MIN points. */
     struct ceduo_surface_fit fit;
-    double (*at)[2]; /* for each input the figure at its lower and upper end, all others as given; over a rotation NaN */
-    size_t uses;     /* inputs of the figure's options */
-    size_t *order;   /* these inputs, sorted by the width of p5…p95 that remains if the input were known, smallest first */
+    double (*at_ends)[2]; /* for each input the figure at its lower and upper end, all others as given; over a rotation NaN */
+    size_t uses;          /* inputs of the figure's options */
+    size_t *order; /* these inputs, sorted by the width of p5…p95 that remains if the input were known, smallest first */
 };
 
 /* Probabilities that one option is better than another, worse, or equal (CEDUO_UNCERTAINTY_EQUAL). They add up to 1. */
 struct ceduo_uncertainty_order {
     size_t better, than; /* options */
     double probability, equal, worse;
-    double p5, p95; /* of the difference of the figure that ranks them */
+    double p5, p95; /* 90 % range of the difference of the figure that ranks them */
 };
 
 struct ceduo_uncertainty_result {
     size_t points;
-    uint64_t rocks; /* of each point */
+    uint64_t rocks; /* per point */
     uint64_t own_rocks;
     bool rotation; /* figures over a rotation were computed */
     size_t figures_count;
@@ -129,8 +129,8 @@ struct ceduo_uncertainty_result {
         *figures;                     /* by option and kind, then the differences; see ceduo_uncertainty_find_figure() */
     enum ceduo_uncertainty_kind main; /* EXCEED if an accepted energy is given, otherwise ENERGY */
     size_t orders_count;              /* options - 1; 0: one option, or not computed */
-    /* Each option and the next one, ranked by the scene as given: by the mean over the rotation if computed, otherwise by today's
-     * main figure. */
+    /* Each option and the next one, ranked by the scene as given: by the mean over the rotation if computed, otherwise by
+     * today's main figure. */
     struct ceduo_uncertainty_order *orders;
     uint64_t evaluations; /* scenes computed, each with all options and their years */
 };

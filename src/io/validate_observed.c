@@ -379,7 +379,7 @@ static void set_observation(const struct entry *e, struct ceduo_observation *o)
     o->mean = values->mean * scale;
     o->sd = values->sd * scale;
     o->count = values->count;
-    o->of = values->of;
+    o->released_count = values->of;
     o->share_seen = values->share_seen;
 }
 

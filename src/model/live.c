@@ -95,16 +95,16 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_run_snapshot *run = ceduo_snapshot_find(o, scene, i);
         struct ceduo_years *years = ceduo_live_years(l, scene, i);
-        wooded[i] = run ? &run->flown : NULL;
+        wooded[i] = run ? &run->simulated : NULL;
         in_order = in_order && run == o->wooded[i];
         known[i] = years && years->key == ceduo_runs_years_key(scene, i) ? years : NULL;
         if (years)
-            ceduo_years_assess(years, scene, &o->bare->flown);
+            ceduo_years_assess(years, scene, &o->bare->simulated);
     }
     const struct ceduo_difference none = {CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
     for (size_t i = 0; i < n * controls; i++)
         differences[i] = in_order ? o->differences[i] : none;
-    if (ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(l, scene), &l->result) != CEDUO_OK)
+    if (ceduo_result_assess(scene, &o->bare->simulated, wooded, differences, fitting_others(l, scene), &l->result) != CEDUO_OK)
         l->result = NULL;
     if (l->result && ceduo_compare_options(l->result, known, NULL, &l->verdict) != CEDUO_OK) {
         ceduo_result_free(l->result);

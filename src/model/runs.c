@@ -63,8 +63,8 @@ static enum ceduo_status turn(struct runs *r, const struct ceduo_scene *scene)
 
 static bool is_precise(const struct ceduo_run_snapshot *s)
 {
-    for (size_t i = 0; s && i < s->flown.controls; i++) {
-        const struct ceduo_arrivals *a = &s->flown.arrivals[i];
+    for (size_t i = 0; s && i < s->simulated.controls; i++) {
+        const struct ceduo_arrivals *a = &s->simulated.arrivals[i];
         if (!ceduo_mean_is_precise(a->reached, (struct ceduo_estimate){a->energy.mean, a->energy.se, NAN, NAN}, RUNS_TOLERANCE))
             return false;
     }
@@ -160,7 +160,7 @@ enum ceduo_status ceduo_runs_years(struct runs *r, const struct ceduo_scene *sce
     if (status == CEDUO_OK)
         status = r->last && r->last->bare ? ceduo_years_create(scene, o, ceduo_scene_window(scene), years) : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
-        status = ceduo_years_simulate(*years, r->years, &r->last->bare->flown, rocks);
+        status = ceduo_years_simulate(*years, r->years, &r->last->bare->simulated, rocks);
     if (status == CEDUO_OK)
         (*years)->key = ceduo_runs_years_key(scene, option);
     if (status != CEDUO_OK) {

@@ -70,7 +70,7 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
         return CEDUO_BAD_SLOPE; /* reported in problems */
     struct ceduo_request q = ceduo_request_default(&s->file->scene);
     struct ceduo_results answer;
-    q.rocks = ceduo_goals[s->def.goal].flies ? s->def.rocks : 0;
+    q.rocks = ceduo_goals[s->def.goal].needs_rocks ? s->def.rocks : 0;
     q.only = s->def.option;
     q.run.rocks_most = s->def.rocks;
     q.run.threads = s->threads;
@@ -130,13 +130,13 @@ static enum ceduo_status ask_once(struct search *s, double value, struct reliabi
             inputs.items[n++] = inputs.items[i];
     s->answer->sure.inputs = n;
     struct reliability_def def = {.goal = s->def.goal, .target = s->passes, .sure = s->def.sure};
-    def.of = (struct ceduo_uncertainty_def){.scene = &s->file->scene, .inputs_count = n, .inputs = inputs.items};
-    def.of.option = s->def.option;
-    def.of.rotation = s->def.rotation;
-    def.of.points = s->answer->sure.points;
-    def.of.rocks = s->answer->sure.rocks;
-    def.of.threads = s->threads;
-    def.of.cancel = s->cancel;
+    def.uncertainty = (struct ceduo_uncertainty_def){.scene = &s->file->scene, .inputs_count = n, .inputs = inputs.items};
+    def.uncertainty.option = s->def.option;
+    def.uncertainty.rotation = s->def.rotation;
+    def.uncertainty.points = s->answer->sure.points;
+    def.uncertainty.rocks = s->answer->sure.rocks;
+    def.uncertainty.threads = s->threads;
+    def.uncertainty.cancel = s->cancel;
     enum ceduo_status status = ceduo_reliability_compute(&def, answer);
     if (status == CEDUO_OK && s->known_count < SURE_MAX)
         s->known[s->known_count++] = (struct known_sure){value, *answer};

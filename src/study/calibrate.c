@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fits values of scenes to observations, in two steps: Sobol' points over the bounds, on all threads; chains from the best of
- * them. A place is a row u of numbers in 0…1, one for each parameter. Chains walk in y = log(u/(1 - u)), so that they cross no
- * bound. Each worker has its own copies of the scenes. At the end draws of the chains are computed once more, to predict all
- * observations (predict.c). */
+/* Fits scene values to observations. Sobol' points over the bounds are evaluated on all threads. Chains start at the best
+ * points. A point is a row u of numbers in (0, 1), one for each parameter. Chains move in y = log(u/(1 - u)), so they cannot
+ * cross a bound. Each worker has its own copies of the scenes. At the end predict.c predicts all observations from draws of
+ * the chains. */
 #include "ceduo/calibrate.h"
 
 #include <gsl/gsl_sort.h>
@@ -19,54 +19,53 @@
 #include "check_study.h"
 #include "fitting.h"
 
-#define POINTS     256
-#define FIRST_STEP 0.3 /* of a chain */
-/* times the guess: its tails are to reach farther than those of the density, or chains get stuck there */
-#define FLATTER    0.7
-#define STEPS_MIN  250
-#define STEPS_MAX  8000
-#define NEAR_BOUND 0.02 /* of the bounds: a best value there lies at a bound, */
-#define HALF_THERE 0.05 /* or where half of the draws do */
+#define POINTS            256
+#define FIRST_STEP        0.3 /* standard deviation of the first steps, in y */
+#define TEMPERING         0.7 /* factor of the surrogate: heavier tails, so that chains do not get stuck in them */
+#define STEPS_MIN         250
+#define STEPS_MAX         8000
+#define BEST_NEAR_BOUND   0.02 /* share of the bounds: a value is at a bound if its best is this close, */
+#define MEDIAN_NEAR_BOUND 0.05 /* or its median this close */
 
 #define PARAMETERS CEDUO_CALIBRATION_MAX
 #define CHAINS     CEDUO_CALIBRATION_CHAINS
 
-/* ---- places ---- */
+/* ---- points ---- */
 
-static double unit(double y)
+static double inverse_logit(double y)
 {
     return 1 / (1 + exp(-y));
 }
 
-/* Of two places that are as good the smaller one is better, so that it does not matter which was looked at first. */
-static void note_best(struct fitting *f, const double *u, double log_likelihood)
+/* Keep the best point; on a tie the lexicographically smaller one, so that the order of evaluation does not matter. */
+static void update_best(struct fitting *f, const double *u, double log_likelihood)
 {
     size_t i = 0, n = f->def->parameters_count;
     pthread_mutex_lock(&f->lock);
     f->evaluations++;
     while (i < n && u[i] == f->best[i])
         i++;
-    if (log_likelihood > f->most || (log_likelihood == f->most && i < n && u[i] < f->best[i]))
-        memcpy(f->best, u, n * sizeof *u), f->most = log_likelihood;
+    if (log_likelihood > f->best_log_likelihood || (log_likelihood == f->best_log_likelihood && i < n && u[i] < f->best[i]))
+        memcpy(f->best, u, n * sizeof *u), f->best_log_likelihood = log_likelihood;
     pthread_mutex_unlock(&f->lock);
 }
 
-static double value_of(const struct fitting *f, size_t parameter, double u)
+static double parameter_value(const struct fitting *f, size_t parameter, double u)
 {
     const struct ceduo_input *input = &f->def->scenes[0].inputs[parameter];
     return input->lo + u * (input->hi - input->lo);
 }
 
-static void tell(struct fitting *f, enum ceduo_calibration_stage stage, double rhat, double effective_size)
+static void report_progress(struct fitting *f, enum ceduo_calibration_stage stage, double rhat, double effective_size)
 {
     if (!f->def->progress || !ceduo_guard_try_enter(&f->talk))
         return;
     struct ceduo_calibration_state state = {.stage = stage, .rhat = rhat, .effective_size = effective_size};
     pthread_mutex_lock(&f->lock);
     state.evaluations = f->evaluations;
-    state.log_likelihood = f->most;
+    state.log_likelihood = f->best_log_likelihood;
     for (size_t i = 0; i < f->def->parameters_count; i++)
-        state.best[i] = value_of(f, i, f->best[i]);
+        state.best[i] = parameter_value(f, i, f->best[i]);
     pthread_mutex_unlock(&f->lock);
     f->def->progress(f->def->context, &state);
     ceduo_guard_leave(&f->talk);
@@ -74,8 +73,8 @@ static void tell(struct fitting *f, enum ceduo_calibration_stage stage, double r
 
 /* ---- one evaluation ---- */
 
-enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all,
-                                     struct ceduo_observation_fit *to)
+enum ceduo_status ceduo_fitting_simulate(struct fitting *f, size_t worker, const double *u, bool all,
+                                         struct ceduo_observation_fit *to)
 {
     enum ceduo_status status = CEDUO_OK;
     for (size_t s = 0; s < f->def->scenes_count && status == CEDUO_OK; s++) {
@@ -88,40 +87,40 @@ enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const dou
     return status;
 }
 
-/* The likelihood of a place; a scene that does not fit together cannot be what was. */
+/* Set the log-likelihood of a point; -INFINITY if its scene is invalid. */
 static enum ceduo_status evaluate(struct fitting *f, size_t worker, const double *u, double *log_likelihood)
 {
-    struct ceduo_observation_fit *to = f->workers[worker].counterparts;
-    enum ceduo_status status = ceduo_fitting_look(f, worker, u, false, to);
+    struct ceduo_observation_fit *to = f->workers[worker].fits;
+    enum ceduo_status status = ceduo_fitting_simulate(f, worker, u, false, to);
     *log_likelihood = status == CEDUO_OK ? 0 : -INFINITY;
     if (status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED)
         return status;
     for (size_t i = 0; i < f->fit_count && status == CEDUO_OK; i++)
         *log_likelihood += to[i].log_likelihood;
-    note_best(f, u, *log_likelihood);
+    update_best(f, u, *log_likelihood);
     return CEDUO_OK;
 }
 
 /* ---- search ---- */
 
-static int look_at_point(void *context, size_t i, size_t worker)
+static int evaluate_point(void *context, size_t i, size_t worker)
 {
     struct fitting *f = context;
-    enum ceduo_status status = evaluate(f, worker, f->known + i * f->def->parameters_count, &f->known_values[i]);
-    tell(f, CEDUO_SEARCH, NAN, NAN);
+    enum ceduo_status status = evaluate(f, worker, f->training + i * f->def->parameters_count, &f->training_values[i]);
+    report_progress(f, CEDUO_SEARCH, NAN, NAN);
     return (int)status;
 }
 
-/* Chains start from the best points, of equal ones from the first. */
+/* Evaluate the points, and start the chains at the best; ties go to the first. */
 static enum ceduo_status search(struct fitting *f)
 {
     size_t d = f->def->parameters_count, best[CHAINS];
-    enum ceduo_status status = ceduo_surface_points(f->def->seed, POINTS, d, f->known);
+    enum ceduo_status status = ceduo_surface_points(f->def->seed, POINTS, d, f->training);
     if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){POINTS, f->def->threads, look_at_point, f});
-    gsl_sort_largest_index(best, CHAINS, f->known_values, 1, POINTS);
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){POINTS, f->def->threads, evaluate_point, f});
+    gsl_sort_largest_index(best, CHAINS, f->training_values, 1, POINTS);
     for (size_t k = 0; k < CHAINS * d; k++) {
-        double u = f->known[best[k / d] * d + k % d];
+        double u = f->training[best[k / d] * d + k % d];
         f->starts[k] = log(u / (1 - u));
     }
     return status;
@@ -129,22 +128,21 @@ static enum ceduo_status search(struct fitting *f)
 
 /* ---- chains ---- */
 
-/* The place u of y, and the logarithm of its density before: every value within the bounds is as likely, which in y is
- * u(1 - u). */
-static double prior_at(const struct fitting *f, const double *y, double *u)
+/* Set the point u of y. Return the log-prior in y: uniform within the bounds has the density u(1 - u) there. */
+static double set_point(const struct fitting *f, const double *y, double *u)
 {
     double prior = 0;
     for (size_t i = 0; i < f->def->parameters_count; i++) {
-        u[i] = unit(y[i]);
+        u[i] = inverse_logit(y[i]);
         prior += log(u[i]) + log1p(-u[i]);
     }
     return prior;
 }
 
-static enum ceduo_status density(void *context, size_t chain, const double *y, double *log_density)
+static enum ceduo_status log_posterior(void *context, size_t chain, const double *y, double *log_density)
 {
     struct fitting *f = context;
-    double u[PARAMETERS] = {0}, prior = prior_at(f, y, u);
+    double u[PARAMETERS] = {0}, prior = set_point(f, y, u);
     *log_density = -INFINITY;
     if (!isfinite(prior))
         return CEDUO_OK;
@@ -153,34 +151,35 @@ static enum ceduo_status density(void *context, size_t chain, const double *y, d
     return status;
 }
 
-static double guess_at(void *context, const double *y)
+static double tempered_surrogate(void *context, const double *y)
 {
     const struct fitting *f = context;
-    double u[PARAMETERS] = {0}, prior = prior_at(f, y, u);
-    return isfinite(prior) ? FLATTER * ceduo_guess_at(&f->guess, u) + prior : -INFINITY;
+    double u[PARAMETERS] = {0}, prior = set_point(f, y, u);
+    return isfinite(prior) ? TEMPERING * ceduo_surrogate_evaluate(&f->surrogate, u) + prior : -INFINITY;
 }
 
-/* What the chains have tried since is added to what is known. */
-static enum ceduo_status learn(void *context, const double *y, const double *log_densities, size_t n)
+/* Add the new proposals of the chains to the training points, and retrain the surrogate. */
+static enum ceduo_status train_surrogate(void *context, const double *y, const double *log_densities, size_t n)
 {
     struct fitting *f = context;
-    size_t d = f->def->parameters_count, known = f->known_count, more = POINTS + n - known, room = f->known_room;
-    f->known = ceduo_arena_grow(&f->memory, f->known, known, more, &room, d * sizeof *f->known);
-    f->known_values = ceduo_arena_grow(&f->memory, f->known_values, known, more, &f->known_room, sizeof *f->known_values);
+    size_t d = f->def->parameters_count, count = f->training_count, added = POINTS + n - count, capacity = f->training_capacity;
+    f->training = ceduo_arena_grow(&f->memory, f->training, count, added, &capacity, d * sizeof *f->training);
+    f->training_values =
+        ceduo_arena_grow(&f->memory, f->training_values, count, added, &f->training_capacity, sizeof *f->training_values);
     if (f->memory.failed)
         return CEDUO_NO_MEMORY;
-    for (size_t i = known - POINTS; i < n; i++) {
-        double prior = prior_at(f, y + i * d, f->known + (POINTS + i) * d);
-        f->known_values[POINTS + i] = log_densities[i] - prior;
+    for (size_t i = count - POINTS; i < n; i++) {
+        double prior = set_point(f, y + i * d, f->training + (POINTS + i) * d);
+        f->training_values[POINTS + i] = log_densities[i] - prior;
     }
-    f->known_count = POINTS + n;
-    return ceduo_guess_learn(&f->guess, f->known, f->known_values, POINTS + n, f->def->cancel);
+    f->training_count = POINTS + n;
+    return ceduo_surrogate_train(&f->surrogate, f->training, f->training_values, POINTS + n, f->def->cancel);
 }
 
-static bool on_round(void *context, size_t steps, double rhat, double effective_size)
+static bool report_round(void *context, size_t steps, double rhat, double effective_size)
 {
     (void)steps;
-    tell(context, CEDUO_CHAINS, rhat, effective_size);
+    report_progress(context, CEDUO_CHAINS, rhat, effective_size);
     return true;
 }
 
@@ -192,29 +191,29 @@ static enum ceduo_status run_chains(struct fitting *f, struct chains *chains)
                              .first_step = FIRST_STEP,
                              .seed = f->def->seed,
                              .threads = f->def->threads,
-                             .steps_least = STEPS_MIN,
+                             .steps_min = STEPS_MIN,
                              .steps_max = f->def->steps_max > 0 ? f->def->steps_max : STEPS_MAX,
-                             .rhat_most = CEDUO_RHAT_MAX,
-                             .effective_least = CEDUO_EFFECTIVE_MIN,
-                             .hopeless = f->def->steps_max == 0,
-                             .density = density,
-                             .guess = guess_at,
-                             .learn = learn,
+                             .rhat_max = CEDUO_RHAT_MAX,
+                             .effective_min = CEDUO_EFFECTIVE_MIN,
+                             .stop_early = f->def->steps_max == 0,
+                             .density = log_posterior,
+                             .surrogate = tempered_surrogate,
+                             .train = train_surrogate,
                              .cancel = f->def->cancel,
-                             .round = on_round,
+                             .round = report_round,
                              .context = f};
     return ceduo_chains_run(&def, chains);
 }
 
 /* ---- reading ---- */
 
-static void read_parameter(const struct fitting *f, const struct ceduo_calibration *a, double *sorted, size_t i,
-                           struct ceduo_fitted *p)
+static void summarize_parameter(const struct fitting *f, const struct ceduo_calibration *a, double *sorted, size_t i,
+                                struct ceduo_fitted *p)
 {
     const struct ceduo_input *input = &f->def->scenes[0].inputs[i];
     double width = input->hi - input->lo, u = f->best[i];
     size_t n = a->draws_count;
-    *p = (struct ceduo_fitted){input->lo, input->hi, value_of(f, i, u), NAN, NAN, NAN, false, false};
+    *p = (struct ceduo_fitted){input->lo, input->hi, parameter_value(f, i, u), NAN, NAN, NAN, false, false};
     if (n == 0)
         return;
     for (size_t k = 0; k < n; k++)
@@ -223,9 +222,9 @@ static void read_parameter(const struct fitting *f, const struct ceduo_calibrati
     p->p2_5 = ceduo_quantile(sorted, n, 0.025);
     p->p50 = ceduo_quantile(sorted, n, 0.5);
     p->p97_5 = ceduo_quantile(sorted, n, 0.975);
-    p->determined = p->p97_5 - p->p2_5 <= CEDUO_IDENTIFIED_WIDTH_MAX * width;
-    double middle = (p->p50 - input->lo) / width;
-    p->at_bound = p->determined && (fmin(u, 1 - u) < NEAR_BOUND || fmin(middle, 1 - middle) < HALF_THERE);
+    p->identified = p->p97_5 - p->p2_5 <= CEDUO_IDENTIFIED_WIDTH_MAX * width;
+    double median = (p->p50 - input->lo) / width;
+    p->at_bound = p->identified && (fmin(u, 1 - u) < BEST_NEAR_BOUND || fmin(median, 1 - median) < MEDIAN_NEAR_BOUND);
 }
 
 static bool read_draws(const struct fitting *f, const struct chains *chains, struct ceduo_calibration *a)
@@ -236,9 +235,9 @@ static bool read_draws(const struct fitting *f, const struct chains *chains, str
     a->draws_count = a->draws ? n : 0;
     for (size_t k = 0; k < a->draws_count; k++)
         for (size_t i = 0; i < d; i++)
-            a->draws[k * d + i] = value_of(f, i, unit(ceduo_chains_draw(chains, k)[i]));
+            a->draws[k * d + i] = parameter_value(f, i, inverse_logit(ceduo_chains_draw(chains, k)[i]));
     for (size_t i = 0; i < d && sorted; i++)
-        read_parameter(f, a, sorted, i, &a->parameters[i]);
+        summarize_parameter(f, a, sorted, i, &a->parameters[i]);
     for (size_t i = 0; i < d; i++)
         for (size_t k = 0; k < d; k++)
             a->correlation[i][k] = i == k                ? 1
@@ -249,75 +248,75 @@ static bool read_draws(const struct fitting *f, const struct chains *chains, str
     return good;
 }
 
-/* ---- what the observations do not hold ---- */
+/* ---- identifiability ---- */
 
-#define TOGETHER 0.9 /* correlation of two values of which only both are known, not each */
+#define COLLINEAR 0.9 /* correlation above which the observations identify only a combination of two values */
 
-/* The one that is known worse of two that are known only together; all of those kept: SIZE_MAX. */
-static size_t worse_of_a_pair(const struct ceduo_calibration *a, const bool *loose)
+/* Return the parameter with the wider range in the most correlated pair that is not selected; SIZE_MAX: no collinear pair. */
+static size_t find_collinear(const struct ceduo_calibration *a, const bool *selected)
 {
     size_t worse = SIZE_MAX;
-    double most = TOGETHER;
+    double max = COLLINEAR;
     for (size_t i = 0; i < a->parameters_count; i++)
         for (size_t k = 0; k < i; k++)
-            if (!loose[i] && !loose[k] && fabs(a->correlation[i][k]) > most) {
+            if (!selected[i] && !selected[k] && fabs(a->correlation[i][k]) > max) {
                 const struct ceduo_fitted *p = &a->parameters[i], *q = &a->parameters[k];
-                most = fabs(a->correlation[i][k]);
+                max = fabs(a->correlation[i][k]);
                 worse = (p->p97_5 - p->p2_5) / (p->hi - p->lo) > (q->p97_5 - q->p2_5) / (q->hi - q->lo) ? i : k;
             }
     return worse;
 }
 
-size_t ceduo_calibration_unidentified(const struct ceduo_calibration *a, bool loose[CEDUO_CALIBRATION_MAX])
+size_t ceduo_calibration_unidentified(const struct ceduo_calibration *a, bool selected[CEDUO_CALIBRATION_MAX])
 {
-    size_t most = a->parameters_count - 1, n = 0;
-    for (size_t i = 0; i <= most; i++) {
-        loose[i] = n < most && a->draws_count > 0 && !a->parameters[i].determined;
-        n += loose[i];
+    size_t max = a->parameters_count - 1, n = 0;
+    for (size_t i = 0; i <= max; i++) {
+        selected[i] = n < max && a->draws_count > 0 && !a->parameters[i].identified;
+        n += selected[i];
     }
-    for (size_t i; (i = worse_of_a_pair(a, loose)) != SIZE_MAX; n++) /* one of them stays */
-        loose[i] = true;
+    for (size_t i; (i = find_collinear(a, selected)) != SIZE_MAX; n++) /* the other one of the pair stays */
+        selected[i] = true;
     return n;
 }
 
-#define SHAPES_ALIKE 0.1 /* of the mean axis: rocks whose axes differ by no more are of one shape; assumed */
+#define SHAPE_TOLERANCE 0.1 /* share of the mean axis; rocks whose axes differ by less have one shape; assumed */
 
-/* A shape is the rock's axes over their mean, the shortest first. */
+/* A shape is the axes over their mean, the shortest first. */
 bool ceduo_calibration_identifies_mu(const struct ceduo_calibration_scene *scenes, size_t n)
 {
     double first[3];
-    bool known = false;
+    bool has_first = false;
     for (size_t s = 0; s < n; s++)
         for (size_t i = 0; i < scenes[s].observations_count; i++) {
-            const struct ceduo_observation *seen = &scenes[s].observations[i];
-            if (seen->use != CEDUO_OBSERVED_FIT || scenes[s].scene->simulation.law != CEDUO_LAW_ARM)
+            const struct ceduo_observation *observation = &scenes[s].observations[i];
+            if (observation->use != CEDUO_OBSERVED_FIT || scenes[s].scene->simulation.law != CEDUO_LAW_ARM)
                 continue;
-            const struct ceduo_rock rock = ceduo_rock_mean(seen->rock ? seen->rock : &scenes[s].scene->rock);
+            const struct ceduo_rock rock = ceduo_rock_mean(observation->rock ? observation->rock : &scenes[s].scene->rock);
             const double *a = rock.axes, sum = a[0] + a[1] + a[2];
-            double least = fmin(a[0], fmin(a[1], a[2])), most = fmax(a[0], fmax(a[1], a[2]));
-            const double shape[3] = {3 * least / sum, 3 * (sum - least - most) / sum, 3 * most / sum};
-            for (size_t k = 0; known && k < 3; k++)
-                if (fabs(first[k] - shape[k]) > SHAPES_ALIKE)
+            double min = fmin(a[0], fmin(a[1], a[2])), max = fmax(a[0], fmax(a[1], a[2]));
+            const double shape[3] = {3 * min / sum, 3 * (sum - min - max) / sum, 3 * max / sum};
+            for (size_t k = 0; has_first && k < 3; k++)
+                if (fabs(first[k] - shape[k]) > SHAPE_TOLERANCE)
                     return true;
-            if (!known)
+            if (!has_first)
                 memcpy(first, shape, sizeof first);
-            known = true;
+            has_first = true;
         }
     return false;
 }
 
-/* ---- all of it ---- */
+/* ---- calibration ---- */
 
 static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_calibration_def *def)
 {
     enum ceduo_status status = CEDUO_OK;
     size_t n = def->parameters_count;
-    *f = (struct fitting){.def = def, .most = -INFINITY, .guess = ceduo_guess_begin(n)};
+    *f = (struct fitting){.def = def, .best_log_likelihood = -INFINITY, .surrogate = ceduo_surrogate_begin(n)};
     f->workers_count = def->threads > CHAINS ? def->threads : CHAINS;
     pthread_mutex_init(&f->lock, NULL);
-    f->known = ceduo_arena_alloc(&f->memory, POINTS * n * sizeof *f->known);
-    f->known_values = ceduo_arena_alloc(&f->memory, POINTS * sizeof *f->known_values);
-    f->known_count = f->known_room = POINTS;
+    f->training = ceduo_arena_alloc(&f->memory, POINTS * n * sizeof *f->training);
+    f->training_values = ceduo_arena_alloc(&f->memory, POINTS * sizeof *f->training_values);
+    f->training_count = f->training_capacity = POINTS;
     f->scenes = ceduo_arena_alloc(&f->memory, def->scenes_count * sizeof *f->scenes);
     f->workers = ceduo_arena_alloc(&f->memory, f->workers_count * sizeof *f->workers);
     for (size_t s = 0; s < def->scenes_count && !f->memory.failed && status == CEDUO_OK; s++) {
@@ -336,7 +335,7 @@ static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_cali
     for (size_t w = 0; w < f->workers_count && !f->memory.failed && status == CEDUO_OK; w++) {
         struct fitting_worker *to = &f->workers[w];
         to->copies = ceduo_arena_alloc(&f->memory, def->scenes_count * sizeof *to->copies);
-        to->counterparts = ceduo_arena_alloc(&f->memory, (f->all_count + 1) * sizeof *to->counterparts);
+        to->fits = ceduo_arena_alloc(&f->memory, (f->all_count + 1) * sizeof *to->fits);
         for (size_t s = 0; s < def->scenes_count && !f->memory.failed && status == CEDUO_OK; s++)
             status = ceduo_inputs_open(&to->copies[s], def->scenes[s].scene, def->scenes[s].inputs, n);
     }
@@ -351,7 +350,7 @@ static void close_fitting(struct fitting *f)
         for (size_t w = 0; f->workers && w < f->workers_count && f->workers[w].copies; w++)
             ceduo_inputs_release(&f->workers[w].copies[s]);
     }
-    ceduo_guess_release(&f->guess);
+    ceduo_surrogate_free(&f->surrogate);
     ceduo_arena_free(&f->memory);
     pthread_mutex_destroy(&f->lock);
 }
@@ -383,7 +382,7 @@ enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struc
     a->evaluations = f.evaluations;
     a->rhat = chains.rhat;
     a->effective_size = chains.effective_size;
-    a->settled = chains.settled;
+    a->converged = chains.converged;
     ceduo_chains_release(&chains);
     close_fitting(&f);
     if (status != CEDUO_OK)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Chains go in rounds: each walks some steps by itself, on whatever thread; then all are looked at together, the proposal is
- * renewed, and it is asked whether they agree. */
+/* Chains run in rounds, in parallel. After a round the proposal is adapted and convergence is checked. */
 #include "chains.h"
 
 #include <gsl/gsl_linalg.h>
@@ -13,27 +12,27 @@
 #include "base/parallel.h"
 #include "sequence.h"
 
-#define WANTED 0.28 /* share of accepted steps */
-#define INNER  100  /* steps that the guess decides, for one that the density decides */
-#define PLAIN  8    /* every such step goes without the guess, so that nobody is lost where it is wrong */
-#define RIDGE  1e-6 /* of the variances, so that the covariance has a root */
+#define TARGET_ACCEPTANCE 0.28
+#define SURROGATE_STEPS   100  /* steps by the surrogate for one evaluation of the density */
+#define BYPASS_EVERY      8    /* steps; such a step bypasses the surrogate, so a wrong one cannot trap chains */
+#define RIDGE             1e-6 /* relative to the variances; keeps the covariance positive definite */
 
 struct walk {
     struct sequence sequence;
     gsl_rng random;
-    double density, guess; /* their logarithms, here */
-    double moved;          /* share of accepted steps, summed over this round */
+    double density, surrogate; /* log-density of the last draw, by the density and by the surrogate */
+    double accepted;           /* accepted steps of this round; a surrogate step counts 1/SURROGATE_STEPS */
 };
 
 struct work {
     const struct chains_def *def;
     struct chains *chains;
     struct walk walks[CEDUO_CHAINS_MAX];
-    gsl_matrix *root;               /* lower triangle: of the covariance of steps */
+    gsl_matrix *root;               /* Cholesky factor of the proposal covariance, lower triangle, times `factor` */
     gsl_matrix *proposals, *trials; /* a row for each chain */
-    double factor;                  /* in the root */
-    bool guessing;
-    size_t rounds, learnt; /* those that the guess has learnt from */
+    double factor;
+    bool has_surrogate;
+    size_t rounds, trained; /* trained: rounds that the surrogate was trained with */
 };
 
 static double *draw_at(const struct chains *c, size_t chain, size_t step)
@@ -43,85 +42,86 @@ static double *draw_at(const struct chains *c, size_t chain, size_t step)
 
 /* ---- one chain ---- */
 
-/* A normal step from `from` to `to`. */
+/* Set `to` to a normal step from `from`. */
 static void propose(struct work *w, size_t chain, const double *from, double *to)
 {
     size_t d = w->def->dimensions;
-    gsl_vector_const_view here = gsl_vector_const_view_array(from, d);
-    gsl_vector_view there = gsl_vector_view_array(to, d);
-    gsl_ran_multivariate_gaussian(&w->walks[chain].random, &here.vector, w->root, &there.vector);
+    gsl_vector_const_view mean = gsl_vector_const_view_array(from, d);
+    gsl_vector_view proposal = gsl_vector_view_array(to, d);
+    gsl_ran_multivariate_gaussian(&w->walks[chain].random, &mean.vector, w->root, &proposal.vector);
 }
 
-/* Many steps by the guess alone, to `to`; returns the guess there. */
-static double wander(struct work *w, size_t chain, const double *from, double *to)
+/* Set `to` to the end of SURROGATE_STEPS steps accepted by the surrogate alone. Return the surrogate there. */
+static double run_surrogate(struct work *w, size_t chain, const double *from, double *to)
 {
     const struct chains_def *def = w->def;
     struct walk *walk = &w->walks[chain];
-    double *trial = gsl_matrix_ptr(w->trials, chain, 0), here = walk->guess;
+    double *trial = gsl_matrix_ptr(w->trials, chain, 0), current = walk->surrogate;
     memcpy(to, from, def->dimensions * sizeof *to);
-    for (int i = 0; i < INNER; i++) {
+    for (int i = 0; i < SURROGATE_STEPS; i++) {
         propose(w, chain, to, trial);
-        double chance = log(gsl_rng_uniform_pos(&walk->random)), there = def->guess(def->context, trial);
-        if (!(chance < there - here))
+        double chance = log(gsl_rng_uniform_pos(&walk->random)), index = def->surrogate(def->context, trial);
+        if (!(chance < index - current))
             continue;
         memcpy(to, trial, def->dimensions * sizeof *to);
-        here = there;
-        walk->moved += 1. / INNER;
+        current = index;
+        walk->accepted += 1. / SURROGATE_STEPS;
     }
-    return here;
+    return current;
 }
 
-/* One step from the draw before; the next draw is the new place or the same once more. */
-static enum ceduo_status step_on(struct work *w, size_t chain, size_t step)
+/* Take one step: the next draw is the accepted proposal, or the last draw again. */
+static enum ceduo_status advance(struct work *w, size_t chain, size_t step)
 {
     const struct chains_def *def = w->def;
     struct walk *walk = &w->walks[chain];
-    const double *here = draw_at(w->chains, chain, step - 1);
-    double *to = gsl_matrix_ptr(w->proposals, chain, 0), density, guess = 0;
-    bool plain = !w->guessing || step % PLAIN == 0;
-    if (plain)
-        propose(w, chain, here, to);
+    const double *last = draw_at(w->chains, chain, step - 1);
+    double *to = gsl_matrix_ptr(w->proposals, chain, 0), density, surrogate = 0;
+    bool bypass = !w->has_surrogate || step % BYPASS_EVERY == 0;
+    if (bypass)
+        propose(w, chain, last, to);
     else
-        guess = wander(w, chain, here, to);
+        surrogate = run_surrogate(w, chain, last, to);
     double chance = log(gsl_rng_uniform_pos(&walk->random));
     enum ceduo_status status = def->density(def->context, chain, to, &density);
     if (status != CEDUO_OK)
         return status;
-    bool taken = chance < density - walk->density - (plain ? 0 : guess - walk->guess);
-    size_t tried = (step - 1) * def->chains + chain, bytes = def->dimensions * sizeof *to;
-    memcpy(draw_at(w->chains, chain, step), taken ? to : here, bytes);
-    memcpy(w->chains->tried + tried * def->dimensions, to, bytes);
-    w->chains->tried_density[tried] = density;
-    walk->moved += plain && taken;
-    if (taken) {
+    bool is_accepted = chance < density - walk->density - (bypass ? 0 : surrogate - walk->surrogate);
+    size_t index = (step - 1) * def->chains + chain, bytes = def->dimensions * sizeof *to;
+    memcpy(draw_at(w->chains, chain, step), is_accepted ? to : last, bytes);
+    memcpy(w->chains->proposed + index * def->dimensions, to, bytes);
+    w->chains->proposed_density[index] = density;
+    walk->accepted += bypass && is_accepted;
+    if (is_accepted) {
         walk->density = density;
-        walk->guess = !w->guessing ? 0 : plain ? def->guess(def->context, to) : guess;
+        walk->surrogate = !w->has_surrogate ? 0 : bypass ? def->surrogate(def->context, to) : surrogate;
     }
     return CEDUO_OK;
 }
 
-static int walk_chain(void *context, size_t c, size_t worker)
+static int run_chain(void *context, size_t c, size_t worker)
 {
     struct work *w = context;
     enum ceduo_status status = CEDUO_OK;
     (void)worker;
     for (size_t i = 0; i < CEDUO_CHAINS_ROUND && status == CEDUO_OK; i++)
-        status = step_on(w, c, w->chains->steps + i);
+        status = advance(w, c, w->chains->steps + i);
     return (int)status;
 }
 
 /* ---- all chains ---- */
 
-/* The proposal of the next round, from the covariance of all draws that are read; the older the chains, the less it changes. */
+/* Adapt the proposal to the covariance of the draws after burn-in, and its scale to the acceptance rate, in decreasing
+ * steps. */
 static void adapt(struct work *w)
 {
     const struct chains_def *def = w->def;
     double accepted = 0, before = w->factor;
     for (size_t c = 0; c < def->chains; c++) {
-        accepted += w->walks[c].moved / (double)(CEDUO_CHAINS_ROUND * def->chains);
-        w->walks[c].moved = 0;
+        accepted += w->walks[c].accepted / (double)(CEDUO_CHAINS_ROUND * def->chains);
+        w->walks[c].accepted = 0;
     }
-    w->factor *= exp((accepted - WANTED) * 2 / sqrt((double)++w->rounds));
+    w->factor *= exp((accepted - TARGET_ACCEPTANCE) * 2 / sqrt((double)++w->rounds));
     if (w->rounds < 2) {
         gsl_matrix_scale(w->root, w->factor / before);
         return;
@@ -136,35 +136,37 @@ static void adapt(struct work *w)
     gsl_matrix_scale(w->root, w->factor);
 }
 
-/* Whenever there is an eighth more to learn from. Seldomer, and chains are stuck wherever an early guess is too low. */
-static enum ceduo_status learn(struct work *w)
+/* Train the surrogate whenever the rounds have grown by an eighth. Training less often traps chains if an early surrogate is
+ * too low. */
+static enum ceduo_status train(struct work *w)
 {
     const struct chains_def *def = w->def;
-    if (!def->guess || w->rounds - w->learnt < w->learnt / 8)
+    if (!def->surrogate || w->rounds - w->trained < w->trained / 8)
         return CEDUO_OK;
-    w->learnt = w->rounds;
-    enum ceduo_status status = def->learn(def->context, w->chains->tried, w->chains->tried_density, w->chains->tried_count);
-    w->guessing = true;
+    w->trained = w->rounds;
+    enum ceduo_status status =
+        def->train(def->context, w->chains->proposed, w->chains->proposed_density, w->chains->proposed_count);
+    w->has_surrogate = true;
     for (size_t c = 0; c < def->chains && status == CEDUO_OK; c++)
-        w->walks[c].guess = def->guess(def->context, draw_at(w->chains, c, w->chains->steps - 1));
+        w->walks[c].surrogate = def->surrogate(def->context, draw_at(w->chains, c, w->chains->steps - 1));
     return status;
 }
 
-/* Room in *array for n rows of so many numbers. */
-static bool make_room(double **array, size_t n, size_t numbers)
+/* Resize *array to n rows of `columns` numbers. */
+static bool resize(double **array, size_t n, size_t columns)
 {
-    double *grown = realloc(*array, n * numbers * sizeof *grown);
+    double *grown = realloc(*array, n * columns * sizeof *grown);
     *array = grown ? grown : *array;
     return grown;
 }
 
 static bool grow(struct chains *c, size_t steps)
 {
-    if (steps <= c->room)
+    if (steps <= c->capacity)
         return true;
     size_t n = 2 * steps * c->chains;
-    c->room = 2 * steps;
-    return make_room(&c->x, n, c->dimensions) && make_room(&c->tried, n, c->dimensions) && make_room(&c->tried_density, n, 1);
+    c->capacity = 2 * steps;
+    return resize(&c->x, n, c->dimensions) && resize(&c->proposed, n, c->dimensions) && resize(&c->proposed_density, n, 1);
 }
 
 static void diagnose(struct chains *c, const atomic_bool *cancel)
@@ -185,13 +187,14 @@ static bool is_done(struct work *w)
     struct chains *c = w->chains;
     if (w->rounds >= 4)
         diagnose(c, def->cancel);
-    c->settled = c->steps >= def->steps_least && c->rhat < def->rhat_most && c->effective_size >= def->effective_least;
-    /* chains that go so slowly that they would have far from enough draws at their end: from an eighth of the way on less than a
-     * quarter, from a quarter on less than half of what is wanted */
-    double way = (double)c->steps / (double)def->steps_max;
-    bool hopeless = def->hopeless && way >= 0.125 && c->effective_size / way < fmin(0.5, 2 * way) * def->effective_least;
-    bool goes_on = !def->round || def->round(def->context, c->steps, c->rhat, c->effective_size);
-    return c->settled || c->steps >= def->steps_max || hopeless || !goes_on;
+    c->converged = c->steps >= def->steps_min && c->rhat < def->rhat_max && c->effective_size >= def->effective_min;
+    /* Hopeless if the effective size, extrapolated to steps_max, is too small: less than a quarter of effective_min after an
+     * eighth of the steps, less than half from a quarter on. */
+    double progress = (double)c->steps / (double)def->steps_max;
+    bool hopeless =
+        def->stop_early && progress >= 0.125 && c->effective_size / progress < fmin(0.5, 2 * progress) * def->effective_min;
+    bool continues = !def->round || def->round(def->context, c->steps, c->rhat, c->effective_size);
+    return c->converged || c->steps >= def->steps_max || hopeless || !continues;
 }
 
 static enum ceduo_status begin(struct work *w)
@@ -209,27 +212,27 @@ static enum ceduo_status begin(struct work *w)
         gsl_matrix_set(w->root, i, i, w->factor * def->first_step);
     memcpy(w->chains->x, def->starts, def->chains * d * sizeof *w->chains->x);
     for (size_t c = 0; c < def->chains && status == CEDUO_OK; c++) {
-        w->walks[c].random = ceduo_sequence(&w->walks[c].sequence, def->seed, c);
+        w->walks[c].random = ceduo_sequence_begin(&w->walks[c].sequence, def->seed, c);
         status = def->density(def->context, c, def->starts + c * d, &w->walks[c].density);
     }
     w->chains->steps = 1;
-    return status == CEDUO_OK ? learn(w) : status;
+    return status == CEDUO_OK ? train(w) : status;
 }
 
 enum ceduo_status ceduo_chains_run(const struct chains_def *def, struct chains *chains)
 {
     struct work w = {.def = def, .chains = chains};
     *chains = (struct chains){.dimensions = def->dimensions, .chains = def->chains, .rhat = NAN, .effective_size = NAN};
-    const struct parallel round = {def->chains, def->threads, walk_chain, &w};
+    const struct parallel round = {def->chains, def->threads, run_chain, &w};
     enum ceduo_status status = begin(&w);
     for (bool done = false; status == CEDUO_OK && !done;) {
         status = grow(chains, chains->steps + CEDUO_CHAINS_ROUND) ? (enum ceduo_status)ceduo_parallel(&round) : CEDUO_NO_MEMORY;
         if (status != CEDUO_OK)
             break;
         chains->steps += CEDUO_CHAINS_ROUND;
-        chains->tried_count += CEDUO_CHAINS_ROUND * def->chains;
+        chains->proposed_count += CEDUO_CHAINS_ROUND * def->chains;
         adapt(&w);
-        status = learn(&w);
+        status = train(&w);
         done = status == CEDUO_OK && is_done(&w);
     }
     gsl_matrix_free(w.root);
@@ -241,8 +244,8 @@ enum ceduo_status ceduo_chains_run(const struct chains_def *def, struct chains *
 void ceduo_chains_release(struct chains *c)
 {
     free(c->x);
-    free(c->tried);
-    free(c->tried_density);
+    free(c->proposed);
+    free(c->proposed_density);
     *c = (struct chains){0};
 }
 
@@ -258,7 +261,7 @@ const double *ceduo_chains_draw(const struct chains *c, size_t i)
     return draw_at(c, i % c->chains, c->steps / 2 + i / c->chains);
 }
 
-/* Mean squared difference of draws that lie `lag` steps apart, of chains cut in two. */
+/* Return the mean squared difference of draws `lag` steps apart, over half chains. */
 static double variogram(const struct chains *c, size_t i, size_t n, size_t lag)
 {
     double sum = 0;
@@ -274,21 +277,21 @@ static double variogram(const struct chains *c, size_t i, size_t n, size_t lag)
 
 void ceduo_chains_diagnose(const struct chains *c, size_t i, double *rhat, double *effective_size)
 {
-    size_t n = (c->steps - c->steps / 2) / 2, pieces = 2 * c->chains, stride = c->chains * c->dimensions;
-    double means[2 * CEDUO_CHAINS_MAX], variances[2 * CEDUO_CHAINS_MAX], sum = 0, total = (double)(pieces * n);
-    for (size_t p = 0; p < pieces; p++) { /* each chain cut in two */
+    size_t n = (c->steps - c->steps / 2) / 2, halves = 2 * c->chains, stride = c->chains * c->dimensions;
+    double means[2 * CEDUO_CHAINS_MAX], variances[2 * CEDUO_CHAINS_MAX], sum = 0, total = (double)(halves * n);
+    for (size_t p = 0; p < halves; p++) { /* half chains */
         const double *x = draw_at(c, p / 2, c->steps - (p % 2 + 1) * n) + i;
         means[p] = gsl_stats_mean(x, stride, n);
         variances[p] = gsl_stats_variance_m(x, stride, n, means[p]);
     }
-    double within = gsl_stats_mean(variances, 1, pieces);
-    double all = within * ((double)n - 1) / (double)n + gsl_stats_variance(means, 1, pieces);
-    *rhat = within > 0 ? sqrt(all / within) : NAN;
-    for (size_t lag = 1; lag + 1 < n; lag += 2) { /* until two neighbours no longer agree (Geyer 1992) */
+    double variance_within = gsl_stats_mean(variances, 1, halves);
+    double all = variance_within * ((double)n - 1) / (double)n + gsl_stats_variance(means, 1, halves);
+    *rhat = variance_within > 0 ? sqrt(all / variance_within) : NAN;
+    for (size_t lag = 1; lag + 1 < n; lag += 2) { /* initial positive sequence (Geyer 1992) */
         double pair = 2 - (variogram(c, i, n, lag) + variogram(c, i, n, lag + 1)) / (2 * all);
         if (!(pair > 0))
             break;
         sum += pair;
     }
-    *effective_size = total / (1 + 2 * sum); /* at most the number of draws: only sums above 0 are added */
+    *effective_size = total / (1 + 2 * sum); /* at most the number of draws: pairs are positive */
 }

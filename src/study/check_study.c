@@ -5,14 +5,14 @@
 
 #include "core/runs/check.h"
 
-static enum ceduo_status good_or_not(bool good)
+static enum ceduo_status check_status(bool good)
 {
     return good ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
 }
 
 /* ---- inputs ---- */
 
-static bool is_law_good(const struct ceduo_input *in, bool placed)
+static bool is_distribution_valid(const struct ceduo_input *in, bool has_places)
 {
     bool finite = isfinite(in->mean) && isfinite(in->sd) && in->sd > 0, draws = in->draws && in->draws_count > 0;
     switch (in->kind) {
@@ -24,7 +24,7 @@ static bool is_law_good(const struct ceduo_input *in, bool placed)
     case CEDUO_INPUT_GAMMA:
         return finite && in->mean > 0 && in->sd <= CEDUO_GAMMA_MAX * in->mean;
     case CEDUO_INPUT_WORDS:
-        return in->words_count > 0 && (in->words || !placed);
+        return in->words_count > 0 && (in->words || !has_places);
     case CEDUO_INPUT_DRAWS:
         for (size_t k = 0; draws && k < in->places_count; k++)
             draws = in->draws[k];
@@ -33,21 +33,22 @@ static bool is_law_good(const struct ceduo_input *in, bool placed)
     return false;
 }
 
-enum ceduo_status ceduo_check_inputs(const struct ceduo_input *inputs, size_t n, bool placed)
+enum ceduo_status ceduo_check_inputs(const struct ceduo_input *inputs, size_t n, bool has_places)
 {
     bool good = inputs || n == 0;
     for (size_t i = 0; good && i < n; i++) {
-        good = is_law_good(&inputs[i], placed) && (!placed || inputs[i].places || inputs[i].places_count == 0);
-        for (size_t k = 0; good && placed && k < inputs[i].places_count; k++)
+        good =
+            is_distribution_valid(&inputs[i], has_places) && (!has_places || inputs[i].places || inputs[i].places_count == 0);
+        for (size_t k = 0; good && has_places && k < inputs[i].places_count; k++)
             good = inputs[i].places[k];
     }
-    return good_or_not(good);
+    return check_status(good);
 }
 
 /* ---- uncertainty ---- */
 
-/* True if an answer computed before is of the same scene, with the years that are asked for. */
-static bool is_own_good(const struct ceduo_uncertainty_def *def)
+/* True if `own` is NULL, or covers all options, with their years if a rotation is requested. */
+static bool is_own_valid(const struct ceduo_uncertainty_def *def)
 {
     const struct ceduo_results *own = def->own;
     size_t options = def->scene->options_count;
@@ -70,35 +71,35 @@ enum ceduo_status ceduo_check_uncertainty_def(const struct ceduo_uncertainty_def
                   def->points <= CEDUO_UNCERTAINTY_POINTS_MAX && def->points_max <= CEDUO_UNCERTAINTY_POINTS_MAX &&
                   def->years_max <= CEDUO_UNCERTAINTY_YEARS_MAX && def->rocks <= CEDUO_ROCKS_MAX &&
                   def->own_rocks <= CEDUO_ROCKS_MAX && def->threads <= CEDUO_THREADS_MAX;
-    bool good = counts && (!def->alone || def->option < options) && is_own_good(def) &&
+    bool good = counts && (!def->alone || def->option < options) && is_own_valid(def) &&
                 (def->window.step == 0 || ceduo_check_window(def->window) == CEDUO_OK);
     return good ? ceduo_check_inputs(def->inputs, def->inputs_count, true) : CEDUO_BAD_ARGUMENT;
 }
 
 /* ---- fits ---- */
 
-enum ceduo_status ceduo_check_observations(const struct ceduo_observation *seen, size_t n, size_t options)
+enum ceduo_status ceduo_check_observations(const struct ceduo_observation *observations, size_t n, size_t options)
 {
-    bool good = seen || n == 0;
+    bool good = observations || n == 0;
     for (size_t i = 0; good && i < n; i++) {
-        const struct ceduo_observation *o = &seen[i];
+        const struct ceduo_observation *o = &observations[i];
         good = (size_t)o->kind < CEDUO_OBSERVED_KINDS && (options == 0 || o->option < options) &&
-               (o->kind != CEDUO_OBSERVED_PASSED || o->count <= o->of) && (!o->values || o->n > 0);
+               (o->kind != CEDUO_OBSERVED_PASSED || o->count <= o->released_count) && (!o->values || o->n > 0);
         for (size_t k = 0; good && o->values && k < o->n; k++)
             good = !isnan(o->values[k]);
     }
-    return good_or_not(good);
+    return check_status(good);
 }
 
 static enum ceduo_status check_fitted_scene(const struct ceduo_calibration_scene *s, size_t parameters)
 {
     enum ceduo_status status = ceduo_scene_check(s->scene, NULL);
     if (status == CEDUO_OK)
-        status = good_or_not(s->scene->options_count > 0 && s->inputs);
+        status = check_status(s->scene->options_count > 0 && s->inputs);
     if (status == CEDUO_OK)
         status = ceduo_check_inputs(s->inputs, parameters, true);
     for (size_t i = 0; status == CEDUO_OK && i < parameters; i++)
-        status = good_or_not(s->inputs[i].kind == CEDUO_INPUT_RANGE && s->inputs[i].lo < s->inputs[i].hi);
+        status = check_status(s->inputs[i].kind == CEDUO_INPUT_RANGE && s->inputs[i].lo < s->inputs[i].hi);
     return status == CEDUO_OK ? ceduo_check_observations(s->observations, s->observations_count, s->scene->options_count)
                               : status;
 }
@@ -106,9 +107,9 @@ static enum ceduo_status check_fitted_scene(const struct ceduo_calibration_scene
 enum ceduo_status ceduo_check_calibration_def(const struct ceduo_calibration_def *def)
 {
     enum ceduo_status status =
-        good_or_not(def->scenes && def->scenes_count > 0 && def->parameters_count > 0 &&
-                    def->parameters_count <= CEDUO_CALIBRATION_MAX && def->rocks > 0 && def->rocks <= CEDUO_ROCKS_MAX &&
-                    def->threads <= CEDUO_THREADS_MAX && def->steps_max <= CEDUO_CALIBRATION_STEPS);
+        check_status(def->scenes && def->scenes_count > 0 && def->parameters_count > 0 &&
+                     def->parameters_count <= CEDUO_CALIBRATION_MAX && def->rocks > 0 && def->rocks <= CEDUO_ROCKS_MAX &&
+                     def->threads <= CEDUO_THREADS_MAX && def->steps_max <= CEDUO_CALIBRATION_STEPS);
     for (size_t i = 0; status == CEDUO_OK && i < def->scenes_count; i++)
         status = check_fitted_scene(&def->scenes[i], def->parameters_count);
     return status;
@@ -118,7 +119,7 @@ enum ceduo_status ceduo_check_calibration_def(const struct ceduo_calibration_def
 
 enum ceduo_status ceduo_check_find_def(const struct ceduo_find_def *def)
 {
-    return good_or_not(def->goal && isfinite(def->lo) && isfinite(def->hi) && isfinite(def->hi - def->lo));
+    return check_status(def->goal && isfinite(def->lo) && isfinite(def->hi) && isfinite(def->hi - def->lo));
 }
 
 enum ceduo_status ceduo_check_survey(const struct ceduo_survey *s)
@@ -134,5 +135,5 @@ enum ceduo_status ceduo_check_survey(const struct ceduo_survey *s)
                stem->species < (int)species && stem->dbh > 0 && isfinite(stem->dbh) &&
                (stem->kind != CEDUO_SURVEY_SHOOT || stem->stool < s->stools_count);
     }
-    return good_or_not(good);
+    return check_status(good);
 }

@@ -7,11 +7,12 @@
 #include "ceduo/survey.h"
 #include "ceduo/uncertainty.h"
 
-/* As core/runs/check.h, for what callers fill in of studies. */
+/* Checks of the definitions that callers of studies fill in, as core/runs/check.h. Return CEDUO_OK, CEDUO_BAD_ARGUMENT or
+ * the status of ceduo_scene_check(). */
 
-/* `placed`: their places are used, not only their laws. */
-enum ceduo_status ceduo_check_inputs(const struct ceduo_input *inputs, size_t n, bool placed);
-/* `options`: how many the scene has; 0: not known yet. */
+/* `has_places`: check the places, too, not only the distributions. */
+enum ceduo_status ceduo_check_inputs(const struct ceduo_input *inputs, size_t n, bool has_places);
+/* `options`: number of options of the scene; 0: unknown. */
 enum ceduo_status ceduo_check_observations(const struct ceduo_observation *observations, size_t n, size_t options);
 enum ceduo_status ceduo_check_uncertainty_def(const struct ceduo_uncertainty_def *def);
 enum ceduo_status ceduo_check_calibration_def(const struct ceduo_calibration_def *def);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rocks that a point meets are known only once some are simulated: a few points of a few rocks are the pilot. All other parts of
- * the effort follow from the scene. Their weights were measured. */
+/* Estimates the effort of an uncertainty analysis. Contacts and stems of a rock are estimated by a pilot: a few points of a few
+ * rocks. All other parts follow from the scene. Their weights were measured. */
 #include "effort.h"
 
 #include <math.h>
@@ -9,18 +9,18 @@
 #include "base/parallel.h"
 #include "points.h"
 
-#define PER_ROCK    24.      /* started and read */
-#define PER_RUN     3300.    /* a forest prepared */
-#define PER_VERTEX  15.      /* of the simplified profile, prepared for a run */
-#define PER_POINT   .7       /* of the profile as filed, simplified for a run */
-#define PER_PASS    .17      /* a rock that rolls past a vertex */
-#define PER_FIT     6e5      /* a figure at CEDUO_UNCERTAINTY_POINTS points */
+#define PER_ROCK    24.      /* start and read a rock */
+#define PER_RUN     3300.    /* prepare a forest */
+#define PER_VERTEX  15.      /* prepare a vertex of the simplified profile, per run */
+#define PER_POINT   .7       /* simplify a point of the profile of the file, per run */
+#define PER_PASS    .17      /* roll past a vertex, per rock */
+#define PER_FIT     6e5      /* fit a figure at CEDUO_UNCERTAINTY_POINTS points */
 #define FITS        3        /* figures of an option today */
-#define FITS_YEARS  2        /* of its rotation, and half of one for each year */
-#define PLANNED     (2. / 3) /* of the bound: later points may meet more than the pilot */
+#define FITS_YEARS  2        /* figures of its rotation; and half of one per year */
+#define PLANNED     (2. / 3) /* share of the bound; later points may need more than the pilot */
 #define PILOT       8        /* points */
-#define PILOT_YEARS 4        /* a forest just cut has many times the stems */
-#define ROCKS_MIN   100      /* of a point, if there are more at first */
+#define PILOT_YEARS 4        /* several, as the number of stems changes over a rotation */
+#define ROCKS_MIN   100      /* per point, unless fewer are requested */
 #define YEARS_MIN   8
 
 double ceduo_effort_compute(const struct ceduo_scene *scene, const struct ceduo_work *work)
@@ -30,13 +30,12 @@ double ceduo_effort_compute(const struct ceduo_scene *scene, const struct ceduo_
            runs * (PER_RUN + PER_VERTEX * vertices + PER_POINT * (double)scene->slope.points);
 }
 
-/* Runs of a point, and what one rock of each option meets in all of them. */
 struct plan {
     const struct ceduo_uncertainty_def *def;
-    double met, most;
+    double met, max; /* contacts and stems of one rock of each option in all runs of a point; the bound */
 };
 
-static double effort_of(const struct plan *plan, double met)
+static double estimate_effort(const struct plan *plan, double met)
 {
     const struct ceduo_uncertainty_def *def = plan->def;
     double options = (double)def->scene->options_count, years = def->rotation ? options * (double)ceduo_points_years(def) : 0;
@@ -48,32 +47,32 @@ static double effort_of(const struct plan *plan, double met)
            fits * PER_FIT * pow(points / CEDUO_UNCERTAINTY_POINTS, 2);
 }
 
-/* Sets the points to as many as can be afforded, at most `points`. */
-static size_t afford(const struct plan *plan, struct ceduo_uncertainty_def *def, size_t points)
+/* Set the number of points that the bound allows, at most `points`. */
+static size_t reduce_points(const struct plan *plan, struct ceduo_uncertainty_def *def, size_t points)
 {
     def->points = points;
-    while (def->points > 0 && effort_of(plan, plan->met) > PLANNED * plan->most)
+    while (def->points > 0 && estimate_effort(plan, plan->met) > PLANNED * plan->max)
         def->points--;
     return def->points;
 }
 
-/* Reduces points to a quarter of `points`, then rocks and points alike, then years, then points alone. The error of a range by the
- * rocks, which all points have in common, is the larger one from some 64 points on. False if too few points are left. */
+/* Reduce points to a quarter of `points`, then rocks and points equally, then years, then points alone. From about 64 points
+ * on the sampling error of the rocks dominates the error of a range. Return false if too few points remain. */
 static bool reduce(const struct plan *plan, struct ceduo_uncertainty_def *def, size_t points, uint64_t rocks)
 {
-    uint64_t least = rocks < ROCKS_MIN ? rocks : ROCKS_MIN;
-    size_t enough = points / 4;
+    uint64_t rocks_min = rocks < ROCKS_MIN ? rocks : ROCKS_MIN;
+    size_t points_min = points / 4;
     def->years_max = 0;
-    for (def->rocks = rocks; afford(plan, def, points) < enough && def->rocks > least; enough /= 2)
-        def->rocks = def->rocks / 2 > least ? def->rocks / 2 : least;
+    for (def->rocks = rocks; reduce_points(plan, def, points) < points_min && def->rocks > rocks_min; points_min /= 2)
+        def->rocks = def->rocks / 2 > rocks_min ? def->rocks / 2 : rocks_min;
     if (def->points < points / 4 && def->rotation) {
         def->years_max = YEARS_MIN;
-        afford(plan, def, points);
+        reduce_points(plan, def, points);
     }
     return def->points >= CEDUO_UNCERTAINTY_MIN;
 }
 
-/* Sets what a rock of each option meets at the points, in the mean. */
+/* Set the mean of plan->met over a few points. */
 static enum ceduo_status run_pilot(const struct ceduo_uncertainty_def *def, struct plan *plan)
 {
     struct ceduo_uncertainty_def pilot = *def;
@@ -84,7 +83,7 @@ static enum ceduo_status run_pilot(const struct ceduo_uncertainty_def *def, stru
     pilot.alone = false;
     double rocks =
         (double)pilot.rocks + (pilot.rotation ? (double)(ceduo_points_years(&pilot) * CEDUO_UNCERTAINTY_YEAR_ROCKS) : 0);
-    pilot.effort_max = (uint64_t)((1 - PLANNED) * plan->most);
+    pilot.effort_max = (uint64_t)((1 - PLANNED) * plan->max);
     enum ceduo_status status =
         u ? ceduo_surface_points(def->scene->simulation.seed, PILOT, def->inputs_count, u) : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
@@ -99,7 +98,7 @@ enum ceduo_status ceduo_effort_bound(struct ceduo_uncertainty_def *def, const st
     size_t points = def->points;
     uint64_t rocks = def->rocks > CEDUO_SURFACE_GROUPS ? def->rocks : CEDUO_SURFACE_GROUPS;
     double own_effort = own ? ceduo_effort_compute(def->scene, own) : INFINITY;
-    struct plan plan = {.def = def, .most = fmin(CEDUO_EFFORT_MAX, fmax(CEDUO_EFFORT_MIN, CEDUO_EFFORT_TIMES * own_effort))};
+    struct plan plan = {.def = def, .max = fmin(CEDUO_EFFORT_MAX, fmax(CEDUO_EFFORT_MIN, CEDUO_EFFORT_TIMES * own_effort))};
     enum ceduo_status status = run_pilot(def, &plan);
     bool too_much = status == CEDUO_CANCELLED && !ceduo_cancelled(def->cancel);
     if (status != CEDUO_OK && !too_much)
@@ -110,6 +109,6 @@ enum ceduo_status ceduo_effort_bound(struct ceduo_uncertainty_def *def, const st
         enough = reduce(&plan, def, points, rocks);
     }
     def->points = def->points_max = enough ? def->points : 0;
-    def->effort_max = (uint64_t)(plan.most - effort_of(&plan, 0));
+    def->effort_max = (uint64_t)(plan.max - estimate_effort(&plan, 0));
     return CEDUO_OK;
 }

@@ -12,7 +12,7 @@
 #include "check_study.h"
 
 #define SAMPLES_MAX 128   /* bisection needs at most 54, the ends and the scan 10 */
-#define ROUNDING    1e-12 /* relative: no turn of a goal */
+#define ROUNDING    1e-12 /* relative; smaller changes of a goal are not turns */
 
 struct sample {
     double value, goal;
@@ -21,9 +21,9 @@ struct sample {
 struct search {
     const struct ceduo_find_def *def;
     double lo, hi;
-    enum ceduo_status status; /* once it is not CEDUO_OK nothing more is evaluated */
+    enum ceduo_status status; /* unless CEDUO_OK, nothing is evaluated any longer */
     size_t count;
-    struct sample samples[SAMPLES_MAX]; /* by value */
+    struct sample samples[SAMPLES_MAX]; /* sorted by value */
 };
 
 static bool passes(const struct search *h, double goal)
@@ -54,11 +54,11 @@ static bool evaluate(struct search *h, double value, double *goal)
     return true;
 }
 
-/* Halve the distance between two samples, of which one passes. Return the last that passes. */
+/* Bisect between a sample that passes and one that fails. Return the last that passes. */
 static struct sample bisect(struct search *h, struct sample pass, struct sample fail)
 {
-    double share = h->def->tolerance > 0 ? fmax(h->def->tolerance, DBL_EPSILON) : CEDUO_FIND_TOLERANCE;
-    double width = h->def->whole ? 1 : share * (h->hi - h->lo), goal;
+    double tolerance = h->def->tolerance > 0 ? fmax(h->def->tolerance, DBL_EPSILON) : CEDUO_FIND_TOLERANCE;
+    double width = h->def->whole ? 1 : tolerance * (h->hi - h->lo), goal;
     for (double distance; (distance = fabs(pass.value - fail.value)) > width;) {
         double lo = fmin(fail.value, pass.value), value = lo + (h->def->whole ? floor(distance / 2) : distance / 2);
         if (!(value > lo && value < lo + distance) || !evaluate(h, value, &goal))
@@ -70,10 +70,10 @@ static struct sample bisect(struct search *h, struct sample pass, struct sample 
 
 static void find_crossing(struct search *h, struct ceduo_found *found)
 {
-    double at_lo, at_hi;
-    if (!evaluate(h, h->lo, &at_lo) || !evaluate(h, h->hi, &at_hi))
+    double goal_lo, goal_hi;
+    if (!evaluate(h, h->lo, &goal_lo) || !evaluate(h, h->hi, &goal_hi))
         return;
-    bool lo = passes(h, at_lo), hi = passes(h, at_hi);
+    bool lo = passes(h, goal_lo), hi = passes(h, goal_hi);
     for (int i = 1; lo == hi && i <= CEDUO_FIND_SCAN; i++) {
         double value = h->lo + (h->hi - h->lo) * i / (CEDUO_FIND_SCAN + 1), goal;
         evaluate(h, h->def->whole ? round(value) : value, &goal);
@@ -85,12 +85,12 @@ static void find_crossing(struct search *h, struct ceduo_found *found)
         first++;
     if (h->status != CEDUO_OK || first == h->count)
         return;
-    const struct sample *at = &h->samples[lo && hi && failing > 0 ? failing : first];
-    struct sample pass = *at;
+    const struct sample *crossing = &h->samples[lo && hi && failing > 0 ? failing : first];
+    struct sample pass = *crossing;
     found->side = lo && !hi ? CEDUO_LARGEST : CEDUO_SMALLEST;
     found->whole_range = failing == 0;
     if (!found->whole_range)
-        pass = bisect(h, pass, lo && !hi ? at[1] : at[-1]);
+        pass = bisect(h, pass, lo && !hi ? crossing[1] : crossing[-1]);
     if (h->status != CEDUO_OK)
         return;
     found->found = true;
@@ -99,7 +99,7 @@ static void find_crossing(struct search *h, struct ceduo_found *found)
     found->goal_at_value = pass.goal;
 }
 
-/* Set whether the goal turns, and where it is least. */
+/* Set if the goal is monotone, and its smallest sample. */
 static void read_samples(const struct search *h, struct ceduo_found *found)
 {
     bool rises = false, falls = false;

@@ -6,20 +6,19 @@
 
 #include "base/parallel.h"
 #include "ceduo/calibrate.h"
-#include "guess.h"
 #include "inputs.h"
+#include "surrogate.h"
 
-/* A calibration from inside: calibrate.c fits, predict.c reads what the fit says of all that was seen. */
+/* State of a calibration: calibrate.c fits, predict.c predicts the observations. */
 
 struct fitting_scene {
     size_t fit_count;
-    struct ceduo_observer *fit, *all; /* fit: of those that are not only to check */
+    struct ceduo_observer *fit, *all; /* fit: without the observations held back for checking */
 };
 
-/* What a worker needs for itself. */
 struct fitting_worker {
     struct input_scene *copies; /* [scene] */
-    struct ceduo_observation_fit *counterparts;
+    struct ceduo_observation_fit *fits;
 };
 
 struct fitting {
@@ -29,23 +28,24 @@ struct fitting {
     size_t fit_count, all_count; /* observations of all scenes */
     size_t workers_count;
     struct fitting_worker *workers;
-    struct guess guess;
-    double *known, *known_values; /* what it learns from: Sobol' points, then what the chains have tried; log-likelihoods */
-    size_t known_count, known_room;
+    struct surrogate surrogate;
+    double *training,
+        *training_values; /* training points of the surrogate, with log-likelihoods: Sobol' points, then proposals */
+    size_t training_count, training_capacity;
     double starts[CEDUO_CALIBRATION_CHAINS * CEDUO_CALIBRATION_MAX];
     pthread_mutex_t lock;
     struct talk talk;
-    double best[CEDUO_CALIBRATION_MAX], most; /* under `lock`, as are: */
-    uint64_t evaluations;
-    const double *draws;                 /* that predictions are made from: [draw][parameter] in 0…1; the last is the best */
+    double best[CEDUO_CALIBRATION_MAX], best_log_likelihood; /* guarded by `lock` */
+    uint64_t evaluations;                                    /* guarded by `lock` */
+    const double *draws;                 /* for predictions: [draw][parameter] in (0, 1); the last row is the best point */
     struct ceduo_observation_fit *drawn; /* [draw][observation] */
 };
 
-/* What rocks do at a place: one counterpart for each observation, of all, or of those that are fitted. */
-enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all,
-                                     struct ceduo_observation_fit *to);
+/* Simulate the scenes at a point. Sets to[] for each observation; `all`: also for those held back for checking. */
+enum ceduo_status ceduo_fitting_simulate(struct fitting *f, size_t worker, const double *u, bool all,
+                                         struct ceduo_observation_fit *to);
 
-/* Fills what a calibration says of its observations, from its draws. */
+/* Predict all observations from the draws of a calibration. */
 enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibration *answer);
 
 #endif

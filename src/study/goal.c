@@ -12,21 +12,21 @@ const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
     [CEDUO_GOAL_FREE_RUN] = {"free-run", N_("chance of a free run"), "%", false, false,
                              "the chance of a free run in the worst belt", "0.1"},
     [CEDUO_GOAL_ENERGY] = {"energy", N_("mean energy"), "kJ", false, true,
-                           "the mean energy of the rocks that arrive through the forest (with contact_model: index what the "
-                           "index leaves of the mean without forest)",
+                           "the mean energy of the rocks that arrive through the forest (with contact_model: index "
+                           "the energy left by the index)",
                            NULL},
     [CEDUO_GOAL_EXCEED] = {"exceed", N_("share with too much energy"), "%", false, true,
-                           "the share of the released that arrive through the forest with more than the place withstands",
+                           "the share of released rocks that arrive through the forest with more than accepted_kJ",
                            "0.05, or with blocks one rock in accepted_return_y"},
     [CEDUO_GOAL_ARRIVE] = {"arrive", N_("share that arrives"), "%", false, true,
-                           "the share of the released that arrive through the forest (with contact_model: index without "
-                           "forest)",
+                           "the share of released rocks that arrive through the forest (with contact_model: index "
+                           "without forest)",
                            NULL},
     [CEDUO_GOAL_WORST_EXCEED] = {"worst-exceed", N_("share with too much energy in the worst year"), "%", false, true,
-                                 "the same as exceed in the worst of the years ahead, with or without --years",
+                                 "exceed in the worst of the years ahead, with or without --years",
                                  "0.05, or with blocks one rock in accepted_return_y"},
     [CEDUO_GOAL_WORST_ARRIVE] = {"worst-arrive", N_("share that arrives in the worst year"), "%", false, true,
-                                 "the same as arrive in the worst of the years ahead, with or without --years", NULL}};
+                                 "arrive in the worst of the years ahead, with or without --years", NULL}};
 
 bool ceduo_goal_is_share(enum ceduo_goal goal)
 {
@@ -51,27 +51,27 @@ void ceduo_goal_words(struct text *text)
 
 double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_scene *scene)
 {
-    double exceed = 1; /* of the control with the strictest limit */
+    double exceed = 1; /* at the control with the strictest limit */
     for (size_t c = 0; c < scene->controls_count; c++)
         exceed = fmin(exceed, ceduo_exceed_limit(scene, &scene->controls[c]));
     const double limits[CEDUO_GOALS] = {scene->simulation.threshold, CEDUO_FREE_RUN_MAX, NAN, exceed, NAN, exceed, NAN};
     return limits[goal];
 }
 
-/* At one control; `wooded` NULL: nothing was simulated through the forest. */
-static double value_at(enum ceduo_goal goal, const struct ceduo_index *index, const struct ceduo_arrivals *wooded,
-                       const struct ceduo_arrivals *bare)
+/* Return the goal at one control. `wooded` may be NULL (not simulated). */
+static double goal_at_control(enum ceduo_goal goal, const struct ceduo_index *index, const struct ceduo_arrivals *wooded,
+                              const struct ceduo_arrivals *bare)
 {
     const struct ceduo_arrivals *arrivals = wooded ? wooded : bare;
     return goal == CEDUO_GOAL_ADC            ? index->worst_adc
            : goal == CEDUO_GOAL_FREE_RUN     ? index->worst_free_run
            : ceduo_goal_needs_accepted(goal) ? arrivals->exceed.mean
            : ceduo_goal_is_share(goal)       ? arrivals->reach.mean
-           : arrivals->reached == 0          ? 0 /* where no rock arrives all is well */
+           : arrivals->reached == 0          ? 0 /* no rock arrives */
                                              : (wooded ? arrivals->energy.mean : index->residual) * 1e-3;
 }
 
-static double worse_of(double a, double b)
+static double nan_max(double a, double b)
 {
     return isnan(b) || b > a ? b : a;
 }
@@ -94,11 +94,11 @@ double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *resul
                                                   : y->wooded.rocks > 0 ? &y->wooded.arrivals[c]
                                                                         : NULL;
             const struct ceduo_index *controls = y ? y->controls : result->options[option].controls;
-            double value = value_at(goal, &controls[c], wooded, &result->bare.arrivals[c]);
-            worst_year = worse_of(worst_year, value);
+            double value = goal_at_control(goal, &controls[c], wooded, &result->bare.arrivals[c]);
+            worst_year = nan_max(worst_year, value);
             sum += value;
         }
-        worst = worse_of(worst, ceduo_goal_is_mean(goal) ? sum / (double)n : worst_year);
+        worst = nan_max(worst, ceduo_goal_is_mean(goal) ? sum / (double)n : worst_year);
     }
     return worst;
 }

@@ -9,11 +9,11 @@
 #include "base/gsl_errors.h"
 #include "scene/value.h"
 
-#define CUT 3 /* standard deviations */
+#define CUT 3 /* normal and gamma inputs are truncated at this normal score */
 
 struct input_place {
     struct value value;
-    double given; /* in the file's unit */
+    double given; /* value of the scene as given, in the unit of files */
 };
 
 struct ceduo_input ceduo_input_default(void)
@@ -23,7 +23,7 @@ struct ceduo_input ceduo_input_default(void)
 
 /* ---- the copy ---- */
 
-/* Replaces *items by a copy of n of them. */
+/* Replace *items by a copy of n items. */
 static void copy_items(struct arena *arena, void *items, size_t n, size_t size)
 {
     void *from, *to = ceduo_arena_alloc(arena, n * size + 1);
@@ -39,7 +39,7 @@ static void copy_stand(struct arena *arena, struct ceduo_stand *stand)
     copy_items(arena, &stand->trees, stand->trees_count, sizeof *stand->trees);
 }
 
-/* Copies all that an input may change. */
+/* Copy everything that an input may change. */
 static bool copy_scene(struct arena *arena, struct ceduo_scene *scene)
 {
     struct ceduo_slope *s = &scene->slope;
@@ -60,19 +60,19 @@ static bool copy_scene(struct arena *arena, struct ceduo_scene *scene)
     return !arena->failed;
 }
 
-/* Shoots whose per_ha is an input are no longer counted by their stools. */
+/* Remove per_stool of shoots whose per_ha is an input. */
 static void drop_per_stool(struct input_scene *copy, const char *place)
 {
     const char *key = strrchr(place, '.');
-    struct text other = {0};
+    struct text path = {0};
     struct value value;
     if (!key || strcmp(key, ".per_ha") != 0)
         return;
-    ceduo_text_format(&other, "%.*s.per_stool", (int)(key - place), place);
-    if (other.bytes && ceduo_value_find(&copy->scene, other.bytes, &value))
+    ceduo_text_format(&path, "%.*s.per_stool", (int)(key - place), place);
+    if (path.bytes && ceduo_value_find(&copy->scene, path.bytes, &value))
         ceduo_value_forget(&value);
-    copy->arena.failed |= other.failed;
-    ceduo_text_free(&other);
+    copy->arena.failed |= path.failed;
+    ceduo_text_free(&path);
 }
 
 enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo_scene *scene, const struct ceduo_input *inputs,
@@ -126,7 +126,7 @@ bool ceduo_input_is_future(const struct ceduo_input *input)
 double ceduo_input_quantile(const struct ceduo_input *input, double u)
 {
     GSL_RETURNS_ERRORS;
-    double least = gsl_cdf_ugaussian_P(-CUT), p = least + u * (1 - 2 * least), ratio = input->sd / input->mean;
+    double tail = gsl_cdf_ugaussian_P(-CUT), p = tail + u * (1 - 2 * tail), ratio = input->sd / input->mean;
     if (input->kind == CEDUO_INPUT_NORMAL)
         return input->mean + input->sd * gsl_cdf_ugaussian_Pinv(p);
     if (input->kind == CEDUO_INPUT_GAMMA)
@@ -134,7 +134,7 @@ double ceduo_input_quantile(const struct ceduo_input *input, double u)
     return input->lo + u * (input->hi - input->lo);
 }
 
-static double value_at(const struct ceduo_input *input, size_t k, const struct input_place *place, double u)
+static double place_value(const struct ceduo_input *input, size_t k, const struct input_place *place, double u)
 {
     switch (input->kind) {
     case CEDUO_INPUT_FACTOR:
@@ -148,8 +148,8 @@ static double value_at(const struct ceduo_input *input, size_t k, const struct i
     }
 }
 
-/* What lies outside the range of the value is set to the end of the range; NaN: it is not given. */
-static void put(const struct value *value, double number)
+/* Set a value, clamped to its range; NaN: not given. */
+static void set_value(const struct value *value, double number)
 {
     const struct field *f = value->field;
     if (f->type == FIELD_COUNT)
@@ -160,18 +160,18 @@ static void put(const struct value *value, double number)
         ceduo_value_set(value, fmin(fmax(number, nextafter(f->lo, INFINITY)), nextafter(f->hi, -INFINITY)));
 }
 
-static void mend_stools(struct ceduo_scene *scene)
+static void limit_stools(struct ceduo_scene *scene)
 {
     for (size_t i = 0; i < scene->options_count; i++)
         for (size_t k = 0; k < scene->options[i].belts_count; k++) {
             struct ceduo_stand *stand = &scene->options[i].belts[k].stand;
             ceduo_stand_update_shoot_density(stand);
-            if (stand->shoots_count > 0) /* just cut they have none, and live on */
+            if (stand->shoots_count > 0) /* stools just cut have no shoots, and live on */
                 stand->stools_per_ha = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
         }
 }
 
-/* What counting and mending have changed is as given again, whether it is an input or not. */
+/* Restore the densities that the last ceduo_inputs_set() derived. */
 static void restore_stools(struct input_scene *copy)
 {
     for (size_t i = 0; i < copy->scene.options_count; i++)
@@ -190,6 +190,6 @@ void ceduo_inputs_set(struct input_scene *copy, const double *u)
     restore_stools(copy);
     for (size_t i = 0; i < copy->inputs_count; i++)
         for (size_t k = 0; k < copy->inputs[i].places_count; k++, p++)
-            put(&p->value, isnan(u[i]) ? p->given : value_at(&copy->inputs[i], k, p, u[i]));
-    mend_stools(&copy->scene);
+            set_value(&p->value, isnan(u[i]) ? p->given : place_value(&copy->inputs[i], k, p, u[i]));
+    limit_stools(&copy->scene);
 }

@@ -5,31 +5,31 @@
 #include "base/arena.h"
 #include "ceduo/uncertainty.h"
 
-/* A copy of a scene whose inputs can be set again and again. It uses no more memory for that. */
+/* A copy of a scene whose inputs can be set repeatedly, without further memory. */
 struct input_place;
 struct input_scene {
     struct arena arena;
     struct ceduo_scene scene;
-    const struct ceduo_scene *given; /* what it is a copy of */
+    const struct ceduo_scene *given; /* the original */
     const struct ceduo_input *inputs;
     size_t inputs_count;
-    struct input_place *places; /* of all inputs, one after the other */
+    struct input_place *places; /* all places of the first input, then of the next */
 };
 
-/* CEDUO_NO_MEMORY; CEDUO_BAD_SLOPE where a place is not one of the scene's. Release it in any case. */
+/* Return CEDUO_OK, CEDUO_NO_MEMORY, or CEDUO_BAD_PLACE if the scene has no such place. The caller releases *copy in any
+ * case. */
 enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo_scene *scene, const struct ceduo_input *inputs,
                                     size_t n);
 void ceduo_inputs_release(struct input_scene *copy);
 
-/* Whether an option has the input: it has a place elsewhere than in other options. */
+/* True if the input affects an option: at least one place is not in another option. */
 bool ceduo_input_affects(const struct ceduo_input *input, size_t option);
 
-/* True if the input changes years to come alone, and no figure of today: its values are numbers of growth, age or cuts. */
+/* True if the input changes only future years: its places are numbers of growth, age or cuts. */
 bool ceduo_input_is_future(const struct ceduo_input *input);
 
-/* Sets each input to the value at u[i] of its range, 0…1; NaN: as the scene has it. Shoots that are given per stool follow
- * the stools, unless their per_ha is an input. A stand whose stools would be more than its shoots has as many stools as
- * shoots. */
+/* Set each input to its quantile u[i], 0…1; NaN: as given. The density of shoots given per stool is updated, unless their
+ * per_ha is an input. The number of stools is limited to that of the shoots. */
 void ceduo_inputs_set(struct input_scene *copy, const double *u);
 
 #endif

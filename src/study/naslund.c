@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Näslund's curve by least squares of the heights, from a usual curve. */
+/* Fits Näslund's curve by nonlinear least squares of the heights. */
 #include "ceduo/naslund.h"
 
 #include <gsl/gsl_blas.h>
@@ -36,20 +36,20 @@ enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *h
 {
     GSL_RETURNS_ERRORS;
     struct pairs pairs = {n, dbh, height};
-    double x[2] = {.5, .15};
+    double x[2] = {.5, .15}; /* a typical curve */
     if (n < CEDUO_NASLUND_MIN || !(gsl_stats_max(dbh, 1, n) > gsl_stats_min(dbh, 1, n)))
         return CEDUO_NO_FIT;
-    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-    gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, n, 2);
+    gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, n, 2);
     if (!w)
         return CEDUO_NO_MEMORY;
     gsl_multifit_nlinear_fdf fdf = {.f = residuals, .n = n, .p = 2, .params = &pairs};
     gsl_vector_view start = gsl_vector_view_array(x, 2);
-    int why;
+    int reason;
     gsl_multifit_nlinear_init(&start.vector, &fdf, w);
-    gsl_multifit_nlinear_driver(STEPS_MAX, EXACT, EXACT, 0, NULL, NULL, &why, w);
+    gsl_multifit_nlinear_driver(STEPS_MAX, EXACT, EXACT, 0, NULL, NULL, &reason, w);
     const gsl_vector *found = gsl_multifit_nlinear_position(w);
-    double sign = gsl_vector_get(found, 1) < 0 ? -1 : 1; /* -a and -b are the same curve */
+    double sign = gsl_vector_get(found, 1) < 0 ? -1 : 1; /* -a and -b give the same curve */
     curve->a = sign * gsl_vector_get(found, 0);
     curve->b = sign * gsl_vector_get(found, 1);
     curve->rmse = gsl_blas_dnrm2(gsl_multifit_nlinear_residual(w)) / sqrt((double)n);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Simulated rocks beside those that were seen. Observations of the same rock, release and option share their rocks: a
- * setting. Of a setting a run is made, whose controls are the places of the observations; or, where something is asked for
- * that a run does not keep, its rocks are followed one by one (record.c). Of every observation this gives one value for each
- * rock, NaN where it has none, and those are compared with what was seen. */
+/* Compares simulated rocks with observations. Observations with the same rock, release and option form a setting and share
+ * its rocks. A setting is simulated by a run whose controls are the observed places, or rock by rock (record.c) if a run
+ * does not keep the observed quantity. This yields one value per observation and rock; NaN: the rock has no value. */
 #include "ceduo/observe.h"
 
 #include <math.h>
@@ -15,9 +14,8 @@
 #include "ceduo/run.h"
 #include "check_study.h"
 
-#define IMPOSSIBLE (-1e4) /* log-likelihood of what no simulated rock does at all */
+#define IMPOSSIBLE (-1e4) /* log-likelihood of an observation that no simulated rock reproduces */
 
-/* What is asked of one setting. */
 struct setting {
     const struct ceduo_rock_def *rock;
     const struct ceduo_release *release;
@@ -25,17 +23,17 @@ struct setting {
     size_t controls_count, stretches_count;
     struct ceduo_control *controls;
     struct ceduo_stretch *stretches;
-    bool follows; /* rocks one by one */
-    bool blows;
+    bool needs_record; /* simulate rock by rock */
+    bool blows;        /* record impacts on stems */
 };
 
-/* How an observation is compared. */
+/* Comparison of one observation. */
 struct plan {
-    const struct ceduo_observation *seen;
+    const struct ceduo_observation *observation;
     const struct ceduo_observed_row *row;
     size_t setting, control, stretch;
     size_t bounds_count;
-    double bounds[CEDUO_CLASSES_MAX]; /* between classes: a value on a bound is below it */
+    double bounds[CEDUO_CLASSES_MAX]; /* upper ends of classes, inclusive, without the last */
     size_t classes;
     double counts[CEDUO_CLASSES_MAX];
 };
@@ -47,7 +45,7 @@ struct ceduo_observer {
     struct setting *settings;
 };
 
-/* ---- making ready ---- */
+/* ---- preparation ---- */
 
 const struct ceduo_observed_row *ceduo_observed_row(enum ceduo_observed_kind kind)
 {
@@ -71,21 +69,21 @@ const struct ceduo_quantity_row *ceduo_observed_quantity(enum ceduo_observed_kin
     return &rows[ceduo_observed_row(kind)->quantity];
 }
 
-static struct setting *setting_of(struct ceduo_observer *o, const struct ceduo_observation *seen, size_t *index)
+static struct setting *find_setting(struct ceduo_observer *o, const struct ceduo_observation *observation, size_t *index)
 {
     for (*index = 0; *index < o->settings_count; ++*index) {
         struct setting *s = &o->settings[*index];
-        if (s->rock == seen->rock && s->release == seen->release && s->option == seen->option)
+        if (s->rock == observation->rock && s->release == observation->release && s->option == observation->option)
             return s;
     }
     struct setting *s = &o->settings[o->settings_count++];
-    *s = (struct setting){.rock = seen->rock, .release = seen->release, .option = seen->option};
+    *s = (struct setting){.rock = observation->rock, .release = observation->release, .option = observation->option};
     s->controls = ceduo_arena_alloc(&o->arena, (o->n + 1) * sizeof *s->controls);
     s->stretches = ceduo_arena_alloc(&o->arena, (o->n + 1) * sizeof *s->stretches);
     return o->arena.failed ? NULL : s;
 }
 
-static size_t control_of(struct setting *s, double x)
+static size_t find_control(struct setting *s, double x)
 {
     size_t i = 0;
     while (i < s->controls_count && s->controls[i].x != x)
@@ -95,7 +93,7 @@ static size_t control_of(struct setting *s, double x)
     return i;
 }
 
-static size_t class_of(const struct plan *p, double value)
+static size_t find_class(const struct plan *p, double value)
 {
     size_t c = 0;
     while (c < p->bounds_count && value > p->bounds[c])
@@ -103,46 +101,46 @@ static size_t class_of(const struct plan *p, double value)
     return c;
 }
 
-/* Classes between a list's own quantiles, halfway between two values. Values are sorted. */
+/* Bin a sorted list at its own quantiles. Bounds lie halfway between two values. */
 static void make_classes(struct plan *p)
 {
-    const struct ceduo_observation *seen = p->seen;
-    size_t n = seen->n, k = n / 5 < CEDUO_CLASSES_MAX - 1 ? n / 5 : CEDUO_CLASSES_MAX - 1;
+    const struct ceduo_observation *observation = p->observation;
+    size_t n = observation->n, k = n / 5 < CEDUO_CLASSES_MAX - 1 ? n / 5 : CEDUO_CLASSES_MAX - 1;
     k = k < 2 ? 2 : k;
     for (size_t c = 1; c < k; c++) {
         size_t rank = (c * n + k / 2) / k;
-        double bound = rank == n ? seen->values[n - 1] : (seen->values[rank - 1] + seen->values[rank]) / 2;
+        double bound = rank == n ? observation->values[n - 1] : (observation->values[rank - 1] + observation->values[rank]) / 2;
         if (p->bounds_count == 0 || bound > p->bounds[p->bounds_count - 1])
             p->bounds[p->bounds_count++] = bound;
     }
     p->classes = p->bounds_count + 1;
     for (size_t i = 0; i < n; i++)
-        p->counts[class_of(p, seen->values[i])]++;
-    if (seen->kind == CEDUO_OBSERVED_STOPS && seen->of > 0)
-        p->counts[p->classes++] = (double)(seen->of - n);
+        p->counts[find_class(p, observation->values[i])]++;
+    if (observation->kind == CEDUO_OBSERVED_STOPS && observation->released_count > 0)
+        p->counts[p->classes++] = (double)(observation->released_count - n);
 }
 
-static bool make_plan(struct ceduo_observer *o, const struct ceduo_observation *seen, struct plan *p)
+static bool make_plan(struct ceduo_observer *o, const struct ceduo_observation *observation, struct plan *p)
 {
-    struct setting *s = setting_of(o, seen, &p->setting);
+    struct setting *s = find_setting(o, observation, &p->setting);
     if (!s)
         return false;
-    p->seen = seen;
-    p->row = ceduo_observed_row(seen->kind);
+    p->observation = observation;
+    p->row = ceduo_observed_row(observation->kind);
     if (p->row->where == CEDUO_WHERE_AT_PLACE)
-        p->control = control_of(s, seen->x);
+        p->control = find_control(s, observation->x);
     if (p->row->where == CEDUO_WHERE_ALONG) {
         p->stretch = s->stretches_count++;
-        s->stretches[p->stretch] = (struct ceduo_stretch){seen->from, seen->to};
+        s->stretches[p->stretch] = (struct ceduo_stretch){observation->from, observation->to};
     }
-    s->follows |= p->row->where >= CEDUO_WHERE_LARGEST;
+    s->needs_record |= p->row->where >= CEDUO_WHERE_LARGEST;
     s->blows |= p->row->where == CEDUO_WHERE_ON_STEMS;
-    if (seen->values) {
+    if (observation->values) {
         make_classes(p);
-    } else if (seen->kind == CEDUO_OBSERVED_PASSED) {
+    } else if (observation->kind == CEDUO_OBSERVED_PASSED) {
         p->classes = 2;
-        p->counts[0] = (double)seen->count;
-        p->counts[1] = (double)(seen->of - seen->count);
+        p->counts[0] = (double)observation->count;
+        p->counts[1] = (double)(observation->released_count - observation->count);
     }
     return true;
 }
@@ -185,8 +183,8 @@ void ceduo_observer_free(struct ceduo_observer *o)
 
 /* ---- rocks ---- */
 
-/* The rocks of one setting: a run, or a record. */
-struct flown {
+/* The rocks of one setting, as a run or a record. */
+struct simulated_setting {
     const struct setting *setting;
     struct ceduo_scene scene;
     uint64_t rocks;
@@ -194,12 +192,12 @@ struct flown {
     struct ceduo_record record;
 };
 
-static enum ceduo_status fly(const struct setting *s, const struct ceduo_scene *scene, uint64_t rocks,
-                             const atomic_bool *cancel, struct flown *f)
+static enum ceduo_status simulate_setting(const struct setting *s, const struct ceduo_scene *scene, uint64_t rocks,
+                                          const atomic_bool *cancel, struct simulated_setting *f)
 {
-    *f = (struct flown){.setting = s, .scene = *scene, .rocks = rocks};
+    *f = (struct simulated_setting){.setting = s, .scene = *scene, .rocks = rocks};
     f->scene.rock = s->rock ? *s->rock : scene->rock;
-    f->scene.blocks_count = 0; /* what is seen is seen of one rock */
+    f->scene.blocks_count = 0; /* an observation is of one rock */
     f->scene.release = s->release ? *s->release : scene->release;
     f->scene.controls_count = s->controls_count;
     f->scene.controls = s->controls;
@@ -208,7 +206,7 @@ static enum ceduo_status fly(const struct setting *s, const struct ceduo_scene *
     const struct ceduo_option *option = &f->scene.options[s->option];
     bool bare = scene->simulation.contact_model == CEDUO_INDEX;
     enum ceduo_status status = ceduo_scene_check(&f->scene, NULL);
-    if (status == CEDUO_OK && s->follows) {
+    if (status == CEDUO_OK && s->needs_record) {
         struct ceduo_record_def def = {.scene = &f->scene,
                                        .option = bare ? NULL : option,
                                        .rocks = rocks,
@@ -226,14 +224,14 @@ static enum ceduo_status fly(const struct setting *s, const struct ceduo_scene *
     return status == CEDUO_OK ? ceduo_run_extend(f->run, rocks) : status;
 }
 
-static void land(struct flown *f)
+static void release_simulated(struct simulated_setting *f)
 {
     ceduo_run_free(f->run);
     ceduo_record_release(&f->record);
 }
 
-/* The value of a rock that was followed; NaN: it has none. */
-static double of_record(const struct flown *f, uint64_t rock, const struct plan *p)
+/* Return the value of a recorded rock; NaN: none. */
+static double read_record(const struct simulated_setting *f, uint64_t rock, const struct plan *p)
 {
     const struct ceduo_rock_record *r = &f->record.rocks[rock];
     const struct ceduo_stretch_means *m = &f->record.means[rock * f->setting->stretches_count + p->stretch];
@@ -251,21 +249,21 @@ static double of_record(const struct flown *f, uint64_t rock, const struct plan 
     return quantity == CEDUO_QUANTITY_ENERGY ? (r->mass * speed2 + r->moment * (c->spin * c->spin)) / 2 : sqrt(speed2);
 }
 
-static bool on_stretch(const struct ceduo_stem_impact *b, const struct plan *p)
+static bool is_on_stretch(const struct ceduo_stem_impact *b, const struct plan *p)
 {
-    return b->x >= p->seen->from && b->x <= p->seen->to;
+    return b->x >= p->observation->from && b->x <= p->observation->to;
 }
 
-/* The n values of one observation, which are the caller's to free; NULL without memory. */
-static double *values_of(const struct flown *f, const struct plan *p, size_t *n)
+/* Return the n simulated values of one observation. The caller frees them. NULL on failure. */
+static double *collect_values(const struct simulated_setting *f, const struct plan *p, size_t *n)
 {
-    bool of_blows = p->row->where == CEDUO_WHERE_ON_STEMS;
-    size_t all = of_blows ? f->record.blows_count : (size_t)f->rocks;
+    bool is_impact = p->row->where == CEDUO_WHERE_ON_STEMS;
+    size_t capacity = is_impact ? f->record.blows_count : (size_t)f->rocks;
     enum ceduo_quantity quantity = p->row->quantity;
-    double *values = malloc((all + 1) * sizeof *values);
-    *n = of_blows || !values ? 0 : all;
-    for (size_t i = 0; values && of_blows && i < all; i++)
-        if (on_stretch(&f->record.blows[i], p))
+    double *values = malloc((capacity + 1) * sizeof *values);
+    *n = is_impact || !values ? 0 : capacity;
+    for (size_t i = 0; values && is_impact && i < capacity; i++)
+        if (is_on_stretch(&f->record.blows[i], p))
             values[(*n)++] = f->record.blows[i].height;
     const double *samples = f->run ? ceduo_run_samples(f->run, p->control,
                                                        p->row->where == CEDUO_WHERE_AT_REST ? CEDUO_SAMPLE_STOP
@@ -273,19 +271,19 @@ static double *values_of(const struct flown *f, const struct plan *p, size_t *n)
                                                        : quantity == CEDUO_QUANTITY_ENERGY  ? CEDUO_SAMPLE_ENERGY
                                                                                             : CEDUO_SAMPLE_SPEED)
                                    : NULL;
-    for (size_t i = 0; i < *n && !of_blows; i++) {
-        values[i] = samples ? samples[i] : of_record(f, i, p);
-        if (p->row->where == CEDUO_WHERE_AT_REST && values[i] < p->seen->from)
+    for (size_t i = 0; i < *n && !is_impact; i++) {
+        values[i] = samples ? samples[i] : read_record(f, i, p);
+        if (p->row->where == CEDUO_WHERE_AT_REST && values[i] < p->observation->from)
             values[i] = NAN;
     }
     return values;
 }
 
-/* ---- comparing ---- */
+/* ---- comparison ---- */
 
-/* Of simulated classes half a rock more in each than there are, so that none is impossible. Where few rocks do what was seen,
- * the classes do not get what the missing ones would bring. */
-static double rocks_of_classes(const double *simulated, size_t classes)
+/* Return the denominator of class shares: at least CEDUO_CLASS_ROCKS_MIN rocks per class, plus the half rock that is added
+ * to each class so that none has probability 0. */
+static double count_class_rocks(const double *simulated, size_t classes)
 {
     double rocks = 0;
     for (size_t i = 0; i < classes; i++)
@@ -293,18 +291,18 @@ static double rocks_of_classes(const double *simulated, size_t classes)
     return fmax(rocks, CEDUO_CLASS_ROCKS_MIN * (double)classes) + (double)classes / 2;
 }
 
-double ceduo_classes_deviance(const double *seen, const double *simulated, size_t classes)
+double ceduo_classes_deviance(const double *observed, const double *simulated, size_t classes)
 {
-    double rocks = rocks_of_classes(simulated, classes), n = 0, deviance = 0;
+    double rocks = count_class_rocks(simulated, classes), n = 0, deviance = 0;
     for (size_t i = 0; i < classes; i++)
-        n += seen[i];
+        n += observed[i];
     for (size_t i = 0; i < classes; i++)
-        if (seen[i] > 0)
-            deviance += 2 * seen[i] * log(seen[i] * rocks / (n * (simulated[i] + 0.5)));
+        if (observed[i] > 0)
+            deviance += 2 * observed[i] * log(observed[i] * rocks / (n * (simulated[i] + 0.5)));
     return deviance;
 }
 
-/* A normal law of a difference. */
+/* Add the normal log-likelihood and deviance of a difference. */
 static void compare_normal(struct ceduo_observation_fit *c, double difference, double variance)
 {
     double z2 = difference * difference / variance;
@@ -316,14 +314,14 @@ static void compare_normal(struct ceduo_observation_fit *c, double difference, d
 static void sum_values(const struct plan *p, const double *values, size_t n, struct ceduo_observation_fit *c)
 {
     struct ceduo_moments m = {0};
-    bool rest = p->classes > p->bounds_count + 1; /* of a list that has no class for it none */
+    bool rest = p->classes > p->bounds_count + 1; /* the last class is for rocks without a value */
     for (size_t i = 0; i < n; i++) {
         if (!isnan(values[i]))
             ceduo_moments_add(&m, values[i]);
-        if (!isnan(values[i]) && c->some_count < CEDUO_SAMPLE_VALUES)
-            c->some[c->some_count++] = values[i];
+        if (!isnan(values[i]) && c->sample_count < CEDUO_SAMPLE_VALUES)
+            c->sample[c->sample_count++] = values[i];
         if (p->classes > 0 && !isnan(values[i]))
-            c->count[p->seen->kind == CEDUO_OBSERVED_PASSED ? 0 : class_of(p, values[i])]++;
+            c->count[p->observation->kind == CEDUO_OBSERVED_PASSED ? 0 : find_class(p, values[i])]++;
         else if (p->classes > 0 && rest)
             c->count[p->classes - 1]++;
     }
@@ -332,54 +330,56 @@ static void sum_values(const struct plan *p, const double *values, size_t n, str
     c->sd = ceduo_moments_sd(&m);
 }
 
-/* How many scars the rocks released leave: their number differs from rock to rock, and the survey finds a share. */
-static bool compare_scars(const struct plan *p, const struct flown *f, struct ceduo_observation_fit *c)
+/* Compare the number of scars with that expected for the released rocks. The number varies from rock to rock, and the survey
+ * finds only a share. Return false on failure of memory. */
+static bool compare_scars(const struct plan *p, const struct simulated_setting *f, struct ceduo_observation_fit *c)
 {
-    const struct ceduo_observation *seen = p->seen;
-    double share = isnan(seen->share_seen) ? 1 : seen->share_seen, of = (double)seen->of, n = (double)f->rocks;
-    double *each = calloc((size_t)f->rocks + 1, sizeof *each);
+    const struct ceduo_observation *observation = p->observation;
+    double share = isnan(observation->share_seen) ? 1 : observation->share_seen, released = (double)observation->released_count,
+           n = (double)f->rocks;
+    double *scars_per_rock = calloc((size_t)f->rocks + 1, sizeof *scars_per_rock);
     struct ceduo_moments m = {0};
-    if (!each)
+    if (!scars_per_rock)
         return false;
     for (size_t i = 0; i < f->record.blows_count; i++)
-        each[f->record.blows[i].rock] += on_stretch(&f->record.blows[i], p);
+        scars_per_rock[f->record.blows[i].rock] += is_on_stretch(&f->record.blows[i], p);
     for (uint64_t i = 0; i < f->rocks; i++)
-        ceduo_moments_add(&m, each[i]);
-    free(each);
-    double variance = m.m2 / (n - 1); /* NaN of one rock */
-    c->scars = of * m.mean * share;
-    c->scars_variance = share * share * variance * of * (1 + of / n) + of * m.mean * share * (1 - share);
-    compare_normal(c, (double)seen->n - c->scars, c->scars_variance);
+        ceduo_moments_add(&m, scars_per_rock[i]);
+    free(scars_per_rock);
+    double variance = m.m2 / (n - 1); /* NaN for one rock */
+    c->scars = released * m.mean * share;
+    c->scars_variance = share * share * variance * released * (1 + released / n) + released * m.mean * share * (1 - share);
+    compare_normal(c, (double)observation->n - c->scars, c->scars_variance);
     return true;
 }
 
-/* False without memory. */
-static bool compare(const struct plan *p, const struct flown *f, const double *values, size_t n,
+/* Return false on failure of memory. */
+static bool compare(const struct plan *p, const struct simulated_setting *f, const double *values, size_t n,
                     struct ceduo_observation_fit *c)
 {
-    const struct ceduo_observation *seen = p->seen;
+    const struct ceduo_observation *observation = p->observation;
     double sum = 0;
-    for (size_t i = 0; seen->values && i < seen->n; i++)
-        sum += seen->values[i];
+    for (size_t i = 0; observation->values && i < observation->n; i++)
+        sum += observation->values[i];
     *c = (struct ceduo_observation_fit){.classes = p->classes,
-                                        .seen_mean = seen->values ? sum / (double)seen->n : seen->mean,
+                                        .observed_mean = observation->values ? sum / (double)observation->n : observation->mean,
                                         .scars = NAN,
                                         .scars_variance = NAN};
-    memcpy(c->seen, p->counts, sizeof c->seen);
+    memcpy(c->observed, p->counts, sizeof c->observed);
     sum_values(p, values, n, c);
-    c->variance = seen->sd * seen->sd / (double)seen->n + c->sd * c->sd / (double)c->rocks;
-    if (p->classes > 0) { /* a multinomial sample */
-        double rocks = rocks_of_classes(c->count, c->classes), all = 0;
+    c->variance = observation->sd * observation->sd / (double)observation->n + c->sd * c->sd / (double)c->rocks;
+    if (p->classes > 0) { /* multinomial */
+        double rocks = count_class_rocks(c->count, c->classes), all = 0;
         for (size_t i = 0; i < c->classes; i++) {
-            all += c->seen[i];
-            c->log_likelihood += c->seen[i] * log((c->count[i] + 0.5) / rocks) - lgamma(c->seen[i] + 1);
+            all += c->observed[i];
+            c->log_likelihood += c->observed[i] * log((c->count[i] + 0.5) / rocks) - lgamma(c->observed[i] + 1);
         }
         c->log_likelihood += lgamma(all + 1);
-        c->deviance += ceduo_classes_deviance(c->seen, c->count, c->classes);
+        c->deviance += ceduo_classes_deviance(c->observed, c->count, c->classes);
     } else {
-        compare_normal(c, c->seen_mean - c->mean, c->variance);
+        compare_normal(c, c->observed_mean - c->mean, c->variance);
     }
-    return seen->kind != CEDUO_OBSERVED_SCARS || seen->of == 0 || compare_scars(p, f, c);
+    return observation->kind != CEDUO_OBSERVED_SCARS || observation->released_count == 0 || compare_scars(p, f, c);
 }
 
 enum ceduo_status ceduo_observer_simulate(const struct ceduo_observer *o, const struct ceduo_scene *scene, uint64_t rocks,
@@ -387,19 +387,19 @@ enum ceduo_status ceduo_observer_simulate(const struct ceduo_observer *o, const 
 {
     enum ceduo_status status = CEDUO_OK;
     for (size_t s = 0; s < o->settings_count && status == CEDUO_OK; s++) {
-        struct flown f;
-        status = fly(&o->settings[s], scene, rocks, cancel, &f);
+        struct simulated_setting f;
+        status = simulate_setting(&o->settings[s], scene, rocks, cancel, &f);
         for (size_t i = 0; i < o->n && status == CEDUO_OK; i++) {
             const struct plan *p = &o->plans[i];
             if (p->setting != s)
                 continue;
             size_t n;
-            double *values = values_of(&f, p, &n);
+            double *values = collect_values(&f, p, &n);
             bool good = values && compare(p, &f, values, n, &to[i]);
             free(values);
             status = !good ? CEDUO_NO_MEMORY : ceduo_cancelled(cancel) ? CEDUO_CANCELLED : CEDUO_OK; /* untaken: race */
         }
-        land(&f);
+        release_simulated(&f);
     }
     return status;
 }
@@ -412,10 +412,10 @@ enum ceduo_status ceduo_observer_values(const struct ceduo_observer *o, const st
     if (which >= o->n)
         return CEDUO_BAD_ARGUMENT;
     const struct plan *p = &o->plans[which];
-    struct flown f;
-    enum ceduo_status status = fly(&o->settings[p->setting], scene, rocks, NULL, &f);
+    struct simulated_setting f;
+    enum ceduo_status status = simulate_setting(&o->settings[p->setting], scene, rocks, NULL, &f);
     if (status == CEDUO_OK)
-        *values = values_of(&f, p, n);
-    land(&f);
+        *values = collect_values(&f, p, n);
+    release_simulated(&f);
     return status == CEDUO_OK && !*values ? CEDUO_NO_MEMORY : status;
 }

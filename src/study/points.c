@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Each thread has a copy of the scene of its own, takes item by item, and the caller writes to the rows of the item alone: so the
- * bits do not depend on the threads. An item is one list of variants, of which no two that are equal are simulated. */
+/* Threads take items, each with its own copy of the scene, and write only to the rows of the item. So the result does not
+ * depend on the number of threads, bit for bit. An item is a list of variants; equal variants are simulated once. */
 #include "points.h"
 
 #include <stdlib.h>
@@ -13,31 +13,31 @@
 
 struct work {
     const struct points *points;
-    size_t from, together;      /* the first row */
-    size_t each, today;         /* variants of a row, first those of today */
-    struct point *variants;     /* option and slot of each */
-    struct input_scene *copies; /* of the scene, for each thread */
-    _Atomic uint64_t effort;    /* of all variants so far */
-    atomic_bool failed;         /* nothing more once any thread has failed */
+    size_t from, together;      /* first row; rows of the first item */
+    size_t each, today;         /* variants of a row, and of them those of today, which come first */
+    struct point *variants;     /* option and slot of each variant of a row */
+    struct input_scene *copies; /* one for each thread */
+    _Atomic uint64_t effort;    /* sum over the simulated variants */
+    atomic_bool failed;         /* a thread has failed: the others stop */
 };
 
 struct item {
     struct work *work;
-    struct control_means *control_means; /* of each variant and control: equal ones are not simulated again */
+    struct control_means *control_means; /* [variant][control] */
     struct input_scene *copy;
-    size_t row, each;          /* the first; variants of each */
-    struct point point;        /* the one at hand */
-    struct ceduo_scene scene;  /* of a year: with other rocks */
-    struct ceduo_years *years; /* of the option at hand */
+    size_t row, each;          /* first row; variants of a row */
+    struct point point;        /* current point */
+    struct ceduo_scene scene;  /* scene of a year, with its own rocks */
+    struct ceduo_years *years; /* years of the current option */
 };
 
-static struct ceduo_window window_of(const struct ceduo_uncertainty_def *def, const struct ceduo_scene *scene)
+static struct ceduo_window find_window(const struct ceduo_uncertainty_def *def, const struct ceduo_scene *scene)
 {
     return def->window.step > 0 ? def->window : ceduo_scene_window(scene);
 }
 
-/* The forest of an option in a year. */
-static enum ceduo_status grow(struct item *item, struct point *point)
+/* Set the forest of a point's year, and its scene. */
+static enum ceduo_status set_year(struct item *item, struct point *point)
 {
     const struct ceduo_uncertainty_def *def = item->work->points->def;
     const struct ceduo_scene *scene = &item->copy->scene;
@@ -45,28 +45,29 @@ static enum ceduo_status grow(struct item *item, struct point *point)
     if (year == 0) {
         ceduo_years_free(item->years);
         enum ceduo_status status =
-            ceduo_years_create(scene, &scene->options[point->option], window_of(def, scene), &item->years);
+            ceduo_years_create(scene, &scene->options[point->option], find_window(def, scene), &item->years);
         if (status != CEDUO_OK)
             return status;
     }
     item->scene = *scene;
-    if (item->years->window.kind != CEDUO_WINDOW_CONSTANT) /* otherwise the year is today: it has today's rocks */
+    if (item->years->window.kind != CEDUO_WINDOW_CONSTANT) /* otherwise the years equal today, with the rocks of today */
         item->scene.simulation.seed = random_seed(scene->simulation.seed, VARIANT_POINT_YEAR, year);
     point->scene = &item->scene;
-    point->forest = &item->years->years[(2 * year + 1) * item->years->count / (2 * years)].option; /* the middle of each part */
+    point->forest =
+        &item->years->years[(2 * year + 1) * item->years->count / (2 * years)].option; /* the middle year of each part */
     return CEDUO_OK;
 }
 
-static struct control_means *brought_by(const struct item *item, size_t i)
+static struct control_means *find_means(const struct item *item, size_t i)
 {
     return item->control_means + i * item->work->points->def->scene->controls_count;
 }
 
-static void tell_variant(const struct item *item, size_t i, bool simulated)
+static void report_variant(const struct item *item, size_t i, bool simulated)
 {
     const struct points *p = item->work->points;
     if (p->read)
-        p->read(p->context, &item->point, simulated ? brought_by(item, i) : NULL);
+        p->read(p->context, &item->point, simulated ? find_means(item, i) : NULL);
     if (i % item->each + 1 == item->each && p->done)
         p->done(p->context);
 }
@@ -84,7 +85,7 @@ static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_vari
     point->scene = &item->copy->scene;
     point->forest = &point->scene->options[point->option];
     if (status == CEDUO_OK && point->slot > 0)
-        status = grow(item, point);
+        status = set_year(item, point);
     variant->run = ceduo_run_def_default(point->scene);
     variant->run.option = point->forest;
     variant->skip = p->def->rocks == 0;
@@ -92,7 +93,7 @@ static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_vari
     variant->run.arrivals_only = true;
     variant->run.cancel = p->def->cancel;
     if (status == CEDUO_OK && variant->skip)
-        tell_variant(item, i, false);
+        report_variant(item, i, false);
     return status;
 }
 
@@ -101,20 +102,20 @@ static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run 
     (void)rocks;
     const struct item *item = context;
     for (size_t c = 0; c < item->work->points->def->scene->controls_count; c++)
-        ceduo_run_group_means(run, c, CEDUO_SURFACE_GROUPS, brought_by(item, i)[c].of);
-    tell_variant(item, i, true);
+        ceduo_run_group_means(run, c, CEDUO_SURFACE_GROUPS, find_means(item, i)[c].group);
+    report_variant(item, i, true);
     uint64_t effort = ceduo_points_met(ceduo_run_contacts(run), ceduo_run_stems(run));
-    uint64_t most = item->work->points->def->effort_max;
+    uint64_t max = item->work->points->def->effort_max;
     effort += atomic_fetch_add(&item->work->effort, effort);
-    return most > 0 && effort > most ? CEDUO_CANCELLED : CEDUO_OK;
+    return max > 0 && effort > max ? CEDUO_CANCELLED : CEDUO_OK;
 }
 
-static void same_variant(void *context, size_t i, size_t first)
+static void copy_variant(void *context, size_t i, size_t first)
 {
     const struct item *item = context;
-    memcpy(brought_by(item, i), brought_by(item, first),
+    memcpy(find_means(item, i), find_means(item, first),
            item->work->points->def->scene->controls_count * sizeof *item->control_means);
-    tell_variant(item, i, true);
+    report_variant(item, i, true);
 }
 
 static int run_item(void *context, size_t i, size_t thread)
@@ -128,15 +129,15 @@ static int run_item(void *context, size_t i, size_t thread)
                         .each = each};
     size_t n = (together ? w->together : 1) * each;
     item.control_means = malloc((n * w->points->def->scene->controls_count + 1) * sizeof *item.control_means);
-    struct ceduo_variants list = {.n = n, .make = make_variant, .read = read_variant, .same = same_variant, .context = &item};
+    struct ceduo_variants list = {.n = n, .make = make_variant, .read = read_variant, .same = copy_variant, .context = &item};
     enum ceduo_status status = item.control_means ? ceduo_variants_run(&list) : CEDUO_NO_MEMORY;
     ceduo_years_free(item.years);
     free(item.control_means);
-    /* of threads that end because another one failed, none says so */
+    /* a thread stopped by the failure of another returns CEDUO_OK: only the first failure is reported */
     return status == CEDUO_OK || atomic_exchange(&w->failed, true) ? CEDUO_OK : (int)status;
 }
 
-/* What each row has: of each option today, then their years. False without memory. */
+/* List the variants of a row: all options today, then their years. Return false on failure of memory. */
 static bool list_variants(struct work *w)
 {
     const struct ceduo_uncertainty_def *def = w->points->def;
@@ -174,7 +175,7 @@ enum ceduo_status ceduo_points_run(const struct points *p, size_t from, size_t t
 
 size_t ceduo_points_window(const struct ceduo_uncertainty_def *def)
 {
-    struct ceduo_window w = window_of(def, def->scene);
+    struct ceduo_window w = find_window(def, def->scene);
     return (w.last - w.first) / w.step + 1;
 }
 
@@ -195,6 +196,6 @@ double ceduo_groups_mean(const struct ceduo_replicates *y, uint64_t rocks)
 {
     double sum = 0;
     for (uint64_t g = 0, groups = CEDUO_SURFACE_GROUPS; g < groups; g++)
-        sum += y->of[g] * (double)(rocks * (g + 1) / groups - rocks * g / groups) / (double)rocks;
+        sum += y->value[g] * (double)(rocks * (g + 1) / groups - rocks * g / groups) / (double)rocks;
     return sum;
 }

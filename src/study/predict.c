@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a fit says of all that was seen. For draws from what is not refuted, new samples as large as those seen are drawn, with
- * the error of the simulated rocks; how often they lie as far from the simulated rocks as what was seen, is p. The rocks are
- * others than those of the fit: it prefers values whose rocks happen to do what was seen. */
+/* Posterior predictive checks. For each posterior draw new samples of the observed size are drawn, with the sampling error
+ * of the simulated rocks. The p-value is the share of samples that deviate at least as much as the observation. Other rocks
+ * than those of the fit are simulated, because the fit prefers values whose rocks match the observations by chance. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
@@ -15,38 +15,39 @@
 #include "fitting.h"
 #include "sequence.h"
 
-#define SAMPLES     20   /* for each draw; not more than CEDUO_SAMPLE_VALUES */
-#define SINGLE_MIN  400  /* values that tell 95 % of them */
-#define SAMPLES_ONE 2000 /* of a scene as it is */
+#define SAMPLES     20   /* per draw, at most CEDUO_SAMPLE_VALUES */
+#define SINGLE_MIN  400  /* values that a 95 % interval of single rocks requires */
+#define SAMPLES_ONE 2000 /* if there is no fit */
 
-static int look_at_draw(void *context, size_t i, size_t worker)
+static int simulate_draw(void *context, size_t i, size_t worker)
 {
     struct fitting *f = context;
     struct ceduo_observation_fit *to = f->drawn + i * f->all_count;
-    enum ceduo_status status = ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, to);
+    enum ceduo_status status = ceduo_fitting_simulate(f, worker, f->draws + i * f->def->parameters_count, true, to);
     return (int)(status == CEDUO_OK || status == CEDUO_CANCELLED ? status : CEDUO_NO_MEMORY);
 }
 
 /* ---- samples ---- */
 
-/* A new count: the share as the simulated rocks leave it open (a beta law), then as many as were released. Returns its deviance. */
-static double sample_count(const struct ceduo_observation_fit *c, gsl_rng *random, double *value)
+/* Draw a count: its share from the beta posterior of the simulated rocks, the count from the binomial of the released rocks.
+ * Return its deviance. */
+static double draw_count(const struct ceduo_observation_fit *c, gsl_rng *random, double *value)
 {
-    double share = gsl_ran_beta(random, c->count[0] + 0.5, c->count[1] + 0.5), n = c->seen[0] + c->seen[1];
-    double passed = gsl_ran_binomial(random, share, (unsigned)n), seen[2] = {passed, n - passed};
+    double share = gsl_ran_beta(random, c->count[0] + 0.5, c->count[1] + 0.5), n = c->observed[0] + c->observed[1];
+    double passed = gsl_ran_binomial(random, share, (unsigned)n), observed[2] = {passed, n - passed};
     *value = passed;
-    return ceduo_classes_deviance(seen, c->count, 2);
+    return ceduo_classes_deviance(observed, c->count, 2);
 }
 
-/* Shares of the true law between bounds that a sample's own values make, halfway between two of them: gaps of uniform values are
- * exponential ones over their sum. `n`: values in each class. */
-static void share_by_gaps(const double *n, size_t classes, gsl_rng *random, double *share)
+/* Draw the true shares of classes whose bounds lie halfway between two values of the sample itself. The gaps between uniform
+ * values are exponential variates over their sum. `n`: values in each class. */
+static void draw_shares(const double *n, size_t classes, gsl_rng *random, double *share)
 {
     double sum = 0, half = 0;
     for (size_t i = 0; i < classes; i++) {
         bool inner = i > 0 && i + 1 < classes;
-        double whole = n[i] - (inner ? 1 : 0);
-        share[i] = half + (whole > 0 ? gsl_ran_gamma(random, whole, 1) : 0);
+        double gaps = n[i] - (inner ? 1 : 0);
+        share[i] = half + (gaps > 0 ? gsl_ran_gamma(random, gaps, 1) : 0);
         half = i + 1 < classes ? gsl_ran_exponential(random, 1) / 2 : 0;
         share[i] += half;
         sum += share[i];
@@ -55,84 +56,86 @@ static void share_by_gaps(const double *n, size_t classes, gsl_rng *random, doub
         share[i] /= sum;
 }
 
-/* The deviance of a new list, as those who saw it compare it: its classes are between its own quantiles, and as many simulated
- * rocks fall into them. Its values are so many as those seen; where it is known how many were released, the simulated rocks say
- * how many of them have one. Bounds that follow from the sample make its deviance smaller than that of fixed classes. */
-static double sample_list(const struct ceduo_observation_fit *c, bool rest, gsl_rng *random)
+/* Draw a list and return its deviance, binned at its own quantiles like the observation. This deviance is smaller than that
+ * of fixed classes. It has the observed number of values. If the number released is given (`rest`), that number is binomial. */
+static double draw_list(const struct ceduo_observation_fit *c, bool rest, gsl_rng *random)
 {
-    size_t lists = c->classes - rest;
-    double seen[CEDUO_CLASSES_MAX], share[CEDUO_CLASSES_MAX], simulated[CEDUO_CLASSES_MAX], rocks = 0, n = 0, have = 1;
+    size_t value_classes = c->classes - rest;
+    double observed[CEDUO_CLASSES_MAX], share[CEDUO_CLASSES_MAX], simulated[CEDUO_CLASSES_MAX], rocks = 0, n = 0,
+                                                                                                valued_share = 1;
     unsigned count[CEDUO_CLASSES_MAX];
     for (size_t i = 0; i < c->classes; i++) {
         rocks += c->count[i];
-        n += c->seen[i];
-        seen[i] = c->seen[i];
+        n += c->observed[i];
+        observed[i] = c->observed[i];
     }
     if (rest) {
-        double missing = c->count[lists], without = n - c->seen[lists], before = 0, up_to = 0, with;
-        have = gsl_ran_beta(random, rocks - missing + 0.5, missing + 0.5);
-        with = gsl_ran_binomial(random, have, (unsigned)n);
-        for (size_t i = 0; i < lists; i++, before = up_to) {
-            up_to += c->seen[i];
-            seen[i] = round(up_to * with / without) - round(before * with / without);
+        double missing = c->count[value_classes], observed_valued = n - c->observed[value_classes], before = 0, up_to = 0,
+               valued;
+        valued_share = gsl_ran_beta(random, rocks - missing + 0.5, missing + 0.5);
+        valued = gsl_ran_binomial(random, valued_share, (unsigned)n);
+        for (size_t i = 0; i < value_classes; i++, before = up_to) {
+            up_to += c->observed[i];
+            observed[i] = round(up_to * valued / observed_valued) - round(before * valued / observed_valued);
         }
-        seen[lists] = n - with;
-        share[lists] = 1 - have;
+        observed[value_classes] = n - valued;
+        share[value_classes] = 1 - valued_share;
     }
-    share_by_gaps(seen, lists, random, share);
-    for (size_t i = 0; i < lists; i++)
-        share[i] *= have;
+    draw_shares(observed, value_classes, random, share);
+    for (size_t i = 0; i < value_classes; i++)
+        share[i] *= valued_share;
     gsl_ran_multinomial(random, c->classes, (unsigned)fmax(rocks, CEDUO_CLASS_ROCKS_MIN * (double)c->classes), share, count);
     for (size_t i = 0; i < c->classes; i++)
         simulated[i] = count[i];
-    return ceduo_classes_deviance(seen, simulated, c->classes);
+    return ceduo_classes_deviance(observed, simulated, c->classes);
 }
 
-static double sample_normal(double mean, double variance, gsl_rng *random, double *value)
+static double draw_normal(double mean, double variance, gsl_rng *random, double *value)
 {
     double z = gsl_ran_ugaussian(random);
     *value = mean + sqrt(variance) * z;
     return z * z;
 }
 
-/* A new sample; its deviance, and what its mean or count would be. */
-static double sample(const struct ceduo_observation *o, const struct ceduo_observation_fit *c, gsl_rng *random, double *value)
+/* Draw a sample. Sets its mean or count, and returns its deviance. */
+static double draw_sample(const struct ceduo_observation *o, const struct ceduo_observation_fit *c, gsl_rng *random,
+                          double *value)
 {
     double ignored, deviance;
-    bool rest = o->kind == CEDUO_OBSERVED_STOPS && o->of > 0;
+    bool rest = o->kind == CEDUO_OBSERVED_STOPS && o->released_count > 0;
     double spread = c->sd * c->sd * (1 / (double)(o->n > 0 ? o->n : 1) + 1 / (double)c->rocks);
     if (o->kind == CEDUO_OBSERVED_PASSED)
-        return sample_count(c, random, value);
+        return draw_count(c, random, value);
     if (c->classes > 0) {
-        deviance = sample_list(c, rest, random);
-        sample_normal(c->mean, spread, random, value);
+        deviance = draw_list(c, rest, random);
+        draw_normal(c->mean, spread, random, value);
     } else {
-        deviance = sample_normal(c->mean, c->variance, random, value);
+        deviance = draw_normal(c->mean, c->variance, random, value);
     }
-    return isnan(c->scars) ? deviance : deviance + sample_normal(0, 1, random, &ignored);
+    return isnan(c->scars) ? deviance : deviance + draw_normal(0, 1, random, &ignored);
 }
 
 /* ---- reading ---- */
 
-/* What simulated rocks say of one observation, draw by draw. */
+/* One observation as simulated with each draw. */
 struct drawn {
     const struct ceduo_observation_fit *first;
-    size_t stride, draws, samples; /* samples: of each draw */
+    size_t stride, draws, samples; /* samples: per draw */
 };
 
-/* `values`: room for all samples. */
-static void read_one(const struct drawn *d, const struct ceduo_observation *o, gsl_rng *random, double *values,
-                     struct ceduo_predicted *to)
+/* `values`: buffer for all samples. */
+static void predict_one(const struct drawn *d, const struct ceduo_observation *o, gsl_rng *random, double *values,
+                        struct ceduo_predicted *to)
 {
     size_t n = 0;
-    double farther = 0;
-    to->seen = o->kind == CEDUO_OBSERVED_PASSED ? (double)o->count : to->at_best.seen_mean;
+    double as_extreme = 0;
+    to->observed = o->kind == CEDUO_OBSERVED_PASSED ? (double)o->count : to->at_best.observed_mean;
     to->p_value = to->lo = to->hi = NAN;
     for (size_t i = 0; i < d->draws; i++) {
         const struct ceduo_observation_fit *c = &d->first[i * d->stride];
         for (size_t k = 0; k < d->samples; k++) {
-            double value, deviance = sample(o, c, random, &value);
-            farther += deviance >= c->deviance;
+            double value, deviance = draw_sample(o, c, random, &value);
+            as_extreme += deviance >= c->deviance;
             if (!isnan(value))
                 values[n++] = value;
         }
@@ -140,23 +143,23 @@ static void read_one(const struct drawn *d, const struct ceduo_observation *o, g
     if (d->draws == 0 || n == 0)
         return;
     gsl_sort(values, 1, n);
-    to->p_value = farther / (double)(d->draws * d->samples);
+    to->p_value = as_extreme / (double)(d->draws * d->samples);
     to->lo = ceduo_quantile(values, n, 0.025);
     to->hi = ceduo_quantile(values, n, 0.975);
-    to->inside = to->seen >= to->lo && to->seen <= to->hi;
+    to->inside = to->observed >= to->lo && to->observed <= to->hi;
 }
 
-/* The range of single values, of all draws alike: what is not known of the ground and how rocks differ, together. `values`:
- * room for those of all draws. */
-static void read_single(const struct drawn *d, const struct ceduo_observation *o, double *values, struct ceduo_predicted *to)
+/* Set the interval of single rocks, pooled over all draws: parameter uncertainty and variability of rocks. `values`: buffer
+ * for the samples of all draws. */
+static void predict_single(const struct drawn *d, const struct ceduo_observation *o, double *values, struct ceduo_predicted *to)
 {
     size_t n = 0;
     to->one_lo = to->one_hi = NAN;
     to->one_inside = 0;
     for (size_t i = 0; i < d->draws && o->kind != CEDUO_OBSERVED_PASSED; i++) {
         const struct ceduo_observation_fit *c = &d->first[i * d->stride];
-        for (size_t k = 0; k < c->some_count; k++)
-            values[n++] = c->some[k];
+        for (size_t k = 0; k < c->sample_count; k++)
+            values[n++] = c->sample[k];
     }
     if (n < SINGLE_MIN)
         return;
@@ -167,54 +170,54 @@ static void read_single(const struct drawn *d, const struct ceduo_observation *o
         to->one_inside += o->values[i] >= to->one_lo && o->values[i] <= to->one_hi;
 }
 
-static void read_all(struct fitting *f, size_t draws, gsl_rng *random, double *values, struct ceduo_calibration *a)
+static void predict_all(struct fitting *f, size_t draws, gsl_rng *random, double *values, struct ceduo_calibration *a)
 {
-    size_t which = 0;
+    size_t index = 0;
     for (size_t s = 0; s < f->def->scenes_count; s++)
         /* untaken: race */
-        for (size_t i = 0; i < f->def->scenes[s].observations_count && !ceduo_cancelled(f->def->cancel); i++, which++) {
+        for (size_t i = 0; i < f->def->scenes[s].observations_count && !ceduo_cancelled(f->def->cancel); i++, index++) {
             const struct ceduo_observation *o = &f->def->scenes[s].observations[i];
-            struct ceduo_predicted *to = &a->predicted[which];
+            struct ceduo_predicted *to = &a->predicted[index];
             to->scene = s;
             to->observation = i;
-            to->at_best = f->drawn[draws * f->all_count + which];
-            struct drawn drawn = {f->drawn + which, f->all_count, draws, SAMPLES};
-            read_one(&drawn, o, random, values, to);
-            read_single(&drawn, o, values, to);
+            to->at_best = f->drawn[draws * f->all_count + index];
+            struct drawn drawn = {f->drawn + index, f->all_count, draws, SAMPLES};
+            predict_one(&drawn, o, random, values, to);
+            predict_single(&drawn, o, values, to);
             bool misfit = to->p_value < CEDUO_MISFIT;
             a->misfit |= misfit && o->use == CEDUO_OBSERVED_FIT;
-            a->refuted |= misfit && o->use == CEDUO_OBSERVED_CHECK;
+            a->check_failed |= misfit && o->use == CEDUO_OBSERVED_CHECK;
         }
 }
 
 enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibration *a)
 {
-    size_t d = a->parameters_count, most = CEDUO_CALIBRATION_DRAWS;
-    size_t draws = a->draws_count < most ? a->draws_count : most;
-    double *places = calloc((draws + 1) * d, sizeof *places), *values = calloc(draws * CEDUO_SAMPLE_VALUES + 1, sizeof *values);
+    size_t d = a->parameters_count, max = CEDUO_CALIBRATION_DRAWS;
+    size_t draws = a->draws_count < max ? a->draws_count : max;
+    double *points = calloc((draws + 1) * d, sizeof *points), *values = calloc(draws * CEDUO_SAMPLE_VALUES + 1, sizeof *values);
     struct sequence sequence;
-    gsl_rng random = ceduo_sequence(&sequence, f->def->seed, CEDUO_CALIBRATION_CHAINS);
+    gsl_rng random = ceduo_sequence_begin(&sequence, f->def->seed, CEDUO_CALIBRATION_CHAINS);
     f->drawn = calloc((draws + 1) * f->all_count + 1, sizeof *f->drawn);
     a->predicted = calloc(f->all_count + 1, sizeof *a->predicted);
     a->predicted_count = f->all_count;
-    enum ceduo_status status = places && values && f->drawn && a->predicted ? CEDUO_OK : CEDUO_NO_MEMORY;
+    enum ceduo_status status = points && values && f->drawn && a->predicted ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t k = 0; k <= draws && status == CEDUO_OK; k++)
         for (size_t i = 0; i < d; i++) {
             const struct ceduo_input *input = &f->def->scenes[0].inputs[i];
             double value = k < draws ? a->draws[k * a->draws_count / draws * d + i] : 0;
-            places[k * d + i] = k < draws ? (value - input->lo) / (input->hi - input->lo) : f->best[i];
+            points[k * d + i] = k < draws ? (value - input->lo) / (input->hi - input->lo) : f->best[i];
         }
-    f->draws = places;
+    f->draws = points;
     for (size_t w = 0; w < f->workers_count; w++)
         for (size_t s = 0; s < f->def->scenes_count; s++) {
             uint64_t *seed = &f->workers[w].copies[s].scene.simulation.seed;
             *seed = random_seed(*seed, VARIANT_PREDICTION, 0);
         }
     if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){draws + 1, f->def->threads, look_at_draw, f});
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){draws + 1, f->def->threads, simulate_draw, f});
     if (status == CEDUO_OK)
-        read_all(f, draws, &random, values, a);
-    free(places);
+        predict_all(f, draws, &random, values, a);
+    free(points);
     free(values);
     free(f->drawn);
     return status;
@@ -235,21 +238,21 @@ enum ceduo_status ceduo_compare_with_observations(const struct ceduo_calibration
     if (status != CEDUO_OK)
         return status;
     struct ceduo_observer *observer = NULL;
-    struct ceduo_observation_fit *found = calloc(n + 1, sizeof *found);
+    struct ceduo_observation_fit *fits = calloc(n + 1, sizeof *fits);
     double *values = calloc(SAMPLES_ONE, sizeof *values);
     struct sequence sequence;
-    gsl_rng random = ceduo_sequence(&sequence, scene->scene->simulation.seed, CEDUO_CALIBRATION_CHAINS);
-    status = found && values ? CEDUO_OK : CEDUO_NO_MEMORY;
+    gsl_rng random = ceduo_sequence_begin(&sequence, scene->scene->simulation.seed, CEDUO_CALIBRATION_CHAINS);
+    status = fits && values ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_observer_create(scene->observations, n, &observer);
     if (status == CEDUO_OK)
-        status = ceduo_observer_simulate(observer, scene->scene, rocks, cancel, found);
+        status = ceduo_observer_simulate(observer, scene->scene, rocks, cancel, fits);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
-        to[i] = (struct ceduo_predicted){.observation = i, .at_best = found[i], .one_lo = NAN, .one_hi = NAN};
-        read_one(&(struct drawn){&found[i], 0, 1, SAMPLES_ONE}, &scene->observations[i], &random, values, &to[i]);
+        to[i] = (struct ceduo_predicted){.observation = i, .at_best = fits[i], .one_lo = NAN, .one_hi = NAN};
+        predict_one(&(struct drawn){&fits[i], 0, 1, SAMPLES_ONE}, &scene->observations[i], &random, values, &to[i]);
     }
     ceduo_observer_free(observer);
     free(values);
-    free(found);
+    free(fits);
     return status;
 }

@@ -5,8 +5,8 @@
 
 #include "ceduo/statistics.h"
 
-/* How many of n sorted values lie beyond x. */
-static size_t beyond(const double *values, size_t n, double x)
+/* Return the number of n sorted values above x. */
+static size_t count_above(const double *values, size_t n, double x)
 {
     size_t k = 0;
     while (k < n && values[k] <= x)
@@ -18,15 +18,15 @@ void ceduo_observed_stops_find(const struct ceduo_observation *o, const double *
                                struct ceduo_observed_stops *to)
 {
     double first = fmin(values[0], o->values[0]), last = fmax(values[n - 1], o->values[o->n - 1]);
-    size_t of = o->of > 0 ? (size_t)o->of : o->n, all = o->of > 0 ? rocks : n;
+    size_t released = o->released_count > 0 ? (size_t)o->released_count : o->n, all = o->released_count > 0 ? rocks : n;
     to->known = last > first;
     for (size_t i = 0; i < CEDUO_STOPS_PLACES; i++) {
         double x = to->x[i] = first + (last - first) * (double)i / (CEDUO_STOPS_PLACES - 1);
-        double p = (double)(beyond(values, n, x) + all - n) / (double)all;
-        to->seen[i] = (double)(beyond(o->values, o->n, x) + of - o->n) / (double)of;
-        size_t lo, hi; /* of how many lie beyond, which is binomial */
-        ceduo_quantile_interval(of, p, &lo, &hi);
-        to->lo[i] = (double)lo / (double)of;
-        to->hi[i] = (double)(hi - 1) / (double)of;
+        double p = (double)(count_above(values, n, x) + all - n) / (double)all;
+        to->observed[i] = (double)(count_above(o->values, o->n, x) + released - o->n) / (double)released;
+        size_t lo, hi; /* interval of the binomial number beyond x */
+        ceduo_quantile_interval(released, p, &lo, &hi);
+        to->lo[i] = (double)lo / (double)released;
+        to->hi[i] = (double)(hi - 1) / (double)released;
     }
 }

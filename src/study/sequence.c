@@ -23,7 +23,7 @@ static double get_double(void *state)
     return (double)(get(state) >> 11) * 0x1p-53;
 }
 
-gsl_rng ceduo_sequence(struct sequence *sequence, uint64_t seed, uint64_t stream)
+gsl_rng ceduo_sequence_begin(struct sequence *sequence, uint64_t seed, uint64_t stream)
 {
     static const gsl_rng_type threefry = {"threefry2x64", ULONG_MAX, 0, sizeof *sequence, set, get, get_double};
     *sequence = (struct sequence){.seed = seed, .stream = stream};

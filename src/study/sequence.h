@@ -5,12 +5,12 @@
 #include <gsl/gsl_rng.h>
 #include <stdint.h>
 
-/* The program's one generator (base/random.h) as GSL draws from it: numbers one after the other, of a seed and one of many
- * streams. Nothing is allocated: the generator lasts as long as its sequence. */
+/* The random numbers of base/random.h as a generator of GSL, by seed and stream. Allocates nothing. The generator is valid
+ * as long as `sequence`. */
 struct sequence {
     uint64_t seed, stream, drawn;
 };
 
-gsl_rng ceduo_sequence(struct sequence *sequence, uint64_t seed, uint64_t stream);
+gsl_rng ceduo_sequence_begin(struct sequence *sequence, uint64_t seed, uint64_t stream);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What runs give for pictures. For each forest the snapshot of its run holds what arrived, the envelopes, some energies and some
- * trajectories. They are shared by counted references, so a snapshot takes over from the last one what has not changed. */
+/* Copies results of runs for pictures. The snapshot of a run holds arrivals, envelopes, some energies and some trajectories.
+ * It is reference-counted: a snapshot shares unchanged runs with the last one. */
 #include "snapshot.h"
 
 #include <math.h>
@@ -13,16 +13,16 @@
 
 /* ---- trajectories ---- */
 
-#define LINE_POINTS_MAX   20000 /* of a rock that hops on and on: what comes later is left out */
+#define LINE_POINTS_MAX   20000 /* per rock; later points are left out */
 #define FLIGHT_POINTS_MAX 64
-#define RESOLUTION        2000 /* parts of the slope's length that a picture may show */
+#define RESOLUTION        2000 /* smallest distance shown is the slope's length over this */
 
-/* The line that is followed. */
+/* The polyline of the current trajectory. */
 struct tracer {
     const atomic_bool *cancel;
     double gravity, step;
     size_t n;
-    double x[LINE_POINTS_MAX + 1], z[LINE_POINTS_MAX + 1]; /* the last is always there */
+    double x[LINE_POINTS_MAX + 1], z[LINE_POINTS_MAX + 1]; /* + 1: the last point is always kept */
 };
 
 static bool is_cancelled(void *context)
@@ -31,7 +31,7 @@ static bool is_cancelled(void *context)
     return ceduo_cancelled(t->cancel);
 }
 
-/* Leaves out what no picture could tell from the point before. */
+/* Append a point, unless it is closer to the last one than the resolution of pictures. */
 static void add_point(struct tracer *t, double x, double z, bool always)
 {
     bool near = t->n > 0 && fabs(x - t->x[t->n - 1]) < t->step && fabs(z - t->z[t->n - 1]) < t->step;
@@ -41,8 +41,9 @@ static void add_point(struct tracer *t, double x, double z, bool always)
     t->z[t->n++] = z;
 }
 
-/* A flight in chords from which the parabola departs by less than a step: it departs by g t2/8 from one over t. */
-static void trace_piece(void *context, const struct ceduo_trajectory_segment *p)
+/* Append a segment. A flight becomes chords that deviate from the parabola by at most a step; a chord over time t deviates by
+ * g t2/8. */
+static void trace_segment(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct tracer *t = context;
     if (t->n == 0)
@@ -59,13 +60,13 @@ static void trace_piece(void *context, const struct ceduo_trajectory_segment *p)
 static enum ceduo_status trace(struct ceduo_tracer *follower, uint64_t rock, struct tracer *t, struct arena *memory,
                                struct ceduo_polyline *line)
 {
-    struct ceduo_trajectory way;
-    const struct ceduo_trajectory_callbacks watch = {.enough = is_cancelled, .piece = trace_piece, .context = t};
+    struct ceduo_trajectory trajectory;
+    const struct ceduo_trajectory_callbacks callbacks = {.enough = is_cancelled, .piece = trace_segment, .context = t};
     t->n = 0;
-    enum ceduo_status status = ceduo_tracer_run(follower, rock, &watch, &way, NULL);
+    enum ceduo_status status = ceduo_tracer_run(follower, rock, &callbacks, &trajectory, NULL);
     if (status != CEDUO_OK)
         return status;
-    add_point(t, way.x, way.z, true);
+    add_point(t, trajectory.x, trajectory.z, true);
     double *x = ceduo_arena_alloc(memory, 2 * t->n * sizeof *x);
     if (!x)
         return CEDUO_NO_MEMORY;
@@ -75,7 +76,7 @@ static enum ceduo_status trace(struct ceduo_tracer *follower, uint64_t rock, str
     return CEDUO_OK;
 }
 
-/* ---- places ---- */
+/* ---- one run ---- */
 
 static size_t place_cells(const struct ceduo_scene *scene, double *x)
 {
@@ -87,13 +88,11 @@ static size_t place_cells(const struct ceduo_scene *scene, double *x)
     return CEDUO_SNAPSHOT_CELLS;
 }
 
-/* ---- one run ---- */
-
 static enum ceduo_status read_energies(const struct ceduo_run *run, struct ceduo_run_snapshot *s)
 {
-    for (size_t c = 0; c < s->flown.controls; c++) {
+    for (size_t c = 0; c < s->simulated.controls; c++) {
         struct ceduo_energies *e = &s->energies[c];
-        uint64_t reached = s->flown.arrivals[c].reached;
+        uint64_t reached = s->simulated.arrivals[c].reached;
         size_t max = reached < CEDUO_SNAPSHOT_SAMPLE ? (size_t)reached : CEDUO_SNAPSHOT_SAMPLE;
         e->values = ceduo_arena_alloc(&s->memory, (max + 1) * sizeof *e->values);
         if (!e->values)
@@ -103,16 +102,16 @@ static enum ceduo_status read_energies(const struct ceduo_run *run, struct ceduo
     return CEDUO_OK;
 }
 
-static void let_go(struct ceduo_run_snapshot *s)
+static void release_run_snapshot(struct ceduo_run_snapshot *s)
 {
     if (!s || atomic_fetch_sub(&s->references, 1) != 1)
         return;
-    ceduo_simulated_free(&s->flown);
+    ceduo_simulated_free(&s->simulated);
     ceduo_arena_free(&s->memory);
     free(s);
 }
 
-static struct ceduo_run_snapshot *find_sight(const struct ceduo_snapshot *o, uint64_t key)
+static struct ceduo_run_snapshot *find_run_snapshot(const struct ceduo_snapshot *o, uint64_t key)
 {
     for (size_t i = 0; o && i <= o->options; i++) {
         struct ceduo_run_snapshot *s = i == 0 ? o->bare : o->wooded[i - 1];
@@ -122,14 +121,14 @@ static struct ceduo_run_snapshot *find_sight(const struct ceduo_snapshot *o, uin
     return NULL;
 }
 
-/* The envelopes, copied from the last snapshot if it has them from as many rocks. */
+/* Set the envelopes. Copies those of the last snapshot if their number of rocks is unchanged. */
 static enum ceduo_status read_envelopes(const struct ceduo_snapshot_def *def, const struct ceduo_snapshot *o,
                                         const struct ceduo_option *option, struct ceduo_run_snapshot *s)
 {
-    const struct ceduo_run_snapshot *last = find_sight(def->last, s->key);
+    const struct ceduo_run_snapshot *last = find_run_snapshot(def->last, s->key);
     if (o->cells == 0)
         return CEDUO_OK;
-    s->envelope_rocks = s->flown.rocks < def->envelope_rocks ? s->flown.rocks : def->envelope_rocks;
+    s->envelope_rocks = s->simulated.rocks < def->envelope_rocks ? s->simulated.rocks : def->envelope_rocks;
     if (last && last->envelope_rocks == s->envelope_rocks) {
         memcpy(s->envelopes, last->envelopes, o->cells * sizeof *s->envelopes);
         return CEDUO_OK;
@@ -143,16 +142,16 @@ static enum ceduo_status read_envelopes(const struct ceduo_snapshot_def *def, co
     return ceduo_envelopes(&envelopes, s->envelopes);
 }
 
-static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const struct ceduo_snapshot *o,
-                                    const struct ceduo_option *option, const struct ceduo_run *run,
-                                    struct ceduo_run_snapshot *s)
+static enum ceduo_status read_run_snapshot(const struct ceduo_snapshot_def *def, const struct ceduo_snapshot *o,
+                                           const struct ceduo_option *option, const struct ceduo_run *run,
+                                           struct ceduo_run_snapshot *s)
 {
     const struct ceduo_slope *slope = &def->scene->slope;
     size_t controls = def->scene->controls_count;
-    enum ceduo_status status = ceduo_simulated_read(run, controls, &s->flown);
+    enum ceduo_status status = ceduo_simulated_read(run, controls, &s->simulated);
     if (status != CEDUO_OK)
         return status;
-    size_t trajectories = def->trajectories < s->flown.rocks ? def->trajectories : (size_t)s->flown.rocks;
+    size_t trajectories = def->trajectories < s->simulated.rocks ? def->trajectories : (size_t)s->simulated.rocks;
     s->energies = ceduo_arena_alloc(&s->memory, (controls + 1) * sizeof *s->energies);
     s->envelopes = ceduo_arena_alloc(&s->memory, (o->cells + 1) * sizeof *s->envelopes);
     s->trajectories = ceduo_arena_alloc(&s->memory, (trajectories + 1) * sizeof *s->trajectories);
@@ -177,27 +176,27 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
 
 /* ---- all runs ---- */
 
-/* The run of a forest; NULL: it has no rocks yet. */
+/* Return the run of a forest; NULL: no rocks yet. */
 static const struct ceduo_run *find_run(const struct ceduo_snapshot_def *def, const struct ceduo_option *option)
 {
     const struct ceduo_run *run = ceduo_pool_find(def->runs, option);
     return run && ceduo_run_rocks(run) > 0 ? run : NULL;
 }
 
-/* A new reference to what is to be seen of a forest, NULL where it was not simulated yet. */
-static enum ceduo_status get_sight(const struct ceduo_snapshot_def *def, const struct ceduo_snapshot *o,
-                                   const struct ceduo_option *option, struct ceduo_run_snapshot **sight)
+/* Set a new reference to the snapshot of a forest's run; NULL: not simulated yet. */
+static enum ceduo_status reference_run_snapshot(const struct ceduo_snapshot_def *def, const struct ceduo_snapshot *o,
+                                                const struct ceduo_option *option, struct ceduo_run_snapshot **found)
 {
     const struct ceduo_run *run = find_run(def, option);
-    *sight = NULL;
+    *found = NULL;
     if (!run)
         return CEDUO_OK;
     uint64_t key = ceduo_option_key(def->scene, option), rocks = ceduo_run_rocks(run);
-    struct ceduo_run_snapshot *s = find_sight(o, key);
-    s = s ? s : find_sight(def->last, key);
-    if (s && s->flown.rocks == rocks) {
+    struct ceduo_run_snapshot *s = find_run_snapshot(o, key);
+    s = s ? s : find_run_snapshot(def->last, key);
+    if (s && s->simulated.rocks == rocks) {
         atomic_fetch_add(&s->references, 1);
-        *sight = s;
+        *found = s;
         return CEDUO_OK;
     }
     s = calloc(1, sizeof *s);
@@ -205,11 +204,11 @@ static enum ceduo_status get_sight(const struct ceduo_snapshot_def *def, const s
         return CEDUO_NO_MEMORY;
     atomic_init(&s->references, 1);
     s->key = key;
-    enum ceduo_status status = read_sight(def, o, option, run, s);
+    enum ceduo_status status = read_run_snapshot(def, o, option, run, s);
     if (status == CEDUO_OK)
-        *sight = s;
+        *found = s;
     else
-        let_go(s);
+        release_run_snapshot(s);
     return status;
 }
 
@@ -227,12 +226,12 @@ enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, st
     if (status == CEDUO_OK) {
         o->cells = def->envelope_rocks > 0 ? place_cells(scene, o->cell_x) : 0;
         o->options = scene->options_count;
-        status = get_sight(def, o, NULL, &o->bare);
+        status = reference_run_snapshot(def, o, NULL, &o->bare);
     }
     bool flies = scene->simulation.contact_model != CEDUO_INDEX;
     for (size_t i = 0; flies && i < o->options && status == CEDUO_OK; i++) {
         const struct ceduo_run *run = find_run(def, &scene->options[i]), *first = find_run(def, &scene->options[0]);
-        status = get_sight(def, o, &scene->options[i], &o->wooded[i]);
+        status = reference_run_snapshot(def, o, &scene->options[i], &o->wooded[i]);
         for (size_t c = 0; c < o->controls; c++)
             o->differences[i * o->controls + c] = ceduo_run_difference(run, first, c);
     }
@@ -247,9 +246,9 @@ void ceduo_snapshot_free(struct ceduo_snapshot *o)
 {
     if (!o)
         return;
-    let_go(o->bare);
+    release_run_snapshot(o->bare);
     for (size_t i = 0; i < o->options; i++)
-        let_go(o->wooded[i]);
+        release_run_snapshot(o->wooded[i]);
     ceduo_arena_free(&o->memory);
     free(o);
 }
@@ -261,12 +260,12 @@ const struct ceduo_run_snapshot *ceduo_snapshot_find(const struct ceduo_snapshot
         return o ? o->bare : NULL;
     if (option >= scene->options_count)
         return NULL;
-    const struct ceduo_run_snapshot *found = find_sight(o, ceduo_option_key(scene, &scene->options[option]));
+    const struct ceduo_run_snapshot *found = find_run_snapshot(o, ceduo_option_key(scene, &scene->options[option]));
     if (found)
         return found;
     const struct ceduo_run_snapshot *last = option < o->options ? o->wooded[option] : NULL;
     for (size_t i = 0; last && i < scene->options_count; i++)
         if (ceduo_option_key(scene, &scene->options[i]) == last->key)
-            return NULL; /* it is another's */
+            return NULL; /* it belongs to another option now */
     return last;
 }

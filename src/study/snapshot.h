@@ -10,32 +10,32 @@
 #include "ceduo/result.h"
 #include "core/walk/envelope.h"
 
-/* What runs give for pictures: plain columns, never changed once they are made, so that one thread may make them and
- * another draw them. All x and z are relative to the slope's first vertex. */
+/* Results of runs for pictures. A snapshot never changes, so that one thread may create it and another draw it. x and z are
+ * relative to the first vertex of the slope. */
 
-/* A trajectory as a polyline, its flights sampled finely enough for any picture. */
+/* A trajectory as a polyline. */
 struct ceduo_polyline {
     size_t n;
     double *x, *z; /* m */
 };
 
-/* Energies of rocks that reached a control, in the order of the rocks. */
+/* Energies of rocks that reached a control, in order of the rocks. */
 struct ceduo_energies {
     size_t n;
     double *values; /* J */
 };
 
-/* One run, as it was at some moment. It is shared: each who keeps it has a reference. */
+/* Copy of a run, reference-counted. */
 struct ceduo_run_snapshot {
     atomic_uint references;
-    struct arena memory; /* of envelopes, energies and trajectories */
-    uint64_t key;        /* ceduo_option_key() of its forest */
-    struct ceduo_simulated flown;
-    uint64_t envelope_rocks;          /* of the envelopes */
+    struct arena memory;
+    uint64_t key; /* ceduo_option_key() of its forest */
+    struct ceduo_simulated simulated;
+    uint64_t envelope_rocks;          /* rocks of the envelopes */
     struct ceduo_envelope *envelopes; /* one for each cell */
-    struct ceduo_energies *energies;  /* one for each control: the first CEDUO_SNAPSHOT_SAMPLE at most */
+    struct ceduo_energies *energies;  /* one for each control, of the first CEDUO_SNAPSHOT_SAMPLE rocks at most */
     size_t trajectories_count;
-    struct ceduo_polyline *trajectories; /* of the first rocks */
+    struct ceduo_polyline *trajectories; /* trajectories of the first rocks */
 };
 
 /* All runs of a scene. */
@@ -44,35 +44,29 @@ struct ceduo_snapshot {
     size_t cells, controls, options;
     double *cell_x;
     struct ceduo_run_snapshot *bare;      /* without forest */
-    struct ceduo_run_snapshot **wooded;   /* through the forest of each option; NULL: not known (yet) */
-    struct ceduo_difference *differences; /* of those to the first option: options × controls, in rows by option */
+    struct ceduo_run_snapshot **wooded;   /* with the forest of each option; NULL: not simulated (yet) */
+    struct ceduo_difference *differences; /* to the first option: [option][control] */
 };
 
-#define CEDUO_SNAPSHOT_CELLS        200    /* places along the slope with an envelope */
-#define CEDUO_SNAPSHOT_TRAJECTORIES 200    /* trajectories that make a dense picture */
+#define CEDUO_SNAPSHOT_CELLS        200    /* places with an envelope, evenly from the release to the end of the slope */
+#define CEDUO_SNAPSHOT_TRAJECTORIES 200    /* trajectories of a dense picture */
 #define CEDUO_SNAPSHOT_SAMPLE       100000 /* energies kept for a histogram */
 
-/* What a snapshot is made from. */
 struct ceduo_snapshot_def {
     const struct ceduo_scene *scene;
-    const struct ceduo_pool *runs; /* those of options may be missing, or have no rocks yet */
-    uint64_t
-        envelope_rocks;  /* at most CEDUO_ENVELOPE_ROCKS; 0: no envelopes. They lie evenly from the release to the end of the
-                              * slope */
-    size_t trajectories; /* trajectories that are followed for each */
-    const atomic_bool *cancel; /* may be NULL; raised by another thread: the call returns soon */
-    const struct ceduo_snapshot
-        *last; /* whose snapshots of runs are taken over where nothing has changed; NULL: none. It must be
-                                        * of the same scene but for its forests */
+    const struct ceduo_pool *runs;     /* runs of options may be missing, or have no rocks yet */
+    uint64_t envelope_rocks;           /* at most CEDUO_ENVELOPE_ROCKS; 0: no envelopes */
+    size_t trajectories;               /* per run */
+    const atomic_bool *cancel;         /* may be NULL */
+    const struct ceduo_snapshot *last; /* shares its unchanged runs; its scene may differ in forests only; NULL: none */
 };
 
-/* CEDUO_NO_MEMORY, CEDUO_CANCELLED or CEDUO_OK. */
+/* Return CEDUO_OK, CEDUO_NO_MEMORY or CEDUO_CANCELLED. */
 enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, struct ceduo_snapshot **snapshot);
-void ceduo_snapshot_free(struct ceduo_snapshot *snapshot); /* NULL is allowed */
+void ceduo_snapshot_free(struct ceduo_snapshot *snapshot); /* may be NULL */
 
-/* What is to be seen of an option of the scene as it is now: through its forest, with the contact model index without
- * forest; where its forest was just changed, what was seen of it before, unless that is another option's. NULL: not known
- * yet. */
+/* Return the latest snapshot of an option, with its forest; without forest if the contact model is index. If the forest has
+ * just changed, return the old one, unless another option has it now. NULL: not simulated yet. */
 const struct ceduo_run_snapshot *ceduo_snapshot_find(const struct ceduo_snapshot *snapshot, const struct ceduo_scene *scene,
                                                      size_t option);
 

@@ -5,25 +5,25 @@
 #include "ceduo/uncertainty.h"
 #include "goal.h"
 
-/* In how much of what may be true of a scene an option reaches a goal. */
+/* Probability that an option reaches a goal under uncertain inputs. */
 struct reliability_def {
-    /* the scene, one option alone, the inputs that it has (ceduo_input_affects()), points and rocks; over a rotation: not of
-     * CEDUO_GOAL_ENERGY. More points are never taken, and progress is not told */
-    struct ceduo_uncertainty_def of;
+    /* Scene, one option, its inputs (ceduo_input_affects()), points and rocks. CEDUO_GOAL_ENERGY excludes a rotation. The
+     * number of points is not increased, and no progress is reported. */
+    struct ceduo_uncertainty_def uncertainty;
     enum ceduo_goal goal;
-    double target; /* a goal up to it is reached; */
-    double sure;   /* in so much of what may be true */
+    double target; /* the goal is reached at or below this value */
+    double sure;   /* required probability, 0…1 */
 };
 
 struct reliability_result {
-    struct ceduo_share share; /* of what may be true in which the goal is reached */
-    /* how far the goal of that much of what may be true is above the target, in the goal's unit (of an ADC in that of its inverse): at
-     * most 0 where the share is at least `sure`; it is no share, so that it changes smoothly with the scene */
-    double above, above_lo, above_hi; /* with its 95 % interval by the points and the rocks */
+    struct ceduo_share share; /* probability that the goal is reached */
+    /* Quantile `sure` of the goal minus the target, in the goal's unit (ADC: 1/m), with its 95 % interval by points and
+     * rocks. At most 0 if the probability is at least `sure`. Unlike the probability it changes smoothly with the scene. */
+    double above, above_lo, above_hi;
 };
 
-/* From a surface through the goal at the points, so that the noise of the rocks is taken off. Without inputs the share is 0 or 1.
- * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
+/* Compute the probability from a surface through the goal, which removes sampling noise. Without inputs it is 0 or 1. Return
+ * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or the status of ceduo_scene_check(). */
 enum ceduo_status ceduo_reliability_compute(const struct reliability_def *def, struct reliability_result *answer);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From plots to a stand: counts become densities of each plot, and these a mean with its error. */
+/* Computes a stand from sample plots. Counts become densities per plot; their mean has a standard error over the plots. */
 #include "ceduo/survey.h"
 
 #include <gsl/gsl_cdf.h>
@@ -13,17 +13,17 @@
 #include "check_study.h"
 
 #define HECTARE     10000
-#define CLASSES_MAX 1000 /* of dbh; thicker stems share the last */
+#define CLASSES_MAX 1000 /* classes of dbh; thicker stems share the last */
 
 struct surveyor {
     const struct ceduo_survey *survey;
     struct ceduo_survey_result *answer;
     struct arena memory;
-    double *counts;     /* of each plot */
-    double *heights;    /* of each stem, m: measured or made */
-    double *pairs;      /* room for the dbh and the heights that were measured */
-    double measured;    /* m, the largest dbh with a height */
-    bool shoots_fitted; /* the shoots have a curve */
+    double *counts;     /* for each plot */
+    double *heights;    /* m, for each stem: measured or estimated */
+    double *pairs;      /* buffer for dbh and height of the measured stems */
+    double measured;    /* m, largest dbh with a height */
+    bool shoots_fitted; /* the shoots have a fitted curve */
 };
 
 double ceduo_survey_horizontal(double area, double slope_rad)
@@ -31,8 +31,8 @@ double ceduo_survey_horizontal(double area, double slope_rad)
     return area * cos(slope_rad);
 }
 
-/* Mean, standard error and interval of n >= 1 values. */
-static struct ceduo_estimate estimate_of(const double *values, size_t n)
+/* Return mean, standard error and 95 % interval of n >= 1 values. */
+static struct ceduo_estimate estimate_mean(const double *values, size_t n)
 {
     double mean = gsl_stats_mean(values, 1, n), se = n > 1 ? gsl_stats_sd_m(values, 1, n, mean) / sqrt((double)n) : NAN;
     double half = n > 1 ? gsl_cdf_tdist_Pinv(0.975, (double)n - 1) * se : NAN;
@@ -41,17 +41,17 @@ static struct ceduo_estimate estimate_of(const double *values, size_t n)
 
 /* ---- densities ---- */
 
-/* Density per hectare of what was counted on each plot. The next count begins at 0. */
-static struct ceduo_estimate take_density(struct surveyor *s)
+/* Return the density per hectare from the counts of the plots, and reset the counts. */
+static struct ceduo_estimate read_density(struct surveyor *s)
 {
     for (size_t i = 0; i < s->survey->plots_count; i++)
         s->counts[i] *= HECTARE / s->survey->areas[i];
-    const struct ceduo_estimate density = estimate_of(s->counts, s->survey->plots_count);
+    const struct ceduo_estimate density = estimate_mean(s->counts, s->survey->plots_count);
     memset(s->counts, 0, s->survey->plots_count * sizeof *s->counts);
     return density;
 }
 
-/* Stools with shoots, and the mean spacing of those where it was measured. False without memory. */
+/* Count the stools, and set the mean spacing over the measured ones. Return false on failure of memory. */
 static bool count_stools(struct surveyor *s)
 {
     const struct ceduo_survey *survey = s->survey;
@@ -76,9 +76,9 @@ static bool count_stools(struct surveyor *s)
     for (size_t i = 0; i < survey->stools_count; i++)
         if (stools[i].measured > 0)
             spacings[n++] = stools[i].spacing / (double)stools[i].measured;
-    s->answer->stools = take_density(s);
+    s->answer->stools = read_density(s);
     s->answer->stools_measured = n;
-    s->answer->spacing = n > 0 ? estimate_of(spacings, n) : (struct ceduo_estimate){NAN, NAN, NAN, NAN};
+    s->answer->spacing = n > 0 ? estimate_mean(spacings, n) : (struct ceduo_estimate){NAN, NAN, NAN, NAN};
     return true;
 }
 
@@ -95,29 +95,29 @@ double ceduo_survey_basal_area(const struct ceduo_survey *survey, int species)
     return sum;
 }
 
-static int main_species(const struct ceduo_survey *survey)
+static int find_main_species(const struct ceduo_survey *survey)
 {
     size_t count;
     ceduo_species_list(&count);
     int best = -1;
-    double most = 0;
+    double area_max = 0;
     for (int k = 0; k < (int)count; k++) {
         double area = ceduo_survey_basal_area(survey, k);
-        best = area > most ? k : best;
-        most = fmax(area, most);
+        best = area > area_max ? k : best;
+        area_max = fmax(area, area_max);
     }
     return best;
 }
 
 /* ---- heights ---- */
 
-static bool is_among(const struct ceduo_survey_stem *stem, bool shoots)
+static bool is_of_group(const struct ceduo_survey_stem *stem, bool shoots)
 {
     return stem->kind != CEDUO_SURVEY_STUMP && (stem->kind == CEDUO_SURVEY_SHOOT) == shoots;
 }
 
-/* What stems are tall where nobody measured any: through the heights of the stands that come with the program. Assumed. */
-static const struct ceduo_naslund usual_trees = {.a = 2.4, .b = 0.186}, usual_shoots = {.a = 1.2, .b = 0.22};
+/* Default height curves (assumed), fitted to the stands that come with the program. */
+static const struct ceduo_naslund default_trees = {.a = 2.4, .b = 0.186}, default_shoots = {.a = 1.2, .b = 0.22};
 
 static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_survey_heights *h)
 {
@@ -126,7 +126,7 @@ static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_surve
     *h = (struct ceduo_survey_heights){0};
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
-        if (!is_among(stem, shoots))
+        if (!is_of_group(stem, shoots))
             continue;
         if (isnan(stem->height)) {
             h->missing++;
@@ -151,10 +151,10 @@ static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_surve
     if (h->from == CEDUO_HEIGHTS_SHOOTS)
         h->curve = s->answer->shoots.curve;
     else if (h->from == CEDUO_HEIGHTS_USUAL)
-        h->curve = shoots ? usual_shoots : usual_trees;
+        h->curve = shoots ? default_shoots : default_trees;
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
-        if (!is_among(stem, shoots))
+        if (!is_of_group(stem, shoots))
             continue;
         if (!isnan(stem->height) || h->from == CEDUO_HEIGHTS_MEAN) {
             s->heights[i] = isnan(stem->height) ? h->mean : stem->height;
@@ -167,8 +167,8 @@ static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_surve
     return fitted != CEDUO_NO_MEMORY;
 }
 
-/* The mean of a member of all stumps where it is known. */
-static double of_stumps(const struct ceduo_survey *survey, size_t offset)
+/* Return the mean of a member over the stumps that have it; NaN: none has. */
+static double stump_mean(const struct ceduo_survey *survey, size_t offset)
 {
     double sum = 0, n = 0;
     for (size_t i = 0; i < survey->stems_count; i++) {
@@ -184,23 +184,23 @@ static double of_stumps(const struct ceduo_survey *survey, size_t offset)
 
 /* ---- classes ---- */
 
-static size_t class_of(const struct ceduo_survey_stem *stem)
+static size_t find_class(const struct ceduo_survey_stem *stem)
 {
-    double k = floor(stem->dbh / CEDUO_SURVEY_CLASS + 1e-9); /* 0.15 m is in the class that begins there */
+    double k = floor(stem->dbh / CEDUO_SURVEY_CLASS + 1e-9); /* a dbh of 0.15 m belongs to the class from 0.15 m */
     return k < CLASSES_MAX ? (size_t)k : CLASSES_MAX - 1;
 }
 
-static void add_volume(struct ceduo_survey_class *c, const struct ceduo_survey_stem *stem, double height, int main_one)
+static void add_volume(struct ceduo_survey_class *c, const struct ceduo_survey_stem *stem, double height, int main_species)
 {
     enum ceduo_volume_from from;
     const struct ceduo_stand stand = {.species = stem->species};
     const struct ceduo_stems one = {.dbh = stem->dbh, .height = height, .volume = NAN};
     c->volume += ceduo_stem_volume(&stand, &one, &from);
     c->form_factor += from == CEDUO_VOLUME_FORM_FACTOR;
-    c->form_factor_main += from == CEDUO_VOLUME_FORM_FACTOR && stem->species == main_one && main_one >= 0;
+    c->form_factor_main += from == CEDUO_VOLUME_FORM_FACTOR && stem->species == main_species && main_species >= 0;
 }
 
-/* Fills a class of a kind, which has a stem. */
+/* Fill a class that has at least one stem. */
 static void fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ceduo_survey_kind kind, size_t k)
 {
     const struct ceduo_survey *survey = s->survey;
@@ -208,7 +208,7 @@ static void fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ce
     *c = (struct ceduo_survey_class){.kind = kind, .from = (double)k * CEDUO_SURVEY_CLASS};
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
-        if (stem->kind != kind || class_of(stem) != k)
+        if (stem->kind != kind || find_class(stem) != k)
             continue;
         s->counts[stem->plot]++;
         double step = stem->dbh - c->dbh; /* Welford's mean and sum of squares */
@@ -219,7 +219,7 @@ static void fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ce
             add_volume(c, stem, s->heights[i], s->answer->species);
     }
     double n = (double)c->stems;
-    c->per_ha = take_density(s);
+    c->per_ha = read_density(s);
     c->dbh_sd = c->stems > 1 ? sqrt(squares / (n - 1)) : 0;
     c->height = kind == CEDUO_SURVEY_STUMP ? s->answer->stump_height : c->height / n;
     c->volume = kind == CEDUO_SURVEY_STUMP ? NAN : c->volume / n;
@@ -232,9 +232,9 @@ static bool make_classes(struct surveyor *s)
     size_t n = 0;
     for (size_t i = 0; present && i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
-        bool *here = &present[(size_t)stem->kind * CLASSES_MAX + class_of(stem)];
-        n += !*here;
-        *here = true;
+        bool *entry = &present[(size_t)stem->kind * CLASSES_MAX + find_class(stem)];
+        n += !*entry;
+        *entry = true;
     }
     struct ceduo_survey_class *classes = s->answer->classes = present ? calloc(n + 1, sizeof *classes) : NULL;
     for (size_t k = 0; classes && k < CEDUO_SURVEY_KINDS_COUNT * CLASSES_MAX; k++)
@@ -243,7 +243,7 @@ static bool make_classes(struct surveyor *s)
     return classes;
 }
 
-/* ---- the whole ---- */
+/* ---- stand ---- */
 
 enum ceduo_status ceduo_survey_compute(const struct ceduo_survey *survey, struct ceduo_survey_result *a)
 {
@@ -259,12 +259,12 @@ enum ceduo_status ceduo_survey_compute(const struct ceduo_survey *survey, struct
     for (int kind = 0; good && kind < CEDUO_SURVEY_KINDS_COUNT; kind++) {
         for (size_t i = 0; i < survey->stems_count; i++)
             s.counts[survey->stems[i].plot] += survey->stems[i].kind == (enum ceduo_survey_kind)kind ? 1 : 0;
-        a->per_ha[kind] = take_density(&s);
+        a->per_ha[kind] = read_density(&s);
     }
-    a->species = main_species(survey);
-    a->stump_diameter = of_stumps(survey, offsetof(struct ceduo_survey_stem, dbh));
-    a->stump_height = of_stumps(survey, offsetof(struct ceduo_survey_stem, height));
-    a->stump_energy = of_stumps(survey, offsetof(struct ceduo_survey_stem, energy));
+    a->species = find_main_species(survey);
+    a->stump_diameter = stump_mean(survey, offsetof(struct ceduo_survey_stem, dbh));
+    a->stump_height = stump_mean(survey, offsetof(struct ceduo_survey_stem, height));
+    a->stump_energy = stump_mean(survey, offsetof(struct ceduo_survey_stem, energy));
     good = good && count_stools(&s) && complete_heights(&s, true, &a->shoots) && complete_heights(&s, false, &a->trees) &&
            make_classes(&s);
     ceduo_arena_free(&s.memory);

@@ -6,8 +6,8 @@
 #include "ceduo/key.h"
 #include "ceduo/uncertainty.h"
 
-/* Half the interval if rocks have weights, otherwise by the number of rocks. */
-static struct ceduo_mean_share portion_of(const struct ceduo_arrivals *a, struct ceduo_estimate share)
+/* Return a share with the half width of its interval, which depends on weights if the rocks have weights. */
+static struct ceduo_mean_share read_share(const struct ceduo_arrivals *a, struct ceduo_estimate share)
 {
     double p = share.mean, half = isnan(a->hazard.per_year)
                                       ? ceduo_share_half_width(p, ceduo_share_se(p, (double)a->released), a->released)
@@ -17,33 +17,32 @@ static struct ceduo_mean_share portion_of(const struct ceduo_arrivals *a, struct
 
 struct ceduo_mean_share ceduo_share_arriving(const struct ceduo_arrivals *a)
 {
-    return a ? portion_of(a, a->reach) : (struct ceduo_mean_share){NAN, NAN};
+    return a ? read_share(a, a->reach) : (struct ceduo_mean_share){NAN, NAN};
 }
 
 struct ceduo_mean_share ceduo_share_exceeding(const struct ceduo_arrivals *a)
 {
-    return a ? portion_of(a, a->exceed) : (struct ceduo_mean_share){NAN, NAN};
+    return a ? read_share(a, a->exceed) : (struct ceduo_mean_share){NAN, NAN};
 }
 
 struct ceduo_mean_share ceduo_share_judged(const struct ceduo_arrivals *a)
 {
-    return a ? portion_of(a, ceduo_judged_share(a)) : (struct ceduo_mean_share){NAN, NAN};
+    return a ? read_share(a, ceduo_judged_share(a)) : (struct ceduo_mean_share){NAN, NAN};
 }
 
-/* The difference of what is compared. */
-static struct ceduo_estimate compared(const struct ceduo_result *r, const struct ceduo_difference *d)
+static struct ceduo_estimate judged_difference(const struct ceduo_result *r, const struct ceduo_difference *d)
 {
     return isnan(r->scene->controls[r->last_control].accepted) ? d->reach : d->exceed;
 }
 
 struct ceduo_estimate ceduo_share_to_first(const struct ceduo_result *r, size_t option)
 {
-    return compared(r, &r->options[option].differences[r->last_control]);
+    return judged_difference(r, &r->options[option].differences[r->last_control]);
 }
 
-/* ---- which is best ---- */
+/* ---- ranking ---- */
 
-/* A figure of one option less that of another, with its standard error. */
+/* Return a figure of one option minus that of another, with its standard error. */
 typedef struct ceduo_estimate difference_of(const void *context, size_t option, size_t less);
 
 static bool is_clearly_worse(difference_of *difference, const void *context, size_t option, size_t than)
@@ -64,29 +63,28 @@ static void find_best(difference_of *difference, const void *context, size_t n, 
     }
 }
 
-/* One difference to the first option less another. Where no pair differs the error is not known: it is as good as 0. */
-static struct ceduo_estimate beside_first(struct ceduo_estimate a, struct ceduo_estimate b)
+/* Return the difference of two differences to the first option. If no pair differs, the error is unknown and taken as 0. */
+static struct ceduo_estimate subtract_differences(struct ceduo_estimate a, struct ceduo_estimate b)
 {
     double se = hypot(ceduo_pairs_are_equal(&a) ? 0 : a.se, ceduo_pairs_are_equal(&b) ? 0 : b.se);
     return (struct ceduo_estimate){a.mean - b.mean, se, NAN, NAN};
 }
 
-/* From the differences to the first option: the error of a difference of two of them is rather too large. */
+/* Uses the differences to the first option, which overstates the error. */
 static struct ceduo_estimate difference_today(const void *context, size_t option, size_t less)
 {
     struct ceduo_estimate a = ceduo_share_to_first(context, option), b = ceduo_share_to_first(context, less);
-    return beside_first(a, b);
+    return subtract_differences(a, b);
 }
 
-static struct ceduo_estimate difference_by_other_law(const void *context, size_t option, size_t less)
+static struct ceduo_estimate difference_by_alternative_law(const void *context, size_t option, size_t less)
 {
     const struct ceduo_result *r = context;
     const struct ceduo_alternative_energy *one = &r->options[option].others[r->last_control];
     const struct ceduo_alternative_energy *two = &r->options[less].others[r->last_control];
-    bool alike = one->known && two->known && (one->model == two->model || !one->stems || !two->stems);
-    if (!alike)
+    if (!one->known || !two->known || (one->model != two->model && one->stems && two->stems))
         return CEDUO_NO_ESTIMATE;
-    return beside_first(compared(r, &one->to_first), compared(r, &two->to_first));
+    return subtract_differences(judged_difference(r, &one->to_first), judged_difference(r, &two->to_first));
 }
 
 static struct ceduo_estimate difference_over_years(const void *context, size_t option, size_t less)
@@ -106,23 +104,23 @@ struct ceduo_mean_share ceduo_share_over_years(const struct ceduo_years *years, 
 static void read_years(const struct ceduo_years *years, struct arena *memory, struct ceduo_choice *c)
 {
     size_t controls = years->scene.controls_count;
-    struct ceduo_years_summary *ahead = ceduo_arena_alloc(memory, controls * sizeof *ahead);
-    if (!ahead)
+    struct ceduo_years_summary *summaries = ceduo_arena_alloc(memory, controls * sizeof *summaries);
+    if (!summaries)
         return;
     for (size_t k = 0; k < controls; k++)
-        ahead[k] = ceduo_years_summarize(years, k);
-    c->ahead = ahead;
-    c->over = &ahead[years->last_control];
+        summaries[k] = ceduo_years_summarize(years, k);
+    c->summaries = summaries;
+    c->last_summary = &summaries[years->last_control];
     c->rocks = years->rocks;
-    c->energy_known &= !c->over->nothing;
-    c->worst.mean = c->over->worst; /* by the index an ADC: it has no error */
+    c->energy_known &= !c->last_summary->nothing;
+    c->worst.mean = c->last_summary->worst; /* with the index an ADC, which has no error */
     for (size_t i = 0; i < years->count; i++)
-        if (years->years[i].year == c->over->worst_year && years->years[i].wooded.rocks > 0)
+        if (years->years[i].year == c->last_summary->worst_year && years->years[i].wooded.rocks > 0)
             c->worst = ceduo_share_judged(&years->years[i].wooded.arrivals[years->last_control]);
-    c->mean = ceduo_share_over_years(years, c->over);
+    c->mean = ceduo_share_over_years(years, c->last_summary);
 }
 
-/* Year of the next cut if it is due, otherwise 0. */
+/* Return the year of the next cut if it is due within CEDUO_CUT_SOON, otherwise 0. */
 static unsigned due_cut(const struct ceduo_option *option)
 {
     unsigned due = 0;
@@ -135,7 +133,7 @@ static unsigned due_cut(const struct ceduo_option *option)
 }
 
 static enum ceduo_status read_choice(const struct ceduo_result *r, const struct ceduo_years *years,
-                                     const struct ceduo_years *whole, size_t option, struct arena *memory,
+                                     const struct ceduo_years *full, size_t option, struct arena *memory,
                                      struct ceduo_choice *c)
 {
     static const struct ceduo_years_summary no_years;
@@ -143,20 +141,20 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
     const struct ceduo_option *o = &r->scene->options[option];
     struct ceduo_window rotation = ceduo_window_compute(o);
     *c = (struct ceduo_choice){
-        .today = unknown, .worst = unknown, .mean = unknown, .rotation = unknown, .over = &no_years, .cut = due_cut(o)};
+        .today = unknown, .worst = unknown, .mean = unknown, .rotation = unknown, .last_summary = &no_years, .cut = due_cut(o)};
     c->window = years ? years->window : ceduo_scene_window(r->scene);
     if (r->scene->controls_count > 0) {
         c->today = ceduo_share_judged(ceduo_result_wooded(r, option, r->last_control));
         c->energy_known = r->wooded && !isnan(r->scene->controls[r->last_control].accepted);
         if (years)
             read_years(years, memory, c);
-        if (whole) {
-            const struct ceduo_years_summary s = ceduo_years_summarize(whole, whole->last_control);
-            c->rotation = ceduo_share_over_years(whole, &s);
+        if (full) {
+            const struct ceduo_years_summary s = ceduo_years_summarize(full, full->last_control);
+            c->rotation = ceduo_share_over_years(full, &s);
         }
     }
-    unsigned end = rotation.last + 1, most = end + CEDUO_PERIOD_MAX;
-    unsigned last = c->window.last < end ? end : c->window.last < most ? c->window.last : most;
+    unsigned end = rotation.last + 1, max = end + CEDUO_PERIOD_MAX;
+    unsigned last = c->window.last < end ? end : c->window.last < max ? c->window.last : max;
     return ceduo_yield_compute(o, last, &c->yield);
 }
 
@@ -166,38 +164,40 @@ static bool is_beaten(struct ceduo_years *const *years, const struct ceduo_verdi
 {
     double yield = v->choices[option].yield.cut_per_year;
     for (size_t i = 0; i < v->n; i++) {
-        double other = v->choices[i].yield.cut_per_year;
+        double rival_yield = v->choices[i].yield.cut_per_year;
         bool clear = is_clearly_worse(difference_over_years, years, option, i);
-        if (i != option && other >= yield && (clear || (other > yield && difference_over_years(years, option, i).mean >= 0)))
+        if (i != option && rival_yield >= yield &&
+            (clear || (rival_yield > yield && difference_over_years(years, option, i).mean >= 0)))
             return true;
     }
     return false;
 }
 
-/* How many standard errors worse than `better` an option is. */
+/* Return by how many standard errors an option is worse than `better`. */
 static double errors_worse(difference_of *difference, const void *context, size_t option, size_t better)
 {
     struct ceduo_estimate d = difference(context, option, better);
     return d.mean / d.se;
 }
 
-/* Pairs of which under one law the order is clear, and under the other it is the other way round by more than chance makes likely. */
-static void find_turned(const struct ceduo_result *r, struct ceduo_verdict *v)
+/* Find pairs whose order is clear under one energy law, and reversed by more than one standard error under the other. */
+static void find_reversals(const struct ceduo_result *r, struct ceduo_verdict *v)
 {
-    size_t room = 0;
+    size_t capacity = 0;
     for (size_t i = 0; i < v->n; i++)
         for (size_t k = 0; k < v->n; k++) {
-            double now = errors_worse(difference_today, r, k, i), other = errors_worse(difference_by_other_law, r, i, k);
-            if (i == k || !(fmin(now, other) > 1 && fmax(now, other) > CEDUO_CLEAR))
+            double current = errors_worse(difference_today, r, k, i),
+                   reversed = errors_worse(difference_by_alternative_law, r, i, k);
+            if (i == k || !(fmin(current, reversed) > 1 && fmax(current, reversed) > CEDUO_CLEAR))
                 continue;
-            v->turned = ceduo_arena_grow(&v->memory, v->turned, v->turned_count, 1, &room, sizeof *v->turned);
+            v->reversals = ceduo_arena_grow(&v->memory, v->reversals, v->reversals_count, 1, &capacity, sizeof *v->reversals);
             if (v->memory.failed)
                 return;
-            v->turned[v->turned_count++] = (struct ceduo_rank_reversal){i, k};
+            v->reversals[v->reversals_count++] = (struct ceduo_rank_reversal){i, k};
         }
 }
 
-static uint64_t rocks_of(const struct ceduo_result *r, struct ceduo_years *const *years, size_t option)
+static uint64_t count_rocks(const struct ceduo_result *r, struct ceduo_years *const *years, size_t option)
 {
     return years ? years[option]->rocks : r->options[option].wooded.rocks;
 }
@@ -211,7 +211,7 @@ static void find_leader(const struct ceduo_result *r, struct ceduo_years *const 
         leader->known = !isnan(years ? v->choices[i].mean.mean : v->choices[i].today.mean);
     for (size_t i = 0; i < v->n && leader->known; i++) {
         leader->known = years || !isnan(difference_today(r, i, 0).mean);
-        leader->uneven |= rocks_of(r, years, i) != rocks_of(r, years, 0);
+        leader->uneven |= count_rocks(r, years, i) != count_rocks(r, years, 0);
     }
     if (!leader->known)
         return;
@@ -219,7 +219,7 @@ static void find_leader(const struct ceduo_result *r, struct ceduo_years *const 
     const void *context = years ? (const void *)years : r;
     find_best(difference, context, v->n, leader);
     leader->equal = leader->rivals > 0;
-    for (size_t i = 0; i < v->n; i++) { /* the same forests, today or year by year */
+    for (size_t i = 0; i < v->n; i++) { /* equal forests, today or in all years */
         const struct ceduo_option *one = &r->scene->options[i], *best = &r->scene->options[leader->best];
         bool same = years ? ceduo_years_key(one) == ceduo_years_key(best)
                           : ceduo_option_key(r->scene, one) == ceduo_option_key(r->scene, best);
@@ -229,7 +229,7 @@ static void find_leader(const struct ceduo_result *r, struct ceduo_years *const 
 
 /* ---- one option at one control ---- */
 
-/* Today, by the sampling error and the 90 % range of uncertain inputs. */
+/* Judge today, by the sampling error and the 90 % range of uncertain inputs. */
 static enum ceduo_judgement judge_today(const struct ceduo_result *r, const struct ceduo_uncertainty_result *uncertainty,
                                         size_t option, size_t control)
 {
@@ -240,21 +240,21 @@ static enum ceduo_judgement judge_today(const struct ceduo_result *r, const stru
         return judgement;
     const struct ceduo_surface_fit *fit =
         &ceduo_uncertainty_find_figure(uncertainty, option, CEDUO_UNCERTAINTY_EXCEED, false)->fit;
-    double share = wooded->exceed.mean; /* the range holds it */
+    double share = wooded->exceed.mean; /* the range includes it */
     return fmin(fit->p5, share) <= wooded->limit && fmax(fit->p95, share) > wooded->limit ? CEDUO_DEPENDS : judgement;
 }
 
-/* Over the years, by how many are above the limit. */
+/* Judge the years by the number of years above the limit. */
 static enum ceduo_judgement judge_years(const struct ceduo_years_summary *s, const struct ceduo_outcome *o)
 {
     if (o->uncertain && o->failing_lo < 1 && o->failing_hi >= 1)
         return CEDUO_DEPENDS;
-    bool never = s->failing_hi == 0 && o->failing_hi < 1;
+    bool none = s->failing_hi == 0 && o->failing_hi < 1;
     bool some = s->failing_lo > 0 && o->failing_lo >= 1;
-    return never ? CEDUO_YES : some ? CEDUO_NO : CEDUO_NOT_DECIDED;
+    return none ? CEDUO_YES : some ? CEDUO_NO : CEDUO_NOT_DECIDED;
 }
 
-/* By how often it happens: the mean over the years, or today's. */
+/* Judge by the rate: the mean over the years, or today's. */
 static enum ceduo_judgement judge_rate(const struct ceduo_result *r, const struct ceduo_surface_fit *fit, size_t control,
                                        struct ceduo_outcome *o)
 {
@@ -270,7 +270,7 @@ static enum ceduo_judgement judge_rate(const struct ceduo_result *r, const struc
     return o->rate.hi <= limit ? CEDUO_YES : o->rate.lo > limit ? CEDUO_NO : CEDUO_NOT_DECIDED;
 }
 
-static bool is_impossible(const struct ceduo_result *r, size_t option, size_t control)
+static bool has_impossible_stand(const struct ceduo_result *r, size_t option, size_t control)
 {
     bool impossible = false;
     for (size_t i = 0; i < r->scene->options[option].belts_count; i++)
@@ -282,20 +282,20 @@ static bool is_impossible(const struct ceduo_result *r, size_t option, size_t co
 struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const struct ceduo_verdict *v,
                                            const struct ceduo_uncertainty_result *uncertainty, size_t option, size_t control)
 {
-    const struct ceduo_choice *c = v && option < v->n && v->choices[option].ahead ? &v->choices[option] : NULL;
-    const struct ceduo_years_summary *s = c ? &c->ahead[control] : NULL;
+    const struct ceduo_choice *c = v && option < v->n && v->choices[option].summaries ? &v->choices[option] : NULL;
+    const struct ceduo_years_summary *s = c ? &c->summaries[control] : NULL;
     const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control);
     bool blocks = r->scene->blocks_count > 0, last = control == r->last_control;
     enum ceduo_judgement today = judge_today(r, uncertainty, option, control);
     struct ceduo_outcome o = {.answer = today,
                               .today = today,
-                              .ahead = s && s->simulated > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT,
+                              .over_years = s && s->simulated > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT,
                               .also_bare = ceduo_judge_control(&r->bare.arrivals[control], NULL) == CEDUO_YES,
                               .rate = CEDUO_NO_ESTIMATE};
     bool years = last && uncertainty && uncertainty->rotation;
     if (today == CEDUO_UNANSWERED || today == CEDUO_CANNOT_JUDGE)
         return o;
-    if (o.ahead) {
+    if (o.over_years) {
         const struct ceduo_surface_fit *fit =
             years ? &ceduo_uncertainty_find_figure(uncertainty, option, CEDUO_UNCERTAINTY_FAILING, false)->fit : NULL;
         o.uncertain = fit && !isnan(fit->p5);
@@ -305,21 +305,21 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
         o.answer = judge_years(s, &o);
     }
     if (blocks && wooded) {
-        enum ceduo_uncertainty_kind kind = o.ahead ? CEDUO_UNCERTAINTY_MEAN : CEDUO_UNCERTAINTY_EXCEED;
-        o.rate = o.ahead ? s->rate : ceduo_hazard_judged_rate(&wooded->hazard);
+        enum ceduo_uncertainty_kind kind = o.over_years ? CEDUO_UNCERTAINTY_MEAN : CEDUO_UNCERTAINTY_EXCEED;
+        o.rate = o.over_years ? s->rate : ceduo_hazard_judged_rate(&wooded->hazard);
         o.answer = judge_rate(r,
-                              last && uncertainty && (years || !o.ahead)
+                              last && uncertainty && (years || !o.over_years)
                                   ? &ceduo_uncertainty_find_figure(uncertainty, option, kind, false)->fit
                                   : NULL,
                               control, &o);
     }
-    o.impossible = o.answer == CEDUO_YES && is_impossible(r, option, control);
+    o.impossible = o.answer == CEDUO_YES && has_impossible_stand(r, option, control);
     o.answer = o.impossible ? CEDUO_CANNOT_JUDGE : o.answer;
-    o.today = o.impossible && !o.ahead ? CEDUO_CANNOT_JUDGE : today;
+    o.today = o.impossible && !o.over_years ? CEDUO_CANNOT_JUDGE : today;
     return o;
 }
 
-/* ---- all of it ---- */
+/* ---- comparison ---- */
 
 enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ceduo_years *const *years,
                                         struct ceduo_years *const *rotations, struct ceduo_verdict *v)
@@ -328,7 +328,7 @@ enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ced
     *v = (struct ceduo_verdict){
         .wooded = r->wooded && r->scene->controls_count > 0,
         .accepted = r->scene->controls_count > 0 && !isnan(r->scene->controls[r->last_control].accepted),
-        .nothing = r->scene->controls_count > 0 && ceduo_too_few_arrivals(&r->bare.arrivals[r->last_control]),
+        .too_few_arrivals = r->scene->controls_count > 0 && ceduo_too_few_arrivals(&r->bare.arrivals[r->last_control]),
     };
     v->choices = ceduo_arena_alloc(&v->memory, (n + 1) * sizeof *v->choices);
     v->today.rival = ceduo_arena_alloc(&v->memory, (n + 1) * sizeof *v->today.rival);
@@ -338,14 +338,14 @@ enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ced
         status = read_choice(r, years ? years[i] : NULL, rotations ? rotations[i] : NULL, i, &v->memory, &v->choices[i]);
         v->n = i + 1;
     }
-    if (status == CEDUO_OK && !v->nothing) {
+    if (status == CEDUO_OK && !v->too_few_arrivals) {
         find_leader(r, NULL, v, &v->today);
         if (years)
             find_leader(r, years, v, &v->rotation);
         for (size_t i = 0; i < n && v->rotation.known; i++)
             v->choices[i].beaten = is_beaten(years, v, i);
         if (v->wooded)
-            find_turned(r, v);
+            find_reversals(r, v);
     }
     if (v->memory.failed)
         status = CEDUO_NO_MEMORY;

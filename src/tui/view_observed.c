@@ -39,7 +39,7 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
         if (o->use == CEDUO_OBSERVED_CHECK)
             ceduo_text_format(name, " %s", _("(check)"));
         struct text *seen = ceduo_page_text(page);
-        append_number(seen, file, p, p->seen);
+        append_number(seen, file, p, p->observed);
         ceduo_text_append_joined(seen, " ", "%s", unit);
         struct text *band = ceduo_page_text(page);
         if (isnan(p->lo)) {
@@ -154,7 +154,7 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
         ceduo_text_append(text, RANGE);
         ceduo_calibration_number(text, path, one->p97_5);
         ceduo_text_append(text, ")");
-        if (!one->determined)
+        if (!one->identified)
             ceduo_text_format(text, ", %s", _("not determined"));
     }
     ceduo_page_add(page, CEDUO_PAGE_GAP);

@@ -60,7 +60,7 @@ static const struct ceduo_yield *find_yield(const struct ceduo_place *p)
 static const struct ceduo_choice *find_years_ahead(const struct ceduo_place *p)
 {
     const struct ceduo_choice *c = ceduo_report_years_ahead(p->report, p->option);
-    return c && c->over->simulated > 0 ? c : NULL;
+    return c && c->last_summary->simulated > 0 ? c : NULL;
 }
 
 static const struct ceduo_stand_result *get_stand_result(const struct ceduo_place *p)
@@ -172,7 +172,7 @@ static void report_reason(const struct ceduo_place *p, ceduo_sentence_sink *sink
     const struct ceduo_outcome o = judge(p);
     const struct ceduo_subject subject = ceduo_subject_find(p->report, p->option, p->control);
     LOCAL_TEXT(why);
-    if ((o.ahead && o.answer != CEDUO_CANNOT_JUDGE) || o.impossible)
+    if ((o.over_years && o.answer != CEDUO_CANNOT_JUDGE) || o.impossible)
         ceduo_words_reason(&why, &subject);
     else
         ceduo_words_judgement_reason(&why, p->report->result, p->control, get_wooded_arrivals(p));
@@ -218,8 +218,8 @@ VALUE(judgement_today, place, TEXT, WORD(o->year ? NULL : ceduo_words_judgement(
 VALUE(window_lo, choice, NUMBER, NUMBER(fmax(0, o->mean.mean - o->mean.half)))
 VALUE(window_hi, choice, NUMBER, NUMBER(fmin(1, o->mean.mean + o->mean.half)))
 VALUE(window_worst, choice, NUMBER, NUMBER(o->worst.mean))
-VALUE(window_worst_year, choice, COUNT, COUNT(o->over->worst_year))
-VALUE(window_failing, choice, COUNT, o->energy_known ? COUNT(o->over->unprotected_energy) : NO_VALUE)
+VALUE(window_worst_year, choice, COUNT, COUNT(o->last_summary->worst_year))
+VALUE(window_failing, choice, COUNT, o->energy_known ? COUNT(o->last_summary->unprotected_energy) : NO_VALUE)
 VALUE(judgement_by_other_law, alternative_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
 VALUE(felled_length, place, NUMBER, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, TEXT, WORD("ceduo-find-1"))

@@ -114,9 +114,9 @@ static void report_paths(const struct ceduo_place *p, ceduo_sentence_sink *sink,
 VALUE(input_measured, place, TEXT, WORD(ceduo_uncertainty_measured_by(o->uncertainty, o->input)))
 VALUE(input_lo, place, ANY, read_input_end(o, 0))
 VALUE(input_hi, place, ANY, read_input_end(o, 1))
-VALUE(input_at_lo, place, NUMBER, NUMBER(to_display_unit(o, get_figure(o)->at[o->input][0])))
-VALUE(input_at_hi, place, NUMBER, NUMBER(to_display_unit(o, get_figure(o)->at[o->input][1])))
-VALUE(input_known_width, place, NUMBER, NUMBER(to_display_unit(o, get_figure(o)->fit.left[o->input])))
+VALUE(input_at_lo, place, NUMBER, NUMBER(to_display_unit(o, get_figure(o)->at_ends[o->input][0])))
+VALUE(input_at_hi, place, NUMBER, NUMBER(to_display_unit(o, get_figure(o)->at_ends[o->input][1])))
+VALUE(input_known_width, place, NUMBER, NUMBER(to_display_unit(o, get_figure(o)->fit.width_if_known[o->input])))
 VALUE(order_better, place, TEXT, WORD(get_uncertain_scene(o)->options[get_order(o)->better].name_given))
 VALUE(order_than, place, TEXT, WORD(get_uncertain_scene(o)->options[get_order(o)->than].name_given))
 VALUE(order_period, place, TEXT, WORD(o->uncertainty->answer->rotation ? "rotation" : "today"))
@@ -153,14 +153,14 @@ static const struct ceduo_figure uncertainty_figure_rows[] = {
     {"sampling_lo", "", "lower end of its 95 % interval, by the rocks", FIGURE(sampling_lo), .null = NO_LIMIT},
     {"sampling_hi", "", "upper end of its 95 % interval", FIGURE(sampling_hi), .null = NO_LIMIT},
     {"uncertainty", "", "by the uncertain inputs", .table = band_rows},
-    {"within", "", "share of what may be true in which no more exceed than are allowed", FIGURE(fit.below.value),
+    {"within", "", "share of what may be true in which no more exceed than are allowed", FIGURE(fit.share_below.value),
      .null = "the figure is not the share that exceeds, today or in the mean of the years"},
-    {"within_se", "", "its standard error", FIGURE(fit.below.se),
+    {"within_se", "", "its standard error", FIGURE(fit.share_below.se),
      .null = "the figure is not the share that exceeds, today or in the mean of the years"},
     {"q2", "", "share of the variance that the surface predicts, leaving out each point in turn",
      .from = uncertain_figure_object, MEMBER(uncertainty_figure, fit.q2), .null = FEW_POINTS},
     {"unexplained", "", "share of the variance that neither single inputs nor pairs explain", .from = uncertain_figure_object,
-     MEMBER(uncertainty_figure, fit.whole.value), .null = FEW_POINTS},
+     MEMBER(uncertainty_figure, fit.unexplained.value), .null = FEW_POINTS},
     END};
 
 static const struct ceduo_figure input_range_rows[] = {
@@ -297,7 +297,7 @@ static const struct ceduo_figure fitted_rows[] = {
     {"p2_5", "", "lower end of what is not refuted, 95 %", .from = get_fitted, MEMBER(fitted, p2_5), .null = NO_RANGE},
     {"p50", "", "its median", .from = get_fitted, MEMBER(fitted, p50), .null = NO_RANGE},
     {"p97_5", "", "its upper end", .from = get_fitted, MEMBER(fitted, p97_5), .null = NO_RANGE},
-    {"determined", "", "whether the observations determine it", .from = get_fitted, MEMBER(fitted, determined)},
+    {"determined", "", "whether the observations determine it", .from = get_fitted, MEMBER(fitted, identified)},
     {"at_bound", "", "whether it lies at a bound", .from = get_fitted, MEMBER(fitted, at_bound)},
     END};
 
@@ -314,7 +314,7 @@ static const struct ceduo_figure observation_rows[] = {
     {"deviance", "", "deviance at the best values", .from = prediction_object, MEMBER(predicted, at_best.deviance)},
     {"p_value", "", "how often simulated rocks deviate as much", .from = prediction_object, MEMBER(predicted, p_value),
      .null = NO_RANGE},
-    {"seen", "", "mean of what was observed", OBSERVED(seen)},
+    {"seen", "", "mean of what was observed", OBSERVED(observed)},
     {"predicted_lo", "", "lower end of what the fit predicts of that mean, 95 %", OBSERVED(lo), .null = NO_RANGE},
     {"predicted_hi", "", "its upper end", OBSERVED(hi), .null = NO_RANGE},
     {"inside", "", "whether the mean lies between the two", .from = prediction_object, MEMBER(predicted, inside)},
@@ -336,8 +336,8 @@ const struct ceduo_figure ceduo_calibration_figures[] = {
     {"misfit", "", "whether the model cannot give something that it was fitted to", .from = calibration_object,
      MEMBER(calibration, misfit)},
     {"refuted", "", "whether the fit does not hold for what was to check it", .from = calibration_object,
-     MEMBER(calibration, refuted)},
-    {"settled", "", "whether the chains agree", .from = calibration_object, MEMBER(calibration, settled)},
+     MEMBER(calibration, check_failed)},
+    {"settled", "", "whether the chains agree", .from = calibration_object, MEMBER(calibration, converged)},
     {"evaluations", "", "scenes computed", .from = calibration_object, MEMBER(calibration, evaluations)},
     {"rhat", "", "largest potential scale reduction of the values", .from = calibration_object, MEMBER(calibration, rhat)},
     {"effective_size", "", "smallest effective size of the values", .from = calibration_object,

@@ -111,14 +111,14 @@ size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdic
 static void add_mean(struct ceduo_page *page, const struct ceduo_subject *s)
 {
     const struct ceduo_choice *c = ceduo_report_years_ahead(s->report, 0);
-    if (!c || c->over->simulated == 0)
+    if (!c || c->last_summary->simulated == 0)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
     LOCAL_TEXT(range);
     if (!isnan(s->mean.p5))
         ceduo_text_format(&range, _(" (range %s)"), PLAUSIBLE_RANGE(s->mean));
     ceduo_text_format(text, _("mean %s%s of 1000, worst %.0f in year %u"), WITH_ERROR(s->mean, " "), ceduo_text_string(&range),
-                      1000 * c->worst.mean, c->over->worst_year);
+                      1000 * c->worst.mean, c->last_summary->worst_year);
     ceduo_text_format(text, _("; today %s"), MEASURE_VALUE(s->today));
     if (s->outcome.today != CEDUO_UNANSWERED)
         ceduo_text_format(text, " (%s)", ceduo_words_judgement_name(s->outcome.today));
@@ -228,19 +228,19 @@ void ceduo_page_over_time(struct ceduo_page *page, const struct ceduo_report *re
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && v->n == 1 ? &v->choices[0] : NULL; /* several options have a table */
     const struct ceduo_option *option = report->result->scene->options;
-    if (!c || c->over->years == 0 || ceduo_page_is_unassessable(report->result))
+    if (!c || c->last_summary->years == 0 || ceduo_page_is_unassessable(report->result))
         return;
     if (c->window.kind == CEDUO_WINDOW_CONSTANT) {
         ceduo_words_window(ceduo_page_item(page, CEDUO_PAGE_POINT, _("OVER TIME")), option);
         return;
     }
-    if (c->over->simulated > 0) /* included in the answer */
+    if (c->last_summary->simulated > 0) /* included in the answer */
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
-    ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->over->years), c->over->years);
+    ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->last_summary->years), c->last_summary->years);
     ceduo_text_append_char(text, '\t');
     ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), SIG(c->worst.mean, 3),
-                      c->over->worst_year, c->over->unprotected_contact, c->over->years);
+                      c->last_summary->worst_year, c->last_summary->unprotected_contact, c->last_summary->years);
 }
 
 /* ---- sentences and cells shared by pages ---- */

@@ -46,7 +46,7 @@ const struct ceduo_observation *ceduo_observed_find(const struct ceduo_calibrati
 
 size_t ceduo_observed_number(const struct ceduo_observation *o)
 {
-    return o->kind == CEDUO_OBSERVED_PASSED ? (size_t)o->of : o->n;
+    return o->kind == CEDUO_OBSERVED_PASSED ? (size_t)o->released_count : o->n;
 }
 
 void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration_report *r)
@@ -63,7 +63,7 @@ void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration
             between = ", ";
         }
         ceduo_text_format(text, "; %s 95 %% %s\xe2\x80\x93%s%s", ceduo_schema_fitted(r->inputs[i].path)->key, SIG(f->p2_5, 3),
-                          SIG(f->p97_5, 3), f->determined ? "" : "; not determined");
+                          SIG(f->p97_5, 3), f->identified ? "" : "; not determined");
     }
 }
 
@@ -112,7 +112,7 @@ static void add_value_warnings(struct ceduo_page *page, const struct ceduo_calib
         const struct ceduo_fitted *f = &r->answer->parameters[i];
         LOCAL_TEXT(name);
         ceduo_calibration_name(&name, r->inputs[i].path);
-        if (!f->determined)
+        if (!f->identified)
             ceduo_page_para(page, CEDUO_PAGE_WARNING, _("%s is not identifiable: almost any value within the bounds fits."),
                             name.bytes);
         if (f->at_bound)
@@ -158,7 +158,7 @@ static void add_misfits(struct ceduo_page *page, const struct ceduo_calibration_
                             _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
                             ceduo_text_string(&name), o->n, p->one_inside, ceduo_text_string(&range));
         }
-        if (o->kind == CEDUO_OBSERVED_SCARS && o->of > 0 && isnan(o->share_seen))
+        if (o->kind == CEDUO_OBSERVED_SCARS && o->released_count > 0 && isnan(o->share_seen))
             ceduo_page_para(page, CEDUO_PAGE_WARNING,
                             _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
                               "number of blows is taken too low."),
@@ -206,7 +206,7 @@ void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibra
     const struct ceduo_calibration *a = r->answer;
     add_misfits(page, r);
     add_value_warnings(page, r);
-    if (!a->settled)
+    if (!a->converged)
         add_unconverged(page, r);
     ceduo_page_note(page, _("A fitted ground holds for this profile. A neighbouring profile may need another ground."));
     ceduo_page_para(page, CEDUO_PAGE_NOTE,
@@ -247,7 +247,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
         append_observation_name(ceduo_page_text(&page), r, p);
         ceduo_page_cell_format(&page, "%s", o->use == CEDUO_OBSERVED_FIT ? _("fit") : _("check"));
         ceduo_page_cell_format(&page, "%zu", ceduo_observed_number(o));
-        ceduo_page_cell_format(&page, "%s", SIG(ceduo_observed_shown(file, p, p->seen), 3));
+        ceduo_page_cell_format(&page, "%s", SIG(ceduo_observed_shown(file, p, p->observed), 3));
         append_range(ceduo_page_text(&page), ceduo_observed_shown(file, p, p->lo), ceduo_observed_shown(file, p, p->hi));
         if (isnan(p->p_value) || p->p_value < 0.001)
             ceduo_page_cell_format(&page, "%s", isnan(p->p_value) ? "-" : "<.001");

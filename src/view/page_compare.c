@@ -200,10 +200,10 @@ static const char *format_share(struct ceduo_measure share, struct ceduo_estimat
 
 static const char *format_cell(enum column column, const struct ceduo_subject *s, char buffer[CEDUO_WORDS_SIZE])
 {
-    const struct ceduo_choice *c = s->choice && s->choice->over->years > 0 ? s->choice : NULL;
+    const struct ceduo_choice *c = s->choice && s->choice->last_summary->years > 0 ? s->choice : NULL;
     const struct ceduo_hazard *h = ceduo_hazard_find(s->wooded);
     const char *unknown = s->report->busy && !c && s->index ? PENDING : "-";
-    bool rates = has_rates(s->report), judged = c && !c->over->nothing;
+    bool rates = has_rates(s->report), judged = c && !c->last_summary->nothing;
     double remaining = h && column >= WEAK && column <= STRONG ? h->intensity[column - WEAK].left : NAN;
     switch (column) {
     case TODAY:
@@ -218,24 +218,25 @@ static const char *format_cell(enum column column, const struct ceduo_subject *s
     case MEAN_RANGE:
         return isnan(s->mean.p5) || rates ? "" : ceduo_measure_plausible_range(s->mean, buffer);
     case WORST:
-        return !c || c->over->simulated == 0
+        return !c || c->last_summary->simulated == 0
                    ? unknown
                    : format_to(buffer, "%s (%u)",
                                rates ? SIG(1 / (c->worst.mean * ceduo_hazard_find(s->bare)->per_year), 2)
                                      : SIG(1000 * c->worst.mean, 0),
-                               c->over->worst_year);
+                               c->last_summary->worst_year);
     case ROTATION:
         return c ? ceduo_measure_error(ceduo_measure_share(c->rotation), "", buffer) : "-";
     case WORST_ADC:
-        return c ? format_to(buffer, "%s (%u)", SIG(c->worst.mean, 3), c->over->worst_year) : unknown;
+        return c ? format_to(buffer, "%s (%u)", SIG(c->worst.mean, 3), c->last_summary->worst_year) : unknown;
     case FAIL:
         if (rates)
             return ceduo_words_judgement_mark(s->outcome.answer, buffer);
-        return c && c->energy_known ? format_to(buffer, "%zu/%zu", c->over->unprotected_energy, c->over->years) : unknown;
+        return c && c->energy_known ? format_to(buffer, "%zu/%zu", c->last_summary->unprotected_energy, c->last_summary->years)
+                                    : unknown;
     case FAIL_CONTACT:
-        return judged ? format_to(buffer, "%zu/%zu", c->over->unprotected_contact, c->over->years) : unknown;
+        return judged ? format_to(buffer, "%zu/%zu", c->last_summary->unprotected_contact, c->last_summary->years) : unknown;
     case FAIL_FREE_RUN:
-        return judged ? format_to(buffer, "%zu/%zu", c->over->unprotected_free_run, c->over->years) : unknown;
+        return judged ? format_to(buffer, "%zu/%zu", c->last_summary->unprotected_free_run, c->last_summary->years) : unknown;
     case ADC:
         return ceduo_words_against_limit(s->index->worst_adc, 3, s->report->result->scene->simulation.threshold, buffer);
     case FREE_RUN_SHARE:
@@ -402,9 +403,9 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     const struct ceduo_simulated **wooded = ceduo_check_memory(calloc(n, sizeof *wooded));
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_run_snapshot *run = ceduo_snapshot_find(d->picture->snapshot, scene, i);
-        wooded[i] = run ? &run->flown : NULL;
+        wooded[i] = run ? &run->simulated : NULL;
     }
-    if (ceduo_result_assess(scene, &d->bare->flown, wooded, NULL, NULL, &result) != CEDUO_OK)
+    if (ceduo_result_assess(scene, &d->bare->simulated, wooded, NULL, NULL, &result) != CEDUO_OK)
         result = NULL;
     ceduo_check_memory(result);
     const struct ceduo_report report = {.result = result};
@@ -465,7 +466,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
                         v->choices[0].window.last);
         ceduo_page_options(page, report, CEDUO_OPTIONS_YEARS, r->last_control, SIZE_MAX, 0, SIZE_MAX);
     }
-    for (size_t i = 0; v->choices[0].over->years > 0 && i < v->n; i++) { /* limits of the yield model */
+    for (size_t i = 0; v->choices[0].last_summary->years > 0 && i < v->n; i++) { /* limits of the yield model */
         known |= !isnan(v->choices[i].yield.cut_per_year);
         if (v->choices[i].yield.space > 1)
             ceduo_page_para(
@@ -477,7 +478,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
         ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
                                 "quality of the wood are not modelled."));
     ceduo_words_rank_reversals(r, v, ceduo_page_note, page); /* the best option is named at the top of the page */
-    if (v->choices[0].over->years > 0)
+    if (v->choices[0].last_summary->years > 0)
         ceduo_words_windows(r->scene, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
         ceduo_page_note(page, _(ceduo_words_unjudged));

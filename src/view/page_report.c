@@ -76,9 +76,9 @@ static void add_uncertainty(struct ceduo_page *page, const struct ceduo_report *
     else
         ceduo_text_append_joined(text, " ", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.p5,
                                  m.p95, phrase);
-    if (o.ahead && o.uncertain && r->scene->blocks_count == 0)
+    if (o.over_years && o.uncertain && r->scene->blocks_count == 0)
         ceduo_text_append_joined(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
-                                 o.failing_hi, report->verdict->choices[option].over->years);
+                                 o.failing_hi, report->verdict->choices[option].last_summary->years);
     if (o.answer == CEDUO_DEPENDS)
         ceduo_text_append_joined(text, " ", "%s",
                                  _("Some of these cases keep within the limit and some do not: the answer depends on "

@@ -138,7 +138,7 @@ static void add_test(struct ceduo_page *page, const struct ceduo_subject *s, con
     ceduo_page_cell_format(page, "%s", limit);
     ceduo_page_light(page, today);
     if (c && page->width < CEDUO_PAGE_WIDTH)
-        ceduo_page_light(page, !known || c->over->nothing ? CEDUO_UNKNOWN : failing > 0 ? CEDUO_FAIL : CEDUO_PASS);
+        ceduo_page_light(page, !known || c->last_summary->nothing ? CEDUO_UNKNOWN : failing > 0 ? CEDUO_FAIL : CEDUO_PASS);
     else
         ceduo_page_cell_format(page, "%s", "");
 }
@@ -179,16 +179,16 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     bool gap = index->length > 0 && index->longest_gap > threshold; /* the gap is why both tests fail */
     add_name(page, gap ? _("gap without forest, m") : _("distance between contacts (ADC), m"), gap ? _("gap m") : _("ADC m"));
     ceduo_page_cell_format(page, "%s", gap ? SIG_TRIMMED(index->longest_gap, 6) : VS_LIMIT(index->worst_adc, 3, threshold));
-    add_test(page, s, adc_limit.bytes, index->contact, c->over->unprotected_contact, true);
+    add_test(page, s, adc_limit.bytes, index->contact, c->last_summary->unprotected_contact, true);
     add_name(page, _("free run: chance of no contact, %"), _("free run %"));
     ceduo_page_cell_format(page, "%s", PERCENT_VS_LIMIT(index->worst_free_run, CEDUO_FREE_RUN_MAX));
-    add_test(page, s, free_run_limit.bytes, index->free_run, c->over->unprotected_free_run, true);
+    add_test(page, s, free_run_limit.bytes, index->free_run, c->last_summary->unprotected_free_run, true);
     add_name(page, _("energy: too much, % of the rocks"), _("energy %"));
     ceduo_page_cell_format(page, "%s",
                            judged                          ? PERCENT_VS_LIMIT(share, limit)
                            : s->report->busy && !s->wooded ? "\xe2\x80\xa6"
                                                            : "-");
-    add_test(page, s, ceduo_text_string(&energy_limit), index->energy, c->over->unprotected_energy, c->energy_known);
+    add_test(page, s, ceduo_text_string(&energy_limit), index->energy, c->last_summary->unprotected_energy, c->energy_known);
     if (isnan(index->residual)) /* no rock arrives without forest */
         return;
     if (lines >= CEDUO_LINES_SHORT)

@@ -47,7 +47,7 @@ static void collect_notes(struct ceduo_page *notes, const struct ceduo_report *r
     ceduo_words_thin_stems(r, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_rules(notes, r, i, false);
-    if (n > 1 && report->verdict && report->verdict->choices[0].over->years > 0)
+    if (n > 1 && report->verdict && report->verdict->choices[0].last_summary->years > 0)
         ceduo_words_windows(r->scene, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_warnings(notes, r, i);

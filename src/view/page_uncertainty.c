@@ -203,7 +203,7 @@ static struct ceduo_measure make_measure(const struct ceduo_uncertainty_report *
         own = ceduo_rocks_released(a);
         m = energy ? ceduo_measure_figure(CEDUO_RELEASED_KJ, a)
                    : ceduo_measure_exceeding(&s->controls[ceduo_scene_last_control(s)], a);
-    } else if (c && c->over->simulated > 0 && c->rocks > own) {
+    } else if (c && c->last_summary->simulated > 0 && c->rocks > own) {
         own = c->rocks;
         m = ceduo_measure_share(c->mean);
     } else {
@@ -287,7 +287,7 @@ static bool has_effect(const struct ceduo_uncertainty_figure *f, size_t g)
 /* Append the width of a figure's range if an input is known, in `format`; "no gain" if it hardly changes. */
 static void append_known_width(struct text *text, const struct ceduo_uncertainty_figure *f, size_t input, const char *format)
 {
-    double known_width = f->fit.left[input];
+    double known_width = f->fit.width_if_known[input];
     LOCAL_TEXT(width);
     ceduo_uncertainty_value(&width, f->kind, known_width);
     if (known_width > NO_GAIN_MIN * (f->fit.p95 - f->fit.p5))
@@ -308,7 +308,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (r->file->scene.options_count > 1)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Inputs that decide '%s':"), r->file->scene.options[f->option].name);
-    if (!f->fit.enough) {
+    if (!f->fit.enough_points) {
         ceduo_page_note(page, _("Too few points to rank the inputs; use more (--sensitivity=N)."));
         return;
     }
@@ -325,11 +325,11 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
         ceduo_page_cell_format(page, "%.0f %%", ceduo_uncertainty_share(f, g) * 100);
         append_known_width(ceduo_page_text(page), f, g, "%s");
     }
-    if (f->fit.whole.value >= SHARE_MIN && f->fit.whole.value > 2 * f->fit.whole.se) {
+    if (f->fit.unexplained.value >= SHARE_MIN && f->fit.unexplained.value > 2 * f->fit.unexplained.se) {
         ceduo_page_cell_format(page, "%s", _("not explained by a smooth surface"));
         ceduo_page_cell_format(page, "%s", "");
         ceduo_page_cell_format(page, "%s", "");
-        ceduo_page_cell_format(page, "%.0f %%", f->fit.whole.value * 100);
+        ceduo_page_cell_format(page, "%.0f %%", f->fit.unexplained.value * 100);
         ceduo_page_cell_format(page, "%s", "");
     }
     if (rest == f->uses)
@@ -376,7 +376,7 @@ static bool is_named_before(const struct ceduo_uncertainty_report *r, const stru
 size_t ceduo_uncertainty_advised_input(const struct ceduo_uncertainty_report *r, const struct ceduo_uncertainty_figure *f,
                                        size_t n)
 {
-    for (size_t i = 0; f->fit.enough && i < f->uses; i++)
+    for (size_t i = 0; f->fit.enough_points && i < f->uses; i++)
         if (is_advised(r, f, f->order[i]) && !is_named_before(r, f, i) && n-- == 0)
             return f->order[i];
     return SIZE_MAX;
@@ -555,7 +555,7 @@ static void add_input_bars(struct ceduo_page *page, const struct ceduo_uncertain
         return;
     CEDUO_PAGE_TABLE_OF(page, columns);
     ceduo_text_format(&page->last->cells[3].text, _("of %.3g wide"), (f->fit.p95 - f->fit.p5) * get_factor(r));
-    for (size_t i = 0, n = 1; f->fit.enough && i < f->uses && n < (size_t)lines; i++)
+    for (size_t i = 0, n = 1; f->fit.enough_points && i < f->uses && n < (size_t)lines; i++)
         if (f->fit.total[f->order[i]].value >= BAR_SHARE_MIN) {
             double share = ceduo_uncertainty_share(f, f->order[i]);
             ceduo_uncertainty_input_name(ceduo_page_text(page), r, f->order[i]);

@@ -28,7 +28,7 @@ enum ceduo_plot ceduo_plot_find(const char *name)
 
 const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_run_snapshot *run, size_t control)
 {
-    return run && control < run->flown.controls ? &run->flown.arrivals[control] : NULL;
+    return run && control < run->simulated.controls ? &run->simulated.arrivals[control] : NULL;
 }
 
 static struct ceduo_drawing make_drawing(const struct ceduo_picture *p)
@@ -128,7 +128,7 @@ void ceduo_plot_observed(struct ceduo_canvas *canvas, const struct ceduo_area *a
         ceduo_canvas_line(canvas, &d.frame, CEDUO_ROLE_DIM, s->x[i], s->lo[i], s->x[i], s->hi[i]);
     ceduo_canvas_polyline(canvas, &d.frame, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_PLAIN, CEDUO_STOPS_PLACES, s->x, s->lo);
     ceduo_canvas_polyline(canvas, &d.frame, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_PLAIN, CEDUO_STOPS_PLACES, s->x, s->hi);
-    ceduo_canvas_stairs(canvas, &d.frame, CEDUO_ROLE_MEAN, CEDUO_STOPS_PLACES, s->x, s->seen);
+    ceduo_canvas_stairs(canvas, &d.frame, CEDUO_ROLE_MEAN, CEDUO_STOPS_PLACES, s->x, s->observed);
     ceduo_plot_axes(&d, origin, 0, "m");
 }
 

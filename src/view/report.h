@@ -233,7 +233,7 @@ static inline const struct ceduo_choice *ceduo_report_years_ahead(const struct c
 {
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && option < v->n ? &v->choices[option] : NULL;
-    return c && c->over->years > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT ? c : NULL;
+    return c && c->last_summary->years > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT ? c : NULL;
 }
 
 /* True if the scene has no control, or if too few rocks reach the last one. */

@@ -215,14 +215,14 @@ static void append_count(struct text *text, const struct ceduo_outcome *o)
 static bool is_due(const struct ceduo_subject *s)
 {
     const struct ceduo_outcome *o = &s->outcome;
-    return o->ahead && s->choice && s->choice->cut > 0 && o->today != o->answer && !o->impossible;
+    return o->over_years && s->choice && s->choice->cut > 0 && o->today != o->answer && !o->impossible;
 }
 
 /* Append the years in which the limit is exceeded, and by how much. */
 static void append_years(struct text *text, const struct ceduo_subject *s, enum length length)
 {
     const struct ceduo_outcome *o = &s->outcome;
-    const struct ceduo_years_summary *summary = &s->choice->ahead[s->control];
+    const struct ceduo_years_summary *summary = &s->choice->summaries[s->control];
     const char *limit = LOCALIZED(s->today.limit);
     double accepted = 1000 * CEDUO_EXCEED_MAX, worst = 1000 * summary->worst;
     LOCAL_TEXT(count);
@@ -258,7 +258,7 @@ static void append_years(struct text *text, const struct ceduo_subject *s, enum 
 /* Append the return period and the accepted one, for scenes with blocks. */
 static void append_rate(struct text *text, const struct ceduo_subject *s, enum length length)
 {
-    bool years_ahead = s->outcome.ahead;
+    bool years_ahead = s->outcome.over_years;
     if (length <= LONG)
         ceduo_text_format(text, _("more than %s kJ every %s years"), LOCALIZED(ceduo_words_accepted(s->place)),
                           RETURN_PERIOD_RANGE(s->outcome.rate));
@@ -267,7 +267,7 @@ static void append_rate(struct text *text, const struct ceduo_subject *s, enum l
     if (length <= MIDDLE)
         ceduo_text_format(text, _(" (accepted: %s)"), LOCALIZED(ceduo_accepted_return(s->place)));
     if (length == FULL && years_ahead)
-        ceduo_text_format(text, _(", mean of %zu years"), s->choice->ahead[s->control].years);
+        ceduo_text_format(text, _(", mean of %zu years"), s->choice->summaries[s->control].years);
     if (length <= SHORT && years_ahead && s->wooded)
         ceduo_text_format(text, _("; today every %s"), RETURN_PERIOD(ceduo_judged_rate(s->wooded)));
 }
@@ -320,7 +320,7 @@ static void append_reason(struct text *text, const struct ceduo_subject *s, size
             append_rate(text, s, i);
         else if (o->answer == CEDUO_YES && o->also_bare)
             append_shares(text, &bare, NULL, i);
-        else if (o->ahead && o->answer != CEDUO_UNANSWERED)
+        else if (o->over_years && o->answer != CEDUO_UNANSWERED)
             append_years(text, s, i);
         else
             append_shares(text, s->wooded ? &s->today : &bare, ceduo_plot_has_stems(&scene->options[s->option]) ? &bare : NULL,

@@ -139,7 +139,7 @@ static void append_best(struct text *text, const struct ceduo_scene *scene, cons
 
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
 {
-    if (v->nothing)
+    if (v->too_few_arrivals)
         ceduo_text_append(text, _("The forest cannot be assessed: no rock arrives, even without it."));
     LOCAL_TEXT(period);
     ceduo_text_format(&period, _("In years %u to %u"), get_window(v)->first, get_window(v)->last);
@@ -204,8 +204,8 @@ static double get_share(const struct ceduo_result *r, size_t option, bool by_oth
 void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_sentence_sink *sink,
                                 void *context)
 {
-    for (size_t i = 0; i < v->turned_count; i++) {
-        size_t a = v->turned[i].better, b = v->turned[i].than, remaining = v->turned_count - i;
+    for (size_t i = 0; i < v->reversals_count; i++) {
+        size_t a = v->reversals[i].better, b = v->reversals[i].worse, remaining = v->reversals_count - i;
         LOCAL_TEXT(sentence);
         if (isnan(get_share(r, a, true) + get_share(r, b, true))) /* not computed yet */
             continue;
@@ -214,7 +214,7 @@ void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo
                               ngettext("The order of %zu other pair of options depends on the energy law, too.",
                                        "The order of %zu other pairs of options depends on the energy law, too.", remaining),
                               remaining);
-            i = v->turned_count;
+            i = v->reversals_count;
         } else {
             bool stems = r->options[a].others[r->last_control].stems;
             const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].others[r->last_control];

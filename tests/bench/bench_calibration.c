@@ -30,10 +30,10 @@ static void try_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint6
         return;
     printf("%zu,%s,%llu,%llu,%llu,%.1f,%d,%.0f", number, made_by == CEDUO_LAW_LUMPED ? "lumped" : "crsp",
            (unsigned long long)seen, (unsigned long long)rocks, (unsigned long long)a.evaluations, processor_s() - start,
-           a.settled, a.effective_size);
+           a.converged, a.effective_size);
     printf(",%d,%.4f,%.4f,%.4f", a.misfit, a.predicted[0].p_value, a.predicted[1].p_value, a.predicted[2].p_value);
     for (size_t i = 0; i < VALUES; i++)
-        printf(",%.4f,%.4f,%.4f,%d", truth[i], a.parameters[i].p2_5, a.parameters[i].p97_5, a.parameters[i].determined);
+        printf(",%.4f,%.4f,%.4f,%d", truth[i], a.parameters[i].p2_5, a.parameters[i].p97_5, a.parameters[i].identified);
     printf("\n");
     fflush(stdout);
     ceduo_calibration_free(&a);

@@ -23,7 +23,7 @@ int main(int argc, char **argv)
         if (!quarry_try(&trial, truth, &a))
             continue;
         printf("%zu,%zu,%llu,%llu,%llu,%d,%.0f,%.1f,%.1f\n", i, trial.values, (unsigned long long)trial.seen,
-               (unsigned long long)trial.rocks, (unsigned long long)a.evaluations, a.settled, a.effective_size,
+               (unsigned long long)trial.rocks, (unsigned long long)a.evaluations, a.converged, a.effective_size,
                processor_s() - processor, ceduo_clock() - start);
         fflush(stdout);
         ceduo_calibration_free(&a);

@@ -27,7 +27,7 @@ static void wait_for(struct app *app, uint64_t rocks)
         struct pollfd fd = {.fd = ceduo_jobs_fd(app->live.jobs), .events = POLLIN};
         poll(&fd, 1, 1000);
         ceduo_program_poll(app);
-    } while (!app->live.result || app->live.results.snapshot->snapshot->bare->flown.rocks < rocks ||
+    } while (!app->live.result || app->live.results.snapshot->snapshot->bare->simulated.rocks < rocks ||
              app->live.asked != app->live.results.snapshot->key);
     ceduo_screen_draw(app);
 }

@@ -69,7 +69,7 @@ static void read_value(void *context, const struct point *point, const struct co
 {
     double sum = 0;
     for (size_t g = 0; g < CEDUO_SURFACE_GROUPS; g++)
-        sum += at[CONTROL(point->scene)].of[g].exceed_probability;
+        sum += at[CONTROL(point->scene)].group[g].exceed_probability;
     ((double *)context)[point->row] = sum / CEDUO_SURFACE_GROUPS;
 }
 

@@ -182,7 +182,7 @@ static bool question(void)
         status = ceduo_compare_options(answer.result, answer.years, NULL, &verdict);
     if (status == CEDUO_OK) {
         struct ceduo_years_summary s = ceduo_years_summarize(answer.years[0], 0);
-        assert_int_equal(verdict.turned_count, 1);
+        assert_int_equal(verdict.reversals_count, 1);
         add(&verdict.choices[0].yield.volume_today, sizeof verdict.choices[0].yield.volume_today);
         add(ceduo_result_wooded(answer.result, 0, 0), sizeof(struct ceduo_arrivals));
         add(&s.reach, sizeof s.reach);
@@ -311,7 +311,8 @@ static bool uncertainty_over_years(void)
 static bool sure(void)
 {
     struct reliability_result answer = {.above = 0};
-    const struct reliability_def def = {.of = uncertainty_def(8, 16), .goal = CEDUO_GOAL_ARRIVE, .target = .5, .sure = .9};
+    const struct reliability_def def = {
+        .uncertainty = uncertainty_def(8, 16), .goal = CEDUO_GOAL_ARRIVE, .target = .5, .sure = .9};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     enum ceduo_status status = ceduo_reliability_compute(&def, &answer);
     if (status == CEDUO_OK)
@@ -378,7 +379,7 @@ static bool fit_surface(void)
     enum ceduo_status status = ceduo_surface_points(1, POINTS, INPUTS, u);
     for (size_t i = 0; i < FIGURES * POINTS && status == CEDUO_OK; i++)
         for (size_t g = 0; g < CEDUO_SURFACE_GROUPS; g++)
-            y[i].of[g] = sin(40 * u[i % POINTS * INPUTS + i / POINTS]) + .1 * sin((double)(i * CEDUO_SURFACE_GROUPS + g));
+            y[i].value[g] = sin(40 * u[i % POINTS * INPUTS + i / POINTS]) + .1 * sin((double)(i * CEDUO_SURFACE_GROUPS + g));
     const struct ceduo_surface_figure figure = {.y = y, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
     if (status == CEDUO_OK)
         status = ceduo_surface_open(of, INPUTS, u, POINTS, &surface);

@@ -11,7 +11,7 @@
 #include "ceduo/ceduo.h"
 #include "ceduo/survey.h"
 #include "study/chains.h"
-#include "study/guess.h"
+#include "study/surrogate.h"
 #include "unit/ground.h"
 
 #define ROCKS 6
@@ -95,10 +95,10 @@ static void see(struct ceduo_observation seen[4])
     seen[0].values = stops;
     seen[1] = something(CEDUO_OBSERVED_PASSED);
     seen[1].count = 2;
-    seen[1].of = 3;
+    seen[1].released_count = 3;
     seen[2] = something(CEDUO_OBSERVED_SCARS);
     seen[2].values = scars;
-    seen[2].of = 10;
+    seen[2].released_count = 10;
     seen[3] = something(CEDUO_OBSERVED_ENERGY);
     seen[3].mean = 1e5;
     seen[3].sd = 1e4;
@@ -278,18 +278,18 @@ static enum ceduo_status normal(void *context, size_t chain, const double *x, do
 
 static double guess_at(void *context, const double *x)
 {
-    return ceduo_guess_at(context, x);
+    return ceduo_surrogate_evaluate(context, x);
 }
 
 static enum ceduo_status learn(void *context, const double *x, const double *log_densities, size_t n)
 {
-    return ceduo_guess_learn(context, x, log_densities, n, NULL);
+    return ceduo_surrogate_train(context, x, log_densities, n, NULL);
 }
 
 static bool draw(void)
 {
     static const double starts[2] = {-1, 1};
-    LOCAL_BY(ceduo_guess_release) struct guess guess = ceduo_guess_begin(1);
+    LOCAL_BY(ceduo_surrogate_free) struct surrogate guess = ceduo_surrogate_begin(1);
     const struct chains_def def = {.dimensions = 1,
                                    .chains = 2,
                                    .starts = starts,
@@ -297,11 +297,11 @@ static bool draw(void)
                                    .seed = 1,
                                    .threads = 2,
                                    .steps_max = 201,
-                                   .rhat_most = 1.01,
-                                   .effective_least = 1e9,
+                                   .rhat_max = 1.01,
+                                   .effective_min = 1e9,
                                    .density = normal,
-                                   .guess = guess_at,
-                                   .learn = learn,
+                                   .surrogate = guess_at,
+                                   .train = learn,
                                    .context = &guess};
     LOCAL_BY(ceduo_chains_release) struct chains chains;
     enum ceduo_status status = ceduo_chains_run(&def, &chains);

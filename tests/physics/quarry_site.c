@@ -77,7 +77,7 @@ static bool see(const struct quarry_site *s, const struct quarry_trial *trial, d
         gsl_sort(values[k], 1, m);
         seen[k].values = values[k];
         seen[k].n = m;
-        seen[k].of = k == 0 ? trial->seen : 0;
+        seen[k].released_count = k == 0 ? trial->seen : 0;
         good = good && m >= FEWEST;
     }
     ceduo_observer_free(observer);

@@ -102,7 +102,7 @@ static void set_bare(struct site *s)
     s->energies[0] = (struct ceduo_energies){ENERGIES, s->values};
     s->energies[1] = (struct ceduo_energies){0, s->values};
     s->bare = (struct ceduo_run_snapshot){.references = 1,
-                                          .flown = {.rocks = 10, .controls = 2, .arrivals = s->arrivals},
+                                          .simulated = {.rocks = 10, .controls = 2, .arrivals = s->arrivals},
                                           .envelope_rocks = 10,
                                           .envelopes = s->envelopes,
                                           .energies = s->energies,
@@ -136,7 +136,7 @@ static void set_wood(struct site *s)
     s->wood_energies[1] = (struct ceduo_energies){0, s->wood_values};
     s->wood = (struct ceduo_run_snapshot){.references = 1,
                                           .key = 1,
-                                          .flown = {.rocks = 10, .controls = 2, .arrivals = s->wood_arrivals},
+                                          .simulated = {.rocks = 10, .controls = 2, .arrivals = s->wood_arrivals},
                                           .envelope_rocks = 10,
                                           .envelopes = s->wood_envelopes,
                                           .energies = s->wood_energies,

@@ -38,7 +38,7 @@ static struct ceduo_observation speed(double mean, double sd)
 /* All pass, whatever is fitted. */
 static struct ceduo_observation all_pass(void)
 {
-    return (struct ceduo_observation){.kind = CEDUO_OBSERVED_PASSED, .x = 0.001, .count = 10, .of = 10};
+    return (struct ceduo_observation){.kind = CEDUO_OBSERVED_PASSED, .x = 0.001, .count = 10, .released_count = 10};
 }
 
 static unsigned threads = 1;
@@ -51,7 +51,7 @@ static struct ceduo_calibration fit_of(const struct ceduo_scene *scene, const st
         .scenes_count = 1, .scenes = &of, .parameters_count = 1, .rocks = rocks, .seed = 1, .threads = threads};
     struct ceduo_calibration a;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
-    assert_true(a.settled);
+    assert_true(a.converged);
     return a;
 }
 
@@ -93,7 +93,7 @@ TEST(a_normal_law_is_found)
     EXPECT_NEAR(p->p2_5, 14 - 1.96, 4 * 0.19);
     EXPECT_NEAR(p->p50, 14, 4 * 0.09);
     EXPECT_NEAR(p->p97_5, 14 + 1.96, 4 * 0.19);
-    assert_true(p->determined && !p->at_bound);
+    assert_true(p->identified && !p->at_bound);
     qsort(a.draws, a.draws_count, sizeof *a.draws, rising);
     EXPECT_NEAR(p->p2_5, quantile(a.draws, a.draws_count, .025), 1e-9);
     EXPECT_NEAR(p->p50, quantile(a.draws, a.draws_count, .5), 1e-9);
@@ -105,11 +105,11 @@ TEST(a_normal_law_is_found)
 TEST(what_lies_at_a_bound)
 {
     struct ceduo_fitted p = fitted_to(LO, 2);
-    assert_true(p.determined && p.at_bound);
+    assert_true(p.identified && p.at_bound);
     EXPECT(p.best, <, LO + 0.01);
     EXPECT(p.p50, >, LO + 0.5);
     p = fitted_to(HI, 2);
-    assert_true(p.determined && p.at_bound);
+    assert_true(p.identified && p.at_bound);
     EXPECT(p.p50, <, HI - 0.5);
     p = fitted_to(LO + 0.3, 0.1);
     assert_true(p.at_bound);
@@ -117,7 +117,7 @@ TEST(what_lies_at_a_bound)
     assert_true(fitted_to(HI - 0.3, 0.1).at_bound);
     assert_false(fitted_to(LO + 0.8, 0.1).at_bound);
     p = fitted_to(LO, 20);
-    assert_false(p.determined || p.at_bound);
+    assert_false(p.identified || p.at_bound);
 }
 
 /* More threads than chains change no bit. */
@@ -151,7 +151,7 @@ TEST(nothing_seen_leaves_a_uniform_law)
     }
     EXPECT_NEAR(sum, 0.5, 4 * sqrt(1. / 12 / 200)); /* of 200 independent draws */
     EXPECT_NEAR(squares - sum * sum, 1. / 12, 4 * sqrt(1. / 180 / 200));
-    assert_false(p->determined || p->at_bound);
+    assert_false(p->identified || p->at_bound);
 }
 
 /* What fits better the faster, beyond the upper bound, too: the best value lies within the bounds. */
@@ -194,7 +194,7 @@ TEST(what_is_to_be_left_as_it_is)
         for (size_t k = 0; k < 3; k++) {
             double hi = pow(10, -(double)k); /* the width is a share of it */
             a.parameters[k] = (struct ceduo_fitted){
-                .hi = hi, .p2_5 = .05 * hi, .p97_5 = (.05 + cases[i].width[k]) * hi, .determined = cases[i].determined[k]};
+                .hi = hi, .p2_5 = .05 * hi, .p97_5 = (.05 + cases[i].width[k]) * hi, .identified = cases[i].determined[k]};
             n += cases[i].loose[k];
         }
         a.correlation[1][0] = cases[i].together[0], a.correlation[2][0] = cases[i].together[1];
@@ -220,7 +220,7 @@ TEST(one_misfit_is_enough)
             EXPECT(a.predicted[first].p_value, <, 0.001);
             EXPECT(a.predicted[2].p_value, >, 0.5);
             EXPECT(a.misfit, ==, !check);
-            EXPECT(a.refuted, ==, check);
+            EXPECT(a.check_failed, ==, check);
         }
 }
 

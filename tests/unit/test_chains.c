@@ -13,7 +13,7 @@
 
 #include "physics/line_scene.h"
 #include "study/chains.h"
-#include "study/guess.h"
+#include "study/surrogate.h"
 
 /* A normal law around (1, -2) with standard deviations 2 and 0.5 and correlation 0.9. */
 #define RHO 0.9
@@ -56,10 +56,10 @@ static struct chains_def two_dimensions(void)
                                .first_step = 1,
                                .seed = 3,
                                .threads = 1,
-                               .steps_least = 500,
+                               .steps_min = 500,
                                .steps_max = 40000,
-                               .rhat_most = 1.01,
-                               .effective_least = 4000,
+                               .rhat_max = 1.01,
+                               .effective_min = 4000,
                                .density = normal};
 }
 
@@ -86,7 +86,7 @@ static void expect_normal(const struct chains_def *def)
 {
     LOCAL_BY(ceduo_chains_release) struct chains c;
     EXPECT(ceduo_chains_run(def, &c), ==, CEDUO_OK);
-    assert_true(c.settled);
+    assert_true(c.converged);
     EXPECT(c.effective_size, >=, 4000);
     EXPECT_NEAR(mean_of(&c, 0), 1, 4 * 2 / sqrt(4000));
     EXPECT_NEAR(mean_of(&c, 1), -2, 4 * 0.5 / sqrt(4000));
@@ -129,8 +129,8 @@ TEST(chains_begin_where_they_start)
 TEST(a_wrong_guess_changes_nothing)
 {
     struct chains_def def = two_dimensions();
-    def.guess = wrong_guess;
-    def.learn = learn_nothing;
+    def.surrogate = wrong_guess;
+    def.train = learn_nothing;
     expect_normal(&def);
 }
 
@@ -138,8 +138,8 @@ TEST(threads_change_no_bit)
 {
     struct chains_def def = two_dimensions();
     LOCAL_BY(ceduo_chains_release) struct chains one, four;
-    def.guess = wrong_guess;
-    def.learn = learn_nothing;
+    def.surrogate = wrong_guess;
+    def.train = learn_nothing;
     def.steps_max = 600;
     EXPECT(ceduo_chains_run(&def, &one), ==, CEDUO_OK);
     def.threads = 4;
@@ -156,7 +156,7 @@ TEST(threads_change_no_bit)
 /* Four chains of independent normal draws, chain k around k·apart; or each the draw before times phi and a new one. */
 static struct chains made(double apart, double phi)
 {
-    struct chains c = {.dimensions = 1, .chains = 4, .steps = STEPS, .room = STEPS};
+    struct chains c = {.dimensions = 1, .chains = 4, .steps = STEPS, .capacity = STEPS};
     struct line_random random = {.state = 5};
     c.x = malloc(4 * STEPS * sizeof *c.x);
     assert_non_null(c.x);
@@ -197,7 +197,7 @@ TEST(draws_that_hang_together_count_less)
 TEST(short_chains_by_hand)
 {
     double rhat, size, x[] = {100, 100, 100, 100, 100, 100, 100, 100, 1, 0, 3, 4, 2, 9, 6, 9};
-    const struct chains c = {.dimensions = 1, .chains = 2, .steps = 8, .room = 8, .x = x};
+    const struct chains c = {.dimensions = 1, .chains = 2, .steps = 8, .capacity = 8, .x = x};
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
     EXPECT_NEAR(rhat, sqrt((4.5 / 2 + 131. / 12) / 4.5), 1e-12);
 }
@@ -206,7 +206,7 @@ TEST(short_chains_by_hand)
 static double effective_of(size_t run)
 {
     double rhat, size, x[64];
-    const struct chains c = {.dimensions = 1, .chains = 1, .steps = 64, .room = 64, .x = x};
+    const struct chains c = {.dimensions = 1, .chains = 1, .steps = 64, .capacity = 64, .x = x};
     for (size_t i = 0; i < 64; i++)
         x[i] = i / run % 2 == 0 ? 1 : -1;
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
@@ -227,30 +227,30 @@ TEST(draws_that_alternate)
 /* A quadratic is learnt whole; places without a value are left out. */
 TEST(a_guess_learns_a_quadratic)
 {
-    LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(2);
+    LOCAL_BY(ceduo_surrogate_free) struct surrogate g = ceduo_surrogate_begin(2);
     double u[64 * 2], values[64], at[2] = {0.3, 0.9};
-    EXPECT(ceduo_guess_at(&g, at), ==, 0);
+    EXPECT(ceduo_surrogate_evaluate(&g, at), ==, 0);
     for (int i = 0; i < 64; i++) {
         u[2 * i] = i % 8 / 8.;
         u[2 * i + 1] = i / 8 / 8.;
         values[i] = 3 + u[2 * i] - 2 * u[2 * i] * u[2 * i + 1] + 5 * u[2 * i + 1] * u[2 * i + 1];
     }
-    EXPECT(ceduo_guess_learn(&g, u, values, 5, NULL), ==, CEDUO_OK);
-    EXPECT(ceduo_guess_at(&g, at), ==, 0);
+    EXPECT(ceduo_surrogate_train(&g, u, values, 5, NULL), ==, CEDUO_OK);
+    EXPECT(ceduo_surrogate_evaluate(&g, at), ==, 0);
     values[7] = -INFINITY;
-    EXPECT(ceduo_guess_learn(&g, u, values, 64, NULL), ==, CEDUO_OK);
-    EXPECT_NEAR(ceduo_guess_at(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
+    EXPECT(ceduo_surrogate_train(&g, u, values, 64, NULL), ==, CEDUO_OK);
+    EXPECT_NEAR(ceduo_surrogate_evaluate(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
     for (int i = 0; i < 64; i++)
         values[i] = i < 60 ? -INFINITY : 0; /* too few are known */
-    EXPECT(ceduo_guess_learn(&g, u, values, 64, NULL), ==, CEDUO_OK);
-    EXPECT_NEAR(ceduo_guess_at(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
+    EXPECT(ceduo_surrogate_train(&g, u, values, 64, NULL), ==, CEDUO_OK);
+    EXPECT_NEAR(ceduo_surrogate_evaluate(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
     for (int i = 0; i < 16; i++) { /* less than three times the six terms: each counts */
         u[2 * i] = i % 4 / 4.;
         u[2 * i + 1] = i / 4 / 4.;
         values[i] = 1 - u[2 * i];
     }
-    EXPECT(ceduo_guess_learn(&g, u, values, 16, NULL), ==, CEDUO_OK);
-    EXPECT_NEAR(ceduo_guess_at(&g, (double[2]){0.5, 0.1}), 0.5, 1e-9);
+    EXPECT(ceduo_surrogate_train(&g, u, values, 16, NULL), ==, CEDUO_OK);
+    EXPECT_NEAR(ceduo_surrogate_evaluate(&g, (double[2]){0.5, 0.1}), 0.5, 1e-9);
 }
 
 /* The same where all places without a value come last, behind a whole number of blocks. */
@@ -258,13 +258,13 @@ TEST(a_guess_ends_without_values)
 {
     enum { KNOWN = 512, N = KNOWN + 5 };
     static double u[N], values[N];
-    LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(1);
+    LOCAL_BY(ceduo_surrogate_free) struct surrogate g = ceduo_surrogate_begin(1);
     for (int i = 0; i < N; i++) {
         u[i] = (double)i / N;
         values[i] = i < KNOWN ? 1 + u[i] - 2 * u[i] * u[i] : -INFINITY;
     }
-    EXPECT(ceduo_guess_learn(&g, u, values, N, NULL), ==, CEDUO_OK);
-    EXPECT_NEAR(ceduo_guess_at(&g, (double[1]){0.3}), 1 + 0.3 - 0.18, 1e-9);
+    EXPECT(ceduo_surrogate_train(&g, u, values, N, NULL), ==, CEDUO_OK);
+    EXPECT_NEAR(ceduo_surrogate_evaluate(&g, (double[1]){0.3}), 1 + 0.3 - 0.18, 1e-9);
 }
 
 /* What weighted least squares leave is orthogonal to every term, however many places there are: here of a quartic, with those
@@ -273,7 +273,7 @@ TEST(a_guess_weighs_what_it_knows)
 {
     enum { N = 3000, NEAR = 9 /* three times the terms */ };
     static double u[N], values[N], sorted[NEAR + 1];
-    LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(1);
+    LOCAL_BY(ceduo_surrogate_free) struct surrogate g = ceduo_surrogate_begin(1);
     struct line_random random = {.state = 1};
     double left[3] = {0}, size[3] = {0};
     for (int i = 0; i < N; i++) {
@@ -287,9 +287,9 @@ TEST(a_guess_weighs_what_it_knows)
                 sorted[i] = values[k];
     }
     double reach = fmax(2, (sorted[0] - sorted[NEAR]) / 2);
-    EXPECT(ceduo_guess_learn(&g, u, values, N, NULL), ==, CEDUO_OK);
+    EXPECT(ceduo_surrogate_train(&g, u, values, N, NULL), ==, CEDUO_OK);
     for (int i = 0; i < N; i++) {
-        double weight = exp((values[i] - sorted[0]) / reach), miss = values[i] - ceduo_guess_at(&g, &u[i]);
+        double weight = exp((values[i] - sorted[0]) / reach), miss = values[i] - ceduo_surrogate_evaluate(&g, &u[i]);
         for (int k = 0; k < 3; k++) {
             left[k] += weight * miss * pow(u[i] - 0.5, k);
             size[k] += fabs(weight * miss * pow(u[i] - 0.5, k));
@@ -318,7 +318,7 @@ TEST(a_guess_is_ended_while_it_learns)
 {
     enum { N = 25000, D = 12 };
     double *u = malloc(N * D * sizeof *u), *values = malloc(N * sizeof *values), start, all;
-    LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(D);
+    LOCAL_BY(ceduo_surrogate_free) struct surrogate g = ceduo_surrogate_begin(D);
     struct line_random random = {.state = 1};
     assert_true(u && values);
     for (int i = 0; i < N; i++) {
@@ -329,18 +329,18 @@ TEST(a_guess_is_ended_while_it_learns)
         }
     }
     start = processor_seconds();
-    EXPECT(ceduo_guess_learn(&g, u, values, N, &ended), ==, CEDUO_OK);
+    EXPECT(ceduo_surrogate_train(&g, u, values, N, &ended), ==, CEDUO_OK);
     all = processor_seconds() - start;
-    double knew = ceduo_guess_at(&g, u);
+    double knew = ceduo_surrogate_evaluate(&g, u);
     for (int i = 0; i < N; i++)
         values[i] *= 2;
     struct itimerval timer = {.it_value = {(time_t)(all / 10), (suseconds_t)(fmod(all / 10, 1) * 1e6) + 1}};
     signal(SIGPROF, on_time);
     setitimer(ITIMER_PROF, &timer, NULL); /* of processor time */
     start = processor_seconds();
-    EXPECT(ceduo_guess_learn(&g, u, values, N, &ended), ==, CEDUO_CANCELLED);
+    EXPECT(ceduo_surrogate_train(&g, u, values, N, &ended), ==, CEDUO_CANCELLED);
     EXPECT(processor_seconds() - start, <, all / 2);
-    EXPECT(ceduo_guess_at(&g, u), ==, knew);
+    EXPECT(ceduo_surrogate_evaluate(&g, u), ==, knew);
     free(u);
     free(values);
 }
@@ -378,14 +378,14 @@ TEST(chains_are_ended)
         def.context = &e;
         EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_CANCELLED);
         EXPECT(c.steps, ==, steps[i]);
-        assert_false(c.settled);
+        assert_false(c.converged);
         ceduo_chains_release(&c);
     }
     def = two_dimensions();
     def.round = stop;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     EXPECT(c.steps, ==, 1 + 2 * CEDUO_CHAINS_ROUND);
-    assert_false(c.settled);
+    assert_false(c.converged);
     ceduo_chains_release(&c);
 }
 
@@ -473,6 +473,6 @@ TEST(chains_that_stand_still)
     def.steps_max = 5 * CEDUO_CHAINS_ROUND;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     assert_true(isnan(c.rhat));
-    assert_false(c.settled);
+    assert_false(c.converged);
     EXPECT(ceduo_chains_draw(&c, 0)[0], ==, 0);
 }

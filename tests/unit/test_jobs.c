@@ -57,8 +57,8 @@ TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
     assert_false(take().busy);
     assert_non_null(results.snapshot);
     assert_int_equal(results.snapshot->key, ceduo_jobs_key(&file.scene));
-    assert_int_equal(results.snapshot->snapshot->bare->flown.rocks, RUNS_MAX);
-    assert_int_equal(results.snapshot->snapshot->wooded[0]->flown.rocks, RUNS_MAX);
+    assert_int_equal(results.snapshot->snapshot->bare->simulated.rocks, RUNS_MAX);
+    assert_int_equal(results.snapshot->snapshot->wooded[0]->simulated.rocks, RUNS_MAX);
     EXPECT(results.snapshot->snapshot->bare->envelope_rocks, ==, CEDUO_ENVELOPE_ROCKS);
     EXPECT(results.snapshot->snapshot->wooded[0]->envelope_rocks, ==, CEDUO_ENVELOPE_ROCKS);
     assert_non_null(results.years);
@@ -210,7 +210,7 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
     const size_t shown = 1, n = 3;
     const struct ceduo_uncertainty_result *a = &uncertainty(shown, 1)->answer;
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
-    double p5 = f->fit.p5, p95 = f->fit.p95, leaves = f->fit.left[f->order[0]];
+    double p5 = f->fit.p5, p95 = f->fit.p95, leaves = f->fit.width_if_known[f->order[0]];
     EXPECT(p5, <, p95);
     for (size_t i = 0; i < n; i++)
         if (i != shown)
@@ -221,7 +221,7 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
     f = ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
     EXPECT(f->fit.p5, ==, p5);
     EXPECT(f->fit.p95, ==, p95);
-    EXPECT(f->fit.left[f->order[0]], ==, leaves);
+    EXPECT(f->fit.width_if_known[f->order[0]], ==, leaves);
     for (size_t i = 0; i < n; i++)
         EXPECT(ceduo_uncertainty_find_figure(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5, >, 0);
     assert_int_equal(a->orders_count, n - 1);

@@ -19,7 +19,7 @@
 #include "ceduo/ceduo.h"
 #include "ceduo/key.h"
 #include "folder.h"
-#include "study/guess.h"
+#include "study/surrogate.h"
 
 /* ---- memory that GSL asks for ---- */
 
@@ -83,9 +83,9 @@ static enum ceduo_status learn(void)
         u[i] = (i + .5) / PLACES;
         values[i] = -10 * (u[i] - .4) * (u[i] - .4);
     }
-    struct guess g = ceduo_guess_begin(1);
-    enum ceduo_status status = ceduo_guess_learn(&g, u, values, PLACES, NULL);
-    ceduo_guess_release(&g);
+    struct surrogate g = ceduo_surrogate_begin(1);
+    enum ceduo_status status = ceduo_surrogate_train(&g, u, values, PLACES, NULL);
+    ceduo_surrogate_free(&g);
     return status;
 }
 
@@ -100,7 +100,7 @@ static enum ceduo_status fit_surface(void)
     for (int p = 0; p < POINTS; p++) {
         u[p] = (p + .5) / POINTS;
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
-            y[p].of[g] = u[p] * u[p] + g;
+            y[p].value[g] = u[p] * u[p] + g;
     }
     enum ceduo_status status = ceduo_surface_open(&input, 1, u, POINTS, &surface);
     if (status != CEDUO_OK)

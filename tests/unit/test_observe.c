@@ -101,7 +101,7 @@ TEST(a_count_is_binomial)
     make_ground(0, HIGH, FAST, 0);
     struct ceduo_observation o = at(CEDUO_OBSERVED_PASSED, 10);
     o.count = 3;
-    o.of = 4;
+    o.released_count = 4;
     struct ceduo_observation_fit c = look(o);
     double p = 100.5 / 101;
     EXPECT(c.classes, ==, 2);
@@ -130,15 +130,15 @@ TEST(stops_are_multinomial)
     EXPECT_NEAR(c.mean, at, 1e-9);
     EXPECT_NEAR(c.log_likelihood, log(252) + 5 * log(p[0]) + 5 * log(p[1]), 1e-10);
     EXPECT_NEAR(c.deviance, 2 * (5 * log(0.5 / p[0]) + 5 * log(0.5 / p[1])), 1e-10);
-    o.of = 12; /* two more did not stop: a class of their own */
+    o.released_count = 12; /* two more did not stop: a class of their own */
     c = look(o);
     EXPECT(c.classes, ==, 3);
-    EXPECT(c.seen[2], ==, 2);
+    EXPECT(c.observed[2], ==, 2);
     EXPECT(c.count[2], ==, 0);
     /* 12!/(5!5!2!) ways; 101.5 = 100 + 3/2 */
     EXPECT_NEAR(c.log_likelihood, log(16632) + 5 * log(100.5 / 101.5) + 5 * log(0.5 / 101.5) + 2 * log(0.5 / 101.5), 1e-10);
     o.from = at + 1; /* nobody looked where they lie: none is of it, and two classes want twenty rocks */
-    o.of = 0;
+    o.released_count = 0;
     c = look(o);
     EXPECT(c.rocks, ==, 0);
     EXPECT_NEAR(c.log_likelihood, log(252) + 10 * log(0.5 / 21), 1e-10);
@@ -157,18 +157,18 @@ TEST(a_list_has_classes_of_its_own)
             values[k] = 20 + (double)k;
         struct ceduo_observation_fit c = look(stops(cases[i].n, values));
         EXPECT(c.classes, ==, cases[i].classes);
-        EXPECT(c.seen[0], ==, (double)cases[i].first);
-        EXPECT(c.seen[c.classes - 1], ==, (double)cases[i].last);
+        EXPECT(c.observed[0], ==, (double)cases[i].first);
+        EXPECT(c.observed[c.classes - 1], ==, (double)cases[i].last);
     }
     double alike[10] = {30, 30, 30, 30, 30, 30, 30, 30, 30, 30};
-    EXPECT(look(stops(10, alike)).seen[0], ==, 10); /* nothing is split that is alike */
+    EXPECT(look(stops(10, alike)).observed[0], ==, 10); /* nothing is split that is alike */
     double mostly[20];
     for (int i = 0; i < 20; i++)
         mostly[i] = i < 18 ? 30 : 31;
     struct ceduo_observation_fit c = look(stops(20, mostly)); /* of four classes those with a bound of their own */
     EXPECT(c.classes, ==, 2);
-    EXPECT(c.seen[0], ==, 18);
-    EXPECT(c.seen[1], ==, 2);
+    EXPECT(c.observed[0], ==, 18);
+    EXPECT(c.observed[1], ==, 2);
 }
 
 /* ---- means ---- */
@@ -460,7 +460,7 @@ TEST(scars_are_counted_and_measured)
     EXPECT((double)heights_alone.rocks, ==, sum);
     EXPECT_NEAR(heights_alone.mean, 0.5, 0.05); /* rocks roll: their centre is half a metre above the ground */
     assert_true(isnan(heights_alone.scars));
-    o.of = 10;
+    o.released_count = 10;
     o.share_seen = 0.75;
     struct ceduo_observation_fit c = look(o);
     double mean = sum / ROCKS, variance = (square - sum * mean) / (ROCKS - 1);

@@ -65,8 +65,8 @@ static int open_site(void **state)
                                    .options_count = 1,
                                    .options = &option_result};
     years = (struct ceduo_years_summary){.years = 25, .simulated = 25, .exceed = {.19, .01, 0}, .worst = .489, .worst_year = 1};
-    choice =
-        (struct ceduo_choice){.ahead = &years, .over = &years, .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}, .energy_known = true};
+    choice = (struct ceduo_choice){
+        .summaries = &years, .last_summary = &years, .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}, .energy_known = true};
     verdict = (struct ceduo_verdict){.wooded = true, .accepted = true, .n = 1, .choices = &choice};
     memset(figures, 0, sizeof figures);
     answer = (struct ceduo_uncertainty_result){.figures = figures, .figures_count = CEDUO_UNCERTAINTY_KINDS, .rotation = true};
@@ -103,11 +103,11 @@ TEST_WITH(the_years_decide_not_today, open_site, NULL)
     set_failing(1, 0, 2);
     assert_int_equal(judge(false).answer, CEDUO_NOT_DECIDED);
     o = ceduo_outcome_compute(&result, NULL, NULL, 0, 0); /* today is all that is known */
-    EXPECT_IS(o, (answer, CEDUO_YES), (ahead, false));
+    EXPECT_IS(o, (answer, CEDUO_YES), (over_years, false));
     choice.window.kind = CEDUO_WINDOW_CONSTANT;
     set_failing(1, 1, 1);
     o = judge(false);
-    EXPECT_IS(o, (answer, CEDUO_YES), (ahead, false));
+    EXPECT_IS(o, (answer, CEDUO_YES), (over_years, false));
 }
 
 TEST_WITH(uncertain_inputs_leave_it_open, open_site, NULL)
@@ -235,7 +235,7 @@ TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
     result.bare.arrivals = bares;
     result.bare.controls = 2;
     option_result.wooded.arrivals = woodeds;
-    choice.ahead = aheads;
+    choice.summaries = aheads;
     result.last_control = 1;
     expect_words(1, 60, "road (80 m): ✔ YES, also without forest: 4 of 1000 > 50 kJ");
     expect_words(1, 55, "road (80 m): ✔ YES, also without forest: 4 of 1000");

@@ -26,9 +26,9 @@ TEST(half_of_ten)
     EXPECT(s.known, ==, true);
     EXPECT_NEAR(s.x[FIRST], 0, 1e-12);
     EXPECT_NEAR(s.x[LAST], 10, 1e-12);
-    EXPECT_NEAR(s.seen[FIRST], 0.9, 1e-12);
-    EXPECT_NEAR(s.seen[middle], 0.4, 1e-12);
-    EXPECT_NEAR(s.seen[LAST], 0, 1e-12);
+    EXPECT_NEAR(s.observed[FIRST], 0.9, 1e-12);
+    EXPECT_NEAR(s.observed[middle], 0.4, 1e-12);
+    EXPECT_NEAR(s.observed[LAST], 0, 1e-12);
     EXPECT_NEAR(s.lo[middle], 0.2, 1e-12);
     EXPECT_NEAR(s.hi[middle], 0.8, 1e-12);
     EXPECT_NEAR(s.hi[LAST], 0, 1e-12);
@@ -42,13 +42,13 @@ TEST(half_of_ten)
 TEST(those_that_go_on_lie_farther)
 {
     double seen[4] = {2, 3, 4, 5}, simulated[4] = {1, 2, 3, 6};
-    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .of = 10, .values = seen};
+    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .released_count = 10, .values = seen};
     struct ceduo_observed_stops s = {0};
     ceduo_observed_stops_find(&o, simulated, 4, 8, &s);
     EXPECT_NEAR(s.x[FIRST], 1, 1e-12);
     EXPECT_NEAR(s.x[LAST], 6, 1e-12);
-    EXPECT_NEAR(s.seen[FIRST], 1, 1e-12);
-    EXPECT_NEAR(s.seen[LAST], 0.6, 1e-12);
+    EXPECT_NEAR(s.observed[FIRST], 1, 1e-12);
+    EXPECT_NEAR(s.observed[LAST], 0.6, 1e-12);
     EXPECT_NEAR(s.lo[LAST], 0.2, 1e-12);
     EXPECT_NEAR(s.hi[LAST], 0.8, 1e-12);
     EXPECT_NEAR(s.hi[FIRST], 1, 1e-12);
@@ -73,7 +73,7 @@ TEST(a_flight_as_it_is)
     const struct ceduo_observation o[] = {
         {.kind = CEDUO_OBSERVED_SPEED, .x = 20, .n = 5, .mean = 22, .sd = 0.5},
         {.kind = CEDUO_OBSERVED_SPEED, .x = 20, .n = 5, .mean = 20, .sd = 0.5},
-        {.kind = CEDUO_OBSERVED_PASSED, .x = 20, .count = 10, .of = 10},
+        {.kind = CEDUO_OBSERVED_PASSED, .x = 20, .count = 10, .released_count = 10},
     };
     const struct ceduo_calibration_scene asked = {.scene = &g.scene, .observations_count = 3, .observations = o};
     struct ceduo_predicted p[3];
@@ -191,12 +191,12 @@ TEST(a_fit_of_few_steps)
     struct ceduo_calibration a;
     def.steps_max = 2 * 50 + 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
-    assert_false(a.settled);
+    assert_false(a.converged);
     EXPECT(a.draws_count, ==, 4 * 51);
     ceduo_calibration_free(&a);
     def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
-    assert_false(a.settled);
+    assert_false(a.converged);
     EXPECT(a.draws_count, ==, 0);
     ceduo_calibration_free(&a);
     struct ending e = {false, CEDUO_CHAINS};
@@ -268,7 +268,7 @@ TEST(half_of_the_draws_at_a_bound)
         def.steps_max = 251;
         EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
         EXPECT_NEAR(a.parameters[0].best, v[i], 0.02);
-        assert_true(a.parameters[0].determined);
+        assert_true(a.parameters[0].identified);
         EXPECT(a.parameters[0].at_bound, ==, i == 0);
     }
 }

@@ -63,10 +63,10 @@ TEST_WITH(envelopes_lie_beyond_the_release, by_index, NULL)
 static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ceduo_run *run)
 {
     assert_non_null(sight);
-    assert_int_equal(sight->flown.rocks, ceduo_run_rocks(run));
+    assert_int_equal(sight->simulated.rocks, ceduo_run_rocks(run));
     assert_int_equal(sight->envelope_rocks, ceduo_run_rocks(run));
     for (size_t c = 0; c < 2; c++) {
-        const struct ceduo_arrivals *found = &sight->flown.arrivals[c];
+        const struct ceduo_arrivals *found = &sight->simulated.arrivals[c];
         struct ceduo_arrivals a;
         assert_int_equal(ceduo_run_arrivals(run, c, &a), CEDUO_OK);
         EXPECT(a.reached, >, 0);
@@ -91,7 +91,7 @@ TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
     assert_int_equal(o->options, 2);
     expect_sight(o->bare, ceduo_pool_find(pool, NULL));
     expect_sight(o->wooded[0], ceduo_pool_find(pool, &s.options[0]));
-    EXPECT(o->wooded[0]->flown.arrivals[1].reached, <, o->bare->flown.arrivals[1].reached);
+    EXPECT(o->wooded[0]->simulated.arrivals[1].reached, <, o->bare->simulated.arrivals[1].reached);
     assert_int_equal(o->bare->trajectories_count, 20);
     assert_int_equal(o->wooded[0]->trajectories_count, 20);
     assert_ptr_equal(ceduo_snapshot_find(o, &s.scene, 0), o->wooded[0]);
@@ -110,7 +110,7 @@ TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
     assert_ptr_not_equal(o->wooded[0], o->bare);
     for (size_t c = 0; c < 2; c++) {
         EXPECT(o->differences[c].reach.mean, ==, 0);
-        double more = o->bare->flown.arrivals[c].reach.mean - o->wooded[0]->flown.arrivals[c].reach.mean;
+        double more = o->bare->simulated.arrivals[c].reach.mean - o->wooded[0]->simulated.arrivals[c].reach.mean;
         EXPECT_NEAR(o->differences[2 + c].reach.mean, more, 1e-12);
     }
 }
@@ -160,7 +160,7 @@ TEST_WITH(envelopes_are_kept, wooded, NULL)
         assert_int_equal(ceduo_pool_extend(pool, 300 * (uint64_t)(i + 1)), CEDUO_OK);
         def.last = i > 0 ? o[i - 1] : NULL;
         o[i] = snapshot_of(&def);
-        assert_int_equal(o[i]->bare->flown.rocks, 300 * (i + 1));
+        assert_int_equal(o[i]->bare->simulated.rocks, 300 * (i + 1));
         assert_int_equal(o[i]->bare->envelope_rocks, rocks[i]);
         assert_int_equal(o[i]->bare->envelopes[0].passed, rocks[i]);
     }
@@ -235,7 +235,7 @@ TEST_WITH(longer_runs_are_read_again, wooded, NULL)
     LOCAL(ceduo_snapshot, second) = snapshot_of(&def);
     assert_ptr_not_equal(second->bare, first->bare);
     assert_ptr_not_equal(second->wooded[0], first->wooded[0]);
-    assert_int_equal(second->wooded[0]->flown.rocks, 301);
+    assert_int_equal(second->wooded[0]->simulated.rocks, 301);
 }
 
 /* Starts and ends where the rock does, never far below the ground, and never jumps. */

@@ -48,7 +48,7 @@ static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uin
         constants[g] = level > 0 ? level * line_normal(&random) : g - (CEDUO_SURFACE_GROUPS - 1) / 2.;
     for (size_t p = 0; p < points; p++)
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
-            y[p].of[g] = f(u + p * n, n) + noise * line_normal(&random) + constants[g] + (g % 2 ? tilt : -tilt) * u[p * n];
+            y[p].value[g] = f(u + p * n, n) + noise * line_normal(&random) + constants[g] + (g % 2 ? tilt : -tilt) * u[p * n];
     EXPECT(ceduo_surface_open(inputs, n, u, points, &surface), ==, CEDUO_OK);
     EXPECT(ceduo_surface_fit(surface,
                              &(const struct ceduo_surface_figure){.y = y, .lo = lowest, .hi = INFINITY, .limit = limit}, &fit),
@@ -81,7 +81,7 @@ TEST(linear_functions_are_exact)
     EXPECT_NEAR(f.variance, 650 / 12., 1e-4);
     EXPECT_NEAR(f.mean, 5 + 39, 1e-1);
     EXPECT_NEAR(f.q2, 1, 1e-9);
-    EXPECT_NEAR(f.whole.value, 0, 1e-9);
+    EXPECT_NEAR(f.unexplained.value, 0, 1e-9);
     ceduo_surface_release(&f);
 }
 
@@ -172,14 +172,14 @@ TEST(rows_of_a_calibration)
     inputs[0] = (struct ceduo_input){.kind = CEDUO_INPUT_DRAWS, .places_count = PLACES, .draws_count = DRAWN, .draws = draws};
     inputs[1] = (struct ceduo_input){.kind = CEDUO_INPUT_DRAWS, .places_count = 1, .draws_count = DRAWN, .draws = none};
     struct ceduo_surface_fit f = fit_of(of_rows, 2, 256, 1, 0);
-    assert_true(f.enough);
+    assert_true(f.enough_points);
     EXPECT_NEAR(f.first[0].value, 1, 1e-6);
     EXPECT_NEAR(f.total[0].value, 1, 1e-6);
     EXPECT_NEAR(f.total[1].value, 0, 1e-6);
     ceduo_surface_release(&f);
     inputs[0] = inputs[1];
     f = fit_of(of_rows, 1, 256, 1, 0);
-    assert_false(f.enough);
+    assert_false(f.enough_points);
     assert_true(isnan(f.total[0].value));
     EXPECT(f.p95 - f.p5, >, 1);
     ceduo_surface_release(&f);
@@ -208,9 +208,9 @@ TEST(an_input_that_is_the_same_at_all_points)
     still = true;
     f = fit_of(turning, 1, 256, 1, 0);
     still = false;
-    assert_true(f.enough);
+    assert_true(f.enough_points);
     EXPECT(f.total[0].value, ==, 0);
-    EXPECT_NEAR(f.whole.value, 1, 1e-9);
+    EXPECT_NEAR(f.unexplained.value, 1, 1e-9);
     EXPECT_NEAR(f.p5, 0, 1e-9);
     EXPECT_NEAR(f.p95, 1, 1e-9);
     ceduo_surface_release(&f);
@@ -234,7 +234,7 @@ TEST(figures_of_one_surface)
     EXPECT(ceduo_surface_points(1, FEW_POINTS, FEW_INPUTS, u), ==, CEDUO_OK);
     for (size_t p = 0; p < FEW_POINTS; p++)
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
-            y[p].of[g] = linear(u + p * FEW_INPUTS, FEW_INPUTS) + 99 * u[p * FEW_INPUTS + 10] * u[p * FEW_INPUTS + 12];
+            y[p].value[g] = linear(u + p * FEW_INPUTS, FEW_INPUTS) + 99 * u[p * FEW_INPUTS + 10] * u[p * FEW_INPUTS + 12];
     struct ceduo_surface *together = of_few_points(u);
     for (size_t turn = 0; turn < 4; turn++) {
         size_t n = FEW_INPUTS - turn % 3;
@@ -246,7 +246,7 @@ TEST(figures_of_one_surface)
         const struct ceduo_surface_figure figure = {.y = y, .uses = uses, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
         EXPECT(ceduo_surface_fit(together, &figure, &f), ==, CEDUO_OK);
         EXPECT(ceduo_surface_fit(alone, &figure, &g), ==, CEDUO_OK);
-        assert_true(f.enough);
+        assert_true(f.enough_points);
         EXPECT(f.explained > .99, ==, n == FEW_INPUTS);
         assert_memory_equal(f.values, g.values, FEW_POINTS * sizeof *f.values);
         assert_memory_equal(f.total, g.total, FEW_INPUTS * sizeof *f.total);
@@ -294,7 +294,7 @@ TEST(what_does_not_vary_has_no_shares)
 {
     make_inputs(3, 0, 0);
     struct ceduo_surface_fit f = fit_of(constant, 3, 64, 1, 0);
-    assert_true(isnan(f.first[0].value) && isnan(f.total[2].se) && isnan(f.left[1]));
+    assert_true(isnan(f.first[0].value) && isnan(f.total[2].se) && isnan(f.width_if_known[1]));
     EXPECT_NEAR(f.mean, 7, 1e-12);
     EXPECT_NEAR(f.p95, 7, 1e-12);
     ceduo_surface_release(&f);
@@ -360,13 +360,13 @@ TEST(what_is_no_quadric_is_said)
     for (uint64_t seed = 1; seed <= 5; seed++) {
         struct ceduo_surface_fit f = fit_of(ishigami, 3, 1024, seed, 0);
         EXPECT(f.explained, <, .6);
-        EXPECT(f.whole.value, >, .4);
+        EXPECT(f.unexplained.value, >, .4);
         for (size_t i = 0; i < 3; i++)
             EXPECT(f.first[i].value, <=, first[i] + 3 * f.first[i].se);
         ceduo_surface_release(&f);
         f = fit_of(sobol_g, 8, 1024, seed, 0);
         EXPECT(f.explained, <, .95);
-        EXPECT(f.whole.value, >, .03);
+        EXPECT(f.unexplained.value, >, .03);
         for (size_t i = 0; i < 8; i++)
             EXPECT(f.first[i].value, <=, g_first[i] + 3 * f.first[i].se);
         ceduo_surface_release(&f);
@@ -386,7 +386,7 @@ TEST(chance_explains_nothing)
 {
     make_inputs(12, 0, 0);
     struct ceduo_surface_fit f = fit_of(by_chance, 12, 256, 1, 0);
-    assert_true(f.enough && !f.linear);
+    assert_true(f.enough_points && !f.linear);
     EXPECT_NEAR(f.variance, 1 / 12., 3 * sqrt(1 / 180. / 256)); /* of 256 uniform values */
     EXPECT(f.explained, <, 0);
     ceduo_surface_release(&f);
@@ -397,7 +397,7 @@ TEST(few_points_give_a_band)
 {
     make_inputs(12, 0, 0);
     struct ceduo_surface_fit f = fit_of(linear, 12, 29, 1, 0);
-    assert_false(f.enough);
+    assert_false(f.enough_points);
     assert_true(isnan(f.total[11].value));
     EXPECT_NEAR(f.p50, 44, 5);
     ceduo_surface_release(&f);
@@ -408,7 +408,7 @@ TEST(few_points_are_enough_for_lines)
 {
     make_inputs(12, 0, 0);
     struct ceduo_surface_fit f = fit_of(linear, 12, 32, 1, 0);
-    assert_true(f.enough);
+    assert_true(f.enough_points);
     for (size_t i = 0; i < 12; i++)
         EXPECT_NEAR(f.total[i].value, (double)((i + 1) * (i + 1)) / 650, 1e-6);
     ceduo_surface_release(&f);
@@ -430,9 +430,9 @@ TEST(band_and_what_is_left)
     EXPECT_NEAR(f.p5, sqrt(.1), .02);
     EXPECT_NEAR(f.p50, 1, .02);
     EXPECT_NEAR(f.p95, 2 - sqrt(.1), .02);
-    EXPECT_NEAR(f.left[0], .9, .02);
-    EXPECT_NEAR(f.left[1], .9, .02);
-    EXPECT_NEAR(f.left[2], 2 - 2 * sqrt(.1), .03);
+    EXPECT_NEAR(f.width_if_known[0], .9, .02);
+    EXPECT_NEAR(f.width_if_known[1], .9, .02);
+    EXPECT_NEAR(f.width_if_known[2], 2 - 2 * sqrt(.1), .03);
     ceduo_surface_release(&f);
 }
 
@@ -447,7 +447,7 @@ TEST(what_is_left_is_a_mean_over_the_known)
 {
     make_inputs(2, 0, 0);
     struct ceduo_surface_fit f = fit_of(scaled, 2, 1024, 1, 0);
-    EXPECT_NEAR(f.left[0], .9, .01);
+    EXPECT_NEAR(f.width_if_known[0], .9, .01);
     ceduo_surface_release(&f);
 }
 
@@ -526,7 +526,7 @@ TEST(errors_of_the_band_hold_the_truth)
             struct ceduo_surface_fit f = fit_of(rippled_sum, 3, 256, seed, cases[c].noise);
             held += fabs(f.p5 - low) <= 1.96 * f.p5_se;
             held += fabs(f.p95 - high) <= 1.96 * f.p95_se;
-            held += fabs(f.below.value - share) <= 1.96 * f.below.se;
+            held += fabs(f.share_below.value - share) <= 1.96 * f.share_below.se;
             ceduo_surface_release(&f);
         }
         EXPECT(100 * held / (3 * SEEDS), >=, 90);
@@ -553,7 +553,7 @@ TEST(values_have_no_noise_of_their_rocks)
     EXPECT(ceduo_surface_points(1, POINTS, 2, u), ==, CEDUO_OK);
     for (size_t p = 0; p < FIGURES * POINTS; p++)
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
-            y[p].of[g] = two(u + 2 * (p % POINTS), 2) + noise * line_normal(&random);
+            y[p].value[g] = two(u + 2 * (p % POINTS), 2) + noise * line_normal(&random);
     EXPECT(ceduo_surface_open(inputs, 2, u, POINTS, &surface), ==, CEDUO_OK);
     const struct ceduo_surface_figure figure = {.y = y, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
     EXPECT(ceduo_surface_values(surface, &figure, FIGURES, values, changes), ==, CEDUO_OK);

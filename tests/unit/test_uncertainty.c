@@ -78,12 +78,12 @@ TEST(uncertainty_of_a_known_law)
     EXPECT_NEAR(f->fit.p5, .2 + .1 * root, .002);
     EXPECT_NEAR(f->fit.p50, .3, .002);
     EXPECT_NEAR(f->fit.p95, .4 - .1 * root, .002);
-    EXPECT_NEAR(f->fit.left[0], .1 * (2 - 2 * root), .002);
-    EXPECT_NEAR(f->fit.left[1], .09, .001);
-    EXPECT_NEAR(f->fit.left[2], .09, .001);
+    EXPECT_NEAR(f->fit.width_if_known[0], .1 * (2 - 2 * root), .002);
+    EXPECT_NEAR(f->fit.width_if_known[1], .09, .001);
+    EXPECT_NEAR(f->fit.width_if_known[2], .09, .001);
     EXPECT_NEAR(f->fit.total[1].value, .5, 1e-6);
-    EXPECT_NEAR(f->at[1][0], .2, 1e-12);
-    EXPECT_NEAR(f->at[1][1], .3, 1e-12);
+    EXPECT_NEAR(f->at_ends[1][0], .2, 1e-12);
+    EXPECT_NEAR(f->at_ends[1][1], .3, 1e-12);
     EXPECT(f->order[2], ==, 0);
     ceduo_uncertainty_free(&a);
     ceduo_scene_release(&file);
@@ -109,7 +109,7 @@ TEST(more_points_where_inputs_are_many)
     EXPECT(ceduo_uncertainty_compute(&def, &a), ==, CEDUO_OK);
     EXPECT(a.points, ==, 2 * CEDUO_UNCERTAINTY_POINTS);
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(&a, 0, CEDUO_UNCERTAINTY_ENERGY, false);
-    assert_true(f->fit.enough);
+    assert_true(f->fit.enough_points);
     EXPECT_NEAR(f->fit.total[0].value, 1, 1e-6);
     EXPECT_NEAR(f->fit.p5 / f->fit.p95, 2415. / 2685, .002);
     ceduo_uncertainty_free(&a);
@@ -285,8 +285,9 @@ TEST(no_rock_brings_no_energy)
     file.scene.slope.segments[0].friction = 100;
     for (int i = 0; i < 2; i++) {
         struct reliability_result answer;
-        const struct reliability_def def = {
-            .of = {.scene = &file.scene, .points = 2, .rocks = 16, .threads = 1}, .goal = CEDUO_GOAL_ENERGY, .target = 5};
+        const struct reliability_def def = {.uncertainty = {.scene = &file.scene, .points = 2, .rocks = 16, .threads = 1},
+                                            .goal = CEDUO_GOAL_ENERGY,
+                                            .target = 5};
         file.scene.simulation.contact_model = models[i];
         EXPECT(ceduo_reliability_compute(&def, &answer), ==, CEDUO_OK);
         EXPECT(answer.above, ==, -5);
@@ -312,7 +313,7 @@ TEST(what_a_light_depends_on)
     f->uses = 3, f->order = order, f->fit.total = total;
     open_wood();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        f->fit.p5 = cases[i].p5, f->fit.p95 = cases[i].p95, f->fit.enough = cases[i].enough;
+        f->fit.p5 = cases[i].p5, f->fit.p95 = cases[i].p95, f->fit.enough_points = cases[i].enough;
         total[0].value = .1, total[1].value = cases[i].second, total[2].value = .6;
         EXPECT(ceduo_uncertainty_dominant_inputs(&file.scene, &a, 0, CEDUO_UNCERTAINTY_EXCEED, inputs), ==, cases[i].named);
         if (cases[i].named > 0 && cases[i].second < .6)

@@ -156,10 +156,10 @@ TEST(an_edit_of_the_contact_model_leaves_no_years)
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     ceduo_live_follow(&live, &file, 0, 0, 0);
-    EXPECT(live.verdict.choices[0].over->years, ==, 0);
+    EXPECT(live.verdict.choices[0].last_summary->years, ==, 0);
     follow_to_the_end();
-    EXPECT(live.verdict.choices[0].over->years, >, 0);
-    EXPECT(live.verdict.choices[0].over->simulated, ==, 0);
+    EXPECT(live.verdict.choices[0].last_summary->years, >, 0);
+    EXPECT(live.verdict.choices[0].last_summary->simulated, ==, 0);
     EXPECT_NAN(live.verdict.choices[0].mean.mean);
     close_scene();
 }
@@ -285,9 +285,9 @@ TEST_WITH(an_order_is_turned_by_more_than_an_error, open_made, close_made)
         made.others[1].to_first.exceed = (struct ceduo_estimate){-cases[i].other * .01, .01, NAN, NAN};
         made.differences[2].exceed = made.others[2].to_first.exceed = (struct ceduo_estimate){9, .01, NAN, NAN};
         LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = verdict_of_made(NULL);
-        EXPECT(v.turned_count, ==, cases[i].turned);
-        if (v.turned_count > 0)
-            assert_true(v.turned[0].better == 0 && v.turned[0].than == 1);
+        EXPECT(v.reversals_count, ==, cases[i].turned);
+        if (v.reversals_count > 0)
+            assert_true(v.reversals[0].better == 0 && v.reversals[0].worse == 1);
     }
 }
 

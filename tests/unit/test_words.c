@@ -318,7 +318,7 @@ static void make_verdict(const double mean[OPTIONS], const double today[OPTIONS]
                                   .rotation = {.known = true, .best = best, .rival = rivals[1]}};
     for (size_t i = 0; i < OPTIONS; i++)
         choices[i] = (struct ceduo_choice){
-            .mean = {mean[i], .01}, .today = {today[i], .01}, .over = &over, .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}};
+            .mean = {mean[i], .01}, .today = {today[i], .01}, .last_summary = &over, .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}};
 }
 
 static void expect_made(const char *wanted)
