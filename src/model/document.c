@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene and the states it was in. States are trees that share nodes in the arena of the scene's file. */
+/* The scene and its history. States are trees that share nodes in the arena of the scene's file. */
 #include "document.h"
 
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 static void push_state(struct document *d, const struct node *root, const char *what)
 {
     if (d->at + 1 < d->count && d->saved > d->at && d->saved < d->count)
-        d->saved = SIZE_MAX; /* the state on disk can no longer be reached by redo */
+        d->saved = SIZE_MAX; /* redo can no longer reach the state on disk */
     if (d->count > 0)
         d->count = d->at + 1;
     d->states = ceduo_grow(d->states, d->count, &d->room, sizeof *d->states);
@@ -22,7 +22,7 @@ static void push_state(struct document *d, const struct node *root, const char *
     d->at = d->count++;
 }
 
-/* Forget the older half of the history once the arena has grown by DOCUMENT_HISTORY_BYTES. It is freed with the document. */
+/* Drop the older half of the history once the arena has grown by DOCUMENT_HISTORY_BYTES. The arena is freed on close. */
 static void trim_history(struct document *d)
 {
     if (d->file.arena.bytes - d->trimmed < DOCUMENT_HISTORY_BYTES || d->count < 4)
@@ -35,7 +35,7 @@ static void trim_history(struct document *d)
     d->saved = d->saved >= drop && d->saved != SIZE_MAX ? d->saved - drop : SIZE_MAX;
 }
 
-/* Makes `root` the scene, if it is one; otherwise everything stays. */
+/* Make `root` the scene if it is valid; otherwise change nothing. */
 static bool adopt(struct document *d, const struct node *root)
 {
     struct scene_file before = d->file;
@@ -46,7 +46,7 @@ static bool adopt(struct document *d, const struct node *root)
         good = ceduo_scene_bind(&d->file, &d->problems);
     }
     if (!good) {
-        struct arena arena = d->file.arena; /* it has grown */
+        struct arena arena = d->file.arena; /* keep the arena: it has grown */
         d->file = before;
         d->file.arena = arena;
     }
@@ -58,7 +58,7 @@ bool ceduo_document_commit(struct document *d, const struct node *root, const ch
     const struct node *before = d->file.root;
     if (!adopt(d, root))
         return false;
-    if (ceduo_node_equal(before, d->file.root)) { /* nothing has changed: no state for it */
+    if (ceduo_node_equal(before, d->file.root)) { /* nothing has changed: add no state */
         d->file.root = before;
         return true;
     }
@@ -70,7 +70,7 @@ bool ceduo_document_commit(struct document *d, const struct node *root, const ch
 
 bool ceduo_document_undo_or_redo(struct document *d, int by)
 {
-    size_t state = d->at + (size_t)by; /* before the first it is larger than any */
+    size_t state = d->at + (size_t)by; /* wraps around before the first state */
     ceduo_problems_free(&d->problems);
     if (state >= d->count || !adopt(d, d->states[state].root))
         return false;
@@ -91,7 +91,7 @@ bool ceduo_document_unsaved(const struct document *d)
 
 const struct node *ceduo_document_parse(struct document *d, const char *name, const char *text)
 {
-    /* its own copy of the path: the document may be saved elsewhere, what was typed is looked for where it was typed */
+    /* copy of the path: saving elsewhere must not change how typed paths are resolved */
     const struct source *source =
         ceduo_source_keep(&d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .beside = d->path});
     return ceduo_yaml_read(&d->file.arena, source, &d->problems);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edits. Each makes a changed tree, which shares all nodes but those on the path to the change, and commits it as a new state.
- * Rows of `uncertainty` name values by their paths: they follow a value that moves. */
+/* Edits. Each makes a changed tree, which shares all nodes off the path of the change, and commits it as a new state. Rows
+ * of `uncertainty` name values by path; their paths follow a value that moves. */
 #include "document.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 struct edit {
     struct document *d;
     struct arena *arena;
-    const struct node *root; /* as far as it is changed; NULL once the edit has failed */
+    const struct node *root; /* tree changed so far; NULL: the edit has failed */
 };
 
 static struct edit begin(struct document *d)
@@ -50,7 +50,7 @@ double ceduo_document_place_at(const struct document *d, const char *path)
     return node && node->kind == NODE_SCALAR ? ceduo_document_place(d, node->text) : NAN;
 }
 
-/* Replaces the node at a path. */
+/* Replace the node at a path. */
 static void put(struct edit *e, const char *path, const struct node *value)
 {
     const struct source *source = ceduo_source_keep(e->arena, (struct source){.name = path, .bytes = path, .is_option = true});
@@ -60,7 +60,7 @@ static void put(struct edit *e, const char *path, const struct node *value)
 
 /* ---- rows of uncertainty ---- */
 
-/* What becomes of the path of a row: itself, another in its place, or NULL: the row goes. */
+/* Return the new path of a row: unchanged, another one, or NULL to remove the row. */
 typedef const char *path_change(struct arena *arena, const char *path, const void *context);
 
 static const struct node *with_paths(struct arena *arena, const struct node *root, path_change *change, const void *context)
@@ -82,7 +82,7 @@ static const struct node *with_paths(struct arena *arena, const struct node *roo
     return now->n == 0 ? ceduo_node_without(arena, root, "uncertainty") : ceduo_node_with(arena, root, "uncertainty", now);
 }
 
-/* What became of an item of a list: inserted before `from` (by 1), removed (by -1), or moved to `to` (by 0). */
+/* An item of a list was inserted before `from` (1), removed (-1), or moved to `to` (0). */
 struct shift {
     const char *list;
     size_t from, to;
@@ -108,7 +108,8 @@ static const char *shift_path(struct arena *arena, const char *path, const void 
     return now == at || *end != ']' ? path : ceduo_arena_format(arena, "%s[%zu%s", s->list, now, end);
 }
 
-/* Rows about the items of a list follow them, in the scene and in the stand of the list, whose file may have rows again. */
+/* Adjust rows about the items of a list, in the scene and in the stand of the list. Without rows left, write "none": the
+ * file of the stand may have rows. */
 static void shift_uncertainties(struct edit *e, const char *list, size_t from, size_t to, int by)
 {
     const char *within = strstr(list, ".stand.");
@@ -128,7 +129,7 @@ static void shift_uncertainties(struct edit *e, const char *list, size_t from, s
     put(e, path, now);
 }
 
-/* Another beginning of a path: an option is named by its number, or rows about the forest become rows about options. */
+/* A new prefix for paths: the number of an option for its name, or an option for the forest. */
 struct beginning {
     const char *from, *to;
 };
@@ -142,7 +143,8 @@ static const char *begin_path(struct arena *arena, const char *path, const void 
 
 /* ---- changes of a tree ---- */
 
-/* Remove an entry or an item, or its list if that is empty then, unless it is that of options. `*path` is what was removed. */
+/* Remove an entry or an item; remove its list too if it becomes empty, except the list of options. Set `*path` to what was
+ * removed. */
 static void take_out(struct edit *e, const char **path)
 {
     const char *dot = strrchr(*path, '.'), *bracket = strrchr(*path, '[');
@@ -171,7 +173,7 @@ static void take_out(struct edit *e, const char **path)
         shift_uncertainties(e, parent, index, 0, -1);
 }
 
-/* Puts an item into a list, which is made where there is none. */
+/* Insert an item into a list; create the list if it is missing. */
 static void put_item(struct edit *e, const char *list, size_t index, const struct node *item)
 {
     const struct node *holder = ceduo_resolve_at(e->root, list);
@@ -185,7 +187,7 @@ static void put_item(struct edit *e, const char *list, size_t index, const struc
     shift_uncertainties(e, list, index, 0, 1);
 }
 
-/* Makes changes whose paths begin with `prefix`. */
+/* Apply changes whose paths are relative to `prefix`. */
 static void change(struct edit *e, const char *prefix, const struct changes *changes)
 {
     for (size_t i = 0; e->root && i < changes->n; i++) {
@@ -256,7 +258,7 @@ bool ceduo_document_insert(struct document *d, const char *list, size_t index, c
     return commit(&e, list);
 }
 
-/* A copy gets a name of its own where names must differ: the number of a copy, " (2)", grows. A larger one is a year. */
+/* Give a copy a unique name: increment its number, " (2)". A larger number is a year. */
 static const struct node *with_new_name(struct edit *e, const struct node *list, const struct node *item)
 {
     const char *given = ceduo_node_text(item, "name"), *name = ceduo_in_language(given, ceduo_node_text(item, "name_it"));
@@ -321,7 +323,7 @@ bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segm
 
 /* ---- options ---- */
 
-/* The list of options; of a scene that has only a forest it is made, "current" the first. */
+/* Return the list of options. A scene without options gets one, "current", with its forest. */
 static const struct node *need_options(struct edit *e)
 {
     const struct node *options = ceduo_node_get(e->root, "options"), *forest = ceduo_node_get(e->root, "forest");
@@ -390,7 +392,7 @@ bool ceduo_document_vary_option(struct document *d, size_t index, const char *na
     return commit(&e, name);
 }
 
-/* A node with every `option: old` in it as `name`. */
+/* Return a node in which each `option: old` is `name`. */
 static const struct node *with_option_named(struct arena *arena, const struct node *node, const char *old,
                                             const struct node *name)
 {

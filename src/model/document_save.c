@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Saving: references are written as they were given, the rest as a patch of the old text if possible. */
+/* Saving: references are written as given, other values as a patch of the old text if possible. */
 #include "document.h"
 
 #include <errno.h>
@@ -13,7 +13,7 @@
 
 /* ---- the file on disk ---- */
 
-/* A folder of profiles that is the user's own. */
+/* True for the user's own folder of profiles. */
 static bool is_own(const char *folder)
 {
     const char *data = getenv("XDG_DATA_HOME"), *home = getenv("HOME");
@@ -58,7 +58,8 @@ bool ceduo_document_changed_on_disk(const struct document *d)
 
 /* ---- saving ---- */
 
-/* A path for a scene at `to`: as it is if it leads to the same file from there, of a table of draws its name, otherwise whole. */
+/* Return a path for a scene at `to`: unchanged if it still leads to the same file, the name of a table of draws, or the full
+ * path. */
 static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
 {
     const struct source *s = node->source;
@@ -81,13 +82,13 @@ static const struct node *reference_from(struct document *d, const struct node *
     return node;
 }
 
-/* All paths of an unresolved tree, for a scene that lies at `to`. */
+/* Adjust all paths of an unresolved tree for a scene at `to`. */
 static const struct node *references_from(struct document *d, const struct node *node, const char *to)
 {
     static const char *const keys[][2] = {{"slope", "slopes"},  {"stand", "stands"},   {"base", "stands"},
                                           {"csv", "slopes"},    {"draws", "scenes"},   {"x_m", "scenes"},
                                           {"values", "scenes"}, {"height_m", "scenes"}};
-    double number; /* the last three may be a table of what was seen */
+    double number; /* the last three may name a table of observed values */
     bool path = node->kind == NODE_SCALAR && node->key && ceduo_number_read(node->text, &number) == CEDUO_NUMBER_NONE;
     for (size_t i = 0; i < sizeof keys / sizeof keys[0] && path; i++)
         if (strcmp(node->key, keys[i][0]) == 0)
@@ -101,7 +102,7 @@ static const struct node *references_from(struct document *d, const struct node 
     return out;
 }
 
-/* The text for a scene that lies at `to` (NULL: nowhere yet). True where it is laid out anew. */
+/* Append the text for a scene at `to` (NULL: never saved). Return true if the layout of the file is lost. */
 static bool fill_text(struct document *d, const char *to, struct text *text)
 {
     const struct node *root = ceduo_emit_restore_references(&d->file.arena, d->file.root);
@@ -111,7 +112,7 @@ static bool fill_text(struct document *d, const char *to, struct text *text)
     ceduo_emit(text, root);
     if (!d->raw)
         return false;
-    LOCAL_TEXT(before); /* where the file is laid out as the program does it, nothing is lost */
+    LOCAL_TEXT(before); /* if the file has the program's layout, nothing is lost */
     const struct source *source = d->raw->source;
     ceduo_emit(&before, d->raw);
     return before.length != source->length || memcmp(before.bytes, source->bytes, before.length) != 0;
@@ -133,8 +134,7 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
         return false;
     if (!ceduo_file_write(path, text.bytes, text.length))
         return false;
-    char *copy =
-        ceduo_check_memory(strdup(path)); /* it may be the document's own; from now on this text is what lies on disk */
+    char *copy = ceduo_check_memory(strdup(path)); /* `path` may be the document's own */
     free(d->path);
     d->path = copy;
     d->raw = ceduo_document_parse(d, copy, text.bytes);
@@ -142,7 +142,7 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
     d->saved = d->at;
     ceduo_document_note_disk(d);
     ceduo_recovery_delete(&d->recovery);
-    if (d->recovery.path && !same) { /* what is unsaved from now on is this file's */
+    if (d->recovery.path && !same) { /* unsaved work now belongs to this file */
         ceduo_recovery_end(&d->recovery);
         d->recovery = ceduo_recovery_begin(d->path);
     }

@@ -10,7 +10,7 @@
 #include "scene/ranges.h"
 #include "scene/value.h"
 
-/* ---- what may be fitted ---- */
+/* ---- values that can be fitted ---- */
 
 static void offer(const struct scene_file *file, struct fit_request *to, const char *path, double lo, double hi)
 {
@@ -22,7 +22,7 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
     const struct ceduo_calibration_scene scene = {
         .observations_count = file->observations_count, .observations = file->observations, .scene = &file->scene};
     if (there &&
-        strcmp(field->key, "mu") == 0) /* it acts through the shape of the rock: only rocks of two shapes determine it */
+        strcmp(field->key, "mu") == 0) /* mu acts through the shape of the rock: only rocks of two shapes determine it */
         there = ceduo_calibration_identifies_mu(&scene, 1);
     ceduo_arena_free(&own.arena);
     if (!there || to->n == CEDUO_CALIBRATION_MAX || strlen(path) >= FIT_PATH_ROOM || !(lo < hi))
@@ -35,7 +35,7 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
 static const char *const keys[] = {"rn", "rt", "roughness_m", "friction"};
 #define KEYS (sizeof keys / sizeof keys[0])
 
-/* What the values that the scene has may be, by their own row of ranges. */
+/* Return the range of the scene's values, from their own row of ranges. */
 static struct range range_around(const struct scene_file *file, const char *key)
 {
     const struct field *field = ceduo_schema_field(ceduo_schema_segment(), key);
@@ -54,8 +54,8 @@ static struct range range_around(const struct scene_file *file, const char *key)
     return range;
 }
 
-/* Offer the ground of all stretches as one (rows NULL), or each ground of the library that the scene names. One ground has the
- * range of talus if it is assumed, otherwise that of the library and of the scene's values. Angles have no library. */
+/* Offer one ground for all segments (rows NULL), or each ground of the library that the scene names. An assumed ground has
+ * the range of talus; a given one those of the library and of the scene. Angles have no library. */
 static void offer_ground(const struct scene_file *file, const struct node *rows, struct fit_request *to)
 {
     size_t n;
@@ -82,7 +82,7 @@ static void offer_ground(const struct scene_file *file, const struct node *rows,
                 snprintf(path, sizeof path, "slope.materials[%s].%s", library[m].name, key);
             else
                 snprintf(path, sizeof path, "slope.segments[*].%s", key);
-            if (strcmp(key, "rt") != 0 || file->scene.simulation.law != CEDUO_LAW_ARM) /* which does not know it */
+            if (strcmp(key, "rt") != 0 || file->scene.simulation.law != CEDUO_LAW_ARM) /* the arm law has no Rt */
                 offer(file, to, path, range.lo, range.hi);
         }
     }
@@ -114,7 +114,7 @@ bool ceduo_fit_has_observations(const struct scene_file *file)
 
 /* ---- fitting ---- */
 
-#define FIRST_STEPS 200 /* of each chain: with the search before them some seconds */
+#define FIRST_STEPS 200 /* steps of each chain; takes some seconds, with the search before them */
 
 enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request,
                                  const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *f)
@@ -122,7 +122,7 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
     *f = (struct fit){.file = *file, .request = *request, .done = true};
     for (size_t i = 0; i < request->n; i++) {
         const struct fit_value *value = &f->request.values[i];
-        ceduo_input_find(&f->file, value->path, &f->inputs[i]); /* it was offered: it is there */
+        ceduo_input_find(&f->file, value->path, &f->inputs[i]); /* a fit offers only paths that exist */
         f->inputs[i].lo = value->lo;
         f->inputs[i].hi = value->hi;
     }
@@ -133,7 +133,7 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
     def.parameters_count = request->n;
     def.rocks = request->rocks;
     def.seed = file->scene.simulation.seed;
-    if (request->n > 1) { /* what the observations do not hold */
+    if (request->n > 1) { /* find the values that the observations do not determine */
         struct ceduo_calibration_def first = def;
         first.steps_most = FIRST_STEPS;
         enum ceduo_status status = ceduo_calibrate(&first, &f->answer);
@@ -163,14 +163,14 @@ static void put_number(struct text *t, const char *before, double value)
     ceduo_text_format(t, "%s%s", before, NUMERAL(value));
 }
 
-/* True for a row of uncertainty about ground or points that the written scene no longer has. */
+/* True for a row of uncertainty about ground or points that the new scene no longer has. */
 static bool is_of_library(const struct node *row)
 {
     const char *path = ceduo_node_text(row, "path");
     return path && (strcmp(path, "slope.tolerance_m") == 0 || strncmp(path, "slope.materials[", 16) == 0);
 }
 
-/* Rows of uncertainty, NULL if there is no list; `list`: its path. */
+/* Return the rows of uncertainty, or NULL if there is no list. Set `list` to its path. */
 static const struct node *uncertainty_rows(const struct document *d, const char **list)
 {
     const struct node *uncertainty = ceduo_node_get(d->file.root, "uncertainty");
@@ -188,7 +188,7 @@ static void add_ground(struct changes *c, const struct document *d)
         if (is_of_library(rows->items[i]))
             ceduo_changes_add(c, CHANGE_DELETE, ceduo_arena_format(&c->document->file.arena, "%s[%zu]", list, i), NULL);
     static const char *const gone[] = {"slope.materials", "slope.csv", "slope.reversed",
-                                       "slope.tolerance_m"}; /* vertices are written as they are simulated */
+                                       "slope.tolerance_m"}; /* vertices are written as simulated */
     const struct ceduo_slope *s = &d->file.scene.slope;
     LOCAL_TEXT(vertices);
     LOCAL_TEXT(segments);
@@ -214,7 +214,7 @@ static void add_ground(struct changes *c, const struct document *d)
 
 /* ---- values ---- */
 
-/* Say once for the holder of a value where that comes from; a value of the scene itself has none. */
+/* Add the source of a value once for the mapping that holds it. A top-level value has no source. */
 static void add_source(struct changes *c, const char *place, const char *source)
 {
     const char *dot = strrchr(place, '.');
@@ -229,7 +229,7 @@ static void add_source(struct changes *c, const char *place, const char *source)
     ceduo_changes_set(c, path, "{kind: calibrated, text: %s}", text.bytes);
 }
 
-/* Whether a row of uncertainty is about a fitted value. */
+/* True if a row of uncertainty is about a fitted value. */
 static bool is_fitted(const struct document *d, const struct fit_values *fit, const struct node *row)
 {
     const char *path = ceduo_node_text(row, "path");
@@ -240,7 +240,7 @@ static bool is_fitted(const struct document *d, const struct fit_values *fit, co
     return false;
 }
 
-/* The table of draws beside the rows of uncertainty that there are; what they say of fitted values no longer holds. */
+/* Add the table of draws to the rows of uncertainty. Drop the rows about fitted values. */
 static void add_draws(struct changes *c, const struct document *d, const struct fit_values *fit, bool of_library)
 {
     const char *list;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A neighbour follows a border that is changed, an assumed height its diameter. What would be given twice is removed. */
+/* Side effects of an edit: a neighbour follows a moved border, an assumed height its diameter, and conflicting values are
+ * removed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,19 +10,19 @@
 #include "ceduo/rotation.h"
 #include "document.h"
 
-/* The value that a person changes, and what goes along with it. */
+/* A changed value and its side effects. */
 struct follow {
     struct document *d;
-    struct arena *arena; /* of the document */
+    struct arena *arena; /* arena of the document */
     const char *path, *value;
-    const char *list, *key; /* of an item of a list "forest" and "to_m" of "forest[1].to_m"; "": it is in none */
+    const char *list, *key; /* "forest" and "to_m" for "forest[1].to_m"; "": not in a list */
     size_t index;
     struct changes changes;
     struct text taken, filled, followed;
-    struct text refused; /* the reason; "": not refused */
+    struct text refused; /* reason; "": not refused */
 };
 
-/* A number of so many digits as text, in the arena of the document. */
+/* Return a number with n digits as text, in the arena of the document. */
 static const char *rounded(struct follow *f, double value, int digits)
 {
     char room[CEDUO_NUMBER_ROOM];
@@ -49,7 +50,7 @@ static void find_place(struct follow *f)
     f->key = end[1] == '.' ? end + 2 : "";
 }
 
-/* Of a border that moves the neighbour there moves, too. */
+/* Move the border of the neighbour with this border. */
 static void follow_border(struct follow *f)
 {
     double now = ceduo_document_place(f->d, f->value), old = ceduo_document_place_at(f->d, f->path);
@@ -70,12 +71,12 @@ static void follow_border(struct follow *f)
                              : _("what comes before begins at %g m only; delete that first"),
                           end);
     ceduo_changes_set(&f->changes, border, "%s",
-                      f->value[0] == 'e' ? f->value : NUMERAL(now)); /* from the end, as this one is */
+                      f->value[0] == 'e' ? f->value : NUMERAL(now)); /* keep the unit: distance from the end */
     ceduo_text_format(&f->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
                       ceduo_number_spoken(NUMERAL(now)));
 }
 
-/* The ground reaches as far as the profile does. */
+/* Extend the ground to the end of the profile. */
 static void follow_end(struct follow *f)
 {
     double now;
@@ -93,7 +94,7 @@ static void follow_end(struct follow *f)
 
 /* ---- stands ---- */
 
-/* A height that is only assumed goes along with its diameter, as both do while stems grow. */
+/* Scale an assumed height with its diameter, as both grow. */
 static void follow_diameter(struct follow *f, const struct ceduo_curve *curve, const struct ceduo_stems *stems, double dbh)
 {
     const char *height = ceduo_arena_format(f->arena, "%s[%zu].height_m", f->list, f->index);
@@ -123,7 +124,7 @@ static void follow_stand(struct follow *f)
                         cm ? now / 100 : now);
 }
 
-/* Both surveys are judged or none: the other one is taken as poor, which asks for more. */
+/* Surveys are assessed together or not at all: a missing one is assumed poor, which asks for more. */
 static void follow_design(struct follow *f)
 {
     static const char *const both[2] = {"design.survey", "design.blocks"};
@@ -134,9 +135,9 @@ static void follow_design(struct follow *f)
         }
 }
 
-/* ---- what would say the same ---- */
+/* ---- conflicting values ---- */
 
-/* What people call a value: its label without the unit. */
+/* Append the label of a value without its unit. */
 static const struct field *put_name(struct text *text, const char *path)
 {
     const struct field *field = ceduo_schema_at(path);
@@ -146,7 +147,7 @@ static const struct field *put_name(struct text *text, const char *path)
     return field;
 }
 
-/* Takes an entry of a mapping out, if it is there. */
+/* Remove an entry of a mapping if it exists. */
 static void take_out(struct follow *f, const char *map, const char *key)
 {
     const char *path = ceduo_arena_format(f->arena, "%s.%s", map, key);
@@ -161,7 +162,7 @@ static void fill_in(struct follow *f, const char *path, const char *value)
     ceduo_changes_set(&f->changes, path, "%s", value);
     const struct field *field = put_name(&f->filled, path);
     char *spoken = ceduo_arena_string(f->arena, value), *end = spoken;
-    for (const char *from = value; *from; from++) /* a list as forms show it: its commas would be taken for decimal ones */
+    for (const char *from = value; *from; from++) /* show a list without commas, which look like decimal commas */
         if (!strchr("[],", *from))
             *end++ = *from;
     *end = '\0';
@@ -170,14 +171,14 @@ static void fill_in(struct follow *f, const char *path, const char *value)
 
 /* ---- another shape ---- */
 
-/* Another shape of the same volume. Ellipsoid and block have the same sizes: then there is nothing to do. */
+/* Replace the sizes so that the new shape keeps the volume. Ellipsoid and block have the same sizes. */
 static void change_shape(struct follow *f, enum ceduo_shape shape)
 {
     static const double full[] = {[CEDUO_SPHERE] = 6, [CEDUO_CYLINDER] = 4, [CEDUO_ELLIPSOID] = 6};
     const struct ceduo_rock_def *def = &f->d->file.scene.rock;
     bool cylinder = def->shape == CEDUO_CYLINDER, round = cylinder || def->shape == CEDUO_SPHERE;
     bool axes_then = shape == CEDUO_ELLIPSOID || shape == CEDUO_BLOCK, mass = !isnan(def->mass.mean);
-    bool sized = false; /* blocks may say it instead */
+    bool sized = false; /* blocks may give the size instead */
     static const char *const sizes[] = {"rock.diameter_m", "rock.height_m", "rock.volume_m3", "rock.mass_kg", "rock.axes_m"};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         sized |= ceduo_document_node(f->d, sizes[i]) != NULL;
@@ -191,7 +192,7 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
         take_out(f, "rock", "height_m");
     if (!axes_then)
         take_out(f, "rock", "axes_m");
-    double s[3]; /* length, width, height: a volume is that of a box of these times a number of the shape */
+    double s[3]; /* length, width, height: volume = their product times a factor of the shape */
     for (int i = 0; i < 3; i++)
         s[i] = !round ? def->axes[i].mean : !cylinder ? rock.mean_diameter : i < 2 ? def->diameter.mean : def->height.mean;
     double box = shape == CEDUO_BLOCK ? rock.volume : rock.volume * full[shape] / M_PI;
@@ -206,7 +207,7 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
                 ceduo_arena_format(f->arena, "[%s, %s, %s]", rounded(f, scale * s[0], 3), rounded(f, scale * s[1], 3),
                                    rounded(f, scale * s[2], 3)));
     }
-    if (shape == CEDUO_SPHERE && mass) { /* where it would be a size */
+    if (shape == CEDUO_SPHERE && mass) { /* a sphere takes mass as a size */
         take_out(f, "rock", "mass_kg");
         fill_in(f, "rock.density_kg_m3", rounded(f, rock.mass / rock.volume, 4));
     } else if (mass) {
@@ -217,7 +218,7 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
         ceduo_text_append_joined(&f->filled, " ", _("(means, without spread)"));
 }
 
-/* The first dimension of a cylinder, whose size blocks said before, brings the other along: both are given or none. */
+/* A cylinder that had its size from blocks needs both dimensions: copy the first one. */
 static void follow_cylinder(struct follow *f)
 {
     static const char *const keys[] = {"rock.diameter_m", "rock.height_m"};
@@ -228,13 +229,13 @@ static void follow_cylinder(struct follow *f)
         }
 }
 
-/* ---- one of several ---- */
+/* ---- alternatives ---- */
 
-/* Takes out what would say the same as a value: of the rock the other sizes, or what says its mass otherwise. */
+/* Remove the alternatives of a value: other sizes of the rock, or mass and density. */
 static void keep_one_of_all(struct follow *f)
 {
     static const char *const of_rock[2][3] = {{"mass_kg", "density_kg_m3"}, {"diameter_m", "volume_m3", "mass_kg"}};
-    bool sphere = f->d->file.scene.rock.shape == CEDUO_SPHERE, is_one = false; /* whose mass is a size */
+    bool sphere = f->d->file.scene.rock.shape == CEDUO_SPHERE, is_one = false; /* for a sphere, mass is a size */
     const char *dot = strrchr(f->path, '.'), *key = dot ? dot + 1 : f->path;
     const char *map = ceduo_arena_copy(f->arena, f->path, dot ? (size_t)(dot - f->path) : 0);
     const struct field *holder = ceduo_schema_row(map), *field = ceduo_schema_at(f->path);

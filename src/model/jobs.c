@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One thread takes the coarsest step of all jobs, works on a copy of the job without the lock, and publishes the result unless
- * the job was replaced meanwhile. A new job cancels the step under way. The queue owns results until they are taken. */
+/* One thread takes the coarsest step of all jobs and works on a copy of the job without the lock. It publishes the result
+ * unless the job was replaced. A new job cancels the running step. The queue owns results until they are taken. */
 #include "jobs.h"
 
 #include <fcntl.h>
@@ -23,15 +23,15 @@
 
 struct job {
     enum job_kind kind;
-    uint64_t number; /* of the request; 0: none. A result of another number is stale */
-    uint64_t key;    /* of what was asked for last; 0: nothing */
+    uint64_t number; /* number of the request; 0: none; results of other numbers are stale */
+    uint64_t key;    /* key of the last request; 0: none */
     double asked;
     size_t option;
-    size_t level, levels; /* the next one, and so many */
+    size_t level, levels; /* next level, number of levels */
     struct scene_file file;
     struct ceduo_search search;
     struct fit_request fit;
-    char path[JOB_TEXT], value[JOB_TEXT]; /* of the search, which has no value; of the preview */
+    char path[JOB_TEXT], value[JOB_TEXT]; /* path of a search or preview; value of a preview */
 };
 
 struct jobs {
@@ -41,18 +41,18 @@ struct jobs {
     pthread_cond_t changed;
     int pipe[2];
     atomic_bool cancel;
-    struct runs *runs;  /* the thread's own */
-    uint64_t rocks_max; /* of a level; 0: unlimited */
-    /* under the lock */
+    struct runs *runs;  /* owned by the thread */
+    uint64_t rocks_max; /* limit of rocks per level; 0: unlimited */
+    /* guarded by the lock */
     bool quit;
-    enum job_kind working; /* JOB_KINDS: on none */
-    double uncertainty;    /* share of the level under way that is computed */
+    enum job_kind working; /* running job; JOB_KINDS: none */
+    double uncertainty;    /* share (0…1) computed of the running level */
     uint64_t requests;
     struct job jobs[JOB_KINDS];
     union results fresh;
 };
 
-/* What each kind does: a step works on a copy of its job, in the thread, and makes its result unless it publishes by itself. */
+/* Functions of each kind. A step works on a copy of its job in the thread. It sets *result, or publishes its results. */
 struct kind {
     enum ceduo_status (*step)(struct jobs *jobs, struct job *job, void **result);
     void (*free)(void *result);
@@ -107,7 +107,7 @@ static void free_result(enum job_kind kind, void *result)
         kinds[kind].free(result);
 }
 
-/* Puts a result into a slot; years of options that it does not have stay. */
+/* Store a result in a slot. Keep the years of options that it lacks. */
 static void put_result(union results *results, enum job_kind kind, void *fresh)
 {
     struct years_known *old = results->years, *years = fresh;
@@ -136,10 +136,10 @@ static void tell(struct jobs *q)
 {
     char byte = 0;
     if (write(q->pipe[1], &byte, 1) < 0)
-        return; /* full: news is waiting to be read anyway */
+        return; /* full: a notification is pending already */
 }
 
-/* Hands over a result of the job, unless the job was replaced or stopped meanwhile. */
+/* Publish a result of the job, unless the job was replaced or stopped. */
 static void publish(struct jobs *q, const struct job *job, void *result)
 {
     pthread_mutex_lock(&q->lock);
@@ -155,7 +155,7 @@ static void publish(struct jobs *q, const struct job *job, void *result)
 
 /* ---- steps ---- */
 
-/* Number of rocks of a level. */
+/* Return the number of rocks of a level. */
 static uint64_t rocks_of(const struct jobs *q, size_t level)
 {
     uint64_t rocks = RUNS_FIRST * (level > 1 ? 100 : level > 0 ? 10 : 1);
@@ -168,7 +168,7 @@ static enum ceduo_status step_search(struct jobs *q, struct job *job, void **res
     job->search.path = job->path;
     enum ceduo_status status = ceduo_search(&job->file, &job->search, q->threads, &q->cancel, answer);
     ceduo_arena_free(&job->file.arena);
-    answer->status = status; /* what was asked may be wrong: done, too */
+    answer->status = status; /* an invalid request is done, too */
     return status == CEDUO_CANCELLED || status == CEDUO_NO_MEMORY ? status : CEDUO_OK;
 }
 
@@ -182,7 +182,7 @@ struct publisher {
     struct jobs *queue;
     const struct job *job;
     double last;
-    struct fit_loose loose; /* of a fit */
+    struct fit_loose loose; /* set by a fit */
 };
 
 static void publish_snapshot(void *context, struct ceduo_snapshot *snapshot)
@@ -236,14 +236,14 @@ const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
     return ceduo_window_in(scene).kind == CEDUO_WINDOW_CONSTANT ? N_("not computed: all years are alike") : NULL;
 }
 
-#define PROGRESS_STEP 0.01 /* a smaller part is no news */
+#define PROGRESS_STEP 0.01 /* report progress in steps of this share */
 
 static void note_progress(void *context, uint64_t done, uint64_t all)
 {
     struct jobs *q = context;
     double share = all > 0 ? (double)done / (double)all : 0;
     pthread_mutex_lock(&q->lock);
-    bool news = share >= q->uncertainty + PROGRESS_STEP || share < q->uncertainty; /* it falls if more points are taken */
+    bool news = share >= q->uncertainty + PROGRESS_STEP || share < q->uncertainty; /* falls if more points are taken */
     if (news)
         q->uncertainty = share;
     pthread_mutex_unlock(&q->lock);
@@ -277,10 +277,10 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
     def.cancel = &q->cancel;
     def.progress = note_progress;
     def.context = q;
-    enum ceduo_status status = ceduo_effort_bound(&def, NULL); /* of all levels the same, so that nothing moves */
+    enum ceduo_status status = ceduo_effort_bound(&def, NULL); /* bound all levels equally, so that figures do not move */
     if (status != CEDUO_OK)
         return status;
-    if (def.points == 0) /* a screen waits for nobody */
+    if (def.points == 0) /* never skip: the screen must not wait */
         def.points = def.points_max = CEDUO_UNCERTAINTY_MIN;
     def.effort_max = 0;
     def.alone = u->level == 0;
@@ -320,7 +320,7 @@ static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void *
     return status;
 }
 
-/* Ten times a second is enough to look at. */
+/* Publish progress at most ten times a second. */
 static void publish_progress(void *context, const struct ceduo_calibration_state *state)
 {
     struct publisher *p = context;
@@ -355,7 +355,7 @@ static bool is_wanted(const struct job *job)
     return job->level < job->levels;
 }
 
-/* Rocks of the next step: the job with the fewest is next. Years have many forests. */
+/* Rocks of the next step: the job with the fewest runs next. Years have many forests. */
 static uint64_t cost_of(const struct jobs *q, const struct job *job)
 {
     if (job->kind == JOB_SEARCH || job->kind == JOB_PREVIEW)
@@ -397,7 +397,7 @@ static void *work(void *argument)
         else
             free_result(kind, result);
         pthread_mutex_lock(&q->lock);
-        if (q->jobs[kind].number == job.number && status != CEDUO_CANCELLED) /* otherwise it is repeated */
+        if (q->jobs[kind].number == job.number && status != CEDUO_CANCELLED) /* otherwise the step is repeated */
             q->jobs[kind].level = status == CEDUO_OK ? job.level + 1 : LEVELS_MAX;
         if (kind == JOB_SEARCH || kind == JOB_PREVIEW)
             pthread_cond_broadcast(&q->changed);
@@ -406,7 +406,7 @@ static void *work(void *argument)
     return NULL;
 }
 
-/* ---- making and freeing ---- */
+/* ---- creating and freeing ---- */
 
 static void release(struct jobs *q)
 {
@@ -464,7 +464,7 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene)
     return key;
 }
 
-/* A job on a snapshot of the scene, whose memory is the job's own. */
+/* Return a job on a snapshot of the scene. The job owns the snapshot's memory. */
 static struct job job_of(enum job_kind kind, const struct scene_file *file, size_t option, size_t levels)
 {
     struct job job = {.kind = kind, .option = option, .levels = levels, .file = *file};
@@ -472,7 +472,7 @@ static struct job job_of(enum job_kind kind, const struct scene_file *file, size
     return job;
 }
 
-/* Forgets a job and its result; under the lock. */
+/* Drop a job and its result. Requires the lock. */
 static void forget(struct jobs *q, enum job_kind kind)
 {
     ceduo_result_list_drop(&q->fresh, kind);
@@ -481,7 +481,8 @@ static void forget(struct jobs *q, enum job_kind kind)
         atomic_store(&q->cancel, true);
 }
 
-/* Replace the job of its kind. One of the same key goes on up to the levels now asked for. True if something is to be done. */
+/* Replace the job of this kind. A job with the same key continues up to the requested levels. Return true if there is work
+ * to do. */
 static bool ask(struct jobs *q, const struct job *job)
 {
     pthread_mutex_lock(&q->lock);
@@ -510,7 +511,7 @@ static bool ask(struct jobs *q, const struct job *job)
 
 bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown)
 {
-    bool index = file->scene.simulation.contact_model == CEDUO_INDEX; /* knows no other energy law */
+    bool index = file->scene.simulation.contact_model == CEDUO_INDEX; /* the index uses no other energy law */
     struct job figures = job_of(JOB_SNAPSHOT, file, shown, RUNS_LEVELS);
     struct job others = job_of(JOB_OTHERS, file, shown, index ? 0 : RUNS_LEVELS - 1);
     struct job coming = job_of(JOB_YEARS, file, shown, RUNS_LEVELS - 1);
@@ -520,13 +521,13 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
         if (!ceduo_alternative_scene(&file->scene, &other))
             ceduo_no_memory();
         others.key = figures.key;
-        hash_count(&others.key, JOB_OTHERS); /* without it two laws have the same key as when they change places */
+        hash_count(&others.key, JOB_OTHERS); /* otherwise two laws would have the same key as after a swap */
         hash_count(&others.key, ceduo_jobs_key(&other));
         ceduo_alternative_scene_release(&other);
     }
     for (size_t i = 0; i < file->scene.options_count; i++)
         hash_count(&coming.key, ceduo_runs_years_key(&file->scene, i));
-    bool asked = ask(q, &figures); /* otherwise the rocks meet the same */
+    bool asked = ask(q, &figures); /* false: no rock meets anything new */
     if (asked)
         ceduo_jobs_stop(q, JOB_YEARS);
     asked |= ask(q, &others);
@@ -555,7 +556,7 @@ void ceduo_jobs_stop(struct jobs *q, enum job_kind kind)
     pthread_mutex_unlock(&q->lock);
 }
 
-/* ---- news ---- */
+/* ---- notifications ---- */
 
 int ceduo_jobs_fd(const struct jobs *q)
 {

@@ -43,7 +43,7 @@ double ceduo_live_awaits_uncertainty(const struct live *l, const struct scene_fi
 {
     const struct uncertainty *u = ceduo_live_uncertainty(l, file);
     if (ceduo_node_text(file->root, "uncertainty") || (u && (u->inputs.n == 0 || u->level > 0 || u->option == option)))
-        return NAN; /* uncertainty: none */
+        return NAN; /* "uncertainty: none" */
     return l->uncertainty;
 }
 
@@ -65,9 +65,10 @@ const struct fit *ceduo_live_fitted(const struct live *l)
     return l->results.fit && l->results.fit->done ? l->results.fit : NULL;
 }
 
-/* ---- the scene as it is, by what is known ---- */
+/* ---- assessing the current scene ---- */
 
-/* The other energy law if it fits: figures from before an edit stay until better ones come, unless they are of another law. */
+/* Return the figures of the other energy law if they fit the scene. Keep stale figures until new ones arrive, except those
+ * of another law. */
 static const struct ceduo_alternative_energy *fitting_others(struct live *l, const struct ceduo_scene *scene)
 {
     struct others *o = l->results.others;
@@ -115,7 +116,7 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
     free(wooded);
 }
 
-/* ---- requests and news ---- */
+/* ---- requests and notifications ---- */
 
 void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t option, size_t uncertainty, size_t comparison)
 {
@@ -123,7 +124,7 @@ void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t opt
     l->asked = ceduo_jobs_key(&file->scene);
     l->busy |= asked;
     if (asked && l->results.years)
-        l->results.years->done = l->results.years->n; /* that step is over */
+        l->results.years->done = l->results.years->n; /* that step has ended */
     refresh(l, &file->scene);
     asked = ceduo_jobs_ask(l->jobs, &(struct job_request){JOB_UNCERTAINTY, file, option, .levels = uncertainty});
     l->uncertainty = asked ? 0 : uncertainty == 0 ? NAN : l->uncertainty;

@@ -18,9 +18,9 @@
 #include "base/must.h"
 #include "io/file.h"
 
-#define UNSAVED "# unsaved work on " /* begins the first line of a copy */
+#define UNSAVED "# unsaved work on " /* start of the first line of a copy */
 
-/* Makes every folder of a path. */
+/* Create every folder of a path. */
 static bool make_folders(char *path)
 {
     for (char *p = path + 1;; p++) {
@@ -45,7 +45,7 @@ static bool state_folder(struct text *folder)
     return folder->bytes && make_folders(folder->bytes);
 }
 
-/* Number that no other program has, here or on another machine that shares the folder. */
+/* Return a number that is unique also among machines that share the folder. */
 static uint64_t random_number(void)
 {
     uint64_t number = (uint64_t)getpid();
@@ -68,7 +68,7 @@ struct recovery_copy ceduo_recovery_begin(const char *path)
     return (struct recovery_copy){.path = name.bytes, .file = -1};
 }
 
-/* Replace the copy. The new file is locked before it has the copy's name. Return its descriptor; -1 on failure. */
+/* Replace the copy. The new file is locked before it gets the copy's name. Return its descriptor; -1 on failure. */
 static int replace_copy(const char *path, const struct text *text)
 {
     LOCAL_TEXT(temporary);
@@ -84,7 +84,7 @@ static int replace_copy(const char *path, const struct text *text)
     return -1;
 }
 
-#define TRIES 3 /* another program may delete the new file before it is locked: it looks left behind */
+#define TRIES 3 /* another process may delete the new file before it is locked, because it looks abandoned */
 
 bool ceduo_recovery_write(struct recovery_copy *copy, const char *path, const char *bytes, size_t n)
 {
@@ -136,7 +136,7 @@ char *ceduo_recovery_text(const char *path)
     return source ? ceduo_check_memory(strdup(source->bytes)) : NULL;
 }
 
-/* True if no program locks the file, and it still has this name: its owner may have put a newer one in its place. */
+/* True if no process locks the file, and the path still leads to it: its owner may have replaced it. */
 static bool is_left(const char *path)
 {
     int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -149,7 +149,7 @@ static bool is_left(const char *path)
     return left;
 }
 
-/* Put the path of the next copy in the folder that was left behind; false if there is none. */
+/* Set `name` to the path of the next abandoned copy. Return false if there is none. */
 static bool next_left(DIR *dir, const struct text *folder, struct text *name)
 {
     for (struct dirent *e; (e = readdir(dir));) {
@@ -163,7 +163,7 @@ static bool next_left(DIR *dir, const struct text *folder, struct text *name)
             continue;
         if (e->d_name[used] == '\0')
             return true;
-        unlink(name->bytes); /* its program was killed while it wrote the file: it may be half of a copy */
+        unlink(name->bytes); /* leftover temporary file of a killed process */
     }
     return false;
 }
@@ -183,7 +183,7 @@ static const struct node *read_yaml(struct arena *arena, const char *text)
     return ceduo_yaml_read(arena, &source, &problems);
 }
 
-/* Path of the scene, from the first line of a copy; NULL if the scene had no file. */
+/* Return the path of the scene from the first line of a copy; NULL: none. */
 static const char *read_scene(struct arena *arena, const char *text)
 {
     LOCAL_TEXT(line);

@@ -12,8 +12,8 @@ struct runs {
     const atomic_bool *cancel;
     uint64_t scene_key;
     struct ceduo_pool *figures, *years, *others;
-    struct ceduo_scene other;    /* that the pool of the others is turned to */
-    struct ceduo_snapshot *last; /* what was last made of the runs */
+    struct ceduo_scene other;    /* scene of `alternative_pool` */
+    struct ceduo_snapshot *last; /* newest snapshot */
 };
 
 struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel)
@@ -46,7 +46,7 @@ static enum ceduo_status turn_pool(struct runs *r, const struct ceduo_scene *sce
     return ceduo_pool_reuse_or_create(&def, pool);
 }
 
-/* Turns all to a scene. What was made of the runs of another one is of no use. */
+/* Set the pools to a scene. Drop the snapshot of another one. */
 static enum ceduo_status turn(struct runs *r, const struct ceduo_scene *scene)
 {
     uint64_t key = ceduo_scene_key(scene);
@@ -71,7 +71,7 @@ static bool is_precise(const struct ceduo_run_snapshot *s)
     return true;
 }
 
-/* Hands over what is known so far; what has not changed is shared with what is kept. */
+/* Publish the results so far. Unchanged parts are shared with the last snapshot. */
 static enum ceduo_status hand_over(struct runs *r, const struct runs_step *step)
 {
     struct ceduo_snapshot *mine, *theirs;
@@ -89,7 +89,7 @@ static enum ceduo_status hand_over(struct runs *r, const struct runs_step *step)
     return status;
 }
 
-/* Hands over after each forest: once something is known it is shown with its own error until better is known. */
+/* Publish after each forest: a figure with its error is shown until a better one arrives. */
 enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
 {
     const struct ceduo_scene *scene = step->scene;
@@ -126,7 +126,7 @@ enum ceduo_status ceduo_runs_others(struct runs *r, const struct ceduo_scene *sc
     if (!ceduo_alternative_scene(scene, &other))
         ceduo_no_memory();
     enum ceduo_status status = turn_pool(r, &other, true, &r->others);
-    r->other = status == CEDUO_OK ? other : before; /* that the pool is turned to */
+    r->other = status == CEDUO_OK ? other : before; /* scene of the pool */
     ceduo_alternative_scene_release(status == CEDUO_OK ? &before : &other);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         struct ceduo_run *run;

@@ -12,31 +12,31 @@
 #include "study/inputs.h"
 #include "study/sure.h"
 
-#define SURE_MAX       128  /* values looked at under uncertainty */
-#define ERROR_STEP     0.05 /* of the range: the first distance over which the slope at the value found is taken */
+#define SURE_MAX       128  /* values evaluated under uncertainty */
+#define ERROR_STEP     0.05 /* first step for the slope at the value found, as a share of the range */
 #define ERROR_STEPS    3
-#define SURE_TOLERANCE 1e-3 /* of the range: what so few points tell is no finer */
+#define SURE_TOLERANCE 1e-3 /* as a share of the range; n points resolve no finer */
 
-/* A search under way. */
+/* A running search. */
 struct search {
     struct scene_file *file;
     struct ceduo_search def;
     unsigned threads;
     const atomic_bool *cancel;
     struct search_answer *answer;
-    struct problems *problems; /* the answer's, or of nobody */
-    double passes;             /* the largest goal that is reached */
-    const struct node *root;   /* of the scene as it was read */
-    struct ceduo_pool *pool;   /* runs kept from value to value */
-    bool whole;                /* values are whole numbers */
-    size_t known_count;        /* what was asked under uncertainty */
+    struct problems *problems; /* the answer's, or a scratch list */
+    double passes;             /* largest goal value that passes */
+    const struct node *root;   /* root of the original scene */
+    struct ceduo_pool *pool;   /* runs kept between values */
+    bool whole;                /* the value is a whole number */
+    size_t known_count;        /* evaluated values, under uncertainty */
     struct known_sure {
         double value;
         struct reliability_result answer;
     } known[SURE_MAX];
 };
 
-/* ---- what kind of number it is ---- */
+/* ---- the type of the value ---- */
 
 const struct field *ceduo_search_field(struct arena *arena, const char *path)
 {
@@ -54,7 +54,7 @@ const struct field *ceduo_search_field(struct arena *arena, const char *path)
 
 /* ---- one value ---- */
 
-/* The scene with the parameter at a value. */
+/* Set the parameter in the scene. */
 static bool set_value(struct search *s, double value)
 {
     LOCAL_TEXT(set);
@@ -87,7 +87,8 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
 
 /* ---- one value, under uncertainty ---- */
 
-/* An input of the option without the places where the searched value stands; false where nothing is left. */
+/* Remove the places of the searched value from an input. Return false if no place is left, or the input does not concern the
+ * option. */
 static bool leave_input(struct search *s, const struct value *searched, struct ceduo_input *input)
 {
     struct arena *arena = &s->file->arena;
@@ -108,7 +109,7 @@ static bool leave_input(struct search *s, const struct value *searched, struct c
     return n > 0 && asked && ceduo_input_is_of(input, s->def.option);
 }
 
-/* What is known under uncertainty of the scene at a value; it is asked once. */
+/* Evaluate the scene under uncertainty at a value, once for each value. */
 static enum ceduo_status ask_once(struct search *s, double value, struct reliability_result *answer)
 {
     struct scene_inputs inputs;
@@ -143,7 +144,7 @@ static enum ceduo_status ask_once(struct search *s, double value, struct reliabi
     return status;
 }
 
-/* A whole value stands for all that are nearest to it. */
+/* A whole number represents all values that round to it. */
 static enum ceduo_status above_at(void *context, double value, double *above)
 {
     struct search *s = context;
@@ -153,7 +154,7 @@ static enum ceduo_status above_at(void *context, double value, double *above)
     return status;
 }
 
-/* Set the sampling error of the value found: that of the goal, over the goal's slope. NaN if the slope has the wrong sign. */
+/* Set the sampling error of the value found: error of the goal divided by its slope. NaN if the slope has the wrong sign. */
 static enum ceduo_status read_error(struct search *s, const struct ceduo_find_def *def, struct ceduo_reliability *sure)
 {
     const struct ceduo_found *f = &sure->found;
@@ -181,7 +182,7 @@ static enum ceduo_status read_error(struct search *s, const struct ceduo_find_de
     return status;
 }
 
-/* Searches the value that reaches the goal in the wanted share of cases; few values do, because that is smooth. */
+/* Search the value that reaches the goal in the wanted share of cases. The share is smooth, so few values suffice. */
 static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_def *plain, const struct ceduo_found *found)
 {
     struct ceduo_find_def def = *plain;
@@ -217,7 +218,7 @@ static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_d
     return status;
 }
 
-/* What the option yields at a value. */
+/* Compute the yield of the option at a value. */
 static struct ceduo_yield yield_at(struct search *s, double value)
 {
     struct ceduo_yield yield = {0};
@@ -230,7 +231,7 @@ static struct ceduo_yield yield_at(struct search *s, double value)
     return yield;
 }
 
-/* By more than rounding. */
+/* True if the difference exceeds rounding. */
 static bool differ(double a, double b)
 {
     return fabs(a - b) > 1e-9 * fabs(a);
@@ -242,7 +243,7 @@ static const struct source goal_source = {.name = "--goal", .is_option = true};
 static const struct source sure_source = {.name = "--sure", .is_option = true};
 static const struct source path_source = {.name = "--find", .is_option = true};
 
-/* What the goal needs of the scene. */
+/* True if the scene has what the goal needs; otherwise report. */
 static bool is_askable(const struct search *s)
 {
     const struct ceduo_scene *scene = &s->file->scene;
@@ -262,15 +263,15 @@ static bool is_askable(const struct search *s)
     return true;
 }
 
-/* Whether the scene can have both ends of a range; where it can have one of them, that is said. */
+/* True if both ends of a range are valid in the scene. Report if only one is. */
 static bool can_be_ends(struct search *s, double lo, double hi)
 {
     struct problems *problems = s->problems;
     LOCAL_PROBLEMS(others);
-    if (lo > hi) /* no whole number lies between */
+    if (lo > hi) /* no whole number in between */
         return true;
     bool first = set_value(s, lo);
-    s->problems = first ? problems : &others; /* what is wrong with both is reported once */
+    s->problems = first ? problems : &others; /* report problems of both ends once */
     bool last = set_value(s, hi);
     s->problems = problems;
     if (first != last)
@@ -289,7 +290,8 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
     *answer = (struct search_answer){.target = s->def.target, .rotation = s->def.rotation};
     if (!is_askable(s))
         return CEDUO_BAD_SLOPE;
-    bool counted = field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* as a forester does */
+    bool counted =
+        field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* whole numbers, as foresters count */
     bool whole = s->whole = counted || (field && strcmp(field->unit, "y") == 0);
     s->passes = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target;
     struct ceduo_find_def def = {
@@ -315,7 +317,7 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
 
 /* ---- the preview of a change ---- */
 
-/* The scene with the change, which shares nodes and slope with the other. Release its arena alone. */
+/* Make a scene with the change. It shares nodes and slope with `from`; free only its arena. */
 static bool change_scene(const struct scene_file *from, const char *path, const char *value, struct scene_file *file)
 {
     LOCAL_PROBLEMS(problems);
