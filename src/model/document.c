@@ -13,13 +13,13 @@
 
 static void push_state(struct document *d, const struct node *root, const char *what)
 {
-    if (d->at + 1 < d->count && d->saved > d->at && d->saved < d->count)
+    if (d->current + 1 < d->count && d->saved > d->current && d->saved < d->count)
         d->saved = SIZE_MAX; /* redo can no longer reach the state on disk */
     if (d->count > 0)
-        d->count = d->at + 1;
-    d->states = ceduo_grow(d->states, d->count, &d->room, sizeof *d->states);
+        d->count = d->current + 1;
+    d->states = ceduo_grow(d->states, d->count, &d->capacity, sizeof *d->states);
     d->states[d->count] = (struct document_state){root, what};
-    d->at = d->count++;
+    d->current = d->count++;
 }
 
 /* Drop the older half of the history once the arena has grown by DOCUMENT_HISTORY_BYTES. The arena is freed on close. */
@@ -28,11 +28,11 @@ static void trim_history(struct document *d)
     if (d->file.arena.bytes - d->trimmed < DOCUMENT_HISTORY_BYTES || d->count < 4)
         return;
     d->trimmed = d->file.arena.bytes;
-    size_t drop = d->at / 2;
-    memmove(d->states, d->states + drop, (d->count - drop) * sizeof *d->states);
-    d->count -= drop;
-    d->at -= drop;
-    d->saved = d->saved >= drop && d->saved != SIZE_MAX ? d->saved - drop : SIZE_MAX;
+    size_t dropped = d->current / 2;
+    memmove(d->states, d->states + dropped, (d->count - dropped) * sizeof *d->states);
+    d->count -= dropped;
+    d->current -= dropped;
+    d->saved = d->saved >= dropped && d->saved != SIZE_MAX ? d->saved - dropped : SIZE_MAX;
 }
 
 /* Make `root` the scene if it is valid; otherwise change nothing. */
@@ -64,19 +64,19 @@ bool ceduo_document_commit(struct document *d, const struct node *root, const ch
     }
     push_state(d, d->file.root, ceduo_arena_string(&d->file.arena, what));
     trim_history(d);
-    ceduo_document_keep(d);
+    ceduo_document_write_recovery(d);
     return true;
 }
 
-bool ceduo_document_undo_or_redo(struct document *d, int by)
+bool ceduo_document_undo_or_redo(struct document *d, int step)
 {
-    size_t state = d->at + (size_t)by; /* wraps around before the first state */
+    size_t state = d->current + (size_t)step; /* wraps around before the first state */
     ceduo_problems_free(&d->problems);
     if (state >= d->count || !adopt(d, d->states[state].root))
         return false;
-    d->at = state;
+    d->current = state;
     if (ceduo_document_unsaved(d))
-        ceduo_document_keep(d);
+        ceduo_document_write_recovery(d);
     else
         ceduo_recovery_delete(&d->recovery);
     return true;
@@ -84,7 +84,7 @@ bool ceduo_document_undo_or_redo(struct document *d, int by)
 
 bool ceduo_document_unsaved(const struct document *d)
 {
-    return d->count > 0 && d->at != d->saved;
+    return d->count > 0 && d->current != d->saved;
 }
 
 /* ---- opening ---- */
@@ -106,7 +106,7 @@ bool ceduo_document_open(struct document *d, const char *path, const char *const
     d->raw = d->file.raw;
     d->path = strcmp(path, "-") == 0 ? NULL : ceduo_check_memory(strdup(d->file.path));
     d->shipped = d->path && ceduo_document_is_shipped(d->path);
-    ceduo_document_note_disk(d);
+    ceduo_document_record_disk_state(d);
     d->recovery = ceduo_recovery_begin(d->path);
     return true;
 }
@@ -118,7 +118,7 @@ bool ceduo_document_new(struct document *d, const char *text)
         return false;
     push_state(d, d->file.root, "");
     d->recovery = ceduo_recovery_begin(NULL);
-    ceduo_document_keep(d);
+    ceduo_document_write_recovery(d);
     return true;
 }
 

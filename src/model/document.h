@@ -27,12 +27,12 @@ struct document {
     struct scene_file file; /* the current scene; always valid */
     const struct node *raw; /* tree on disk, with unresolved references; NULL: new scene */
     struct document_state *states;
-    size_t count, room, at;   /* number of states; index of the current one */
-    size_t trimmed;           /* bytes in the arena at the last trim of the history */
-    size_t saved;             /* index of the state on disk; >= count: none */
-    char *path;               /* path of the file; NULL: never saved */
-    bool shipped;             /* file of the program: never written */
-    struct timespec modified; /* modification time at the last read or write */
+    size_t count, capacity, current; /* number of states; index of the current one */
+    size_t trimmed;                  /* bytes in the arena at the last trim of the history */
+    size_t saved;                    /* index of the state on disk; >= count: none */
+    char *path;                      /* path of the file; NULL: never saved */
+    bool shipped;                    /* file of the program: never written */
+    struct timespec modified;        /* modification time at the last read or write */
     off_t size;
     struct recovery_copy recovery;
     struct problems problems; /* reason why the last edit was refused, or why opening failed */
@@ -66,13 +66,13 @@ struct changes {
 void ceduo_changes_add(struct changes *changes, enum change_kind kind, const char *path, const char *value);
 void ceduo_changes_set(struct changes *changes, const char *path, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-bool ceduo_changes_make(const struct changes *changes, const char *what);
+bool ceduo_changes_apply(const struct changes *changes, const char *what);
 
 /* Duplicate item `list[index]`; an option gets a new name. Then make the changes (may be NULL). */
 bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const struct changes *changes);
 
 /* Append the belts of the first option as YAML, all with this stand. Without belts, append one down to the first control. */
-void ceduo_document_belts(const struct document *document, const char *stand, struct text *yaml);
+void ceduo_document_append_belts(const struct document *document, const char *stand, struct text *yaml);
 
 /* Append an option with those belts, or a copy of option `index`; a duplicate name gets a number. A scene without options
  * first gets the option "current". The paths of the changes are relative to the option: "forest[0].cut_year". */
@@ -85,23 +85,23 @@ bool ceduo_document_rename_option(struct document *document, size_t index, const
 /* As ceduo_document_set(), but remove conflicting values: another size or mass of the rock, roughness or number of shoots. A
  * new shape keeps the volume. Neighbours follow a border, and assumed heights follow their diameter. Append the other
  * changes to `notes`. */
-bool ceduo_document_set_alone(struct document *document, const char *path, const char *value, struct text *said);
+bool ceduo_document_set_and_follow(struct document *document, const char *path, const char *value, struct text *notes);
 
 /* Insert a vertex ([x, z]) into segment `index`; both parts keep its ground. `split_ground`: give each segment its own
  * ground. Remove a vertex and the ground of one adjacent segment. */
-bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool apart);
+bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool split_ground);
 bool ceduo_document_remove_vertex(struct document *document, size_t vertex, size_t segment);
 
 /* Undo (-1) or redo (1) an edit. Return false if there is none. */
-bool ceduo_document_undo_or_redo(struct document *document, int by);
+bool ceduo_document_undo_or_redo(struct document *document, int step);
 bool ceduo_document_unsaved(const struct document *document);
 
 /* Write the scene to `path`. Keep the comments of the file if only values changed. Otherwise set `*reformatted`, and keep
  * the scene's old file as PATH.bak. Return false with errno set. */
-bool ceduo_document_save(struct document *document, const char *path, bool *laid_out_anew);
+bool ceduo_document_save(struct document *document, const char *path, bool *reformatted);
 
 /* Append the document as YAML, as saved to `path`; NULL: to its own path. */
-void ceduo_document_text(struct document *document, const char *path, struct text *text);
+void ceduo_document_append_yaml(struct document *document, const char *path, struct text *text);
 
 /* True if a path leads to a file of the program, which is never written. True if the file on disk has changed since it was
  * read. */
@@ -109,15 +109,15 @@ bool ceduo_document_is_shipped(const char *path);
 bool ceduo_document_changed_on_disk(const struct document *document);
 
 /* Write the recovery copy. Make the text of a recovery copy a new state. */
-void ceduo_document_keep(struct document *document);
+void ceduo_document_write_recovery(struct document *document);
 bool ceduo_document_recover(struct document *document, const char *text);
 
 /* Return the node at a path; NULL: none. */
 const struct node *ceduo_document_node(const struct document *document, const char *path);
 
 /* Read a place along the slope, "10" or "end-10", or the place at a path: m, as in the file. NaN if it is invalid or NULL. */
-double ceduo_document_place(const struct document *document, const char *written);
-double ceduo_document_place_at(const struct document *document, const char *path);
+double ceduo_document_read_place(const struct document *document, const char *written);
+double ceduo_document_get_place(const struct document *document, const char *path);
 
 /* ---- recovery ---- */
 
@@ -156,6 +156,6 @@ bool ceduo_document_commit(struct document *document, const struct node *root, c
 const struct node *ceduo_document_parse(struct document *document, const char *name, const char *text);
 
 /* Record size and time of the file on disk, to detect changes later. */
-void ceduo_document_note_disk(struct document *document);
+void ceduo_document_record_disk_state(struct document *document);
 
 #endif

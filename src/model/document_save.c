@@ -14,7 +14,7 @@
 /* ---- the file on disk ---- */
 
 /* True for the user's own folder of profiles. */
-static bool is_own(const char *folder)
+static bool is_user_folder(const char *folder)
 {
     const char *data = getenv("XDG_DATA_HOME"), *home = getenv("HOME");
     return (data && data[0] == '/' && strncmp(folder, data, strlen(data)) == 0) ||
@@ -30,14 +30,14 @@ bool ceduo_document_is_shipped(const char *path)
     for (size_t i = 0; real && folders && folders[i] && !shipped; i++) {
         char *folder = realpath(folders[i], NULL);
         size_t n = folder ? strlen(folder) : 0;
-        shipped = folder && !is_own(folders[i]) && strncmp(real, folder, n) == 0 && real[n] == '/';
+        shipped = folder && !is_user_folder(folders[i]) && strncmp(real, folder, n) == 0 && real[n] == '/';
         free(folder);
     }
     free(real);
     return shipped;
 }
 
-void ceduo_document_note_disk(struct document *d)
+void ceduo_document_record_disk_state(struct document *d)
 {
     struct stat st;
     if (d->path && stat(d->path, &st) == 0) {
@@ -71,14 +71,14 @@ static const struct node *reference_from(struct document *d, const struct node *
     const char *now = ceduo_resolve_path(&found, node, folder), *written = NULL;
     const char *const names[] = {slash ? slash + 1 : node->text, node->text};
     for (int i = 0; now && !written && i < 2; i++) {
-        const char *then = ceduo_file_find(&found, names[i], to, folder);
-        written = then && ceduo_file_same(now, then) ? names[i] : NULL;
+        const char *target = ceduo_file_find(&found, names[i], to, folder);
+        written = target && ceduo_file_same(now, target) ? names[i] : NULL;
     }
     if (!now || written == node->text)
         return node;
-    char *whole = ceduo_check_memory(realpath(now, NULL));
-    node = ceduo_node_renamed(arena, ceduo_node_scalar(arena, s, written ? written : whole, false), node->key);
-    free(whole);
+    char *full = ceduo_check_memory(realpath(now, NULL));
+    node = ceduo_node_renamed(arena, ceduo_node_scalar(arena, s, written ? written : full, false), node->key);
+    free(full);
     return node;
 }
 
@@ -118,19 +118,19 @@ static bool fill_text(struct document *d, const char *to, struct text *text)
     return before.length != source->length || memcmp(before.bytes, source->bytes, before.length) != 0;
 }
 
-void ceduo_document_text(struct document *d, const char *path, struct text *text)
+void ceduo_document_append_yaml(struct document *d, const char *path, struct text *text)
 {
     fill_text(d, path ? path : d->path ? d->path : d->recovery.path, text);
 }
 
-bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_anew)
+bool ceduo_document_save(struct document *d, const char *path, bool *reformatted)
 {
     LOCAL_TEXT(text);
     LOCAL_TEXT(backup);
     bool same = d->path && strcmp(path, d->path) == 0;
-    *laid_out_anew = fill_text(d, path, &text);
+    *reformatted = fill_text(d, path, &text);
     ceduo_text_format(&backup, "%s.bak", path);
-    if (*laid_out_anew && same && !ceduo_file_write(backup.bytes, d->raw->source->bytes, d->raw->source->length))
+    if (*reformatted && same && !ceduo_file_write(backup.bytes, d->raw->source->bytes, d->raw->source->length))
         return false;
     if (!ceduo_file_write(path, text.bytes, text.length))
         return false;
@@ -139,8 +139,8 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
     d->path = copy;
     d->raw = ceduo_document_parse(d, copy, text.bytes);
     d->shipped = false;
-    d->saved = d->at;
-    ceduo_document_note_disk(d);
+    d->saved = d->current;
+    ceduo_document_record_disk_state(d);
     ceduo_recovery_delete(&d->recovery);
     if (d->recovery.path && !same) { /* unsaved work now belongs to this file */
         ceduo_recovery_end(&d->recovery);
@@ -151,12 +151,12 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
 
 /* ---- recovery ---- */
 
-void ceduo_document_keep(struct document *d)
+void ceduo_document_write_recovery(struct document *d)
 {
     LOCAL_TEXT(text);
     if (!d->recovery.path)
         return;
-    ceduo_document_text(d, NULL, &text);
+    ceduo_document_append_yaml(d, NULL, &text);
     ceduo_recovery_write(&d->recovery, d->path, ceduo_text_string(&text), text.length);
 }
 

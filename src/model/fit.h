@@ -7,13 +7,13 @@
 
 /* Fit of values of the live scene to its observations. */
 
-#define FIT_PATH_ROOM 160
+#define FIT_PATH_MAX 160
 
 /* The values to fit. */
 struct fit_request {
     size_t n;
     struct fit_value {
-        char path[FIT_PATH_ROOM];
+        char path[FIT_PATH_MAX];
         double lo, hi; /* bounds, in the unit of the file */
     } values[CEDUO_CALIBRATION_MAX];
     uint64_t rocks; /* rocks of each evaluation */
@@ -21,14 +21,14 @@ struct fit_request {
 
 /* Values that the observations do not determine, found by a short first fit. A fit without them is quicker and as
  * informative. */
-struct fit_loose {
+struct fit_undetermined {
     size_t n;
-    bool loose[CEDUO_CALIBRATION_MAX]; /* for each value of the request */
+    bool values[CEDUO_CALIBRATION_MAX]; /* for each value of the request */
 };
 
 struct fit {
     struct fit_request request;
-    struct fit_loose loose;
+    struct fit_undetermined undetermined;
     bool done;                            /* false: still running; only `state` is valid */
     struct ceduo_calibration_state state; /* progress; the members below are set when done */
     struct scene_file file;               /* scene at the start of the fit; its nodes are the document's */
@@ -43,10 +43,11 @@ void ceduo_fit_offer(const struct scene_file *file, struct fit_request *offer);
 /* True if the scene has observations to fit. */
 bool ceduo_fit_has_observations(const struct scene_file *file);
 
-/* Fit with the threads and progress callback of `how`. Set `*undetermined` before the main fit begins. The caller frees the
+/* Fit with the threads and progress callback of `options`. Set `*undetermined` before the main fit begins. The caller frees the
  * fit even on failure. */
-enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request,
-                                 const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *fit);
+enum ceduo_status ceduo_fit_compute(const struct scene_file *file, const struct fit_request *request,
+                                    const struct ceduo_calibration_def *options, struct fit_undetermined *undetermined,
+                                    struct fit *fit);
 void ceduo_fit_free(void *fit);
 
 /* Fitted values to write into a document: best values, their source, and the draws as uncertainty. */

@@ -18,10 +18,10 @@
     X(SEARCH, search, struct search_answer, free_search)                                                                       \
     X(PREVIEW, preview, struct preview, free)                                                                                  \
     X(SNAPSHOT, snapshot, struct snapshot, free_snapshot)                                                                      \
-    X(OTHERS, others, struct others, free)                                                                                     \
+    X(ALTERNATIVES, alternatives, struct alternatives, free)                                                                   \
     X(COMPARISON, comparison, struct comparison, free_comparison)                                                              \
     X(FIT, fit, struct fit, ceduo_fit_free)                                                                                    \
-    X(YEARS, years, struct years_known, free_years)                                                                            \
+    X(YEARS, years, struct option_years, free_years)                                                                           \
     X(UNCERTAINTY, uncertainty, struct uncertainty, free_uncertainty)
 
 enum job_kind {
@@ -49,13 +49,13 @@ struct snapshot {
 };
 
 /* Figures under the other energy law, one for each option and control, in rows by option. */
-struct others {
+struct alternatives {
     size_t options, controls;
     struct ceduo_alternative_energy items[];
 };
 
 /* Years of each option. */
-struct years_known {
+struct option_years {
     size_t n, done; /* options; number of them computed in the newest step */
     uint64_t rocks; /* rocks of each run in the newest step */
     struct ceduo_years *items[];
@@ -98,7 +98,7 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
  * ---- */
 
 /* Request the figures of a scene: option `shown` and no forest first, then all options and their years. */
-bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t shown);
+bool ceduo_jobs_request_figures(struct jobs *jobs, const struct scene_file *file, size_t shown);
 
 #define JOB_TEXT 1024
 
@@ -114,27 +114,27 @@ struct job_request {
 };
 
 /* A scene with the same nodes is computed once. Figures and years with as few rocks go first. */
-bool ceduo_jobs_ask(struct jobs *jobs, const struct job_request *request);
+bool ceduo_jobs_request(struct jobs *jobs, const struct job_request *request);
 
 /* Stop a search or fit and drop its result. */
 void ceduo_jobs_stop(struct jobs *jobs, enum job_kind kind);
 
 /* ---- results ---- */
 
-int ceduo_jobs_fd(const struct jobs *jobs); /* readable if results are waiting; ceduo_jobs_take() reads it */
+int ceduo_jobs_fd(const struct jobs *jobs); /* readable if results are waiting; ceduo_jobs_collect() reads it */
 
 struct jobs_state {
-    unsigned fresh; /* kinds with a new result: 1 << JOB_SEARCH … */
-    bool busy;      /* a job is not done */
+    unsigned new_kinds; /* kinds with a new result: 1 << JOB_SEARCH … */
+    bool busy;          /* a job is not done */
     bool fitting;
     double uncertainty; /* share (0…1) computed of the running level; NaN: not requested, or done */
 };
 
 /* Replace older results with new ones. Keep the newest years of each option. */
-struct jobs_state ceduo_jobs_take(struct jobs *jobs, union results *results);
+struct jobs_state ceduo_jobs_collect(struct jobs *jobs, union results *results);
 
-void ceduo_result_list_drop(union results *results, enum job_kind kind);
-void ceduo_result_list_free(union results *results);
+void ceduo_job_results_drop(union results *results, enum job_kind kind);
+void ceduo_job_results_free(union results *results);
 
 /* Wait until no search or preview is left; `all`: no job. Return true if a search or preview has a result. */
 bool ceduo_jobs_wait(struct jobs *jobs, bool all);

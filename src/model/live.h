@@ -8,12 +8,12 @@
 /* Figures of the scene, assessed again after each edit. Runs are requested only if an edit affects the rocks. */
 struct live {
     struct jobs *jobs;
-    union results results;        /* newest of each kind; stale ones stay until better ones arrive */
-    struct ceduo_result *result;  /* current scene, by the newest snapshot; NULL: none yet */
-    struct ceduo_verdict verdict; /* verdict from the result and the years that fit the scene; n 0: none */
-    const struct node *fit_of;    /* scene of the running or last fit */
-    uint64_t asked;               /* key of the last requested runs */
-    double uncertainty;           /* as in struct jobs_state */
+    union results results;          /* newest of each kind; stale ones stay until better ones arrive */
+    struct ceduo_result *result;    /* current scene, by the newest snapshot; NULL: none yet */
+    struct ceduo_verdict verdict;   /* verdict from the result and the years that fit the scene; n 0: none */
+    const struct node *fitted_root; /* scene of the running or last fit */
+    uint64_t requested_key;         /* key of the last requested runs */
+    double uncertainty;             /* as in struct jobs_state */
     unsigned threads;
     bool busy, fitting;
 };
@@ -24,7 +24,7 @@ void ceduo_live_free(struct live *live);
 
 /* Update after a change of the scene or of the option shown. Uncertainty and comparison: levels wanted, 0: none. Drop a fit
  * of another scene. */
-void ceduo_live_follow(struct live *live, const struct scene_file *file, size_t option, size_t uncertainty, size_t comparison);
+void ceduo_live_update(struct live *live, const struct scene_file *file, size_t option, size_t uncertainty, size_t comparison);
 
 void ceduo_live_fit(struct live *live, const struct scene_file *file, const struct fit_request *request);
 void ceduo_live_drop_fit(struct live *live);
@@ -40,7 +40,7 @@ const struct comparison *ceduo_live_comparison(const struct live *live, const st
 const struct fit *ceduo_live_fitted(const struct live *live); /* a finished fit */
 
 /* Share (0…1) computed of an option's uncertainty; NaN: done, or not requested. */
-double ceduo_live_awaits_uncertainty(const struct live *live, const struct scene_file *file, size_t option);
+double ceduo_live_uncertainty_progress(const struct live *live, const struct scene_file *file, size_t option);
 
 /* True if the option's figures are missing or belong to an earlier scene. */
 bool ceduo_live_is_stale(const struct live *live, const struct ceduo_scene *scene, size_t option);

@@ -137,20 +137,20 @@ char *ceduo_recovery_text(const char *path)
 }
 
 /* True if no process locks the file, and the path still leads to it: its owner may have replaced it. */
-static bool is_left(const char *path)
+static bool is_abandoned(const char *path)
 {
     int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     struct stat own, named;
     bool locked = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    bool left = file >= 0 && !locked && fstat(file, &own) == 0 && S_ISREG(own.st_mode) && stat(path, &named) == 0 &&
-                own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+    bool abandoned = file >= 0 && !locked && fstat(file, &own) == 0 && S_ISREG(own.st_mode) && stat(path, &named) == 0 &&
+                     own.st_dev == named.st_dev && own.st_ino == named.st_ino;
     if (file >= 0)
         close(file);
-    return left;
+    return abandoned;
 }
 
 /* Set `name` to the path of the next abandoned copy. Return false if there is none. */
-static bool next_left(DIR *dir, const struct text *folder, struct text *name)
+static bool next_abandoned(DIR *dir, const struct text *folder, struct text *name)
 {
     for (struct dirent *e; (e = readdir(dir));) {
         int used = 0;
@@ -159,7 +159,7 @@ static bool next_left(DIR *dir, const struct text *folder, struct text *name)
             continue;
         name->length = 0;
         ceduo_text_format(name, "%s/%s", folder->bytes, e->d_name);
-        if (!is_left(name->bytes))
+        if (!is_abandoned(name->bytes))
             continue;
         if (e->d_name[used] == '\0')
             return true;
@@ -202,7 +202,7 @@ struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
     struct recovery *list = ceduo_arena_alloc(arena, LISTED_MAX * sizeof *list);
     DIR *dir = state_folder(&folder) ? opendir(folder.bytes) : NULL;
     *n = 0;
-    while (dir && *n < LISTED_MAX && next_left(dir, &folder, &name)) {
+    while (dir && *n < LISTED_MAX && next_abandoned(dir, &folder, &name)) {
         struct stat st;
         char *text = stat(name.bytes, &st) == 0 ? ceduo_recovery_text(name.bytes) : NULL;
         if (!text)

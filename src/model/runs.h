@@ -32,8 +32,8 @@ struct runs_step {
 enum ceduo_status ceduo_runs_figures(struct runs *runs, struct runs_step *step);
 
 /* One step of the other energy law: n rocks through every option. Set one item for each control of each option. */
-enum ceduo_status ceduo_runs_others(struct runs *runs, const struct ceduo_scene *scene, uint64_t rocks,
-                                    struct ceduo_alternative_energy *others);
+enum ceduo_status ceduo_runs_alternative_energies(struct runs *runs, const struct ceduo_scene *scene, uint64_t rocks,
+                                                  struct ceduo_alternative_energy *energies);
 
 /* Return a key of everything that affects the years of an option. */
 uint64_t ceduo_runs_years_key(const struct ceduo_scene *scene, size_t option);

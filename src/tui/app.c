@@ -174,7 +174,7 @@ void ceduo_app_refresh(struct app *app)
     if (app->belt >= belts)
         app->belt = belts > 0 ? belts - 1 : 0;
     app->uncertainties |= view->uncertainty;
-    ceduo_live_follow(&app->live, &app->document.file, app->option, app->uncertainties ? UNCERTAINTY_LEVELS : 0,
+    ceduo_live_update(&app->live, &app->document.file, app->option, app->uncertainties ? UNCERTAINTY_LEVELS : 0,
                       view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_clear(&app->views[v].form, &app->document);
@@ -228,7 +228,7 @@ bool ceduo_app_edited(struct app *app, bool good)
 bool ceduo_app_set(struct app *app, const char *path, const char *value)
 {
     LOCAL_TEXT(said);
-    bool good = ceduo_app_edited(app, ceduo_document_set_alone(&app->document, path, value, &said));
+    bool good = ceduo_app_edited(app, ceduo_document_set_and_follow(&app->document, path, value, &said));
     if (good && said.length > 0)
         ceduo_app_show_message(app, "%s", said.bytes);
     return good;

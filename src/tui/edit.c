@@ -111,7 +111,7 @@ static bool find_item(struct app *app, struct item *item, bool there)
 /* The place at `list[index].key`; NaN where there is none. */
 static double place_of(const struct app *app, const struct item *item, size_t index, const char *key)
 {
-    return ceduo_document_place_at(&app->document, ceduo_app_format(app, "%s[%zu].%s", item->list, index, key));
+    return ceduo_document_get_place(&app->document, ceduo_app_format(app, "%s[%zu].%s", item->list, index, key));
 }
 
 /* Copies an item. `ends`: from_m and to_m of it, then of its copy; NaN: as they are. */
@@ -246,7 +246,7 @@ static bool add_shoots(struct app *app, const struct item *item)
     ceduo_changes_set(&c, ceduo_app_format(app, "%.*sstools", (int)(item->key - item->list), item->list),
                       "{per_ha: 2500, spacing_m: 0.35}");
     ceduo_changes_set(&c, item->list, "[{per_stool: 3, dbh_m: 0.07, height_m: 8}]");
-    return ceduo_changes_make(&c, item->list);
+    return ceduo_changes_apply(&c, item->list);
 }
 
 static bool add_trees(struct app *app, const struct item *item)
@@ -303,7 +303,7 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
                           ceduo_app_format(app, "%.*s.stools", (int)(item->key - item->list) - 1, item->list), NULL);
     }
     ceduo_changes_add(&c, CHANGE_DELETE, path, NULL);
-    return ceduo_changes_make(&c, item->list);
+    return ceduo_changes_apply(&c, item->list);
 }
 
 /* ---- the actions ---- */
@@ -401,7 +401,7 @@ static bool append_item(struct app *app, const char *list, const struct node *no
     if (strcmp(list, "blocks") == 0)
         ceduo_changes_add(&c, CHANGE_DELETE, "rocks_per_year", NULL);
     ceduo_changes_set(&c, list, "[%s%s]", ceduo_text_string(&first), yaml);
-    return ceduo_changes_make(&c, list);
+    return ceduo_changes_apply(&c, list);
 }
 
 /* The path is that of the list; a group is kept. */

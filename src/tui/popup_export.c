@@ -130,7 +130,7 @@ static bool filled_export(struct app *app, struct popup *p)
 static void ask_for_file(struct app *app, const char *export)
 {
     /* the report says how sure it is: that is computed while its file is named; a head is an edit */
-    app->live.busy |= ceduo_jobs_ask(
+    app->live.busy |= ceduo_jobs_request(
         app->live.jobs, &(struct job_request){JOB_UNCERTAINTY, &app->document.file, app->option, .levels = UNCERTAINTY_LEVELS});
     struct popup *p = ceduo_popup_fields(app, _(exports[atoi(export)].what), export, filled_export);
     const char *file = exports[atoi(export)].file;

@@ -105,7 +105,7 @@ static bool filled_find(struct app *app, struct popup *p)
 {
     struct ceduo_search search;
     if (read_fields(app, p, &search)) {
-        ceduo_jobs_ask(app->live.jobs, &(struct job_request){JOB_SEARCH, &app->document.file, .levels = 1, .search = &search});
+        ceduo_jobs_request(app->live.jobs, &(struct job_request){JOB_SEARCH, &app->document.file, .levels = 1, .search = &search});
         ceduo_app_show_message(app, "%s", _("computing … Esc or another key stops it"));
     }
     return false;

@@ -81,7 +81,7 @@ static bool filled_counts(struct app *app, struct popup *p)
     if (now->system == CEDUO_BARE)
         ceduo_changes_add(c, CHANGE_DELETE, ceduo_app_format(app, "%s.system", p->path), NULL);
     ceduo_changes_set(c, ceduo_app_format(app, "%s.name", p->path), "%s", ceduo_app_scalar(app, _("sample plot")));
-    bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot")));
+    bool good = ceduo_app_edited(app, ceduo_changes_apply(c, _("counts of a plot")));
     if (good)
         ceduo_app_show_message(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
     return good;

@@ -137,10 +137,10 @@ static void append_change(struct app *app, struct popup *p)
     ceduo_text_append(&p->text, _("the lights: computing …\n"));
     bool all = p->chosen == chose_new_option; /* the stand in every belt */
     if (all)
-        ceduo_document_belts(&app->document, p->value, &value);
+        ceduo_document_append_belts(&app->document, p->value, &value);
     const char *path = all ? ceduo_app_forest(app) : p->path, *yaml = all ? value.bytes : ceduo_app_scalar(app, p->value);
     if (strlen(yaml) < JOB_TEXT)
-        ceduo_jobs_ask(app->live.jobs,
+        ceduo_jobs_request(app->live.jobs,
                        &(struct job_request){JOB_PREVIEW, &app->document.file, app->option, 1, path, yaml, NULL, NULL});
 }
 

@@ -16,7 +16,7 @@ static void undo_or_redo(struct app *app, int by)
         return;
     }
     ceduo_app_refresh(app);
-    ceduo_app_show_message(app, redo ? _("again: %s") : _("undone: %s"), ceduo_app_path(app, d->states[d->at + !redo].what));
+    ceduo_app_show_message(app, redo ? _("again: %s") : _("undone: %s"), ceduo_app_path(app, d->states[d->current + !redo].what));
 }
 
 static void next_option(struct app *app, int by)
@@ -300,7 +300,7 @@ bool ceduo_program_poll(struct app *app)
         ceduo_popup_previewed(app, results->preview);
     if (results->search)
         ceduo_popup_found(app, results->search);
-    ceduo_result_list_drop(results, JOB_PREVIEW);
-    ceduo_result_list_drop(results, JOB_SEARCH);
+    ceduo_job_results_drop(results, JOB_PREVIEW);
+    ceduo_job_results_drop(results, JOB_SEARCH);
     return changed;
 }

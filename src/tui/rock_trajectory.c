@@ -43,7 +43,7 @@ bool ceduo_app_follow_rock(struct app *app)
 {
     struct rock_trajectory *s = &app->trajectory;
     const struct ceduo_scene *scene = &app->document.file.scene;
-    uint64_t key = app->live.asked;
+    uint64_t key = app->live.requested_key;
     hash_count(&key, app->option);
     bool same = s->n > 0 && s->key == key && s->rock == app->rock;
     if (!same) {

@@ -83,7 +83,7 @@ static void draw_verdict(struct app *app)
     struct ceduo_subject subject = ceduo_subject_find(ceduo_app_report(app), app->option, r->last_control);
     enum ceduo_judgement judgement = subject.outcome.answer;
     bool open = judgement != CEDUO_NOTHING && judgement != CEDUO_UNANSWERED;
-    double share = open ? ceduo_live_awaits_uncertainty(&app->live, &app->document.file, app->option) : NAN;
+    double share = open ? ceduo_live_uncertainty_progress(&app->live, &app->document.file, app->option) : NAN;
     const char *progress = isnan(share) ? "" : ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
     subject.so_far = !isnan(share);
     ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE - ceduo_utf8_width(progress));

@@ -118,13 +118,13 @@ static void say_fitting(const struct live *live, struct ceduo_page *page)
     else
         ceduo_page_para(page, CEDUO_PAGE_NOTE, _("%llu scenes; log-likelihood %.2f."), (unsigned long long)s->evaluations,
                         s->log_likelihood);
-    for (size_t i = 0; f->loose.n > 0 && i < f->request.n;
+    for (size_t i = 0; f->undetermined.n > 0 && i < f->request.n;
          i++) /* a short first fit tells what cannot be known from what was seen */
-        if (f->loose.loose[i]) {
+        if (f->undetermined.values[i]) {
             ceduo_text_append(&loose, loose.length > 0 ? ", " : "");
             ceduo_calibration_name(&loose, f->request.values[i].path);
         }
-    if (f->loose.n > 0)
+    if (f->undetermined.n > 0)
         ceduo_page_para(page, CEDUO_PAGE_NOTE,
                         _("What was seen does not hold %zu values: fix %s. c fits without it; to go on takes long."),
                         f->request.n, ceduo_text_string(&loose));
@@ -335,7 +335,7 @@ static bool filled_fit(struct app *app, struct popup *p)
 static bool is_held(const struct fit *now, struct fit_value *value)
 {
     for (size_t i = 0; i < now->request.n; i++)
-        if (strcmp(now->request.values[i].path, value->path) == 0 && !now->loose.loose[i]) {
+        if (strcmp(now->request.values[i].path, value->path) == 0 && !now->undetermined.values[i]) {
             *value = now->request.values[i];
             return true;
         }
@@ -365,7 +365,7 @@ static void ask_for_fit(struct app *app)
         LOCAL_TEXT(label);
         LOCAL_TEXT(bounds);
         ceduo_calibration_name(&label, request.values[i].path);
-        if (now && now->loose.n > 0 ? is_held(now, &request.values[i]) : i < FILLED)
+        if (now && now->undetermined.n > 0 ? is_held(now, &request.values[i]) : i < FILLED)
             append_bounds(&bounds, &request.values[i]);
         ceduo_popup_field(p, label.bytes, ceduo_text_string(&bounds));
     }

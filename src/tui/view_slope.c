@@ -202,8 +202,8 @@ static void offer_ground(struct app *app, double x)
     const struct node *materials = ceduo_document_node(&app->document, "slope.materials");
     size_t j = ceduo_items_stretch_of(app, there), n = materials ? materials->n : 0, material = 0;
     while (material < n &&
-           !(there >= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "from_m")) &&
-             there <= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "to_m"))))
+           !(there >= ceduo_document_read_place(&app->document, ceduo_node_text(materials->items[material], "from_m")) &&
+             there <= ceduo_document_read_place(&app->document, ceduo_node_text(materials->items[material], "to_m"))))
         material++;
     bool by_segment = segments && segments->n > 0;
     size_t i = !by_segment ? material : segments->n == 1 ? 0 : j;
