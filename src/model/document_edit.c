@@ -16,7 +16,7 @@
 struct edit {
     struct document *d;
     struct arena *arena;
-    const struct node *root; /* tree changed so far; NULL: the edit has failed */
+    const struct node *root; /* changed tree; NULL: the edit has failed */
 };
 
 static struct edit begin_edit(struct document *d)

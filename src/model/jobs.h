@@ -102,7 +102,7 @@ bool ceduo_jobs_request_figures(struct jobs *jobs, const struct scene_file *file
 
 #define JOB_TEXT 1024
 
-/* A request for another job. The data behind its pointers is copied. */
+/* A request for another job. The data of its pointers is copied. */
 struct job_request {
     enum job_kind kind;
     const struct scene_file *file;
@@ -113,7 +113,7 @@ struct job_request {
     const struct fit_request *fit; /* restarts if it is interrupted */
 };
 
-/* A scene with the same nodes is computed once. Figures and years with as few rocks go first. */
+/* A scene with the same nodes is computed once. Figures and years go first if they need no more rocks. */
 bool ceduo_jobs_request(struct jobs *jobs, const struct job_request *request);
 
 /* Stop a search or fit and drop its result. */

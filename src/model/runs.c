@@ -70,7 +70,7 @@ static bool is_precise(const struct ceduo_run_snapshot *s)
     return true;
 }
 
-/* Publish the results so far. Unchanged parts are shared with the last snapshot. */
+/* Publish the newest results. Unchanged parts are shared with the last snapshot. */
 static enum ceduo_status publish_figures(struct runs *r, const struct runs_step *step)
 {
     struct ceduo_snapshot *own, *published;
@@ -117,7 +117,7 @@ enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
 /* ---- the other energy law ---- */
 
 enum ceduo_status ceduo_runs_alternative_energies(struct runs *r, const struct ceduo_scene *scene, uint64_t rocks,
-                                                  struct ceduo_alternative_energy *others)
+                                                  struct ceduo_alternative_energy *energies)
 {
     struct ceduo_scene alternative_scene, old = r->alternative_scene;
     size_t n = scene->options_count, controls = scene->controls_count;
@@ -132,7 +132,7 @@ enum ceduo_status ceduo_runs_alternative_energies(struct runs *r, const struct c
         status = ceduo_pool_simulate(r->alternative_pool, &r->alternative_scene.options[i], rocks, &run);
         first_run = i == 0 ? run : first_run;
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
-            status = ceduo_alternative_read(&scene->options[i], run, first_run, c, &others[i * controls + c]);
+            status = ceduo_alternative_read(&scene->options[i], run, first_run, c, &energies[i * controls + c]);
     }
     return status;
 }

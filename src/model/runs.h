@@ -8,7 +8,7 @@
 /* Runs kept by the live program, simulated in steps from coarse to fine. Runs of years keep only arrivals. */
 struct runs;
 
-#define RUNS_FIRST     1024   /* rocks of the first level; each further one simulates ten times as many */
+#define RUNS_FIRST     1024   /* rocks of the first level; each further one simulates ten times more */
 #define RUNS_SKETCH    500    /* rocks for the envelopes of the first level */
 #define RUNS_LEVELS    3      /* levels of a forest; years and the other energy law have one less */
 #define RUNS_MAX       102400 /* limit of rocks per forest */

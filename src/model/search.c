@@ -182,7 +182,7 @@ static enum ceduo_status read_error(struct search *s, const struct ceduo_find_de
     return status;
 }
 
-/* Search the value that reaches the goal in the wanted share of cases. The share is smooth, so few values suffice. */
+/* Search the value that reaches the goal in the wanted share of cases. The share is smooth, a few values suffice. */
 static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_def *plain, const struct ceduo_found *found)
 {
     struct ceduo_find_def def = *plain;

@@ -46,7 +46,7 @@ void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...)
     app->message_bad = bad;
 }
 
-/* The first of a list of problems, without the place, which the cursor shows. */
+/* Show the first of a list of problems, without its place, which the cursor shows. */
 static void say_problem(struct app *app, const struct problem_list *list)
 {
     const struct problem *p = list->items;
@@ -120,7 +120,7 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
 bool ceduo_app_uncertainty(const struct app *app, struct ceduo_uncertainty_report *report)
 {
     const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
-    struct uncertainty *own = (struct uncertainty *)(uintptr_t)d; /* its scene is only read */
+    struct uncertainty *own = (struct uncertainty *)(uintptr_t)d; /* the report only reads the scene */
     if (!d)
         return false;
     *report = (struct ceduo_uncertainty_report){.file = &own->file,
@@ -236,7 +236,8 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
 
 /* ---- opening and closing ---- */
 
-/* Replace the document; the figures, which use its memory, go first. Report a value that is unusual. False without a thread. */
+/* Replace the document. The figures use its memory, so they are freed first. Report an unusual value. Return false without a
+ * thread. */
 static bool take_opened(struct app *app, struct document *next, unsigned threads)
 {
     struct live live;
@@ -350,7 +351,7 @@ int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role
     int lines = 0;
     size_t width = area.width > 0 ? (size_t)area.width : 0;
     for (const char *next; *text; text = next, lines++) {
-        bool goes_on = ceduo_utf8_char_width(text, strcspn(text, "\n")) > width; /* its last column stays free */
+        bool goes_on = ceduo_utf8_char_width(text, strcspn(text, "\n")) > width; /* keep the last column free */
         size_t n = ceduo_utf8_wrap(text, goes_on && width > 0 ? width - 1 : width, &next);
         if (lines >= skip && lines - skip < area.height)
             ceduo_app_label(app, area.left, area.top + lines - skip, role, "%.*s", (int)n, text);
@@ -369,13 +370,13 @@ void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
     if (fits)
         return;
     for (size_t end = text->length; !fits; end = text->length) {
-        ceduo_text_append(text, " ..."); /* as wide as the sign is in ASCII */
+        ceduo_text_append(text, " ..."); /* as wide as the sign in ASCII */
         fits = ceduo_app_text_lines(app, text->bytes, width) <= lines;
-        while (!fits && end > 0 && text->bytes[end - 1] != ' ' && text->bytes[end - 1] != '\n') /* the last word, */
+        while (!fits && end > 0 && text->bytes[end - 1] != ' ' && text->bytes[end - 1] != '\n') /* drop the last word, */
             end--;
         if (!fits && end == 0)
             return;
-        ceduo_text_cut(text, end - !fits); /* and what stands before it */
+        ceduo_text_cut(text, end - !fits); /* and the blank before it */
     }
     ceduo_text_append(text, " \xe2\x80\xa6");
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edits the field under the cursor, and the items of the list there: belts, controls, segments, cohorts, classes. */
+/* Editing of the field under the cursor, and of list items: belts, controls, segments, cohorts, classes. */
 #include <math.h>
 #include <string.h>
 
@@ -11,9 +11,9 @@
 static bool set_value(struct app *app, const struct form_cell *cell, const char *value)
 {
     const struct field *field = cell->field;
-    const char *path = ceduo_app_format(app, "%s", cell->path); /* the form is made anew below */
+    const char *path = ceduo_app_format(app, "%s", cell->path); /* copy the path: an edit rebuilds the form */
     LOCAL_TEXT(written);
-    if (value[0] == '\0') /* nothing: back to the default */
+    if (value[0] == '\0') /* empty: back to the default */
         return ceduo_app_edited(app, ceduo_document_delete(&app->document, path));
     if (field->type == FIELD_TEXT || field->type == FIELD_FILE)
         ceduo_emit_scalar(&written, value, true);
@@ -21,7 +21,7 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
         ceduo_typed_value(field, value, &written);
     if (ceduo_app_set(app, path, ceduo_text_string(&written)))
         return true;
-    const struct problem *p = app->document.problems.wrong.items; /* the label of the field stands for its path */
+    const struct problem *p = app->document.problems.wrong.items; /* the label of the field replaces its path */
     if (p->path && (strpbrk(p->path, "_.[") || strcmp(p->path, field->key) == 0))
         ceduo_app_warn(app, "%s: %s", _(field->shown.label), p->message);
     return false;
@@ -34,7 +34,7 @@ static bool filled_field(struct app *app, struct popup *p)
     return !cell || (ceduo_popup_confirm_unusual(app, cell->field, line) && set_value(app, cell, line->text));
 }
 
-/* The whole value as it is typed: what is shown may be cut or put in other words. */
+/* Edit the whole value: the form may show it shortened or in words. */
 void ceduo_edit_start(struct app *app)
 {
     struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
@@ -46,7 +46,7 @@ void ceduo_edit_start(struct app *app)
     }
     const struct node *node = ceduo_document_node(&app->document, cell->path);
     LOCAL_TEXT(text);
-    bool plain = node && node->kind == NODE_LIST; /* with blanks */
+    bool plain = node && node->kind == NODE_LIST; /* a list of scalars, with blanks */
     for (size_t i = 0; plain && i < node->n; i++)
         plain = node->items[i]->kind == NODE_SCALAR;
     if (node && node->kind == NODE_SCALAR)
@@ -74,14 +74,14 @@ void ceduo_edit_step(struct app *app, int direction)
 
 /* ==== items ==== */
 
-/* The item under the cursor, copied because each edit builds the form again. */
+/* The item under the cursor. Its strings are copied, because each edit rebuilds the form. */
 struct item {
-    const char *list; /* path of its list */
+    const char *list; /* path of the list */
     const char *key;  /* last word of that path */
     size_t index;
     bool there;        /* false: the list is empty */
-    const char *group; /* that alone of it; NULL: all */
-    double at;         /* where along the slope, m, as given; NAN: in the middle of what is split */
+    const char *group; /* the only group of the item that is edited; NULL: the whole item */
+    double at;         /* m along the slope, as in the file; NAN: split in the middle */
 };
 
 static struct item item_of(const struct app *app, const char *list, size_t index)
@@ -91,7 +91,7 @@ static struct item item_of(const struct app *app, const char *list, size_t index
     return (struct item){.list = list, .key = dot ? dot + 1 : list, .index = index, .there = true, .at = NAN};
 }
 
-/* `there`: an item must be under the cursor, not the line of an empty list. */
+/* Find the item under the cursor. `must_exist`: reject the line of an empty list. */
 static bool find_item(struct app *app, struct item *item, bool there)
 {
     const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
@@ -108,13 +108,13 @@ static bool find_item(struct app *app, struct item *item, bool there)
 
 /* ---- splitting ---- */
 
-/* The place at `list[index].key`; NaN where there is none. */
+/* Return the place at `list[index].key`; NaN: none. */
 static double place_of(const struct app *app, const struct item *item, size_t index, const char *key)
 {
     return ceduo_document_get_place(&app->document, ceduo_app_format(app, "%s[%zu].%s", item->list, index, key));
 }
 
-/* Copies an item. `ends`: from_m and to_m of it, then of its copy; NaN: as they are. */
+/* Copy an item. `ends`: from_m and to_m of the item, then of the copy; NaN: unchanged. */
 static bool copy_with(struct app *app, const struct item *item, const double ends[4])
 {
     struct changes c = {.document = &app->document};
@@ -126,7 +126,7 @@ static bool copy_with(struct app *app, const struct item *item, const double end
     return ceduo_document_duplicate(&app->document, item->list, item->index, &c);
 }
 
-/* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */
+/* Split an item with from_m and to_m into two, because two items cannot overlap. */
 static bool split_stretch(struct app *app, const struct item *item)
 {
     double middle = (place_of(app, item, item->index, "from_m") + place_of(app, item, item->index, "to_m")) / 2;
@@ -134,7 +134,7 @@ static bool split_stretch(struct app *app, const struct item *item)
     return copy_with(app, item, (const double[]){NAN, middle, middle, NAN});
 }
 
-/* A point on a segment of the profile, `at` along the slope (NAN: in its middle). */
+/* Insert a point into a segment of the profile at x (NAN: in its middle). */
 static bool split_at(struct app *app, size_t segment, bool apart, double at)
 {
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
@@ -157,13 +157,14 @@ size_t ceduo_items_stretch_of(const struct app *app, double x_written)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
-    size_t j = vertices ? 0 : ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x); /* of a CSV file */
+    size_t j =
+        vertices ? 0 : ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x); /* profile from a CSV file */
     while (vertices && j + 2 < vertices->n && x_written >= ceduo_node_item_number(vertices->items[j + 1], 0))
         j++;
     return !vertices && s->reversed ? s->vertices - 2 - j : j;
 }
 
-/* A segment in two, each with a ground of its own; of one ground for all segments that in the middle of the slope. */
+/* Split a segment into two with separate grounds; if all share one ground, split at `x` or in the middle of the slope. */
 static bool split_segment(struct app *app, const struct item *item)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
@@ -173,7 +174,7 @@ static bool split_segment(struct app *app, const struct item *item)
     return split_at(app, segment, true, item->at);
 }
 
-/* A point between this one and the next, or before the last. */
+/* Insert a point after this one; before the last one. */
 static bool split_point(struct app *app, const struct item *item)
 {
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
@@ -188,9 +189,9 @@ static bool insert(struct app *app, const struct item *item, size_t index, const
     return ceduo_document_insert(&app->document, item->list, index, yaml);
 }
 
-#define BELT_MIN 0.5 /* m: a shorter belt is not added */
+#define BELT_MIN 0.5 /* m; no shorter belt is added */
 
-/* A belt in two; on the end of a belt, if there is room, a copy of it down to the next control, the next belt or the end. */
+/* Split a belt. At its end, if there is space, copy it down to the next control, the next belt or the end of the slope. */
 static bool add_belt(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
@@ -209,7 +210,7 @@ static bool add_belt(struct app *app, const struct item *item)
     return copy_with(app, item, (const double[]){NAN, NAN, from, to});
 }
 
-/* Ground of the library, where none is said yet: that which was assumed. */
+/* Split a ground. Without grounds, add the assumed one from the library. */
 static bool add_ground(struct app *app, const struct item *item)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
@@ -237,7 +238,7 @@ static bool copy_item(struct app *app, const struct item *item)
     return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, NULL);
 }
 
-/* A first cohort of shoots needs stools to stand on. */
+/* Add a cohort. The first one also needs stools. */
 static bool add_shoots(struct app *app, const struct item *item)
 {
     if (item->there)
@@ -254,7 +255,7 @@ static bool add_trees(struct app *app, const struct item *item)
     return item->there ? copy_item(app, item) : insert(app, item, 0, "{per_ha: 60, dbh_m: 0.2, height_m: 12}");
 }
 
-/* A class of blocks larger than those there are, ten times as rare, is offered; where there are none, nothing is. */
+/* Ask for a class of blocks. Propose the next larger class, ten times rarer, if there is one already. */
 static bool ask_for_blocks(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
@@ -279,7 +280,7 @@ void ceduo_items_add_blocks(struct app *app)
 
 /* ---- deleting ---- */
 
-/* Delete an item: a segment with a vertex, the last shoots with their stools. A neighbour takes the place of a ground. */
+/* Delete an item: a segment with a vertex, the last shoots with their stools. A neighbour fills the gap of a ground. */
 static bool delete_item(struct app *app, const struct item *item, const char *path)
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);
@@ -310,7 +311,7 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
 
 typedef bool item_function(struct app *app, const struct item *item);
 
-/* How items are added and duplicated, where not by a copy of the one under the cursor. */
+/* Functions that add and duplicate items; otherwise the item under the cursor is copied. */
 static const struct {
     const char *key;
     item_function *add, *duplicate;
@@ -320,7 +321,7 @@ static const struct {
              {"shoots", add_shoots, copy_item},          {"trees", add_trees, copy_item},
              {"blocks", ask_for_blocks, copy_item}};
 
-/* Adds or duplicates. The cursor goes to the new item, or the last where it was put before others. */
+/* Add or duplicate an item. The cursor goes to the new item, or to the last of the list. */
 static void make(struct app *app, const struct item *item, bool add)
 {
     item_function *function = copy_item;
@@ -330,7 +331,7 @@ static void make(struct app *app, const struct item *item, bool add)
     ceduo_problems_free(&app->document.problems);
     bool good = function(app, item);
     if (!good && app->document.problems.met == 0 && (app->message[0] || app->popup))
-        return; /* it is said already, or asked for */
+        return; /* reported, or a popup is open */
     if (ceduo_app_edited(app, good))
         ceduo_form_go(ceduo_app_form(app), item->list, item->there ? item->index + 1 : 0);
 }
@@ -363,7 +364,7 @@ void ceduo_items_delete(struct app *app)
         ceduo_app_show_message(app, "%s", _("the only place where rocks are counted stays"));
     } else if (ceduo_app_edited(app, delete_item(app, &item, path))) {
         const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
-        if (row && strcmp(row->list, item.list) != 0) /* another d would delete in the next list what nobody meant */
+        if (row && strcmp(row->list, item.list) != 0) /* stay in this list, so that repeating d is safe */
             ceduo_form_move(ceduo_app_form(app), -1, 0);
         ceduo_app_show_message(app, _("deleted: %s; u brings it back"), ceduo_app_path(app, path));
     }
@@ -386,9 +387,9 @@ void ceduo_items_move(struct app *app, int by)
         ceduo_form_move(ceduo_app_form(app), by, 0);
 }
 
-/* ==== a new item, field by field as the table of the scene has them ==== */
+/* ==== a new item: one field for each key of the schema ==== */
 
-/* Appends an item. A single power law of blocks becomes the first class; the first blocks replace rocks_per_year. */
+/* Append an item. A single power law of blocks becomes the first class. The first blocks replace rocks_per_year. */
 static bool append_item(struct app *app, const char *list, const struct node *now, const char *yaml)
 {
     struct changes c = {.document = &app->document};
@@ -404,7 +405,7 @@ static bool append_item(struct app *app, const char *list, const struct node *no
     return ceduo_changes_apply(&c, list);
 }
 
-/* The path is that of the list; a group is kept. */
+/* `p->target` is the path of the list, `p->context` the group. */
 static bool filled_item(struct app *app, struct popup *p)
 {
     const char *list = p->path;
@@ -426,7 +427,7 @@ static bool filled_item(struct app *app, struct popup *p)
     size_t n = !now ? 0 : now->kind == NODE_LIST ? now->n : 1;
     if (!ceduo_app_edited(app, append_item(app, list, now, yaml))) {
         const struct problem *first = app->document.problems.wrong.items;
-        if (first->path && strncmp(first->path, list, strlen(list)) == 0) /* a path of what is not there */
+        if (first->path && strncmp(first->path, list, strlen(list)) == 0) /* path of the rejected item */
             ceduo_app_warn(app, "%s", first->message);
         return false;
     }
@@ -447,7 +448,7 @@ void ceduo_popup_item_find(struct app *app, const char *list, const char *group,
     ceduo_text_append(&p->text, _("Several numbers with blanks between them, decimals with a dot or a comma: 41 44.5 52."));
     for (const struct field *f = of->object->fields; f < of->object->fields + of->object->n; f++) {
         if (f->type != FIELD_NUMBER && f->type != FIELD_NUMBERS && f->type != FIELD_COUNT && f->type != FIELD_SPREAD)
-            continue; /* files of values are named in the scene's file */
+            continue; /* skip files of values: they are named in the scene's file */
         ceduo_text_format(&p->text, "\n%s: %s", _(f->shown.label), _(f->meaning));
         ceduo_popup_value(p, _(f->shown.label), p->fields_count < n ? offered[p->fields_count] : "", f);
     }

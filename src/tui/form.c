@@ -12,9 +12,9 @@
 #include "base/utf8.h"
 #include "view/typed.h"
 
-#define LABEL_MIN  18 /* columns of the labels of lines */
-#define VALUE_MIN  25 /* columns that the labels leave to values */
-#define COLUMN_MAX 30 /* of a table's column */
+#define LABEL_MIN  18 /* min. columns of labels */
+#define VALUE_MIN  25 /* min. columns of values */
+#define COLUMN_MAX 30 /* max. columns of a table's column */
 
 void ceduo_form_clear(struct form *form, const struct document *document)
 {
@@ -43,7 +43,7 @@ void ceduo_form_note(struct form *form, const char *text)
 
 /* ---- cells ---- */
 
-/* A value as it is shown: one word in the words and the unit of the field, a spread, a list, a mapping by its name. */
+/* Append a value as shown: a scalar in the words and unit of the field, a spread, a list, or the name of a mapping. */
 static void show_node(struct text *to, const struct node *node, const struct field *field)
 {
     const char *name = node->kind == NODE_MAP ? ceduo_node_text(node, "name") : NULL;
@@ -96,7 +96,7 @@ void ceduo_form_field(struct form *form, const char *path, const char *label)
     add_cell(form, add_row(form, FORM_FIELDS, label ? label : _(field->shown.label)), field, path);
 }
 
-/* The next of some words with blanks between; NULL after the last. */
+/* Return the next word of a list separated by blanks; NULL at the end. */
 static const char *next_key(struct form *form, const char **keys)
 {
     size_t n = strcspn(*keys, " ");
@@ -124,7 +124,7 @@ void ceduo_form_rest(struct form *form, const char *group)
     }
 }
 
-/* A line for item i of a list. */
+/* Add a line for item i of a list. */
 static struct form_row *add_item(struct form *form, const char *list, size_t i)
 {
     struct form_row *row = add_row(form, FORM_FIELDS, ceduo_arena_format(&form->arena, "%zu", i + 1));
@@ -150,12 +150,13 @@ void ceduo_form_table(struct form *form, const char *list, const char *group, co
         row->group = group ? of->key : NULL;
         for (const char *rest = keys, *key; row->n < FORM_COLUMNS && (key = next_key(form, &rest));) {
             const struct field *field = ceduo_schema_field(of->object, key), *other = ceduo_schema_unit(of->object, field);
-            if (!ceduo_node_get(item, key) && other && ceduo_node_get(item, other->key)) /* the file has it in another unit */
+            if (!ceduo_node_get(item, key) && other && ceduo_node_get(item, other->key)) /* the file uses another unit */
                 field = other;
             const char *path =
                 ceduo_arena_format(&form->arena, "%s[%zu].%s%s%s", list, i, group ? group : "", group ? "." : "", field->key);
             const char *named = field->type == FIELD_NUMBER ? ceduo_node_text(item, "path") : NULL;
-            const struct field *value = named ? ceduo_schema_at(named) : NULL; /* an end of its range: in its own unit */
+            const struct field *value =
+                named ? ceduo_schema_at(named) : NULL; /* a bound of an uncertain input: in the unit of that input */
             add_cell(form, row, value && value->shown.per != 1 ? value : field, path);
         }
     }
@@ -191,7 +192,7 @@ void ceduo_form_clamp(struct form *form)
 
 void ceduo_form_move(struct form *form, int lines, int columns)
 {
-    size_t step = lines < 0 ? SIZE_MAX : 1; /* above the first line it is larger than any */
+    size_t step = lines < 0 ? SIZE_MAX : 1; /* upwards: wraps around above the first line */
     for (int left = abs(lines); left > 0; left--) {
         size_t to = form->row + step;
         while (to < form->n && !can_hold(&form->rows[to]))
@@ -231,7 +232,7 @@ bool ceduo_form_search(struct form *form, const char *word)
     for (size_t i = 1; word[0] && i <= form->n; i++) {
         const size_t at = (form->row + i) % form->n;
         const struct form_row *row = &form->rows[at];
-        size_t k = 0, n = can_hold(row) ? row->n : 0; /* the row's own name is that of its first cell */
+        size_t k = 0, n = can_hold(row) ? row->n : 0; /* the label of the row stands for its first cell */
         bool named = can_hold(row) && strcasestr(row->label, word);
         while (k < n && !(k == 0 && named) && !strcasestr(row->cells[k].text, word) && !strcasestr(row->cells[k].path, word))
             k++;
@@ -247,7 +248,7 @@ bool ceduo_form_search(struct form *form, const char *word)
 
 /* ---- drawing ---- */
 
-/* Columns of the labels in a rectangle `width` wide: all of one width, so that no label is cut where there is room. */
+/* Return the columns of the labels in a rectangle `width` wide. All have the same width; if possible no label is cut. */
 static int label_columns(const struct form *form, int width)
 {
     int columns = LABEL_MIN;
@@ -261,7 +262,7 @@ static int label_columns(const struct form *form, int width)
     return columns < max ? columns : max;
 }
 
-/* Columns of cell k of a row in a rectangle `width` wide, whose labels take `label`. */
+/* Compute the columns of cell k of a row in a rectangle `width` wide with labels of `label` columns. */
 static void cell_place(const struct form_row *row, int width, int label, size_t k, int *from, int *span)
 {
     label = row->list[0] ? 4 : label;
@@ -272,7 +273,7 @@ static void cell_place(const struct form_row *row, int width, int label, size_t 
     *span = each - 1;
 }
 
-#define DIGITS_MAX  5 /* more come from a computer: they are seen as the field is opened */
+#define DIGITS_MAX  5 /* show fewer digits of computed values; the full value appears while editing */
 #define COLUMNS_MAX 63
 
 static size_t digits_of(const char *shown)
@@ -283,13 +284,13 @@ static size_t digits_of(const char *shown)
     return n;
 }
 
-/* `edit`: what is typed into it; NULL: it is not open. */
+/* `edit`: the typed text; NULL: the cell is not being edited. */
 static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, int x, int y, int span, bool cursor,
                       const char *edit)
 {
     char shown[4 * COLUMNS_MAX + 2];
     LOCAL_TEXT(words);
-    if (cell->given && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
+    if (cell->given && strcmp(cell->field->key, "path") == 0) /* show a path of the scene in words */
         ceduo_shown_path(cell->text, &words);
     else
         ceduo_text_append(&words, cell->text[0] ? cell->text : "-");
@@ -303,7 +304,7 @@ static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, i
     if (strspn(shown, "0123456789.+-e *") == strlen(shown))
         ceduo_number_spoken(shown);
     char *more = cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
-    if (more && (int)ceduo_utf8_width(shown) > span) /* the common name of a species has room */
+    if (more && (int)ceduo_utf8_width(shown) > span) /* keep only the common name of a species */
         *more = '\0';
     if (cursor)
         for (int i = 0; i < span; i++)
@@ -352,15 +353,15 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
         return;
     struct viewport *v = &form->lines;
     size_t above = form->row, below = form->row;
-    while (above > 0 && !can_hold(&form->rows[above - 1])) /* headings belong to what follows */
+    while (above > 0 && !can_hold(&form->rows[above - 1])) /* show headings with the line below */
         above--;
     while (below + 1 < form->n && !can_hold(&form->rows[below + 1]))
         below++;
-    if (below + 1 < form->n || below - form->row >= (size_t)area.height) /* notes after the last field are shown with it */
+    if (below + 1 < form->n || below - form->row >= (size_t)area.height) /* show notes with the last field above */
         below = form->row;
     viewport_fit(v, area.height, (int)form->n);
     viewport_show(v, (int)above, (int)below);
-    viewport_show(v, (int)form->row, (int)form->row); /* in a low area */
+    viewport_show(v, (int)form->row, (int)form->row); /* the cursor has priority in a low area */
     for (int i = v->first; i < v->first + v->rows && i < v->count; i++)
         draw_row(form, cells, (size_t)i, area.top + i - v->first, edit);
 }
@@ -407,7 +408,7 @@ void ceduo_form_explain(struct form *form, struct text *text)
         ceduo_text_format(text, " [%s: %s]", _(note->kind), ceduo_in_language(note->text, note->text_it));
 }
 
-/* One unit of the second significant digit. */
+/* Return one unit of the second significant digit. */
 static double step_of(double value, const struct field *f)
 {
     if (value == 0)
@@ -423,7 +424,7 @@ bool ceduo_form_step(struct form *form, int direction, struct text *value)
     if (!cell)
         return false;
     const struct field *f = cell->field;
-    if (ceduo_schema_is_place(f) && ceduo_schema_place_read(cell->written, &now)) { /* by a metre: more is nearer the end */
+    if (ceduo_schema_is_place(f) && ceduo_schema_place_read(cell->written, &now)) { /* step by 1 m; + goes towards the end */
         ceduo_text_format(value, now - direction > 0 ? "end-%g" : "end", now - direction);
         return true;
     }
@@ -444,7 +445,7 @@ bool ceduo_form_step(struct form *form, int direction, struct text *value)
         return false;
     double step = step_of(now, f), lo = f->lo * f->shown.per, hi = f->hi * f->shown.per;
     if (direction < 0 && now != 0 && fabs(now) < 10.5 * step && step_of(now - step, f) < step && now > 0)
-        step /= 10; /* from 1.0 down to 0.99, not to 0.9 */
+        step /= 10; /* step from 1.0 down to 0.99, not to 0.9 */
     double next = (round(now / step) + direction) * step;
     next = next < lo ? lo : next > hi ? hi : next;
     int decimals = step < 1 ? (int)ceil(-log10(step) - 1e-9) : 0;

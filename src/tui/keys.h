@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* A key as the program knows it: a Unicode code point, or one of the second row. */
+/* A key: a Unicode code point, or a key of the second list. */
 enum { K_NONE, K_TAB = 9, K_CTRL_L = 12, K_ENTER, K_CTRL_R = 18, K_CTRL_U = 21, K_ESCAPE = 27, K_SPECIAL = 0x110000 };
 enum {
     K_UP = K_SPECIAL + 1,
@@ -21,7 +21,8 @@ enum {
 };
 #define K_F(n) (K_SHIFT_TAB + (n))
 
-/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, in small, key, its word, title. */
+/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, name in lower case, key, its word,
+ * title. */
 #define VIEWS(V)                                                                                                               \
     V(SLOPE, slope, '1', "1", NP_("view", "slope"))                                                                            \
     V(STAND, stand, '2', "2", NP_("view", "stand"))                                                                            \
@@ -34,8 +35,8 @@ enum {
 
 #define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help, BY(show_view, VIEW_##NAME))
 
-/* The table of actions, for keys, bar, help and manual: name, key, its word, second key, its word, rank in the bar, what it does,
- * and the function, with a number or without; NULL: views alone do it. */
+/* The table of actions, for keys, bar, help and manual: name, key, its word, second key, its word, rank in the bar, help,
+ * and the handler, with or without an argument. NULL: only views handle it. */
 #define ACTIONS(X)                                                                                                             \
     X(UP, K_UP, "Up", 'k', "k", 0, N_("move up"), BY(move_lines, -1))                                                          \
     X(DOWN, K_DOWN, "Down", 'j', "j", 0, N_("move down"), BY(move_lines, 1))                                                   \
@@ -94,13 +95,13 @@ enum action {
 struct action_info {
     int key, key2;
     const char *word, *word2;
-    int bar;          /* 2: always in the bar, 1: where the view's own keys leave room */
+    int bar;          /* 2: always in the bar, 1: if the view's own keys leave space */
     const char *help; /* marked for translation */
 };
 
 extern const struct action_info ceduo_actions[ACTION_COUNT];
 
-/* The action of a key; ACTION_NONE. */
+/* Return the action of a key, or ACTION_NONE. */
 enum action ceduo_action_find(int key);
 
 #endif

@@ -20,7 +20,7 @@ void ceduo_line_set(struct line *line, const char *text)
 {
     size_t n = strlen(text);
     if (n >= sizeof line->text)
-        n = 0; /* too long to be edited in a line */
+        n = 0; /* too long for a line */
     memcpy(line->text, text, n);
     line->text[n] = '\0';
     line->at = n;
@@ -132,7 +132,7 @@ void ceduo_picker_filter(struct picker *p, const char *typed)
         pick->match = ceduo_fuzzy_match(typed, pick->name);
         if (pick->match < 0)
             continue;
-        for (; at > 0 && p->picks[p->order[at - 1]].match < pick->match; at--) /* before those that match less well */
+        for (; at > 0 && p->picks[p->order[at - 1]].match < pick->match; at--) /* keep better matches first */
             p->order[at] = p->order[at - 1];
         p->order[at] = i;
         p->matches++;
@@ -167,7 +167,7 @@ void ceduo_picker_draw(struct picker *p, struct ceduo_cells *cells, struct ceduo
 
 /* ---- files ---- */
 
-#define FILES_MAX 2000 /* of a folder: more nobody looks through */
+#define FILES_MAX 2000 /* max. files listed of a folder */
 
 bool ceduo_picker_is_file(const char *name, const char *endings)
 {

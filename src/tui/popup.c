@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Popups of three kinds: text, list, fields. A popup is closed before its callback runs, because that may open another. */
+/* Popups: text, list, fields. A popup is closed before its callback runs, because the callback may open another. */
 #include "popup.h"
 
 #include <assert.h>
@@ -14,7 +14,7 @@
 #include "base/utf8.h"
 #include "view/typed.h"
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static struct popup *open_popup(struct app *app, enum popup_kind kind, const char *title, const char *path)
 {
@@ -69,7 +69,7 @@ void ceduo_popup_item(struct popup *p, const char *text, const char *value)
 void ceduo_popup_answer(struct popup *p, char key, const char *text, const char *value)
 {
     char line[256];
-    assert((key >= '1' && key <= '9') || (key >= 'a' && key <= 'z')); /* no digit follows 9 */
+    assert((key >= '1' && key <= '9') || (key >= 'a' && key <= 'z')); /* only 1 to 9 */
     snprintf(line, sizeof line, "%c  %s", key, text);
     p->asks = true;
     ceduo_popup_item(p, line, value);
@@ -104,7 +104,7 @@ struct field *ceduo_popup_value(struct popup *p, const char *label, const char *
     return own;
 }
 
-/* ---- what is typed ---- */
+/* ---- input ---- */
 
 bool ceduo_popup_confirm_unusual(struct app *app, const struct field *field, struct line *line)
 {
@@ -157,9 +157,9 @@ bool ceduo_popup_may_write(struct app *app, struct popup *p)
     return false;
 }
 
-/* ---- what is offered ---- */
+/* ---- completion ---- */
 
-/* The items for what is typed into the line under the cursor. */
+/* List the items for the text in the line under the cursor. */
 static void offer(struct app *app, struct popup *p)
 {
     const struct popup_field *field = &p->fields[p->at];
@@ -188,7 +188,7 @@ static void go_to_field(struct app *app, struct popup *p, size_t field)
 
 /* ---- keys ---- */
 
-/* Returns how many lines a key moves by, letters only where nothing is typed; 0 if it does not move. */
+/* Return the number of lines that a key moves by; 0: none. `letters`: letters move, too, because nothing is typed. */
 static int lines_of(int key, bool letters)
 {
     static const int lines[ACTION_COUNT] = {[ACTION_UP] = -1,        [ACTION_DOWN] = 1,         [ACTION_PAGE_UP] = -10,
@@ -205,7 +205,7 @@ static void text_key(struct app *app, struct popup *p, int key)
         ceduo_popup_close(app);
 }
 
-/* Takes the popup off the screen for its callback, which may open another. */
+/* Choose the item under the cursor. Detach the popup first: the callback may open another. */
 static void choose(struct app *app, struct popup *p)
 {
     const struct pick *pick = ceduo_picker_at(&p->picker);
@@ -247,7 +247,7 @@ static void submit(struct app *app, struct popup *p)
         free_popup(p);
         return;
     }
-    ceduo_popup_close(app); /* it may have opened another */
+    ceduo_popup_close(app); /* the callback may have opened another */
     app->popup = p;
 }
 
@@ -258,7 +258,7 @@ static void fields_key(struct app *app, struct popup *p, int key)
     bool last = p->at + 1 >= p->fields_count, listed = field->offer && p->picker.matches > 0;
     bool vertical = key == K_UP || key == K_DOWN || key == K_PAGE_UP || key == K_PAGE_DOWN;
     app->message[0] = '\0';
-    ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* that these fields asked for */
+    ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* stop the search of these fields */
     if (key == K_ESCAPE && p->at == 0) {
         ceduo_popup_close(app);
     } else if (key == K_ESCAPE || key == K_SHIFT_TAB || (key == K_UP && !listed)) {
@@ -272,7 +272,7 @@ static void fields_key(struct app *app, struct popup *p, int key)
         const struct pick *pick = field->offer ? ceduo_picker_at(&p->picker) : NULL;
         LOCAL_TEXT(value);
         if (pick && (p->moved || !(p->typed_wins || line->fresh)) && strcmp(line->text, pick->value) != 0)
-            ceduo_line_set(line, pick->value); /* what matches takes the place of what was typed */
+            ceduo_line_set(line, pick->value); /* the matching item replaces the typed text */
         if (last && key == K_ENTER)
             submit(app, p);
         else if (!last && (!field->value || ceduo_popup_read(app, field->value, line, &value)) &&
@@ -283,7 +283,7 @@ static void fields_key(struct app *app, struct popup *p, int key)
     }
 }
 
-/* The field of a form. */
+/* Handle a key in a field of the form. */
 static void field_key(struct app *app, struct popup *p, int key)
 {
     bool enters = key == K_ENTER || key == K_TAB;
@@ -312,7 +312,7 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
     ceduo_app_text(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, 0);
 }
 
-/* Marks on the edge of the box that there is more above or below. */
+/* Draw marks on the frame for lines above or below. */
 static void draw_more(struct app *app, const struct popup *p, const struct viewport *lines)
 {
     const struct ceduo_area *r = &p->box;
@@ -324,14 +324,14 @@ static void draw_more(struct app *app, const struct popup *p, const struct viewp
 }
 
 #define NOTE_LINES 6
-#define LINES_MIN  6 /* below it, where there are so many */
+#define LINES_MIN  6 /* min. lines below the note, if needed */
 
-/* Draws a box in the middle of the screen, with its note in the first lines. Returns the area below the note. */
+/* Draw a frame in the middle of the screen, with the note in its first lines. Return the area below the note. */
 static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines, int note_lines)
 {
     int width = app->width - 2 < 84 ? app->width - 2 : 84,
         wanted = ceduo_app_text_lines(app, ceduo_text_string(&p->text), width - 4);
-    if (p->kind == POPUP_FIELDS) /* no more than it takes; over a list it changes with the cursor */
+    if (p->kind == POPUP_FIELDS) /* as high as the note; over a list the note changes with the cursor */
         note_lines = wanted < note_lines ? wanted : note_lines;
     note_lines = p->text.bytes || p->preview ? note_lines : 0;
     int max = app->height - 2, height = lines + note_lines + 2;
@@ -361,7 +361,7 @@ static void draw_picks(struct app *app, struct popup *p, struct ceduo_area area)
     draw_more(app, p, &p->picker.lines);
 }
 
-/* A line that is typed into, its end in sight. */
+/* Draw an input line, scrolled to its end. */
 static void draw_line(struct app *app, const struct line *line, int x, int y, int width, bool cursor)
 {
     int n = ceduo_cells_put_end(app->cells, x, y, width - 1, cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, line->text);
@@ -386,9 +386,9 @@ static void draw_list(struct app *app, struct popup *p)
         draw_picks(app, p, in);
 }
 
-#define FOOT_MIN      2  /* lines below the fields, of a message or of what is offered */
-#define PICKS_SHOWN   6  /* below the fields */
-#define PICTURE_SHOWN 16 /* or a picture instead */
+#define FOOT_MIN      2  /* min. lines below the fields, for a message or items */
+#define PICKS_SHOWN   6  /* items below the fields */
+#define PICTURE_SHOWN 16 /* lines of a picture in place of items */
 
 static void draw_fields(struct app *app, struct popup *p)
 {
@@ -414,7 +414,7 @@ static void draw_fields(struct app *app, struct popup *p)
         draw_picks(app, p, (struct ceduo_area){in.left + 2, in.top + 1, in.width - 2, in.height - 1});
 }
 
-/* ---- the one that is open ---- */
+/* ---- the open popup ---- */
 
 static const struct {
     void (*key)(struct app *app, struct popup *popup, int key);
@@ -449,7 +449,7 @@ const char *ceduo_popup_bar(const struct app *app)
     return app->popup->asks ? _("a letter, or Up Down and Enter  Esc cancel") : _(kinds[app->popup->kind].bar);
 }
 
-/* Write the note again. */
+/* Rebuild the note. */
 static void preview(struct app *app, struct popup *p)
 {
     ceduo_text_free(&p->text);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page, the screen or the command to a file; what the view says to the clipboard. */
+/* Export of the page, the screen or the command to a file; copy of the view to the clipboard. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 #include "view/page.h"
 #include "view/svg.h"
 
-/* The command that gives the same figures; `how`: as what. */
+/* Append the command that gives the same figures; `mode`: option of its output. */
 static void append_command(struct app *app, struct text *text, const char *how)
 {
     struct document *d = &app->document;
@@ -23,7 +23,7 @@ static void append_command(struct app *app, struct text *text, const char *how)
     ceduo_text_quoted(text, d->path ? d->path : "scene.yaml");
 }
 
-/* More rocks may fall while it is read. */
+/* Drawn again as rocks fall. */
 static void show_command(struct app *app, struct popup *p)
 {
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
@@ -40,14 +40,14 @@ static void show_command(struct app *app, struct popup *p)
         ceduo_text_append(&p->text, _("\nThere is unsaved work: s saves it first.\n"));
 }
 
-/* Whether all that will be known of uncertainty is. */
+/* True if the last level of uncertainty is computed. */
 static bool is_sure(const struct app *app)
 {
     const struct uncertainty *known = ceduo_live_uncertainty(&app->live, &app->document.file);
     return known && known->last;
 }
 
-/* Of the figures as they are, and without uncertainty where that is not known yet: nobody waits while a screen is to be used. */
+/* Append the report as HTML. Omit the uncertainty if it is not computed yet. */
 static void put_html(struct app *app, struct ceduo_report *report, struct text *text)
 {
     struct ceduo_uncertainty_report uncertainty;
@@ -70,7 +70,7 @@ static void put_html(struct app *app, struct ceduo_report *report, struct text *
 enum export { EXPORT_PAGE, EXPORT_TABLE, EXPORT_SCREEN, EXPORT_CSV, EXPORT_JSON, EXPORT_REPORT, EXPORT_COMMAND, EXPORTS };
 
 static const struct {
-    const char *file, *what; /* file NULL: it is shown, not written */
+    const char *file, *what; /* file NULL: shown, not written */
 } exports[EXPORTS] = {{"ceduo.txt", N_("the page, as text")},
                       {"ceduo-details.txt", N_("the whole page with all figures, as text")},
                       {"ceduo-screen.txt", N_("this screen, with its picture, as text")},
@@ -83,10 +83,10 @@ static void append_export(struct app *app, enum export export, struct text *text
 {
     struct ceduo_report *report = ceduo_app_report(app);
     bool ascii = app->charset == CEDUO_CHARSET_ASCII;
-    if (export != EXPORT_PAGE) /* how sure it is, if that is known already, is part of the page alone */
+    if (export != EXPORT_PAGE) /* only the page shows uncertainty */
         report->uncertainty = NULL;
     if (export == EXPORT_SCREEN) {
-        ceduo_screen_draw(app); /* without the popup, which is off already */
+        ceduo_screen_draw(app); /* the popup is closed already */
         char *screen = ceduo_cells_dump(app->cells);
         ceduo_text_append(text, screen ? screen : "");
         free(screen);
@@ -126,10 +126,10 @@ static bool filled_export(struct app *app, struct popup *p)
     return good;
 }
 
-/* `export`: its number. */
+/* Ask for the file of an export; `export`: its number. */
 static void ask_for_file(struct app *app, const char *export)
 {
-    /* the report says how sure it is: that is computed while its file is named; a head is an edit */
+    /* compute the uncertainty for the report while its file is named */
     app->live.busy |= ceduo_jobs_request(
         app->live.jobs, &(struct job_request){JOB_UNCERTAINTY, &app->document.file, app->option, .levels = UNCERTAINTY_LEVELS});
     struct popup *p = ceduo_popup_fields(app, _(exports[atoi(export)].what), export, filled_export);
@@ -139,7 +139,7 @@ static void ask_for_file(struct app *app, const char *export)
     ceduo_popup_choice(p, _("file"), file, ceduo_popup_offer_files);
 }
 
-/* What was typed is the scene's from then on, as one edit. */
+/* Store the typed text in the scene, as one edit. */
 static bool filled_head(struct app *app, struct popup *p)
 {
     const struct object *page = ceduo_schema_row("page")->object;
@@ -183,7 +183,7 @@ static void chose_export(struct app *app, struct popup *p)
 
 /* ---- the clipboard ---- */
 
-#define COPY_WIDTH 78 /* of a letter */
+#define COPY_WIDTH 78 /* columns of a letter */
 
 void ceduo_popup_copy(struct app *app)
 {
@@ -205,7 +205,7 @@ void ceduo_popup_copy(struct app *app)
         ceduo_words_answer(&text, &subject, COPY_WIDTH);
         ceduo_text_char(&text, '\n');
     }
-    /* the view drawn by itself, long enough for all of it, its pictures left blank; runs of blank lines are one */
+    /* draw the view with all its lines but without pictures; collapse blank lines */
     struct view_state *state = ceduo_app_state(app), kept = *state;
     struct ceduo_cells *screen = app->cells;
     app->cells = ceduo_check_memory(ceduo_cells_create(COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT, app->charset));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which value of the field reaches a goal? */
+/* Search for the value of the field that reaches a goal. */
 #include <math.h>
 #include <string.h>
 
@@ -9,15 +9,15 @@
 
 enum { FIND_GOAL, FIND_TARGET, FIND_SURE, FIND_LO, FIND_HI };
 
-#define FIND_ROCKS 2000 /* so that the answer is there soon */
+#define FIND_ROCKS 2000 /* few, for a quick answer */
 
 /* ---- the goal ---- */
 
-/* A goal in words. What is typed beside it is in the unit that stands at the end: of 1000, %, kJ, m. */
+/* A goal in words. The amount is typed in the unit: per 1000, %, kJ, m. */
 static const struct {
     enum ceduo_goal goal;
     const char *words, *unit;
-    double per; /* so many of that unit are one of the goal's */
+    double per; /* amount of the unit in one unit of the goal */
 } goals[] = {{CEDUO_GOAL_ADC, N_("mean distance between hits below … m (ADC)"), "m", 1},
              {CEDUO_GOAL_FREE_RUN, N_("chance of a free run at most … %"), "%", 100},
              {CEDUO_GOAL_EXCEED, N_("at most … of 1000 arrive with too much"), N_("of 1000"), 1000},
@@ -34,7 +34,7 @@ static void offer_goals(struct app *app, struct popup *p)
         ceduo_popup_item(p, _(goals[i].words), _(goals[i].words));
 }
 
-/* Words of the list, or what the command line takes: energy=50; the amount may stand in the field below. */
+/* Read words of the list, or the form of the command line: energy=50. The amount may be in the field below. */
 static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *search)
 {
     const char *typed = p->fields[FIND_GOAL].line.text;
@@ -63,9 +63,9 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
     return false;
 }
 
-/* ---- what is asked for ---- */
+/* ---- the request ---- */
 
-/* What the rules of the region ask of the trees that a cut leaves, where it is these that are looked for. */
+/* Append the regional rules for standards if the searched value is a number of standards. */
 static void append_law(struct app *app, const char *path, struct text *text)
 {
     const struct ceduo_belt *belt = ceduo_app_belt(app);
@@ -85,10 +85,10 @@ static void append_law(struct app *app, const char *path, struct text *text)
         ceduo_text_append_joined(text, " ", _("The scene asks for %g per ha at least."), own);
 }
 
-/* What the fields ask for; the path is the popup's. */
+/* Read the fields; the path is the popup's. */
 static bool read_fields(struct app *app, struct popup *p, struct ceduo_search *search)
 {
-    double cases = 0; /* of 100 that may be true: in so many the goal is to be reached, too */
+    double cases = 0; /* plausible cases of 100 in which the goal must be reached */
     *search = (struct ceduo_search){.path = p->path, .option = app->option, .rocks = FIND_ROCKS, .lo = NAN, .hi = NAN};
     if (!read_goal(app, p, search) || !ceduo_popup_number(app, p, FIND_SURE, &cases) ||
         !ceduo_popup_number(app, p, FIND_LO, &search->lo) || !ceduo_popup_number(app, p, FIND_HI, &search->hi))
@@ -100,20 +100,21 @@ static bool read_fields(struct app *app, struct popup *p, struct ceduo_search *s
     return false;
 }
 
-/* Starts the search; the popup stays until it is done. */
+/* Start the search. The popup stays open until it is done. */
 static bool filled_find(struct app *app, struct popup *p)
 {
     struct ceduo_search search;
     if (read_fields(app, p, &search)) {
-        ceduo_jobs_request(app->live.jobs, &(struct job_request){JOB_SEARCH, &app->document.file, .levels = 1, .search = &search});
+        ceduo_jobs_request(app->live.jobs,
+                           &(struct job_request){JOB_SEARCH, &app->document.file, .levels = 1, .search = &search});
         ceduo_app_show_message(app, "%s", _("computing … Esc or another key stops it"));
     }
     return false;
 }
 
-/* ---- what was found ---- */
+/* ---- the result ---- */
 
-/* What was found, and whether it is the only one; of a rotation its yield beside the answer. */
+/* Append the value found and whether it is unique. After a search over a rotation, append the yield. */
 static void append_words(struct app *app, struct popup *p, const struct ceduo_search *s, const struct search_answer *answer,
                          struct text *text)
 {
@@ -122,7 +123,7 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
     char room[CEDUO_NUMBER_ROOM];
     if (f->found && !f->whole_range) /* otherwise the field keeps its value */
         ceduo_text_format(text, "%s = %s: ", ceduo_app_path(app, p->path), ceduo_shown_number(field, f->value, room));
-    ceduo_find_words(text, s, f, field, s->sure == 0); /* otherwise there is no room, and it was typed */
+    ceduo_find_words(text, s, f, field, s->sure == 0); /* no space, and the user has typed it */
     if (!f->monotone)
         ceduo_text_append_joined(text, "; ", _("not monotone: there may be other values"));
     if (s->sure > 0) {
@@ -135,7 +136,7 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
         ceduo_text_append_joined(text, ", ", _("yielding %.3g m\xc2\xb3 per ha and year"), answer->yield.cut_per_year);
 }
 
-/* Puts the value that was found into the field, and says it; a search that failed leaves the popup. */
+/* Set the value found in the field, and report it. A failed search leaves the popup open. */
 void ceduo_popup_found(struct app *app, struct search_answer *answer)
 {
     struct popup *p = app->popup;
@@ -168,7 +169,7 @@ static bool fits(const struct app *app, const char *path, double value)
     return ceduo_preview_fits(&app->document.file, path, NUMERAL(value));
 }
 
-/* A value of three digits between `now` and `end`, as near to the end as the scene allows; `now` itself is allowed. */
+/* Return a value of three digits between `now` and `end`, as close to the end as the scene allows; may be `now`. */
 static double limit_of(const struct app *app, const char *path, bool whole, double now, double end)
 {
     if (fits(app, path, end))
@@ -186,7 +187,7 @@ static double limit_of(const struct app *app, const char *path, bool whole, doub
     return between && fits(app, path, inward) ? inward : good;
 }
 
-/* A range around the value that is there, no end of which its own scene refuses. */
+/* Propose a range around the current value with ends that the scene accepts. */
 static void propose(struct app *app, const char *path, const struct field *f, const char *written, double *lo, double *hi)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
@@ -208,7 +209,7 @@ static void propose(struct app *app, const char *path, const struct field *f, co
     }
 }
 
-/* `written`: the value that is there. */
+/* Open the popup; `written`: the current value. */
 static void ask(struct app *app, const char *path, const char *written)
 {
     char room[CEDUO_NUMBER_ROOM];
@@ -240,7 +241,7 @@ static void chose_number(struct app *app, struct popup *p)
     ask(app, p->value, node && node->kind == NODE_SCALAR ? node->text : "");
 }
 
-/* Ask which number of a list is looked for, one of the first nine. */
+/* Ask for the number of a list to search, one of the first nine. */
 static void ask_which(struct app *app, const char *path, const struct node *list)
 {
     if (list->n == 1) {

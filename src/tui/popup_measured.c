@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A stand that was measured: from what a sample plot counts, or from a survey in a CSV file. */
+/* A measured stand: from counts on a sample plot, or from a survey in a CSV file. */
 #include <math.h>
 #include <string.h>
 
@@ -15,8 +15,8 @@ _Static_assert(COUNTS <= POPUP_FIELDS_MAX, "one popup asks for all counts");
 
 static const struct {
     const char *label;
-    size_t count;     /* that it is the size of; of what was not counted none is read */
-    const char *path; /* of a value of a file, which says what it may be; otherwise: */
+    size_t count;     /* row of the count of these stems; ignored without a count */
+    const char *path; /* path of a value with its range; NULL: the members below */
     double most;
     unsigned flags;
     const char *meaning;
@@ -31,7 +31,7 @@ static const struct {
     [TREE_DBH] = {N_("their mean diameter, cm"), TREES, "forest[0].stand.trees[0].dbh_m", 0, 0, NULL},
     [TREE_HEIGHT] = {N_("their mean height, m"), TREES, "forest[0].stand.trees[0].height_m", 0, 0, NULL}};
 
-/* The values in the units of files; false where one is not as it should be, which is said. */
+/* Read the values in units of files. Return false and report if one is invalid. */
 static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
 {
     const char *wrong = NULL;
@@ -54,7 +54,7 @@ static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
     return !wrong;
 }
 
-#define SPACING 0.35 /* m, where the stand had no stools yet: assumed as in the presets */
+#define SPACING 0.35 /* m; for a stand without stools: assumed as in the presets */
 
 static bool filled_counts(struct app *app, struct popup *p)
 {
@@ -70,7 +70,7 @@ static bool filled_counts(struct app *app, struct popup *p)
                           now->stools_per_ha > 0 ? now->spacing : SPACING);
     else
         ceduo_changes_add(c, CHANGE_DELETE, stools, NULL);
-    for (int i = 0; i < 2; i++) { /* one class of stems in the place of those that stand there, or none */
+    for (int i = 0; i < 2; i++) { /* replace all stems by one class, or remove them */
         const double *stems = &v[i == 0 ? SHOOTS : TREES];
         const char *list = ceduo_app_format(app, "%s.%s", p->path, i == 0 ? "shoots" : "trees");
         if (stems[0] > 0)
@@ -125,7 +125,7 @@ void ceduo_popup_counts(struct app *app)
 
 /* ==== a survey ==== */
 
-/* Questions of the form, and their answers. */
+/* Questions of the form, with answers. */
 static const struct {
     const char *label, *answers[2];
 } questions[SURVEY_QUESTIONS] = {
@@ -137,7 +137,7 @@ static const struct {
 
 /* ---- reading ---- */
 
-/* Reads a survey: its stand on one line, as a change takes it, and how its table was understood. */
+/* Read a survey: its stand on one line, and how its table was understood. */
 static bool read_survey(const char *path, struct survey_answers *answers, struct text *value, struct text *understood,
                         struct problems *problems)
 {
@@ -170,7 +170,7 @@ static void take_stand(struct app *app, const char *path, const char *value, con
 
 static void open_form(struct app *app, const char *path, const char *survey, const struct survey_answers *answers);
 
-/* Reads a survey and takes its stand, or asks what its table leaves open, or says why it is refused. */
+/* Read a survey and set its stand. Ask for missing units, or report why it is refused. */
 static void try_survey(struct app *app, const char *path, const char *survey, struct survey_answers *answers)
 {
     LOCAL_TEXT(value);

@@ -15,14 +15,14 @@
 
 enum { NEW_TITLE, NEW_PROFILE, NEW_RELEASE, NEW_FACE, NEW_MATERIAL, NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED, NEW_STAND };
 
-/* What the fields say, numbers read; where a place is not given, the first or the last x. */
+/* Answers of the fields. An empty place is the first or the last x. */
 struct answers {
-    struct text slope;         /* the profile as YAML: "vertices_m: …", "csv: …" */
-    struct scene_file profile; /* a scene of it alone; turned round where it was drawn upward */
-    const char *understood;    /* of the table of the profile, one line; NULL: typed points */
+    struct text slope;         /* profile as YAML: "vertices_m: …", "csv: …" */
+    struct scene_file profile; /* a scene with the profile only; reversed if it was drawn upward */
+    const char *understood;    /* one line about the table of the profile; NULL: typed points */
     double first, last;        /* x of the profile */
-    double release;            /* where rocks start */
-    double face;               /* where the face ends; the first x without one */
+    double release;            /* x where rocks start */
+    double face;               /* end of the face; the first x without one */
     double rock, control, accepted;
 };
 
@@ -40,7 +40,7 @@ static void append_quoted(struct text *yaml, const char *before, const char *val
 
 /* ---- the profile ---- */
 
-/* The profile as a scene of its own; `more`: keys of the slope besides. */
+/* Build the profile as a separate scene; `more`: extra keys of the slope. */
 static bool make_profile(struct answers *a, const char *more)
 {
     LOCAL_TEXT(yaml);
@@ -52,7 +52,7 @@ static bool make_profile(struct answers *a, const char *more)
     return ceduo_scene_load_text(&a->profile, "", yaml.bytes, &problems);
 }
 
-/* From a CSV file, or points as they are typed; one that was drawn upward is turned round. */
+/* Read a CSV file or typed points. Reverse a profile that was drawn upward. */
 static bool read_profile(struct app *app, struct popup *p, struct answers *a)
 {
     const char *typed = p->fields[NEW_PROFILE].line.text, *wrong = NULL;
@@ -86,21 +86,21 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
     return !wrong;
 }
 
-/* A place in few digits. */
+/* Set a place, rounded to cm. */
 static void put_place(struct popup *p, size_t field, double x)
 {
     char room[CEDUO_NUMBER_ROOM];
     ceduo_line_set(&p->fields[field].line, ceduo_shown_number(NULL, round(x * 100) / 100, room));
 }
 
-/* The edge of the first face and its lower end, unless another is typed already. */
+/* Propose the edge of the first face and its lower end, once for each profile. */
 static void guess_face(struct popup *p, const struct answers *a)
 {
     const struct ceduo_slope *s = &a->profile.scene.slope;
     const char *profile = p->fields[NEW_PROFILE].line.text;
     double edge = ceduo_slope_face(s);
     size_t end = isnan(edge) ? 0 : ceduo_slope_segment(s, edge);
-    if (p->kept && strcmp(p->kept, profile) == 0) /* for this profile that was done */
+    if (p->kept && strcmp(p->kept, profile) == 0) /* done for this profile */
         return;
     p->kept = ceduo_arena_string(&p->arena, profile);
     while (end + 1 < s->vertices && ceduo_slope_fall(s, s->x[end]) > CEDUO_FACE_FALL)
@@ -111,7 +111,7 @@ static void guess_face(struct popup *p, const struct answers *a)
         put_place(p, NEW_FACE, s->x[end] + s->origin_x);
 }
 
-/* The segment that falls most. */
+/* Return the steepest segment. */
 static size_t steepest_of(const struct ceduo_slope *s)
 {
     size_t steepest = 0;
@@ -126,7 +126,7 @@ static double degrees_at(const struct ceduo_slope *s, double x)
     return atan(ceduo_slope_fall(s, x)) * 180 / M_PI;
 }
 
-/* What is known of the profile, over the fields. */
+/* Describe the profile in the note over the fields. */
 static void describe(struct popup *p, const struct answers *a)
 {
     const struct ceduo_slope *s = &a->profile.scene.slope;
@@ -147,7 +147,7 @@ static void describe(struct popup *p, const struct answers *a)
 
 /* ---- reading ---- */
 
-/* One field, of which it is said what is wrong; those before it are read. */
+/* Read one field, or report an error. The fields before it are read. */
 static bool read_field(struct app *app, struct popup *p, size_t field, struct answers *a)
 {
     const char *typed = p->fields[field].line.text;
@@ -163,7 +163,7 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
             p->fields[NEW_CONTROL].value->lo = fmax(a->release, a->face);
         return good;
     }
-    static const size_t places[] = {NEW_RELEASE, NEW_FACE, NEW_CONTROL}; /* they lie within the profile */
+    static const size_t places[] = {NEW_RELEASE, NEW_FACE, NEW_CONTROL}; /* limited to the profile */
     if (field == NEW_PROFILE && !read_profile(app, p, a))
         return false;
     for (size_t i = 0; i < 3 && field == NEW_PROFILE; i++) {
@@ -181,7 +181,7 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
     return ground && stand;
 }
 
-/* All fields up to one. */
+/* Read all fields up to `last`. */
 static bool read_answers(struct app *app, struct popup *p, size_t upto, struct answers *a)
 {
     bool good = true;
@@ -190,7 +190,7 @@ static bool read_answers(struct app *app, struct popup *p, size_t upto, struct a
     return good;
 }
 
-/* What is wrong is said at its question, not after the last one. */
+/* Check a field when leaving it, not after the last one. */
 static bool check_new(struct app *app, struct popup *p)
 {
     struct answers a = {.release = NAN};
@@ -207,7 +207,7 @@ static bool check_new(struct app *app, struct popup *p)
 
 /* ---- the scene ---- */
 
-/* A stretch of ground, given as it lies; a profile that is turned round has it as it was drawn. */
+/* Append a stretch of ground; for a reversed profile in the coordinates of its file. */
 static void append_material(struct text *yaml, const struct ceduo_slope *s, double from, double to, const char *material)
 {
     double a = ceduo_slope_mirrored(s, from), b = ceduo_slope_mirrored(s, to);
@@ -256,7 +256,7 @@ static bool filled_new(struct app *app, struct popup *p)
     return good;
 }
 
-/* Ends of a stretch of the slope in the lowest line of its picture, its name between or behind them. */
+/* Mark a stretch of the slope in the lowest line of its picture, with its name. */
 static void draw_stretch(struct app *app, const struct ceduo_area *area, const struct ceduo_span *span, double from, double to,
                          const char *name)
 {
@@ -272,7 +272,7 @@ static void draw_stretch(struct app *app, const struct ceduo_area *area, const s
 
 #define PROFILE_MIN 6 /* lines */
 
-/* The profile as far as it is known: the release, the lower end of the face ruled, the control, the steepest stretch below. */
+/* Draw the profile read so far: release, end of the face, control, and the steepest stretch below. */
 static void draw_profile(struct app *app, struct popup *p, struct ceduo_area area)
 {
     struct answers a = {.release = NAN};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists to choose from: the words of a field, the program's and the user's files; and what each would do to the lights. */
+/* Lists to choose from: words of a field, files of the program and of the user; with the effect of each choice on the
+ * lights. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +13,7 @@
 #include "view/typed.h"
 #include "view/words.h"
 
-/* ---- a stand by itself ---- */
+/* ---- one stand ---- */
 
 bool ceduo_popup_read_stand(const struct app *app, const char *value, struct scene_file *file)
 {
@@ -29,7 +30,8 @@ bool ceduo_popup_read_stand(const struct app *app, const char *value, struct sce
     return good;
 }
 
-/* Stems, mean diameter, age of the oldest shoots, basal area, owner. `*said`: in Italian the name of a stand of the program. */
+/* Describe stems, mean diameter, age of the oldest shoots, basal area and owner. In Italian, set `*label` to the name of a
+ * shipped stand. */
 static const char *describe_stand(struct app *app, const char *value, const char *whose, const char **said)
 {
     struct scene_file file;
@@ -53,8 +55,8 @@ static const char *describe_stand(struct app *app, const char *value, const char
 
 /* ---- files ---- */
 
-#define HEAD_BYTES 4096 /* where a file says what it is */
-#define FILES_MAX  500  /* beside a scene: more are not looked into */
+#define HEAD_BYTES 4096 /* bytes that contain the header of a file */
+#define FILES_MAX  500  /* max. files read in the scene's folder */
 
 static bool has_head(const char *path, const char *tag)
 {
@@ -66,7 +68,8 @@ static bool has_head(const char *path, const char *tag)
     return strstr(head, tag) != NULL;
 }
 
-/* Add files of a kind ("stands", …), the program's or the user's, those beside the scene first, with its folder if `whole`. */
+/* Add files of a kind ("stands", …), shipped or the user's. Files in the scene's folder come first; `full_path`: with the
+ * path. */
 static void add_files(struct app *app, struct popup *p, const char *kind, bool shipped, bool whole, const char *now)
 {
     const char *scene = app->document.path && !app->document.shipped ? app->document.path : "", *slash = strrchr(scene, '/');
@@ -98,7 +101,7 @@ static void add_files(struct app *app, struct popup *p, const char *kind, bool s
     }
 }
 
-/* ---- what a choice would do ---- */
+/* ---- effect of a choice ---- */
 
 static popup_call chose_new_option;
 
@@ -125,7 +128,7 @@ static void append_lights(struct app *app, struct text *text, const struct previ
     ceduo_text_append(text, "\n");
 }
 
-/* What the lights would be with a value at the popup's path; it is asked for, and put once it is known. */
+/* Append the lights for the value under the cursor at the popup's path. Request them first if unknown. */
 static void append_change(struct app *app, struct popup *p)
 {
     LOCAL_TEXT(value);
@@ -141,10 +144,10 @@ static void append_change(struct app *app, struct popup *p)
     const char *path = all ? ceduo_app_forest(app) : p->path, *yaml = all ? value.bytes : ceduo_app_scalar(app, p->value);
     if (strlen(yaml) < JOB_TEXT)
         ceduo_jobs_request(app->live.jobs,
-                       &(struct job_request){JOB_PREVIEW, &app->document.file, app->option, 1, path, yaml, NULL, NULL});
+                           &(struct job_request){JOB_PREVIEW, &app->document.file, app->option, 1, path, yaml, NULL, NULL});
 }
 
-/* A ground of the library, if the words of a field are such; NULL: it is none. */
+/* Return the ground of the library for a word of a field of grounds; otherwise NULL. */
 static const struct ceduo_material *find_material(const struct field *f, const char *word)
 {
     size_t n;
@@ -161,7 +164,7 @@ static void preview_word(struct app *app, struct popup *p)
     append_change(app, p);
 }
 
-/* What a stand of the list has, over the list. */
+/* Describe a stand in the note over the list. */
 static void preview_stand(struct app *app, struct popup *p)
 {
     struct scene_file file = {0};
@@ -182,9 +185,9 @@ static void preview_stand(struct app *app, struct popup *p)
     ceduo_scene_release(&file);
 }
 
-/* ---- what goes with the stand that another one replaces ---- */
+/* ---- growth and cutting of a replaced stand ---- */
 
-/* The entry of a stand, if the file that the stand is read from has not the same; otherwise NULL. */
+/* Return the entry of a stand, or NULL if its file has an equal one. */
 static const struct node *own_entry(const struct node *stand, const char *key)
 {
     const struct node *entry = ceduo_node_get(stand, key);
@@ -237,7 +240,7 @@ static void chose_word(struct app *app, struct popup *p)
     ceduo_app_set(app, p->path, p->value);
 }
 
-/* A new option with another stand in every belt. */
+/* Add an option with this stand in every belt. */
 static void chose_new_option(struct app *app, struct popup *p)
 {
     const char *name = p->value;
@@ -250,7 +253,7 @@ static void chose_new_option(struct app *app, struct popup *p)
     }
 }
 
-/* The file that a node was read from, by its bare name, as the list has it; "": it is no reference. */
+/* Return the base name of the file of a node, as listed; "": the node is not a reference. */
 static const char *listed_name(const struct app *app, const char *path)
 {
     const struct node *node = ceduo_document_node(&app->document, path);
@@ -293,7 +296,7 @@ void ceduo_popup_offer_stands(struct app *app, struct popup *p)
     add_files(app, p, "stands", true, true, NULL);
 }
 
-/* `now`: what the file has, where a word of files is wanted; NULL: what is shown is taken. */
+/* Add a word of a field. `current`: its value in the file; NULL: choose the displayed text, not the word. */
 static void add_word(struct popup *p, const struct field *f, const char *word, const char *now)
 {
     LOCAL_TEXT(shown);

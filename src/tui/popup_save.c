@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Saving, and all questions about unsaved work, that of this program and what others left behind. */
+/* Saving, and questions about unsaved work of this and earlier processes. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,11 +14,11 @@
 
 /* ---- saving ---- */
 
-/* False with errno set, and said. */
+/* Save, and report. Return false with errno set. */
 static bool save_to(struct app *app, const char *path)
 {
     bool anew;
-    const char *old = app->document.path; /* the file of before, if it is another */
+    const char *old = app->document.path; /* name of the old file if it is another */
     old = old && strcmp(old, path) != 0 ? ceduo_app_format(app, "%s", ceduo_file_name(old)) : NULL;
     if (ceduo_document_is_shipped(path)) {
         ceduo_app_warn(app, "%s", _("This scene belongs to the program and is never written over; save your own copy."));
@@ -43,7 +43,7 @@ static bool save_to(struct app *app, const char *path)
     return true;
 }
 
-/* Append .yaml to a name without an ending. The name of an existing file stays as it is. */
+/* Append .yaml to a name without an ending, unless the file exists. */
 static void append_ending(struct line *line)
 {
     const char *name = ceduo_file_name(line->text);
@@ -72,7 +72,7 @@ void ceduo_popup_offer_files(struct app *app, struct popup *p)
     ceduo_picker_add_files(&p->picker, p->fields[p->at].line.text, p->endings);
 }
 
-/* ---- a name for a stand that is no longer what it was ---- */
+/* ---- a name for a changed stand ---- */
 
 static bool filled_stand(struct app *app, struct popup *p)
 {
@@ -85,7 +85,7 @@ static bool filled_stand(struct app *app, struct popup *p)
     return true;
 }
 
-/* Asks for the name of the first such stand, and then goes on. False where there is none. */
+/* Ask for the name of the first changed stand, then call `next`. Return false if there is none. */
 static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
@@ -107,9 +107,9 @@ static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
     return false;
 }
 
-/* ---- where to ---- */
+/* ---- the file ---- */
 
-/* `why` the last attempt failed; NULL: none did. */
+/* Ask for a file name. `reason`: the last attempt failed; may be NULL. */
 static void ask_for_name(struct app *app, const char *why)
 {
     struct popup *p = ceduo_popup_fields(app, _("Save as"), "", filled_save);
@@ -133,10 +133,10 @@ void ceduo_popup_save_as(struct app *app)
         ask_for_name(app, NULL);
 }
 
-/* Writes where the scene came from. */
+/* Save to the file of the scene. */
 static void write_back(struct app *app)
 {
-    const char *path = ceduo_app_format(app, "%s", app->document.path); /* saving makes the document's own anew */
+    const char *path = ceduo_app_format(app, "%s", app->document.path); /* copy: saving frees the document's path */
     if (!save_to(app, path))
         ask_for_name(app, strerror(errno));
 }
@@ -173,7 +173,7 @@ void ceduo_popup_save(struct app *app)
 static void chose_unsaved(struct app *app, struct popup *p)
 {
     if (strcmp(p->value, "save") == 0) {
-        app->once_saved = p->then; /* once a name is given, where one is asked for */
+        app->once_saved = p->then; /* after a name is given, if needed */
         ceduo_popup_save(app);
     } else if (strcmp(p->value, "discard") == 0) {
         p->then(app);
@@ -204,11 +204,11 @@ void ceduo_popup_quit(struct app *app)
     ceduo_popup_confirm_unsaved(app, quit);
 }
 
-/* ---- work that was left behind ---- */
+/* ---- abandoned work ---- */
 
-#define RECOVERY "recover:" /* before the path of the copy */
+#define RECOVERY "recover:" /* prefix of the path of a copy */
 
-/* `key`: what chooses it; 0: it is searched for. */
+/* Add a copy to the list. `key`: chooses it; 0: found by typing. */
 static void add_recovery(const struct app *app, struct popup *p, const struct recovery *r, char key)
 {
     char date[32] = "";
@@ -232,7 +232,7 @@ void ceduo_popup_offer_recoveries(const struct app *app, struct popup *p)
         add_recovery(app, p, &list[i], 0);
 }
 
-/* Whether a copy is of this scene, or of one that has no other place. */
+/* True if a copy is of this scene, or of a scene without a file. */
 static bool is_due(const struct app *app, const struct recovery *r)
 {
     char *here = app->document.path ? realpath(app->document.path, NULL) : NULL;
@@ -255,7 +255,7 @@ bool ceduo_popup_open_recovery(struct app *app, const char *value)
         if (text && (list[i].scene ? (is_due(app, &list[i]) || ceduo_app_open(app, list[i].scene, NULL)) &&
                                          ceduo_app_edited(app, ceduo_document_recover(&app->document, text))
                                    : ceduo_app_open(app, NULL, text))) {
-            unlink(list[i].file); /* this program keeps a copy of its own now */
+            unlink(list[i].file); /* this process keeps its own copy now */
             app->opened = false;
             ceduo_app_show_message(app, "%s", _("your work is back; s saves it, u shows what was before"));
         }

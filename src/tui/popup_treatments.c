@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* New options that treat the stands of the option under the cursor: cut now, selection coppice, not cut. */
+/* New options that treat the stands of the option shown: cut now, selection coppice, not cut. */
 #include <math.h>
 #include <string.h>
 
@@ -8,8 +8,8 @@
 #include "io/file.h"
 #include "popup.h"
 
-#define FIRST_YEAR   1  /* the next year: year 0 is the stand as filed */
-#define KEPT_USUALLY 60 /* standards per ha, offered if the stands do not say how many stay */
+#define FIRST_YEAR   1  /* year 0 is the stand as filed */
+#define KEPT_USUALLY 60 /* standards per ha, proposed if the stands do not specify how many are retained */
 
 enum treatment { CUT_NOW, SELECTION, NO_CUT, TREATMENTS };
 
@@ -33,12 +33,12 @@ static enum treatment find_treatment(const char *value)
     return t;
 }
 
-/* ---- growth and cutting that a stand has not ---- */
+/* ---- growth and cutting for stands without them ---- */
 
 /* A shipped stand that lends its growth or its cutting. */
 struct lender {
     struct scene_file file;
-    int fit; /* 0: none was found */
+    int fit; /* 0: none found */
 };
 
 static const struct ceduo_belt *lent_belt(const struct lender *l)
@@ -46,7 +46,8 @@ static const struct ceduo_belt *lent_belt(const struct lender *l)
     return &l->file.scene.options[0].belts[0];
 }
 
-/* Find the shipped stand that grows and is cut, of a species or hop hornbeam and of a system. The caller releases l->file. */
+/* Find the best shipped stand with growth and cutting: same species, else hop hornbeam; same system. The caller releases
+ * l->file. */
 static void find_lender(struct app *app, int species, enum ceduo_system system, struct lender *l)
 {
     const char *const *folders = ceduo_file_folders(app->scratch);
@@ -72,19 +73,19 @@ static void find_lender(struct app *app, int species, enum ceduo_system system, 
     }
 }
 
-/* ---- what is changed ---- */
+/* ---- changes ---- */
 
 struct plan {
     struct app *app;
     enum treatment kind;
     double number;         /* standards per ha, or years without a cut; NaN: none */
-    struct changes edits;  /* paths begin at the option */
-    struct text borrowed;  /* what comes from shipped stands */
-    struct text untreated; /* belts that stay as they are, and why */
-    size_t treated;        /* belts */
+    struct changes edits;  /* paths are relative to the option */
+    struct text borrowed;  /* sentences about borrowed growth and cutting */
+    struct text untreated; /* sentences about unchanged belts */
+    size_t treated;        /* number of treated belts */
 };
 
-/* Put a mapping of the lender's stand in place of the belt's, marked as assumed. */
+/* Replace a mapping of the belt's stand by the lender's, marked as assumed. */
 static void lend(struct plan *p, size_t belt, const struct lender *l, const char *key)
 {
     const struct node *map = ceduo_resolve_at(l->file.root, ceduo_app_format(p->app, "forest[0].stand.%s", key));
@@ -113,7 +114,7 @@ static void tell_lent(struct plan *p, const char *stand, const struct lender *l,
         ceduo_text_append_joined(&p->borrowed, p->borrowed.length > 0 ? " " : "", "%s", told);
 }
 
-/* The ages of the standards that stay are those of `model`, in proportion. Without such ages all are one rotation old. */
+/* Set the retained standards, with the ages of `model` in proportion. Without ages all are one rotation old. */
 static void keep_standards(struct plan *p, size_t belt, const struct ceduo_stand *model)
 {
     double all = 0, left = p->number;
@@ -141,7 +142,7 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
     const struct ceduo_stand *s = &belt->stand;
     bool stools = s->stools_per_ha > 0, grows = ceduo_stand_grows(s), cut = s->cutting.rotation > 0;
     bool never = p->kind == NO_CUT && isnan(p->number), selection = p->kind == SELECTION;
-    bool borrows = selection || (!cut && !never); /* cutting */
+    bool borrows = selection || (!cut && !never); /* borrows the cutting */
     const char *stand = ceduo_app_format(p->app, "forest[%zu].stand", i);
     struct lender l = {.fit = 0};
     if (ceduo_stand_is_bare(s) && !stools)
@@ -152,7 +153,7 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
     }
     if (!grows || borrows)
         find_lender(p->app, s->species, selection ? CEDUO_SELECTION_COPPICE : s->system, &l);
-    if (l.fit == 0 && (!grows || borrows)) { /* the program came without its stands */
+    if (l.fit == 0 && (!grows || borrows)) { /* the shipped stands are missing */
         leave_belt(p, i, ceduo_app_format(p->app, _("no shipped stand has growth and cutting for '%s'"), belt->name));
         return;
     }
@@ -183,7 +184,7 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
     ceduo_scene_release(&l.file);
 }
 
-/* Make the plan of a treatment for each belt of the option shown. The caller frees its texts. */
+/* Plan a treatment for each belt of the option shown. The caller frees its texts. */
 static struct plan make_plan(struct app *app, enum treatment kind, double number)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
@@ -193,7 +194,7 @@ static struct plan make_plan(struct app *app, enum treatment kind, double number
     return p;
 }
 
-/* Append what is borrowed and what stays untreated, and free the texts. */
+/* Append the texts of the plan, and free them. */
 static void end_plan(struct plan *p, struct text *text)
 {
     for (int i = 0; i < 2; i++) {
@@ -224,7 +225,7 @@ static const char *name_option(const struct plan *p)
     return taken ? ceduo_app_format(app, "%s (%s)", name, ceduo_app_option(app)->name) : name;
 }
 
-/* The cursor stays on the option that was copied: it can be treated in several ways. */
+/* The cursor stays on the copied option, which can be treated again. */
 static bool add_option(struct app *app, enum treatment kind, double number)
 {
     struct plan p = make_plan(app, kind, number);
@@ -246,7 +247,7 @@ static bool filled_number(struct app *app, struct popup *p)
     return ceduo_popup_number(app, p, 0, &number) && add_option(app, find_treatment(p->path), number);
 }
 
-/* Ask for the number that a treatment needs. */
+/* Ask for the number of a treatment. */
 static void ask_number(struct app *app, enum treatment kind)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
@@ -266,7 +267,7 @@ static void ask_number(struct app *app, enum treatment kind)
     own->hi = cut ? own->hi : own->hi - FIRST_YEAR;
 }
 
-/* ---- as items of a list ---- */
+/* ---- items of a list ---- */
 
 void ceduo_popup_offer_treatments(struct app *app, struct popup *p)
 {

@@ -16,7 +16,8 @@ static void undo_or_redo(struct app *app, int by)
         return;
     }
     ceduo_app_refresh(app);
-    ceduo_app_show_message(app, redo ? _("again: %s") : _("undone: %s"), ceduo_app_path(app, d->states[d->current + !redo].what));
+    ceduo_app_show_message(app, redo ? _("again: %s") : _("undone: %s"),
+                           ceduo_app_path(app, d->states[d->current + !redo].what));
 }
 
 static void next_option(struct app *app, int by)
@@ -51,7 +52,7 @@ static void move_column(struct app *app, int by)
         ceduo_form_move(ceduo_app_form(app), 0, by);
 }
 
-/* Moves the cursor of the form to the next line that holds what is searched for. */
+/* Move the cursor to the next line that contains the search text. */
 static void search_again(struct app *app)
 {
     bool found = ceduo_form_search(ceduo_app_form(app), app->search);
@@ -97,7 +98,7 @@ static void list_commands(struct app *app)
 
 /* ---- help: all keys, and the field under the cursor ---- */
 
-/* The first action of each group, in the order of the table, and its heading. */
+/* Headings of the help, each with its first action. */
 static const struct {
     enum action first;
     const char *heading;
@@ -105,7 +106,7 @@ static const struct {
               {ACTION_VIEW_SLOPE, N_("Views")}, {ACTION_FIND, N_("Looking further")},
               {ACTION_NEW, N_("Files")},        {ACTION_CHARSET, N_("Screen")}};
 
-/* What words of the column on the right mean; those of fields are explained at the field. */
+/* Terms of the right column. Fields are explained at the cursor. */
 static const struct {
     const char *word, *meaning;
 } glossary[] = {
@@ -183,14 +184,14 @@ static void redraw(struct app *app)
     app->redraw = true;
 }
 
-/* What the actions of all views do. */
+/* Handlers of all views. */
 #define BY(f, n)                                        .function = f, .by = n
 #define DO(f)                                           .plain = f
 #define X(NAME, key, word, key2, word2, bar, help, act) [ACTION_##NAME] = {act},
 static const struct act acts[ACTION_COUNT] = {ACTIONS(X)};
 #undef X
 
-/* The view's own, or that of all views. */
+/* Call the handler of the view, or the common one. */
 static void act(struct app *app, enum action action)
 {
     const struct act *a = ceduo_views[app->view]->acts[ceduo_app_state(app)->pane];
@@ -205,7 +206,7 @@ static void act(struct app *app, enum action action)
 
 /* ---- inputs ---- */
 
-/* Begins every input: it ends the message of the input before. */
+/* Begin an input: clear the message of the last one. */
 static void begin_input(struct app *app)
 {
     ceduo_arena_free(app->scratch);
@@ -215,7 +216,7 @@ static void begin_input(struct app *app)
     }
 }
 
-/* Ends every input: updates offers of unsaved work, the popup's preview and the belt under the cursor. */
+/* End an input: offer unsaved work, update the popup's preview and the belt under the cursor. */
 static void end_input(struct app *app)
 {
     if (app->opened && !app->no_recovery)
@@ -241,18 +242,18 @@ void ceduo_program_key(struct app *app, int key)
 void ceduo_program_paste(struct app *app, const char *text)
 {
     begin_input(app);
-    app->message[0] = '\0'; /* that of a popup, too */
+    app->message[0] = '\0'; /* also the message of a popup */
     if (!app->popup || !ceduo_popup_paste(app, text))
         ceduo_app_show_message(app, "%s", _("what was pasted goes nowhere: no field is open"));
     end_input(app);
 }
 
-/* Shows the view whose title is clicked, or moves the cursor to a field; edits the field if the cursor is there already. */
+/* Open the view of the clicked title, or move the cursor to a field. A second click edits the field. */
 void ceduo_program_click(struct app *app, int x, int y)
 {
     struct view_state *state = ceduo_app_state(app);
     size_t row = state->form.row, column = state->form.column;
-    if (app->popup) /* a question stays */
+    if (app->popup) /* a popup stays */
         return;
     begin_input(app);
     if (y == 0) {

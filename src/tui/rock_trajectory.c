@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The trajectory of one rock, piece by piece. */
+/* The trajectory of one rock, in segments. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,9 +9,9 @@
 #include "base/language.h"
 #include "base/must.h"
 
-#define FLIGHT_POINTS 24 /* of a parabola: enough for any screen */
+#define FLIGHT_POINTS 24 /* points of a parabola: enough for any screen */
 #define PIECES_MAX    20000
-#define SECONDS_MAX   0.05 /* that a key may take */
+#define SECONDS_MAX   0.05 /* time limit for one key */
 
 static bool is_enough(void *context)
 {
@@ -35,7 +35,7 @@ static void add_stem(void *context, const struct ceduo_stem_encounter *stem)
         return;
     s->stems = ceduo_grow(s->stems, s->stems_count, &s->stems_room, sizeof *s->stems);
     s->stems[s->stems_count++] = *stem;
-    if (stem->hit && s->n > 0) /* flown over: on the piece that is under way */
+    if (stem->hit && s->n > 0) /* flown over: part of the current segment */
         s->pieces[s->n - 1].stems = s->stems_count;
 }
 
@@ -59,7 +59,7 @@ bool ceduo_app_follow_rock(struct app *app)
             return false;
         }
     }
-    /* the line of the pieces that are shown */
+    /* polyline of the segments shown */
     size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
     struct ceduo_polyline *line = &s->line;
     free(line->x);
@@ -86,7 +86,7 @@ size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *s)
     return s->at > 0 ? s->pieces[s->at - 1].stems : s->stems_count;
 }
 
-/* Says what happens on the last piece shown, or how the trajectory ends. */
+/* Describe the last segment shown, or the end of the trajectory. */
 static void describe(const struct rock_trajectory *s, const struct ceduo_scene *scene, struct text *text)
 {
     static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
@@ -113,7 +113,7 @@ static void describe(const struct rock_trajectory *s, const struct ceduo_scene *
                                  fmax(0, z - ceduo_slope_height(&scene->slope, x)));
     for (size_t i = s->at > 1 ? s->pieces[s->at - 2].stems : 0; i < s->pieces[s->at - 1].stems; i++) {
         const struct ceduo_stem_encounter *stem = &s->stems[i];
-        if (!stem->hit) /* at its end */
+        if (!stem->hit) /* flown over, at its end */
             continue;
         if (isnan(stem->dbh))
             ceduo_text_append_joined(text, "; ", _("hits a log: %.2g of %.3g kJ"), stem->taken / 1e3, stem->before / 1e3);
@@ -129,7 +129,7 @@ void ceduo_app_step_rock(struct app *app, int by)
 {
     struct rock_trajectory *s = &app->trajectory;
     LOCAL_TEXT(text);
-    if (by != 0) /* none is all of them */
+    if (by != 0) /* 0: all segments */
         s->at = by > 0 ? (s->at < s->n ? s->at + 1 : s->n) : s->at > 0 ? s->at - 1 : s->n;
     describe(s, &app->document.file.scene, &text);
     ceduo_app_show_message(app, "%s", text.bytes);

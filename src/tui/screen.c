@@ -17,12 +17,12 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 #define WIDTH_MIN  60
 #define HEIGHT_MIN 16
 
-#define MARKS_MORE  2   /* columns that signs of the verdict take more in ASCII */
-#define WIDE        100 /* columns with room for a blank more between the names of the views */
-#define NAME_MIN    3   /* columns of the name of a view that is not open, */
-#define NAME_WANTED 20  /* and with room */
+#define MARKS_MORE  2   /* extra columns of the verdict's signs in ASCII */
+#define WIDE        100 /* columns for an extra blank between the titles of views */
+#define NAME_MIN    3   /* min. columns of the title of a closed view */
+#define NAME_WANTED 20  /* wanted columns of it */
 
-/* Columns of the title of a view: its number, blanks, and so many columns of its name that all have room. */
+/* Return the columns of the title of a view: number, blanks, and a name shortened so that all titles fit. */
 static int title_columns(const struct app *app, int view)
 {
     int own = 0;
@@ -47,7 +47,7 @@ enum view_number ceduo_screen_view_at(const struct app *app, int column)
     return (enum view_number)v;
 }
 
-/* "* " before it: unsaved. */
+/* Return the scene's title, with "* " if it is unsaved. */
 static const char *title_of(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
@@ -57,7 +57,7 @@ static const char *title_of(struct app *app)
     return ceduo_arena_string(app->scratch, ceduo_text_string(&safe));
 }
 
-/* The names of the views, and the scene's title where they leave room for all of it. */
+/* Draw the titles of the views, and the scene's title if all of it fits. Return true if it does. */
 static bool draw_title(struct app *app)
 {
     int x = 0;
@@ -73,7 +73,7 @@ static bool draw_title(struct app *app)
     return fits;
 }
 
-/* The answer for the option shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty may change it. */
+/* Draw the answer for the option shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty may change it. */
 static void draw_verdict(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
@@ -96,9 +96,9 @@ static void draw_verdict(struct app *app)
     ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 1, CEDUO_ROLE_DIM, progress);
 }
 
-/* ---- figures of an earlier scene ---- */
+/* ---- stale figures ---- */
 
-/* Dims what is drawn in an area, or what `from` has there instead. */
+/* Dim an area, or replace it by the dimmed cells of `from`. */
 static void dim(struct app *app, struct ceduo_area area, const struct ceduo_cells *from)
 {
     for (int y = area.top; y < area.top + area.height; y++)
@@ -111,7 +111,7 @@ static void dim(struct app *app, struct ceduo_area area, const struct ceduo_cell
         }
 }
 
-/* Dim the figures of an earlier scene, or those of the last screen if none are known; the answer is that of the last screen. */
+/* Dim stale figures; without figures, show those of the last screen. The answer is that of the last screen. */
 static void dim_figures(struct app *app, struct ceduo_area column)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
@@ -147,7 +147,7 @@ static void draw_explanation(struct app *app)
     LOCAL_TEXT(safe);
     enum ceduo_role role = CEDUO_ROLE_TEXT;
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
-    if (app->message[0] && !(app->popup && app->popup->kind >= POPUP_LIST && !app->popup->asks)) { /* which shows it */
+    if (app->message[0] && !(app->popup && app->popup->kind >= POPUP_LIST && !app->popup->asks)) { /* the popup shows it */
         ceduo_text_append(&text, app->message);
         role = app->message_bad ? CEDUO_ROLE_WARN : CEDUO_ROLE_GOOD;
     } else if (ceduo_app_state(app)->pane == 0) {
@@ -167,7 +167,7 @@ static int bar_width(enum action action, const char *word)
     return (int)ceduo_utf8_width(ceduo_actions[action].word) + (int)ceduo_utf8_width(_(word)) + 3;
 }
 
-/* Puts a key where there is room. False where there is none. */
+/* Draw a key in the bar. Return false if it does not fit. */
 static bool draw_key(struct app *app, int *x, enum action action, const char *word, int *room)
 {
     const char *key = ceduo_actions[action].word;
@@ -181,7 +181,7 @@ static bool draw_key(struct app *app, int *x, enum action action, const char *wo
     return true;
 }
 
-/* The view's own keys, then those of every view, of which the last ones always have room. */
+/* Draw the view's own keys, then the common ones. The most important keys always fit. */
 static void draw_bar(struct app *app)
 {
     const struct view *view = ceduo_views[app->view];
@@ -212,7 +212,8 @@ void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
     ceduo_form_draw(ceduo_app_form(app), app->cells, area, p ? p->fields[0].line.text : NULL);
 }
 
-/* The newest figures. Warnings without room are only counted: view 4 has them. `titled`: the scene's title stands above. */
+/* Draw the newest figures. Warnings that do not fit are counted; view 4 shows them. `titled`: the scene's title is the first
+ * line. */
 static void draw_column(struct app *app, struct ceduo_area area, bool titled)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;

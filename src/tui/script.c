@@ -12,7 +12,7 @@
 #include "io/file.h"
 #include "view/svg.h"
 
-/* Of the word its first `most` bytes: it may be no script. */
+/* Report an error. Print at most `max` bytes of the word, because the file may not be a script. */
 static enum script_end fail(const char *path, size_t line, const char *what, const char *word, size_t most)
 {
     LOCAL_TEXT(message);
@@ -23,7 +23,7 @@ static enum script_end fail(const char *path, size_t line, const char *what, con
     return SCRIPT_WRONG;
 }
 
-/* A key from its name: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; K_NONE. */
+/* Return a key by name: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; otherwise K_NONE. */
 static int find_key(const char *name)
 {
     static const struct {
@@ -47,7 +47,7 @@ static int find_key(const char *name)
     return K_NONE;
 }
 
-/* A script sees what a search found before its next key. */
+/* Press a key. A search or preview ends before the next key. */
 static void press_key(struct app *app, int key)
 {
     ceduo_program_key(app, key);
@@ -55,7 +55,7 @@ static void press_key(struct app *app, int key)
         ceduo_program_poll(app);
 }
 
-/* Puts the screen as text, as letters of its roles, or as a drawing. */
+/* Write the screen as text, as letters of its roles, or as a drawing. */
 static enum script_end dump(struct app *app, const char *what, const char *name, const char *path, size_t line)
 {
     LOCAL_TEXT(drawing);

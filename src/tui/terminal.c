@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The only file that knows curses, colours and the signals of a terminal. */
+/* The only file that uses curses, colours and terminal signals. */
 #define NCURSES_WIDECHAR 1
 #include "program.h"
 
-#include "base/utf8.h" /* before curses, which takes the word columns */
+#include "base/utf8.h" /* before curses, which defines `columns` */
 
 #include <curses.h>
 #include <errno.h>
@@ -22,9 +22,9 @@
 
 /* ---- colours ---- */
 
-/* By role. Meaning is never in colour alone: words and signs stand beside it. */
+/* Style of each role. Colour is never the only sign: words and symbols repeat the meaning. */
 static const struct look {
-    short dark, light; /* colours of curses by theme, -1: the terminal's own */
+    short dark, light; /* curses colours of each theme, -1: default of the terminal */
     attr_t attributes;
 } looks[CEDUO_ROLE_COUNT] = {
     [CEDUO_ROLE_BLANK] = {-1, -1, A_NORMAL},
@@ -57,7 +57,7 @@ static bool colours_wanted(void)
 
 /* ---- bracketed paste ---- */
 
-static bool pastes; /* the terminal reports where a paste begins and ends, and takes a copy; the Linux console does not */
+static bool pastes; /* the terminal reports begin and end of a paste, and accepts a copy; the Linux console does not */
 #define PASTES_OFF "\033[?2004l"
 
 static void ask_for_pastes(bool on)
@@ -68,7 +68,7 @@ static void ask_for_pastes(bool on)
 
 /* ---- the clipboard ---- */
 
-#define COPY_MAX 56000 /* bytes: what xterm takes is 75 000 characters of base64 */
+#define COPY_MAX 56000 /* bytes; xterm accepts 75 000 characters of base64 */
 
 static void append_base64(struct text *to, const char *bytes, size_t n)
 {
@@ -82,7 +82,7 @@ static void append_base64(struct text *to, const char *bytes, size_t n)
     }
 }
 
-/* OSC 52. Within tmux twice: as tmux itself takes it, and for the terminal around it. */
+/* Copy with OSC 52. Under tmux, send it twice: for tmux, and for the outer terminal. */
 static bool copy(const char *string)
 {
     size_t n = strlen(string);
@@ -114,11 +114,11 @@ static volatile sig_atomic_t is_open;     /* curses shows the program */
 static volatile sig_atomic_t ending;      /* SIGTERM or SIGHUP, or Ctrl-\ */
 static volatile sig_atomic_t interrupted; /* SIGINT, or Ctrl-C */
 static volatile sig_atomic_t suspended;   /* SIGTSTP, or Ctrl-Z */
-static volatile sig_atomic_t continued;   /* after it, or after what stopped the program unasked */
-static bool may_suspend;                  /* a shell without jobs has switched it off */
+static volatile sig_atomic_t continued;   /* after Ctrl-Z, or after another stop */
+static bool may_suspend;                  /* false: a shell without job control ignores SIGTSTP */
 static int wake[2] = {-1, -1};
 
-/* What brings the terminal back, made before it is needed: a handler may only write it. */
+/* Build the string that restores the terminal in advance: a signal handler may only write it. */
 static void prepare_restore(void)
 {
     static const char *const names[] = {"sgr0", "cnorm", "rmkx", "rmcup"};
@@ -173,7 +173,7 @@ static void catch_signal(int number)
     sigaction(number, &(struct sigaction){.sa_handler = on_signal}, NULL);
 }
 
-/* Call before curses opens the terminal, so that curses leaves SIGTSTP alone: it would ignore it while it draws. */
+/* Install before newterm(): otherwise curses blocks SIGTSTP while drawing. */
 static void set_handlers(void)
 {
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, others[] = {SIGTERM, SIGHUP, SIGINT, SIGCONT};
@@ -214,30 +214,30 @@ static void show(struct app *app, bool colours)
 
 /* ---- keys ---- */
 
-/* Curses makes a key of each sequence that it knows, and hands on the characters of any other: these are swallowed whole, also
- * in pieces. What stands between the two sequences of a paste is gathered. */
+/* State of the input. Curses translates known sequences and passes on the characters of others; these are swallowed, also in
+ * pieces. Text between the two sequences of a paste is collected. */
 static struct {
     enum { PLAIN, ESCAPED, CONTROL, STRING, STRING_ESCAPED, CHARACTERS } state;
-    int number;     /* the one parameter of CSI; -1: none, 9999: more or other than that */
-    int characters; /* still to be swallowed */
-    double last;    /* when the last character came */
+    int number;     /* parameter of CSI; -1: none, 9999: several or invalid */
+    int characters; /* characters left to swallow */
+    double last;    /* time of the last character */
     bool pasting;
-    char pasted[sizeof((struct line *)NULL)->text + 8]; /* whatever fills it is too long for a line */
+    char pasted[sizeof((struct line *)NULL)->text + 8]; /* text that fills it is too long for a line */
     size_t length;
 } input;
 
-/* What waits longer for its end was no sequence, but Alt with '[', 'O' or ']'. */
+/* An incomplete sequence is dropped after this time: it was Alt with '[', 'O' or ']'. */
 #define SEQUENCE_SECONDS 1
 #define C1_FIRST         0x80
 #define C1_LAST          0x9f
-#define STRINGS          "]PX^_" /* OSC, DCS, SOS, PM and APC begin a string that ST ends */
+#define STRINGS          "]PX^_" /* OSC, DCS, SOS, PM and APC begin a string; ST ends it */
 
 static bool is_quiet(void)
 {
     return ceduo_clock() - input.last > SEQUENCE_SECONDS;
 }
 
-/* The terminal itself makes no signals of keys, because those in a paste are its text. */
+/* Handle a character. The terminal sends no signals for keys, because a paste may contain them. */
 static void press(struct app *app, wint_t c)
 {
     int number = c == CTRL('C') ? SIGINT : c == CTRL('Z') ? SIGTSTP : c == CTRL('\\') ? SIGQUIT : 0;
@@ -261,7 +261,7 @@ static void end_control(struct app *app, wint_t last)
     } else if (last == '~' && input.number == 200) {
         input.pasting = true;
         input.length = 0;
-    } else if (input.number < 0 && (last == '[' || last == 'M')) { /* a function key of Linux; a click, in pieces */
+    } else if (input.number < 0 && (last == '[' || last == 'M')) { /* function key of Linux; click, in pieces */
         input.state = CHARACTERS;
         input.characters = last == '[' ? 1 : 3;
     }
@@ -269,9 +269,9 @@ static void end_control(struct app *app, wint_t last)
 
 static void take_character(struct app *app, wint_t c)
 {
-    bool lost = input.pasting && c == CTRL('C') && is_quiet(); /* the end of the paste */
+    bool lost = input.pasting && c == CTRL('C') && is_quiet(); /* a lost end of a paste */
     input.last = ceduo_clock();
-    if (!input.pasting && c >= C1_FIRST && c <= C1_LAST) { /* the same as Esc and a character; a paste cannot end so */
+    if (!input.pasting && c >= C1_FIRST && c <= C1_LAST) { /* equal to Esc and a character; a paste cannot end in it */
         take_character(app, K_ESCAPE);
         take_character(app, c - C1_FIRST + '@');
     } else if (lost) {
@@ -281,7 +281,7 @@ static void take_character(struct app *app, wint_t c)
         press(app, c);
     } else if (input.state == STRING || input.state == STRING_ESCAPED) {
         bool ends = input.state == STRING ? c == '\a' : c == '\\';
-        bool other = input.state == STRING_ESCAPED && !ends; /* another sequence has begun */
+        bool other = input.state == STRING_ESCAPED && !ends; /* a new sequence begins */
         input.state = ends ? PLAIN : other ? ESCAPED : c == K_ESCAPE ? STRING_ESCAPED : STRING;
         if (other)
             take_character(app, c);
@@ -294,7 +294,7 @@ static void take_character(struct app *app, wint_t c)
     } else if (input.state == ESCAPED && !input.pasting && c < 128 && c > ' ' && strchr(STRINGS, (int)c)) {
         input.state = STRING;
     } else if (input.state == ESCAPED && !input.pasting && c >= ' ' && c != 127) {
-        input.state = PLAIN; /* Alt with a character: no key of this program */
+        input.state = PLAIN; /* Alt with a character: ignored */
     } else if (input.state == ESCAPED) {
         input.state = PLAIN;
         press(app, K_ESCAPE);
@@ -314,7 +314,7 @@ static void take_character(struct app *app, wint_t c)
     }
 }
 
-/* Ends what was no sequence: Esc alone, of which curses has waited for the rest. */
+/* Deliver a lone Esc after ESCDELAY. */
 static void take_escape(struct app *app)
 {
     if (input.state == ESCAPED && !input.pasting) {
@@ -336,7 +336,7 @@ static void take_mouse(struct app *app)
         ceduo_program_click(app, event.x, event.y);
 }
 
-/* All keys that wait. True where there was one. */
+/* Handle all waiting keys. Return true if there was one. */
 static bool take_keys(struct app *app)
 {
     static const struct {
@@ -375,18 +375,18 @@ static bool take_keys(struct app *app)
 
 /* ---- the loop ---- */
 
-/* Gives the terminal back and stops, until the shell lets the program go on. */
+/* Restore the terminal and stop until the shell continues the program. */
 static void suspend(void)
 {
     suspended = 0;
     ask_for_pastes(false);
     endwin();
     signal(SIGTSTP, SIG_IGN);
-    kill(0, SIGTSTP); /* the others of this job, as the terminal does */
+    kill(0, SIGTSTP); /* stop the whole job, as the terminal does */
     signal(SIGTSTP, SIG_DFL);
     raise(SIGTSTP);
     catch_signal(SIGTSTP);
-    continued = 1; /* that signal may come to another thread, a moment later */
+    continued = 1; /* SIGCONT may reach another thread later */
 }
 
 static void loop(struct app *app, bool colours)
@@ -402,7 +402,7 @@ static void loop(struct app *app, bool colours)
         for (char bytes[32]; read(wake[0], bytes, sizeof bytes) > 0;)
             ;
         if (n > 0 && fds[0].revents & (POLLHUP | POLLERR) && !(fds[0].revents & POLLIN))
-            break; /* the window is gone */
+            break; /* the window was closed */
         if (interrupted) {
             interrupted = 0;
             ceduo_program_key(app, app->popup ? K_ESCAPE : 'q');
@@ -415,7 +415,7 @@ static void loop(struct app *app, bool colours)
             ask_for_pastes(true);
             app->redraw = true;
         }
-        bool changed = take_keys(app); /* also where a signal told of a new size */
+        bool changed = take_keys(app); /* also after a signal of a new size */
         changed |= ceduo_program_poll(app);
         if (changed || app->redraw || n < 0 || app->width != COLS || app->height != LINES)
             show(app, colours);
@@ -445,16 +445,16 @@ enum terminal_end ceduo_terminal_run(struct app *app)
         const char *sequence;
         int key;
     } sent[] = {{"\033[1~", KEY_HOME}, {"\033[7~", KEY_HOME}, {"\033[H", KEY_HOME}, {"\033OH", KEY_HOME}, {"\033[4~", KEY_END},
-                {"\033[8~", KEY_END},  {"\033[F", KEY_END},   {"\033OF", KEY_END}}; /* whatever TERM says */
+                {"\033[8~", KEY_END},  {"\033[F", KEY_END},   {"\033OF", KEY_END}}; /* independent of TERM */
     if (pipe2(wake, O_NONBLOCK | O_CLOEXEC) != 0)
         return TERMINAL_FAILED;
     if (!getenv("ESCDELAY"))
         set_escdelay(25);
-    tcgetattr(STDIN_FILENO, &saved_mode); /* as it was before curses */
+    tcgetattr(STDIN_FILENO, &saved_mode); /* before curses changes it */
     set_handlers();
-    /* The terminal is opened once more for its keys, so that a read never waits: after an unwanted mouse event, such as the
-     * release of a button, curses reads on and ignores nodelay(), and the program would hang until the next key. Standard input
-     * itself stays as it is, because the shell uses it too. */
+    /* The terminal is opened again for its keys, so that a read never waits. After an unwanted mouse event, such as the
+     * release of a button, curses ignores nodelay() and would wait for the next key. Standard input stays unchanged, because
+     * the shell shares it. */
     const char *name = ttyname(STDIN_FILENO);
     int fd = name ? open(name, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC) : -1;
     FILE *keys = fd >= 0 ? fdopen(fd, "r") : NULL;

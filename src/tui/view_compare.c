@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 5: the silvicultural options side by side, today and over one whole rotation of each. */
+/* View 5: the silvicultural options side by side, today and over one rotation. */
 #include "base/language.h"
 #include "popup.h"
 
@@ -9,15 +9,15 @@ static void build(struct app *app, struct form *form)
         ceduo_form_table(form, "options", NULL, "name");
     else
         ceduo_form_note(form, _("One way to treat this forest so far. a adds another, y a copy of this one."));
-    form->row = app->option + 1; /* below the names of the columns */
+    form->row = app->option + 1; /* below the column heads */
 }
 
 enum { PANE_TABLE, PANE_COMPARE, PANE_TRADEOFF, PANES };
 
 #define HEADS        2   /* lines above the table */
-#define WORDS_MIN    4   /* lines of what is said below it, where there are so many options */
-#define TRADEOFF_MIN 11  /* lines of the picture of protection against yield */
-#define BESIDE_MIN   128 /* columns that hold the table and a picture beside it */
+#define WORDS_MIN    4   /* min. lines of the text below */
+#define TRADEOFF_MIN 11  /* min. lines of the picture of protection against yield */
+#define BESIDE_MIN   128 /* columns for table and picture side by side */
 #define TABLE_WIDTH  84
 
 static void draw_picture(struct app *app, enum ceduo_plot plot, struct ceduo_area area)
@@ -26,7 +26,7 @@ static void draw_picture(struct app *app, enum ceduo_plot plot, struct ceduo_are
     ceduo_app_plot(app, plot, area, &p);
 }
 
-/* The table around the option under the cursor; below it words, which scroll, and a picture if there is room. */
+/* Draw the table around the option under the cursor, the text below it, and a picture if there is space. */
 static void draw_table(struct app *app, struct ceduo_area area)
 {
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
@@ -51,7 +51,7 @@ static void draw_table(struct app *app, struct ceduo_area area)
         draw_picture(app, CEDUO_PLOT_TRADEOFF, area);
 }
 
-/* The table with the picture that has room beside it, or one picture alone. */
+/* Draw the table, with a picture at its side if there is space, or one picture. */
 static void draw(struct app *app, struct ceduo_area area)
 {
     int pane = ceduo_app_state(app)->pane;
@@ -101,7 +101,7 @@ static void delete_option(struct app *app)
 
 static void move_option(struct app *app, int by)
 {
-    size_t to = app->option + (size_t)by; /* before the first it is larger than any */
+    size_t to = app->option + (size_t)by; /* wraps around before the first option */
     if (to < app->document.file.scene.options_count &&
         ceduo_app_edited(app, ceduo_document_move(&app->document, "options", app->option, to)))
         choose(app, (long)to);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 8: what was observed beside what is simulated, and a fit to it, which goes on in the background. */
+/* View 8: observed and simulated values, and a fit that runs in the background. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@
 #define PICTURE_MIN 8
 #define RANGE       "\xe2\x80\x93"
 
-/* ---- rows: observed, simulated with its band ---- */
+/* ---- rows: observed, simulated with its interval ---- */
 
 static void append_number(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, double value)
 {
@@ -52,7 +52,7 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
         ceduo_page_cell_format(page, "%s",
                                !p->inside ? _("OUTSIDE")
                                : p->p_value < CEDUO_MISFIT
-                                   ? _("mean only") /* what is refuted below is how the values are spread */
+                                   ? _("mean only") /* the distribution is rejected below, not the mean */
                                    : _("inside"));
     }
     ceduo_page_add(page, CEDUO_PAGE_GAP);
@@ -60,7 +60,7 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
 
 /* ---- words ---- */
 
-/* Of each list and count by its probability, which sees the form of a list, too. */
+/* Describe how the current scene fits. The p-value of a list tests its distribution, too. */
 static void say_as_it_is(struct app *app, struct ceduo_page *page)
 {
     const struct scene_file *file = &app->document.file;
@@ -105,7 +105,7 @@ static void append_best(struct text *text, const char *path, double best)
 
 static void say_fitting(const struct live *live, struct ceduo_page *page)
 {
-    const struct fit *f = live->results.fit; /* NULL: nothing is known yet */
+    const struct fit *f = live->results.fit; /* NULL: no progress yet */
     const struct ceduo_calibration_state *s = f ? &f->state : NULL;
     LOCAL_TEXT(loose);
     ceduo_page_note(page, _("A fit is under way. Esc stops it, and nothing of it is kept."));
@@ -118,8 +118,7 @@ static void say_fitting(const struct live *live, struct ceduo_page *page)
     else
         ceduo_page_para(page, CEDUO_PAGE_NOTE, _("%llu scenes; log-likelihood %.2f."), (unsigned long long)s->evaluations,
                         s->log_likelihood);
-    for (size_t i = 0; f->undetermined.n > 0 && i < f->request.n;
-         i++) /* a short first fit tells what cannot be known from what was seen */
+    for (size_t i = 0; f->undetermined.n > 0 && i < f->request.n; i++) /* found by a short first fit */
         if (f->undetermined.values[i]) {
             ceduo_text_append(&loose, loose.length > 0 ? ", " : "");
             ceduo_calibration_name(&loose, f->request.values[i].path);
@@ -161,7 +160,7 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
     add_rows(page, &f->file, f->answer.predicted);
     ceduo_calibration_words(page, &r);
     ceduo_page_add(page, CEDUO_PAGE_GAP);
-    /* what Enter does not keep, and the command that writes it */
+    /* the draws are not kept; print the command that writes them */
     ceduo_page_note(page,
                     _("Enter keeps the best values and, as their source, these ranges. It does not keep all that fits as well, "
                       "the draws. Once the scene is saved, as SCENE.yaml, this writes them to FITTED.draws.csv, and "
@@ -177,9 +176,9 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
     ceduo_text_format(command, " -n %llu -o FITTED.yaml SCENE.yaml", (unsigned long long)f->request.rocks);
 }
 
-/* ---- what was observed, to edit ---- */
+/* ---- observations, to edit ---- */
 
-/* The next kind of observation after a field of the schema (NULL: the first): a group with numbers. NULL after the last. */
+/* Return the next kind of observation after a field of the schema (NULL: the first): a group with numbers. NULL at the end. */
 static const struct field *next_kind(const struct field *f)
 {
     const struct object *o = ceduo_schema_row("observed")->object;
@@ -190,7 +189,7 @@ static const struct field *next_kind(const struct field *f)
     return NULL;
 }
 
-/* The first item of the list that has the group, and in it the key (NULL: any); NULL: none has. */
+/* Return the group of the first item that has it, with the key (NULL: any); NULL: none. */
 static const struct node *first_with(const struct node *rows, const char *group, const char *key)
 {
     const struct node *found = NULL;
@@ -206,7 +205,7 @@ static void build(struct app *app, struct form *form)
         return;
     for (const struct field *kind = next_kind(NULL); kind; kind = next_kind(kind)) {
         const struct object *of = kind->object;
-        LOCAL_TEXT(keys); /* all but those of a table of values, where there is none */
+        LOCAL_TEXT(keys); /* hide keys of a table of values if no item has one */
         if (!first_with(rows, kind->key, NULL))
             continue;
         for (size_t k = 0; k < of->n; k++)
@@ -241,7 +240,7 @@ static void draw(struct app *app, struct ceduo_area area)
     const struct scene_file *file = &app->document.file;
     const struct live *f = &app->live;
     const struct comparison *c = ceduo_live_comparison(f, file);
-    const struct ceduo_observed_stops *stops = NULL; /* of the option that is shown, otherwise the first there are */
+    const struct ceduo_observed_stops *stops = NULL; /* of the option shown, otherwise the first */
     const struct ceduo_observation *seen = c ? c->file.observations : NULL;
     for (size_t i = 0; c && i < c->file.observations_count; i++)
         if (c->stops[i].known && (!stops || (seen[i].option == app->option && seen[stops - c->stops].option != app->option)))
@@ -253,7 +252,7 @@ static void draw(struct app *app, struct ceduo_area area)
     int lines = state->pane == PANE_TEXT ? 0 : (int)state->form.n, form = area.height / 3 < lines ? area.height / 3 : lines;
     ceduo_app_draw_form(app, cut_bottom(&area, form));
     cut_bottom(&area, form > 0);
-    area.width -= 2; /* the mark of more below stands beside the text */
+    area.width -= 2; /* columns for the mark that the text continues */
     struct ceduo_page page = {.width = (size_t)area.width};
     if (file->observations_count == 0) {
         ceduo_page_note(&page, _("This scene does not say what was seen on its slope."));
@@ -280,9 +279,9 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_page(app, area, &page);
 }
 
-/* ---- which values are fitted, and between which bounds ---- */
+/* ---- values to fit, with bounds ---- */
 
-#define FILLED 4 /* values that are offered with their range; to fit more at once takes long, and is for who wants it */
+#define FILLED 4 /* values offered with bounds; more take long */
 
 static void append_bounds(struct text *text, const struct fit_value *value)
 {
@@ -291,7 +290,7 @@ static void append_bounds(struct text *text, const struct fit_value *value)
     ceduo_text_format(text, "%s:%s", ceduo_shown_number(field, value->lo, lo), ceduo_shown_number(field, value->hi, hi));
 }
 
-/* Both ends in the unit that is shown; false where they are none, which is said. */
+/* Read both bounds in the displayed unit. Return false and report if they are invalid. */
 static bool read_bounds(struct app *app, const char *typed, struct fit_value *value)
 {
     const char *colon = strchr(typed, ':');
@@ -311,7 +310,7 @@ static bool read_bounds(struct app *app, const char *typed, struct fit_value *va
     return value->lo < value->hi;
 }
 
-/* Values that follow are moved into the place of those that are not fitted. */
+/* Move the values to fit to the front. */
 static bool filled_fit(struct app *app, struct popup *p)
 {
     struct fit_request all;
@@ -331,7 +330,7 @@ static bool filled_fit(struct app *app, struct popup *p)
     return w.n > 0;
 }
 
-/* Whether a value is among those that are fitted at present, and what was seen holds it; its bounds are those. */
+/* True if the running fit determines the value; set its bounds from the fit. */
 static bool is_held(const struct fit *now, struct fit_value *value)
 {
     for (size_t i = 0; i < now->request.n; i++)
@@ -383,7 +382,7 @@ static void start(struct app *app)
         ask_for_fit(app);
 }
 
-/* The best values into the scene, as one edit. */
+/* Write the best values into the scene, as one edit. */
 static void take(struct app *app)
 {
     const struct fit *f = ceduo_live_fitted(&app->live);

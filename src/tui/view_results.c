@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 4: what was found: the ADC of each belt, the energy that is left, the energies that arrive, and all of it in words. */
+/* View 4: results: ADC of each belt, residual energy, energy of arrivals, and a text. */
 #include "app.h"
 #include "base/language.h"
 
-#define WIDE_MIN   110 /* columns that hold pictures beside the words */
-#define HEIGHT_ALL 30  /* lines with room for energy along the slope */
-#define BARS_MIN   7   /* lines of the energies as bars */
+#define WIDE_MIN   110 /* columns for pictures and text side by side */
+#define HEIGHT_ALL 30  /* lines for a picture of energy along the slope, too */
+#define BARS_MIN   7   /* min. lines of the energies as bars */
 
-/* `bars`: the energies as bars stand among the words. */
+/* Draw the text; `bars`: with the energies as bars. */
 static void draw_page(struct app *app, struct ceduo_area area, const struct ceduo_picture *picture, bool bars)
 {
-    area.width -= 2; /* the mark of more below stands beside the text */
+    area.width -= 2; /* columns for the mark that the text continues */
     struct ceduo_page page = {.width = (size_t)area.width};
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     ceduo_pane_belts(&page, &pane);
@@ -36,7 +36,7 @@ static void draw(struct app *app, struct ceduo_area area)
     if (wide) {
         page.left += half + 2;
         page.width -= half + 2;
-    } else if (n > 0) { /* how often which energy comes, in place of the energies as bars */
+    } else if (n > 0) { /* frequency of energies in place of bars */
         plot = cut_bottom(&page, plot.height);
         cut_bottom(&page, 1);
     }

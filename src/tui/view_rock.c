@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 3: the rock, how it starts, and how it is computed. */
+/* View 3: the rock, its release and the simulation. */
 #include <math.h>
 #include <string.h>
 
 #include "app.h"
 #include "base/language.h"
 
-/* A power law, or a list of classes. */
+/* Add a power law or a list of classes. */
 static void build_blocks(struct form *form, const struct node *blocks)
 {
     static const char columns[] = "per_year volume_m3 exponent";
@@ -45,7 +45,7 @@ static void build(struct app *app, struct form *form)
     ceduo_form_rest(form, "page");
 }
 
-#define WIDE 70 /* columns that leave room for a remark */
+#define WIDE 70 /* columns for a remark */
 
 static void draw(struct app *app, struct ceduo_area area)
 {
@@ -72,7 +72,7 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_draw_form(app, area);
 }
 
-/* Deletes the class under the cursor, or the power law that is all blocks. */
+/* Delete the class under the cursor, or the power law of all blocks. */
 static void delete_blocks(struct app *app)
 {
     const struct node *blocks = ceduo_document_node(&app->document, "blocks");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 6: the years between two cuts: what protects when, and how the stands grow and are cut. */
+/* View 6: the years of a rotation: protection in each year, growth and cutting of the stands. */
 #include <math.h>
 
 #include "app.h"
@@ -27,7 +27,7 @@ static void build(struct app *app, struct form *form)
     ceduo_form_rest(form, "minimum");
 }
 
-/* What is felled in a year, and its stands; the column on the right has its figures. */
+/* Append the fellings and stands of a year. The right column has its figures. */
 static void say_year(struct app *app, const struct ceduo_years *years, struct text *text)
 {
     const struct ceduo_year *y = &years->years[app->year < years->count ? app->year : 0];
@@ -69,9 +69,9 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     ceduo_words_year_numbering(text, years->rocks);
 }
 
-#define PICTURE_MIN     7 /* lines of the picture beside the form: of the curve alone */
-#define PICTURE_ALONE   9 /* with the lights below it */
-#define FORM_MIN        3 /* of the form, and where there is room: */
+#define PICTURE_MIN     7 /* min. lines of the picture with the form: only the curve */
+#define PICTURE_ALONE   9 /* min. lines with the lights */
+#define FORM_MIN        3 /* min. lines of the form; wanted lines: */
 #define FORM_WANTED     8
 #define HEIGHT_FOR_FORM 18
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 1: the slope, trajectories over it, height and energy along it; its ground, belts and controls to edit. */
+/* View 1: the slope with trajectories, height and energy; its ground, belts and controls to edit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 
 /* ---- the form ---- */
 
-#define LISTED_MAX 200 /* points that are edited by hand */
+#define LISTED_MAX 200 /* max. points to edit */
 
 static void build(struct app *app, struct form *form)
 {
@@ -34,7 +34,7 @@ static void build(struct app *app, struct form *form)
         ceduo_form_note(form, _("talus is assumed everywhere"));
     if (segments) {
         bool by_height = segments->n > 0 && ceduo_node_get(segments->items[0], "roughness_m");
-        bool arm = d->file.scene.simulation.law == CEDUO_LAW_ARM; /* which knows mu, the others Rt */
+        bool arm = d->file.scene.simulation.law == CEDUO_LAW_ARM; /* the arm law uses mu, the others Rt */
         ceduo_form_table(
             form, "slope.segments", NULL,
             ceduo_app_format(app, "rn %s %s friction", arm ? "mu" : "rt", by_height ? "roughness_m" : "roughness_rad"));
@@ -57,15 +57,15 @@ static void build(struct app *app, struct form *form)
 }
 
 #define ZOOM_MAX 7
-#define STEPS    100   /* of the cursor, over what is shown */
-#define NEAR     0.015 /* of what is shown: so near a point or a control is where the cursor is */
+#define STEPS    100   /* steps of the cursor over the part shown */
+#define NEAR     0.015 /* a point or control this close is at the cursor, as a share of the part shown */
 
-/* ---- the cursor along the slope: where it is ---- */
+/* ---- the cursor along the slope ---- */
 
 struct place {
     double x; /* m, relative */
-    int zoom; /* 2^zoom times as near as the whole slope */
-    bool put; /* it was moved: x holds */
+    int zoom; /* magnification 2^zoom */
+    bool put; /* x was set by a move */
 };
 
 static double length_of(const struct app *app)
@@ -74,7 +74,7 @@ static double length_of(const struct app *app)
     return s->x[s->vertices - 1];
 }
 
-/* m, relative: in the middle of the slope until it is moved. */
+/* Return x, m relative: the middle of the slope until the cursor is moved. */
 static double place_x(const struct app *app)
 {
     const struct place *p = ceduo_app_own(app);
@@ -88,13 +88,13 @@ static void put_place(struct app *app, double x)
     p->put = true;
 }
 
-/* m that are shown. */
+/* Return the length of the part shown, m. */
 static double shown_length(const struct app *app)
 {
     return ldexp(length_of(app), -((const struct place *)ceduo_app_own(app))->zoom);
 }
 
-/* By a hundredth of what is shown, onto a round number. */
+/* Move by a hundredth of the part shown, to a round number. */
 static void move_place(struct app *app, int by)
 {
     double origin = app->document.file.scene.slope.origin_x;
@@ -103,7 +103,7 @@ static void move_place(struct app *app, int by)
     put_place(app, (by > 0 ? floor(at + 1e-9) + by : ceil(at - 1e-9) + by) * step - origin);
 }
 
-/* Takes in a place if it lies on that side of the cursor and nearer than the best so far. */
+/* Set `*best` to x if x is on this side of `from` and nearer than `*best`. */
 static void nearer(double here, int side, double x, double *best)
 {
     bool beyond = side > 0 ? x > here + 1e-9 : x < here - 1e-9;
@@ -111,7 +111,7 @@ static void nearer(double here, int side, double x, double *best)
         *best = x;
 }
 
-/* To the next of all points, borders and controls. */
+/* Move to the next point, border or control. */
 static void jump(struct app *app, int by)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
@@ -130,9 +130,9 @@ static void jump(struct app *app, int by)
         put_place(app, best);
 }
 
-/* ---- what is there ---- */
+/* ---- text at the cursor ---- */
 
-/* The belt that it stands in; belts_count where it stands in none. */
+/* Return the belt at x; belts_count: none. */
 static size_t belt_at(const struct app *app, double x)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
@@ -153,7 +153,7 @@ static void say_place(struct app *app)
     ceduo_text_format(&text, _("%.1f m: %.0f\xc2\xb0 steep, %s"), x + scene->slope.origin_x,
                       atan(ceduo_slope_fall(&scene->slope, x)) * 180 / M_PI,
                       belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[belt].name : _("no forest"));
-    for (size_t i = 1; o && i < o->cells; i++) /* the nearest */
+    for (size_t i = 1; o && i < o->cells; i++) /* nearest cell */
         cell = fabs(o->cell_x[i] - x) < fabs(o->cell_x[cell] - x) ? i : cell;
     bool near = o && o->cells > 1 && fabs(o->cell_x[cell] - x) <= fabs(o->cell_x[1] - o->cell_x[0]);
     const struct ceduo_envelope *e = near && run && run->envelopes ? &run->envelopes[cell] : NULL;
@@ -163,16 +163,16 @@ static void say_place(struct app *app)
     ceduo_app_hint(app, text.bytes);
 }
 
-/* ---- what can be done there ---- */
+/* ---- actions at the cursor ---- */
 
-/* x as the file of the slope has it. */
+/* Return x as in the file of the slope. */
 static double written(const struct app *app, double x)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     return ceduo_slope_mirrored(s, x + s->origin_x);
 }
 
-/* "list#index": to edit; "+list#index": to add at the cursor. */
+/* Add an item. "list#index": edit; "+list#index": add at the cursor. */
 static void offer_place(struct app *app, const char *line, const char *sign, const char *list, size_t index)
 {
     ceduo_popup_item(app->popup, line, ceduo_app_format(app, "%s%s#%zu", sign, list, index));
@@ -223,7 +223,7 @@ static void offer_ground(struct app *app, double x)
     }
 }
 
-/* Lists what it stands on, to be edited, and what can be put there. */
+/* List the items at the cursor to edit, and those that can be added. */
 static void choose_at_place(struct app *app)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
@@ -248,7 +248,7 @@ static void choose_at_place(struct app *app)
 
 enum { PANE_FORM, PANE_ROCKS, PANE_PLACE, PANES };
 
-/* Shows the belt under the cursor: that of the form, or along the slope. Elsewhere the belt stays that was shown. */
+/* Show the belt under the cursor of the form or of the slope. Without a belt there, keep the one shown. */
 static void follow(struct app *app)
 {
     size_t belt = belt_at(app, place_x(app));
@@ -258,7 +258,7 @@ static void follow(struct app *app)
         ceduo_app_follow_belt(app);
 }
 
-/* The picture alone where it has the focus, otherwise with the form below it. */
+/* Draw the picture, with the form below it if the form has the focus. */
 static void draw(struct app *app, struct ceduo_area area)
 {
     ceduo_app_follow_rock(app);
@@ -268,12 +268,12 @@ static void draw(struct app *app, struct ceduo_area area)
     picture.span = &span;
     bool alone = ceduo_app_state(app)->pane != PANE_FORM;
     double shown = shown_length(app);
-    if (shown < length_of(app)) { /* the stretch around the cursor */
+    if (shown < length_of(app)) { /* stretch around the cursor */
         picture.from = fmin(fmax(0, mark - shown / 2), length_of(app) - shown);
         picture.to = picture.from + shown;
     }
     ceduo_app_draw_form(app, cut_bottom(&area, alone ? 0 : area.height / 3));
-    bool place = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: all rows for the slope at true scale */
+    bool place = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: use all rows for the slope at true scale */
     int room = area.height, strips = place ? 0 : room >= 24 ? 2 : room >= 13 ? 1 : 0, strip = room >= 24 ? room / 4 : 5;
     if (place)
         picture.mark = &mark;
@@ -306,7 +306,7 @@ static void zoom(struct app *app, int by)
 
 static const struct act form_acts[] = {ZOOM_ACTS, {0}};
 
-/* In the picture left and right go from rock to rock, up and down along its trajectory. */
+/* Bindings of the picture: left and right change the rock, up and down move along its trajectory. */
 static const struct act rock_acts[] = {KEY(RIGHT, .function = ceduo_app_next_rock, .by = 1),
                                        KEY(LEFT, .function = ceduo_app_next_rock, .by = -1),
                                        KEY(DOWN, .function = ceduo_app_step_rock, .by = 1),
@@ -314,7 +314,7 @@ static const struct act rock_acts[] = {KEY(RIGHT, .function = ceduo_app_next_roc
                                        ZOOM_ACTS,
                                        {0}};
 
-/* Along the slope: left and right by steps, up and down from one point, border or control to the next. */
+/* Bindings along the slope: left and right move by steps, up and down to the next point, border or control. */
 static const struct act place_acts[] = {KEY(RIGHT, .function = move_place, .by = 1),
                                         KEY(LEFT, .function = move_place, .by = -1),
                                         KEY(DOWN, .function = jump, .by = 1),

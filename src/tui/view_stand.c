@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 2: the stand of one belt: stools, cohorts of shoots, classes of trees; a plan to scale. */
+/* View 2: the stand of one belt: stools, cohorts of shoots, classes of trees, and a plan to scale. */
 #include <math.h>
 
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 #define FIGURES 3 /* lines */
 
-/* How many there are comes last: then nothing of them may be missing. */
+/* Add the fields of a group, with the number last: once it is set, the others are required. */
 static void build_low(struct app *app, struct form *form, const char *group)
 {
     const struct object *fields = ceduo_schema_row(group)->object;
@@ -31,12 +31,12 @@ static void build(struct app *app, struct form *form)
     const char *path = ceduo_app_stand(app), *in = ceduo_app_format(app, "%s.", path);
     ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, belt->name));
     ceduo_form_fields(form, in, "system species stools.per_ha");
-    if (ceduo_stand_has_shoots(s) && (s->shoots_count > 1 || !(s->shoots[0].per_stool > 0))) /* no one value says it */
+    if (ceduo_stand_has_shoots(s) && (s->shoots_count > 1 || !(s->shoots[0].per_stool > 0))) /* no single field has it */
         ceduo_form_note(form, ceduo_app_format(app, _("%.4g shoots per stool"), ceduo_stand_shoots(s) / s->stools_per_ha));
     ceduo_form_fields(form, in, "stools.spacing_m");
     ceduo_form_rest(form, ceduo_app_format(app, "%s.stools", path));
     ceduo_form_heading(form, _("Shoots on the stools"));
-    size_t each = 0; /* cohorts by what the stand gives of them: shoots per stool, per hectare, or the one and the other */
+    size_t each = 0; /* cohorts with shoots per stool, per hectare, or both */
     for (size_t i = 0; i < s->shoots_count; i++)
         each += s->shoots[i].per_stool > 0;
     ceduo_form_table(form, ceduo_app_format(app, "%s.shoots", path), NULL,
@@ -45,11 +45,11 @@ static void build(struct app *app, struct form *form)
     ceduo_form_heading(form, _("Single trees: standards, reserves"));
     ceduo_form_table(form, ceduo_app_format(app, "%s.trees", path), NULL, "per_ha " STEMS);
     double today = ceduo_stand_trees(s), stay = ceduo_stand_retained_per_ha(s);
-    if (s->cutting.rotation > 0) /* beside the trees of today: to change one does not change the other */
+    if (s->cutting.rotation > 0) /* apart from the trees of today: independent values */
         ceduo_form_fields(form, in, "cutting.stay_per_ha");
     if (s->cutting.rotation > 0 && fabs(today - stay) > 0.5)
         ceduo_form_note(form, ceduo_app_format(app, _("! today %g, after a cut %g: two things"), today, stay));
-    for (size_t i = 0; i < s->trees_count; i++) { /* the radius first: a group must have one */
+    for (size_t i = 0; i < s->trees_count; i++) { /* radius first: a group requires it */
         const char *item = ceduo_app_format(app, "%s.trees[%zu].groups", path, i);
         ceduo_form_field(form, ceduo_app_format(app, "%s.radius_m", item),
                          ceduo_app_format(app, _("trees %zu: a group, m"), i + 1));
@@ -71,7 +71,7 @@ static void add_warning(void *text, const char *sentence)
     ceduo_text_format(text, "! %s\n", sentence);
 }
 
-/* The figures of the stand below the form, and above them what is unlikely about it. Returns how many lines that takes. */
+/* Draw the figures of the stand below the form, with warnings above. Return the lines of the warnings. */
 static int draw_figures(struct app *app, struct ceduo_area area)
 {
     const struct ceduo_belt *belt = ceduo_app_belt(app);
@@ -97,9 +97,9 @@ static int draw_figures(struct app *app, struct ceduo_area area)
     return lines;
 }
 
-#define BOTH_MIN 18 /* lines that hold the plan and the way of a rock through it */
+#define BOTH_MIN 18 /* lines for both the plan and the path of the rock */
 
-/* The stand from above, to scale; below it the stems that the rock came to, where there is room for both. */
+/* Draw the stand from above, to scale. Below it, draw the stems that the rock met if there is space for both. */
 static void draw_plan(struct app *app, struct ceduo_area area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app), pattern = picture;
@@ -115,7 +115,7 @@ static void draw_plan(struct app *app, struct ceduo_area area)
     ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &area, &picture);
 }
 
-#define WIDE     80 /* columns that hold form and plan side by side */
+#define WIDE     80 /* columns for form and plan side by side */
 #define WIDER    110
 #define PLAN_MIN 32
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 7: how sure the answer is, what it depends on, whether the options separate, and the ranges that the scene names. */
+/* View 7: uncertainty of the answer, its causes, the ranking of the options, and the ranges in the scene. */
 
 #include "app.h"
 #include "base/language.h"
@@ -19,9 +19,9 @@ static void build(struct app *app, struct form *form)
 
 /* ---- drawing ---- */
 
-#define WORDS_MIN 4 /* lines that the words keep below the picture, if there are so many */
+#define WORDS_MIN 4 /* min. lines of the text below the picture */
 
-/* The picture, what it means in words, and the ranges of the scene; picture and words scroll together. */
+/* Draw the picture and its text, which scroll together, and the ranges of the scene. */
 static void draw(struct app *app, struct ceduo_area area)
 {
     ceduo_app_draw_form(app, cut_bottom(&area, ceduo_app_form(app)->n > 1 ? area.height / 4 : 1));
@@ -54,7 +54,7 @@ static void turn(struct app *app)
     ceduo_app_state(app)->text.first = 0;
 }
 
-/* ---- a range of one's own ---- */
+/* ---- a range in the scene ---- */
 
 static bool is_named(const struct node *rows, const char *path)
 {
@@ -64,7 +64,7 @@ static bool is_named(const struct node *rows, const char *path)
     return own && strcmp(own, path) == 0;
 }
 
-/* Names the most important input that the scene does not name yet, with the range that it has now. */
+/* Write the most important input without a range in the scene, with its current range. */
 static void add(struct app *app)
 {
     const struct node *rows = ceduo_node_get(app->document.file.root, "uncertainty");
