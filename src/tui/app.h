@@ -26,10 +26,10 @@ struct app;
 struct popup; /* overlay: help, list or fields */
 
 /* A key binding: a handler with an argument, or a plain handler. A table ends with an empty row. */
-struct act {
+struct key_binding {
     enum action action;
-    void (*function)(struct app *app, int by);
-    int by;
+    void (*handler)(struct app *app, int step);
+    int step;
     void (*plain)(struct app *app);
 };
 
@@ -47,11 +47,11 @@ struct view {
     bool uncertainty;                                  /* request uncertainty from the first visit on */
     bool observed;                                     /* compare with observations while the view is open */
     bool result;                                       /* draw nothing before the first result */
-    size_t own;                                        /* bytes of private state, see ceduo_app_own() */
+    size_t private_size;                               /* bytes of private state, see ceduo_app_private_state() */
     void (*build)(struct app *app, struct form *form); /* NULL: no form */
     void (*draw)(struct app *app, struct ceduo_area area);
-    const struct act *acts[VIEW_PANES]; /* own bindings of each pane; NULL: none */
-    void (*follow)(struct app *app);    /* called after each key; may be NULL */
+    const struct key_binding *bindings[VIEW_PANES]; /* own bindings of each pane; NULL: none */
+    void (*after_key)(struct app *app);             /* called after each key; may be NULL */
     struct {
         enum action action;
         const char *word; /* label, marked for translation; NULL ends the list */
@@ -68,24 +68,24 @@ struct view_state {
     struct form form;
     int pane;
     struct viewport text; /* text longer than its pane */
-    void *own;            /* zeroed when a document is opened */
+    void *private_state;  /* zeroed when a document is opened */
 };
 
 /* A segment of a trajectory: a flight, or a roll along the ground. */
-struct rock_piece {
-    struct ceduo_trajectory_segment piece;
+struct rock_segment {
+    struct ceduo_trajectory_segment segment;
     size_t stems; /* number of stems met up to its end */
 };
 
 /* The trajectory of one rock, in segments. */
 struct rock_trajectory {
-    uint64_t key, rock; /* key of the run, number of the rock */
-    size_t n, room, at; /* segments; number of segments shown, 0: all */
-    struct rock_piece *pieces;
+    uint64_t key, rock;        /* key of the run, number of the rock */
+    size_t n, capacity, shown; /* segments; number of segments shown, 0: all */
+    struct rock_segment *segments;
     struct ceduo_stem_encounter *stems; /* stems met */
-    size_t stems_count, stems_room;
-    double begun;   /* s, start of the computation */
-    bool cut_short; /* stopped at the time limit */
+    size_t stems_count, stems_capacity;
+    double start_time; /* s, start of the computation */
+    bool cut_short;    /* stopped at the time limit */
     struct ceduo_trajectory whole;
     struct ceduo_polyline line; /* the part shown */
 };
@@ -93,7 +93,7 @@ struct rock_trajectory {
 #define PICTURES_MAX 3
 
 /* The last screen with up-to-date figures, and its subject. */
-struct kept {
+struct last_screen {
     struct ceduo_cells *cells; /* NULL: none */
     enum view_number view;
     size_t option, year;
@@ -104,7 +104,7 @@ struct app {
     struct arena *scratch; /* strings that live until the next key */
     struct live live;
     struct ceduo_cells *cells;
-    struct kept kept;
+    struct last_screen last_screen;
     struct ceduo_area pictures[PICTURES_MAX]; /* areas of figures on the screen */
     size_t pictures_count;
     int width, height;
@@ -114,17 +114,17 @@ struct app {
     struct view_state views[VIEW_COUNT];
     size_t option, belt;               /* shown in the views */
     size_t year;                       /* index of the selected year */
-    bool over;                         /* view 7: mean over the rotation instead of today */
+    bool rotation_mean;                /* view 7: mean over the rotation instead of today */
     uint64_t rock;                     /* number of the rock shown */
     struct rock_trajectory trajectory; /* trajectory of `rock` */
     char message[512];                 /* message of the last action; shown until the next key */
-    bool message_bad;
+    bool message_is_warning;
     char search[128];
     struct popup *popup;
-    bool opened;                         /* a document was just opened: offer abandoned work */
+    bool just_opened;                    /* a document was just opened: offer abandoned work */
     bool no_recovery;                    /* for scripts: offer no unsaved work, keep no copy */
-    bool uncertainties;                  /* compute uncertainty; in a script, from the first visit of view 7 on */
-    void (*once_saved)(struct app *app); /* continuation after saving; NULL: none */
+    bool uncertainty_on;                 /* compute uncertainty; in a script, from the first visit of view 7 on */
+    void (*after_save)(struct app *app); /* continuation after saving; NULL: none */
     bool quit, redraw;                   /* redraw: repaint the whole terminal */
     bool (*copy)(const char *text);      /* copy to the clipboard; false: too long. NULL: no clipboard */
 };
@@ -151,7 +151,7 @@ void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...) 
 #define ceduo_app_warn(app, ...)         ceduo_app_show_problem(app, true, __VA_ARGS__)
 
 /* End an edit: update form and figures if it was good, otherwise show the reason. Return `good`. */
-bool ceduo_app_edited(struct app *app, bool good);
+bool ceduo_app_finish_edit(struct app *app, bool good);
 
 /* Set a value, written as in a file, and remove conflicting values. */
 bool ceduo_app_set(struct app *app, const char *path, const char *value);
@@ -161,12 +161,12 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value);
 void ceduo_app_show(struct app *app, enum view_number view);
 void ceduo_app_show_option(struct app *app, size_t option);
 void ceduo_app_show_belt(struct app *app, size_t belt);
-void ceduo_app_follow_belt(struct app *app); /* show the belt under the cursor of the form */
-void ceduo_app_refresh(struct app *app);     /* update form and figures after a change of the content */
+void ceduo_app_sync_belt(struct app *app); /* show the belt under the cursor of the form */
+void ceduo_app_refresh(struct app *app);   /* update form and figures after a change of the content */
 
 struct view_state *ceduo_app_state(struct app *app); /* state of the open view */
 struct form *ceduo_app_form(struct app *app);
-void *ceduo_app_own(const struct app *app); /* private state of the open view */
+void *ceduo_app_private_state(const struct app *app); /* private state of the open view */
 
 /* Collect the current results: for a picture; for pages, whose result may be missing; for a pane of n lines. Pages and panes
  * live until the next key. */
@@ -186,16 +186,16 @@ const char *ceduo_app_stand(const struct app *app);
 
 /* Return the arrivals of the right column: through the forest of the option shown, or by the index. NULL before the first
  * rocks. */
-const struct ceduo_arrivals *ceduo_app_shown(const struct app *app);
+const struct ceduo_arrivals *ceduo_app_arrivals(const struct app *app);
 
 /* ---- the trajectory of a rock (rock_trajectory.c) ---- */
 
 /* Compute the trajectory of the rock shown in the option shown, unless it is known. */
-bool ceduo_app_follow_rock(struct app *app);
+bool ceduo_app_trace_rock(struct app *app);
 
 /* Show the trajectory of the rock n further on, or n segments more, and describe it. */
-void ceduo_app_next_rock(struct app *app, int by);
-void ceduo_app_step_rock(struct app *app, int by);
+void ceduo_app_next_rock(struct app *app, int step);
+void ceduo_app_step_rock(struct app *app, int step);
 
 /* Return the number of stems on the part shown. */
 size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *trajectory);
@@ -209,11 +209,11 @@ void ceduo_items_add(struct app *app);
 void ceduo_items_add_blocks(struct app *app); /* ask for a class of blocks, wherever the cursor is */
 void ceduo_items_delete(struct app *app);
 void ceduo_items_duplicate(struct app *app);
-void ceduo_items_move(struct app *app, int by);
+void ceduo_items_move(struct app *app, int step);
 /* Split item `index` of a list at `x` along the slope (m, as in the file), or add a control there. */
-void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at);
+void ceduo_items_add_at(struct app *app, const char *list, size_t index, double x);
 /* Return the segment of the profile that holds x, both as in the file of the slope. */
-size_t ceduo_items_stretch_of(const struct app *app, double x_written);
+size_t ceduo_items_find_segment(const struct app *app, double x_written);
 
 /* ---- drawing ---- */
 
@@ -221,30 +221,30 @@ size_t ceduo_items_stretch_of(const struct app *app, double x_written);
 void ceduo_screen_draw(struct app *app);
 
 /* Return the view whose title is at this column of the top row; VIEW_COUNT: none. */
-enum view_number ceduo_screen_view_at(const struct app *app, int column);
+enum view_number ceduo_screen_find_view(const struct app *app, int column);
 
 /* Draw wrapped text in a rectangle, without the first `skip` lines. Return the number of lines. The second function only
  * counts them. */
-int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip);
-int ceduo_app_text_lines(struct app *app, const char *text, int width);
+int ceduo_app_draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip);
+int ceduo_app_count_lines(struct app *app, const char *text, int width);
 
 /* Shorten a text to n lines, with an ellipsis. */
 void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines);
 
 /* Draw a text, shortened to its area, and free it. */
-void ceduo_app_set_cursor(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
-void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
+void ceduo_app_draw_text(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
+void ceduo_app_draw_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
 /* Explain the keys of a pane until the next message, unless a popup is open. */
-void ceduo_app_hint(struct app *app, const char *text);
+void ceduo_app_show_hint(struct app *app, const char *text);
 
 /* Draw a page as the text of the view, and free it. A mark shows that it continues. Scroll it by n lines. */
-void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page);
-void ceduo_app_continue_form(struct app *app, int by);
+void ceduo_app_draw_page(struct app *app, struct ceduo_area area, struct ceduo_page *page);
+void ceduo_app_scroll_text(struct app *app, int step);
 
 /* Draw a picture of figures. It is dimmed while the figures are stale. */
-void ceduo_app_plot(struct app *app, enum ceduo_plot plot, struct ceduo_area area, const struct ceduo_picture *picture);
+void ceduo_app_draw_plot(struct app *app, enum ceduo_plot plot, struct ceduo_area area, const struct ceduo_picture *picture);
 
 /* Draw the form of the open view; nothing without height. */
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area);

@@ -35,7 +35,7 @@ struct form {
     const struct document *document;
     struct arena arena; /* strings; freed when the form is rebuilt */
     struct form_row *rows;
-    size_t n, room;
+    size_t n, capacity;
     size_t row, column; /* the cursor */
     struct viewport lines;
     struct ceduo_area area; /* position on the screen, for the mouse */
@@ -64,7 +64,7 @@ void ceduo_form_points(struct form *form, const char *list);
 void ceduo_form_clamp(struct form *form);
 void ceduo_form_move(struct form *form, int lines, int columns);
 bool ceduo_form_search(struct form *form, const char *word);
-void ceduo_form_go(struct form *form, const char *list, size_t index);
+void ceduo_form_go_to_item(struct form *form, const char *list, size_t index);
 
 /* Return the cell or the line under the cursor; NULL: none. */
 struct form_cell *ceduo_form_cell(struct form *form);

@@ -9,13 +9,13 @@
 /* An input line: a value, a file name, a search text. */
 struct line {
     char text[1024];
-    size_t at;  /* cursor, as a byte offset */
-    bool fresh; /* unedited: the first character replaces the text */
-    bool asked; /* the user was asked to confirm the value */
+    size_t cursor;  /* cursor, as a byte offset */
+    bool unedited;  /* unedited: the first character replaces the text */
+    bool confirmed; /* the user was asked: the next Enter confirms */
 };
 
 void ceduo_line_set(struct line *line, const char *text);
-bool ceduo_line_key(struct line *line, int key); /* return false if the key has no meaning here */
+bool ceduo_line_handle_key(struct line *line, int key); /* return false if the key has no meaning here */
 
 /* Insert pasted text. Line ends and tabs become one blank, control characters are dropped. Return false if it does not fit;
  * the line stays. */
@@ -25,26 +25,26 @@ bool ceduo_line_paste(struct line *line, const char *text);
 
 /* A list to choose from. Typing filters the items, best match first. */
 
-struct pick {
+struct picker_item {
     const char *text, *value;
     const char *name; /* the searchable part of the text */
-    bool now;         /* current value of the field */
+    bool is_current;  /* current value of the field */
     int match;
 };
 
 struct picker {
     struct arena arena;
-    struct pick *picks;
-    size_t count, room;
+    struct picker_item *items;
+    size_t count, capacity;
     size_t *order; /* indices of matching items, best first, after ceduo_picker_filter() */
-    size_t matches, order_room;
+    size_t matches, order_capacity;
     struct viewport lines; /* viewport of the matching items */
 };
 
 void ceduo_picker_clear(struct picker *picker);
 
 /* Add an item; unsafe bytes are shown as \xHH. Only `name` is searched. `is_current`: move the cursor to it. */
-void ceduo_picker_add(struct picker *picker, const char *text, const char *name, const char *value, bool now);
+void ceduo_picker_add(struct picker *picker, const char *text, const char *name, const char *value, bool is_current);
 bool ceduo_picker_has(const struct picker *picker, const char *value);
 
 /* Keep the matching items; "": all, with the cursor on the current value. Move the cursor to a value if it is listed. */
@@ -52,7 +52,7 @@ void ceduo_picker_filter(struct picker *picker, const char *typed);
 void ceduo_picker_go_to(struct picker *picker, const char *value);
 
 /* Return the item under the cursor; NULL: no match. */
-const struct pick *ceduo_picker_at(const struct picker *picker);
+const struct picker_item *ceduo_picker_selected(const struct picker *picker);
 void ceduo_picker_draw(struct picker *picker, struct ceduo_cells *cells, struct ceduo_area area);
 
 /* ---- files ---- */

@@ -25,9 +25,9 @@ typedef bool popup_check(struct app *app, struct popup *popup);
 struct popup_field {
     char label[40];
     struct line line;
-    int row;             /* row of the caller's table of fields, for the caller */
-    popup_call *offer;   /* add completions of the typed text to the picker; may be NULL */
-    struct field *value; /* expected value, checked when leaving the field; NULL: any text */
+    int row;              /* row of the caller's table of fields, for the caller */
+    popup_call *complete; /* add completions of the typed text to the picker; may be NULL */
+    struct field *value;  /* expected value, checked when leaving the field; NULL: any text */
 };
 
 struct popup {
@@ -38,40 +38,40 @@ struct popup {
     struct popup_field
         fields[POPUP_FIELDS_MAX]; /* in a list the first is the search field; its `complete` lists items that change */
     size_t fields_count;
-    size_t at;             /* index of the field under the cursor */
-    struct picker picker;  /* picker of the list, or of the field under the cursor */
-    const char *endings;   /* endings of files that may be typed: ".csv .txt"; NULL: none */
-    bool asks;             /* a menu: a letter chooses an item, no search */
-    bool ready;            /* items are listed */
-    bool moved;            /* the cursor was moved in the picker */
-    bool typed_wins;       /* do not replace the input by the first completion */
-    struct viewport lines; /* viewport of the text or the fields */
-    struct ceduo_area box; /* position on the screen */
-    const char *path;      /* path of the edited value, or another key of the caller */
-    const char *kept;      /* text of the caller */
-    const char *value;     /* item under the cursor, or the chosen one */
-    struct preview ahead;  /* effect of that item on the lights, if has_preview */
-    bool ahead_known;
-    popup_call *chosen;  /* called with `value`; the popup is closed, and freed afterwards */
-    popup_call *preview; /* rebuild `text` for `value`; a text popup calls it each time it is drawn; may be NULL */
-    popup_check *filled, *check;
+    size_t current;         /* index of the field under the cursor */
+    struct picker picker;   /* picker of the list, or of the field under the cursor */
+    const char *endings;    /* endings of files that may be typed: ".csv .txt"; NULL: none */
+    bool is_menu;           /* a menu: a letter chooses an item, no search */
+    bool listed;            /* items are listed */
+    bool cursor_moved;      /* the cursor was moved in the picker */
+    bool keep_input;        /* do not replace the input by the first completion */
+    struct viewport lines;  /* viewport of the text or the fields */
+    struct ceduo_area box;  /* position on the screen */
+    const char *target;     /* path of the edited value, or another key of the caller */
+    const char *context;    /* text of the caller */
+    const char *value;      /* item under the cursor, or the chosen one */
+    struct preview preview; /* effect of that item on the lights, if has_preview */
+    bool has_preview;
+    popup_call *on_select;   /* called with `value`; the popup is closed, and freed afterwards */
+    popup_call *update_note; /* rebuild `text` for `value`; a text popup calls it each time it is drawn; may be NULL */
+    popup_check *on_submit, *validate;
     void (*picture)(struct app *app, struct popup *popup,
                     struct ceduo_area area); /* draw below the fields if no item is offered */
-    void (*then)(struct app *app);           /* continuation after unsaved work is saved or discarded */
+    void (*on_done)(struct app *app);        /* continuation after unsaved work is saved or discarded */
 };
 
 /* Each function opens a popup in place of any other; `target` is copied. */
 struct popup *ceduo_popup_text(struct app *app, const char *title);
-struct popup *ceduo_popup_list(struct app *app, const char *title, const char *path, popup_call *chosen);
-struct popup *ceduo_popup_fields(struct app *app, const char *title, const char *path, popup_check *filled);
-void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
+struct popup *ceduo_popup_list(struct app *app, const char *title, const char *target, popup_call *on_select);
+struct popup *ceduo_popup_fields(struct app *app, const char *title, const char *target, popup_check *on_submit);
+void ceduo_popup_add_item(struct popup *popup, const char *text, const char *value);
 /* Add an item that a key chooses; the key stands before the text. All items of the list must have one. */
-void ceduo_popup_answer(struct popup *popup, char key, const char *text, const char *value);
-struct popup_field *ceduo_popup_field(struct popup *popup, const char *label, const char *value);
+void ceduo_popup_add_menu_item(struct popup *popup, char key, const char *text, const char *value);
+struct popup_field *ceduo_popup_add_field(struct popup *popup, const char *label, const char *value);
 /* Add a field with completions; the best match replaces the typed text. */
-struct popup_field *ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_call *offer);
+struct popup_field *ceduo_popup_add_choice(struct popup *popup, const char *label, const char *value, popup_call *complete);
 /* Add a field for a value of a kind; the caller may change its copy of the kind. `amount`: any number >= 0. */
-struct field *ceduo_popup_value(struct popup *popup, const char *label, const char *value, const struct field *kind);
+struct field *ceduo_popup_add_value(struct popup *popup, const char *label, const char *value, const struct field *kind);
 extern const struct field ceduo_popup_amount;
 
 /* True if the typed value is in range and usual. Otherwise warn, or ask once for confirmation. */
@@ -84,29 +84,29 @@ bool ceduo_popup_read(struct app *app, const struct field *kind, struct line *li
 bool ceduo_popup_number(struct app *app, struct popup *popup, size_t field, double *number);
 
 /* True if the file named in the first field may be written. An existing file needs Enter twice. */
-bool ceduo_popup_may_write(struct app *app, struct popup *popup);
+bool ceduo_popup_confirm_overwrite(struct app *app, struct popup *popup);
 
 /* ---- the open popup ---- */
 
 void ceduo_popup_draw(struct app *app);
-void ceduo_popup_browse(struct app *app); /* after a key: update the note for the item under the cursor */
-void ceduo_popup_previewed(struct app *app, const struct preview *preview); /* receive the effect of that item on the lights */
-const char *ceduo_popup_bar(const struct app *app);                         /* keys for the bar */
+void ceduo_popup_update_note(struct app *app); /* after a key: update the note for the item under the cursor */
+void ceduo_popup_on_preview(struct app *app, const struct preview *effect); /* receive the effect of that item on the lights */
+const char *ceduo_popup_key_help(const struct app *app);                    /* keys for the bar */
 void ceduo_popup_key(struct app *app, int key);
 bool ceduo_popup_paste(struct app *app, const char *text); /* false: no input line is open */
 
 /* ---- the popups: each function opens one, or reports why not ---- */
 
-void ceduo_popup_presets(struct app *app);
+void ceduo_popup_list_stands(struct app *app);
 void ceduo_popup_new_option(struct app *app);
-void ceduo_popup_choices(struct app *app, const struct form_cell *cell);
+void ceduo_popup_list_choices(struct app *app, const struct form_cell *cell);
 void ceduo_popup_open(struct app *app);
 void ceduo_popup_new(struct app *app);
 void ceduo_popup_export(struct app *app);
 void ceduo_popup_copy(struct app *app); /* copy the text of the view, without pictures, to the clipboard */
 void ceduo_popup_find(struct app *app);
-void ceduo_popup_found(struct app *app, struct search_answer *answer); /* receive the result of the search */
-void ceduo_popup_counts(struct app *app);
+void ceduo_popup_on_found(struct app *app, struct search_answer *answer); /* receive the result of the search */
+void ceduo_popup_ask_counts(struct app *app);
 void ceduo_popup_save(
     struct app *app); /* asks for a name if the scene has no file of its own, and for a decision if the file has changed */
 void ceduo_popup_save_as(struct app *app);
@@ -114,17 +114,17 @@ void ceduo_popup_quit(struct app *app);
 void ceduo_popup_recover(struct app *app); /* offers abandoned work of this document or of scenes without a file */
 
 /* Ask for the fields of a new list item, or of one group of it (may be NULL). `offered`: values of the first n fields. */
-void ceduo_popup_item_find(struct app *app, const char *list, const char *group, const char *const *offered, size_t n);
+void ceduo_popup_new_item(struct app *app, const char *list, const char *group, const char *const *offered, size_t n);
 
 /* Call `next`. If there is unsaved work, ask first: save, discard or stay. */
-void ceduo_popup_confirm_unsaved(struct app *app, void (*then)(struct app *app));
+void ceduo_popup_confirm_unsaved(struct app *app, void (*next)(struct app *app));
 
 /* ---- items of lists and fields ---- */
 
 /* Treatments of the option shown. The other two return false if the item is not a treatment. */
 void ceduo_popup_offer_treatments(struct app *app, struct popup *popup);
 bool ceduo_popup_preview_treatment(struct app *app, struct popup *popup);
-bool ceduo_popup_on_treatment(struct app *app, const char *value);
+bool ceduo_popup_choose_treatment(struct app *app, const char *value);
 
 /* List abandoned work. The second function opens a chosen copy; it returns false if the value is not a copy. */
 void ceduo_popup_offer_recoveries(const struct app *app, struct popup *popup);
@@ -139,7 +139,7 @@ void ceduo_popup_offer_grounds(struct app *app, struct popup *popup);
 bool ceduo_popup_is_measured(const char *stand);                   /* true for the two above */
 bool ceduo_popup_ask_measured(struct app *app, const char *stand); /* asks for the data; false: not one of the two */
 /* Replace the stand of the belt shown. Report dropped growth and cutting, and that the year of its cut stays. */
-bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *value);
+bool ceduo_popup_replace_stand(struct app *app, const char *target, const char *value);
 
 /* Read a minimal scene with this stand and the rock of the document. Return false if it is not a stand. The caller releases
  * `file` in any case. */

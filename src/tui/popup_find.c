@@ -27,11 +27,11 @@ static const struct {
              {CEDUO_GOAL_ENERGY, N_("mean energy of arrivals at most … kJ"), "kJ", 1}};
 #define GOALS_OFFERED (sizeof goals / sizeof goals[0])
 
-static void offer_goals(struct app *app, struct popup *p)
+static void complete_goals(struct app *app, struct popup *p)
 {
     (void)app;
     for (size_t i = 0; i < GOALS_OFFERED; i++)
-        ceduo_popup_item(p, _(goals[i].words), _(goals[i].words));
+        ceduo_popup_add_item(p, _(goals[i].words), _(goals[i].words));
 }
 
 /* Read words of the list, or the form of the command line: energy=50. The amount may be in the field below. */
@@ -66,7 +66,7 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
 /* ---- the request ---- */
 
 /* Append the regional rules for standards if the searched value is a number of standards. */
-static void append_law(struct app *app, const char *path, struct text *text)
+static void append_standards_rule(struct app *app, const char *path, struct text *text)
 {
     const struct ceduo_belt *belt = ceduo_app_belt(app);
     const struct field *field = ceduo_search_field(app->scratch, path);
@@ -86,10 +86,10 @@ static void append_law(struct app *app, const char *path, struct text *text)
 }
 
 /* Read the fields; the path is the popup's. */
-static bool read_fields(struct app *app, struct popup *p, struct ceduo_search *search)
+static bool read_search(struct app *app, struct popup *p, struct ceduo_search *search)
 {
     double cases = 0; /* plausible cases of 100 in which the goal must be reached */
-    *search = (struct ceduo_search){.path = p->path, .option = app->option, .rocks = FIND_ROCKS, .lo = NAN, .hi = NAN};
+    *search = (struct ceduo_search){.path = p->target, .option = app->option, .rocks = FIND_ROCKS, .lo = NAN, .hi = NAN};
     if (!read_goal(app, p, search) || !ceduo_popup_number(app, p, FIND_SURE, &cases) ||
         !ceduo_popup_number(app, p, FIND_LO, &search->lo) || !ceduo_popup_number(app, p, FIND_HI, &search->hi))
         return false;
@@ -101,10 +101,10 @@ static bool read_fields(struct app *app, struct popup *p, struct ceduo_search *s
 }
 
 /* Start the search. The popup stays open until it is done. */
-static bool filled_find(struct app *app, struct popup *p)
+static bool submit_search(struct app *app, struct popup *p)
 {
     struct ceduo_search search;
-    if (read_fields(app, p, &search)) {
+    if (read_search(app, p, &search)) {
         ceduo_jobs_request(app->live.jobs,
                            &(struct job_request){JOB_SEARCH, &app->document.file, .levels = 1, .search = &search});
         ceduo_app_show_message(app, "%s", _("computing … Esc or another key stops it"));
@@ -115,14 +115,14 @@ static bool filled_find(struct app *app, struct popup *p)
 /* ---- the result ---- */
 
 /* Append the value found and whether it is unique. After a search over a rotation, append the yield. */
-static void append_words(struct app *app, struct popup *p, const struct ceduo_search *s, const struct search_answer *answer,
-                         struct text *text)
+static void append_result(struct app *app, struct popup *p, const struct ceduo_search *s, const struct search_answer *answer,
+                          struct text *text)
 {
     const struct ceduo_found *f = &answer->found;
-    const struct field *field = ceduo_search_field(app->scratch, p->path);
-    char room[CEDUO_NUMBER_ROOM];
+    const struct field *field = ceduo_search_field(app->scratch, p->target);
+    char buf[CEDUO_NUMBER_ROOM];
     if (f->found && !f->whole_range) /* otherwise the field keeps its value */
-        ceduo_text_format(text, "%s = %s: ", ceduo_app_path(app, p->path), ceduo_shown_number(field, f->value, room));
+        ceduo_text_format(text, "%s = %s: ", ceduo_app_path(app, p->target), ceduo_shown_number(field, f->value, buf));
     ceduo_find_words(text, s, f, field, s->sure == 0); /* no space, and the user has typed it */
     if (!f->monotone)
         ceduo_text_append_joined(text, "; ", _("not monotone: there may be other values"));
@@ -137,65 +137,65 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
 }
 
 /* Set the value found in the field, and report it. A failed search leaves the popup open. */
-void ceduo_popup_found(struct app *app, struct search_answer *answer)
+void ceduo_popup_on_found(struct app *app, struct search_answer *answer)
 {
     struct popup *p = app->popup;
     struct ceduo_search search;
     const struct ceduo_found *found = &answer->found;
     LOCAL_TEXT(words);
-    if (!p || p->filled != filled_find)
+    if (!p || p->on_submit != submit_search)
         return;
     app->message[0] = '\0';
     ceduo_problems_free(&app->document.problems);
     app->document.problems = answer->problems;
     answer->problems = (struct problems){0};
-    if (answer->status != CEDUO_OK || !read_fields(app, p, &search)) {
-        ceduo_app_edited(app, false);
+    if (answer->status != CEDUO_OK || !read_search(app, p, &search)) {
+        ceduo_app_finish_edit(app, false);
         return;
     }
     search.target = answer->target;
     search.rotation = answer->rotation;
-    append_words(app, p, &search, answer, &words);
+    append_result(app, p, &search, answer, &words);
     if (!found->found || found->whole_range ||
-        ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, NUMERAL(found->value))))
+        ceduo_app_finish_edit(app, ceduo_document_set(&app->document, p->target, NUMERAL(found->value))))
         ceduo_app_show_message(app, "%s", words.bytes);
     ceduo_popup_close(app);
 }
 
 /* ---- the range ---- */
 
-static bool fits(const struct app *app, const char *path, double value)
+static bool is_valid_value(const struct app *app, const char *path, double value)
 {
     return ceduo_preview_fits(&app->document.file, path, NUMERAL(value));
 }
 
-/* Return a value of three digits between `now` and `end`, as close to the end as the scene allows; may be `now`. */
-static double limit_of(const struct app *app, const char *path, bool whole, double now, double end)
+/* Return a value of three digits between `current` and `end`, as close to the end as the scene allows; may be `current`. */
+static double find_limit(const struct app *app, const char *path, bool whole, double current, double end)
 {
-    if (fits(app, path, end))
+    if (is_valid_value(app, path, end))
         return end;
-    double good = now, bad = end;
+    double valid = current, invalid = end;
     for (int i = 0; i < 20; i++) {
-        double middle = whole ? round((good + bad) / 2) : (good + bad) / 2;
-        if (middle == good || middle == bad)
+        double middle = whole ? round((valid + invalid) / 2) : (valid + invalid) / 2;
+        if (middle == valid || middle == invalid)
             break;
-        *(fits(app, path, middle) ? &good : &bad) = middle;
+        *(is_valid_value(app, path, middle) ? &valid : &invalid) = middle;
     }
-    double grain = good == 0 ? 1 : pow(10, floor(log10(fabs(good))) - 2);
-    double inward = end > now ? floor(good / grain) * grain : ceil(good / grain) * grain;
-    bool between = end > now ? inward >= now : inward <= now;
-    return between && fits(app, path, inward) ? inward : good;
+    double grain = valid == 0 ? 1 : pow(10, floor(log10(fabs(valid))) - 2);
+    double inward = end > current ? floor(valid / grain) * grain : ceil(valid / grain) * grain;
+    bool between = end > current ? inward >= current : inward <= current;
+    return between && is_valid_value(app, path, inward) ? inward : valid;
 }
 
 /* Propose a range around the current value with ends that the scene accepts. */
-static void propose(struct app *app, const char *path, const struct field *f, const char *written, double *lo, double *hi)
+static void propose_range(struct app *app, const char *path, const struct field *f, const char *written, double *lo, double *hi)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     bool whole = f->type == FIELD_COUNT || strcmp(f->unit, "1/ha") == 0;
-    double now;
-    bool known = ceduo_number_read(written, &now) == CEDUO_NUMBER_GOOD;
-    *lo = known && now > 0 && f->type != FIELD_COUNT ? now / 10 : 1;
-    *hi = known && now > 0 ? now * 10 : 1000;
+    double current;
+    bool known = ceduo_number_read(written, &current) == CEDUO_NUMBER_GOOD;
+    *lo = known && current > 0 && f->type != FIELD_COUNT ? current / 10 : 1;
+    *hi = known && current > 0 ? current * 10 : 1000;
     *lo = whole ? floor(*lo) : *lo;
     if (f->flags & FIELD_PLACE) {
         *lo = s->origin_x;
@@ -204,54 +204,54 @@ static void propose(struct app *app, const char *path, const struct field *f, co
     *lo = fmax(*lo, f->lo);
     *hi = fmin(*hi, f->hi);
     if (known) {
-        *lo = limit_of(app, path, whole, now, fmin(*lo, now));
-        *hi = limit_of(app, path, whole, now, fmax(*hi, now));
+        *lo = find_limit(app, path, whole, current, fmin(*lo, current));
+        *hi = find_limit(app, path, whole, current, fmax(*hi, current));
     }
 }
 
 /* Open the popup; `written`: the current value. */
-static void ask(struct app *app, const char *path, const char *written)
+static void ask_goal(struct app *app, const char *path, const char *written)
 {
-    char room[CEDUO_NUMBER_ROOM];
+    char buf[CEDUO_NUMBER_ROOM];
     double lo, hi;
     const struct field *f = ceduo_search_field(app->scratch, path);
-    propose(app, path, f, written, &lo, &hi);
-    struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), path, filled_find);
+    propose_range(app, path, f, written, &lo, &hi);
+    struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), path, submit_search);
     ceduo_text_format(&p->text,
                       _("The value of: %s. The same rocks for every value; the goal counts at the worst control. "
                         "What is found is put into the field; u takes it back."),
                       ceduo_app_path(app, path));
-    append_law(app, path, &p->text);
-    ceduo_popup_choice(p, _("goal"), _(goals[0].words), offer_goals);
-    ceduo_popup_value(p, _("how many (empty: usual limit)"), "", &ceduo_popup_amount);
-    struct field *cases = ceduo_popup_value(p, _("sure in … of 100 (empty: no)"), "", &ceduo_popup_amount);
+    append_standards_rule(app, path, &p->text);
+    ceduo_popup_add_choice(p, _("goal"), _(goals[0].words), complete_goals);
+    ceduo_popup_add_value(p, _("how many (empty: usual limit)"), "", &ceduo_popup_amount);
+    struct field *cases = ceduo_popup_add_value(p, _("sure in … of 100 (empty: no)"), "", &ceduo_popup_amount);
     cases->hi = 100;
     cases->flags = FIELD_ABOVE;
     for (int i = 0; i < 2; i++) {
-        const char *end = ceduo_shown_number(f, i == 0 ? lo : hi, room);
-        struct field *own = ceduo_popup_value(p, i == 0 ? _("values from") : _("to"), end, f);
+        const char *end = ceduo_shown_number(f, i == 0 ? lo : hi, buf);
+        struct field *own = ceduo_popup_add_value(p, i == 0 ? _("values from") : _("to"), end, f);
         own->shown.least = -INFINITY; /* no end is unusual */
         own->shown.most = INFINITY;
     }
 }
 
-static void chose_number(struct app *app, struct popup *p)
+static void select_number(struct app *app, struct popup *p)
 {
     const struct node *node = ceduo_document_node(&app->document, p->value);
-    ask(app, p->value, node && node->kind == NODE_SCALAR ? node->text : "");
+    ask_goal(app, p->value, node && node->kind == NODE_SCALAR ? node->text : "");
 }
 
 /* Ask for the number of a list to search, one of the first nine. */
-static void ask_which(struct app *app, const char *path, const struct node *list)
+static void ask_list_number(struct app *app, const char *path, const struct node *list)
 {
     if (list->n == 1) {
-        ask(app, ceduo_app_format(app, "%s[0]", path), list->items[0]->text);
+        ask_goal(app, ceduo_app_format(app, "%s[0]", path), list->items[0]->text);
         return;
     }
-    struct popup *p = ceduo_popup_list(app, _("Which of its numbers is looked for?"), "", chose_number);
+    struct popup *p = ceduo_popup_list(app, _("Which of its numbers is looked for?"), "", select_number);
     for (size_t i = 0; i < list->n && i < POPUP_DIGITS_MAX; i++)
-        ceduo_popup_answer(p, (char)('1' + i), list->items[i]->kind == NODE_SCALAR ? list->items[i]->text : "",
-                           ceduo_app_format(app, "%s[%zu]", path, i));
+        ceduo_popup_add_menu_item(p, (char)('1' + i), list->items[i]->kind == NODE_SCALAR ? list->items[i]->text : "",
+                                  ceduo_app_format(app, "%s[%zu]", path, i));
 }
 
 void ceduo_popup_find(struct app *app)
@@ -261,9 +261,9 @@ void ceduo_popup_find(struct app *app)
     bool usable = cell && !(cell->field->flags & FIELD_NOWHERE);
     enum field_type type = usable ? cell->field->type : FIELD_TEXT;
     if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST)
-        ask_which(app, cell->path, node);
+        ask_list_number(app, cell->path, node);
     else if (type == FIELD_NUMBER || type == FIELD_COUNT || type == FIELD_SPREAD)
-        ask(app, cell->path, cell->written);
+        ask_goal(app, cell->path, cell->written);
     else
         ceduo_app_warn(app, "%s", _("put the cursor on a number first: f looks for its value that reaches a goal"));
 }

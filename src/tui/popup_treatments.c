@@ -14,7 +14,7 @@
 enum treatment { CUT_NOW, SELECTION, NO_CUT, TREATMENTS };
 
 static const struct {
-    const char *value, *item, *about;
+    const char *value, *item, *description;
 } treatments[TREATMENTS] = {
     [CUT_NOW] = {":cut", N_("this stand, cut now, leaving N standards per ha"),
                  N_("A copy of the option shown that is cut in year 1 and then once in each rotation. Enter asks how many "
@@ -86,7 +86,7 @@ struct plan {
 };
 
 /* Replace a mapping of the belt's stand by the lender's, marked as assumed. */
-static void lend(struct plan *p, size_t belt, const struct lender *l, const char *key)
+static void set_lent(struct plan *p, size_t belt, const struct lender *l, const char *key)
 {
     const struct node *map = ceduo_resolve_at(l->file.root, ceduo_app_format(p->app, "forest[0].stand.%s", key));
     LOCAL_TEXT(value);
@@ -103,31 +103,31 @@ static void lend(struct plan *p, size_t belt, const struct lender *l, const char
     ceduo_changes_add(&p->edits, CHANGE_SET, ceduo_app_format(p->app, "forest[%zu].stand.%s", belt, key), value.bytes);
 }
 
-static void tell_lent(struct plan *p, const char *stand, const struct lender *l, bool growth, bool cutting)
+static void report_lent(struct plan *p, const char *stand, const struct lender *l, bool growth, bool cutting)
 {
-    const char *told = ceduo_app_format(p->app,
-                                        growth && cutting ? _("Growth and cutting of '%s' are those of '%s' (assumed).")
-                                        : growth          ? _("The growth of '%s' is that of '%s' (assumed).")
-                                                          : _("The cutting of '%s' is that of '%s' (assumed)."),
-                                        stand, lent_belt(l)->name);
-    if (!strstr(ceduo_text_string(&p->borrowed), told))
-        ceduo_text_append_joined(&p->borrowed, p->borrowed.length > 0 ? " " : "", "%s", told);
+    const char *sentence = ceduo_app_format(p->app,
+                                            growth && cutting ? _("Growth and cutting of '%s' are those of '%s' (assumed).")
+                                            : growth          ? _("The growth of '%s' is that of '%s' (assumed).")
+                                                              : _("The cutting of '%s' is that of '%s' (assumed)."),
+                                            stand, lent_belt(l)->name);
+    if (!strstr(ceduo_text_string(&p->borrowed), sentence))
+        ceduo_text_append_joined(&p->borrowed, p->borrowed.length > 0 ? " " : "", "%s", sentence);
 }
 
 /* Set the retained standards, with the ages of `model` in proportion. Without ages all are one rotation old. */
 static void keep_standards(struct plan *p, size_t belt, const struct ceduo_stand *model)
 {
-    double all = 0, left = p->number;
+    double total = 0, remaining = p->number;
     LOCAL_TEXT(list);
     for (size_t i = 0; i < model->cutting.stay_count; i++)
-        all += model->cutting.stay_per_ha[i];
-    for (size_t i = 0; all > 0 && i < model->cutting.stay_count; i++) {
-        double share = model->cutting.stay_per_ha[i] / all, own = fmin(left, ceil(share * p->number - 1e-9));
+        total += model->cutting.stay_per_ha[i];
+    for (size_t i = 0; total > 0 && i < model->cutting.stay_count; i++) {
+        double share = model->cutting.stay_per_ha[i] / total, own = fmin(remaining, ceil(share * p->number - 1e-9));
         ceduo_text_format(&list, "%s%g", i > 0 ? ", " : "", own);
-        left -= own;
+        remaining -= own;
     }
-    if (all == 0)
-        ceduo_text_format(&list, "%g", left);
+    if (total == 0)
+        ceduo_text_format(&list, "%g", remaining);
     ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "forest[%zu].stand.cutting.stay_per_ha", belt), "[%s]", list.bytes);
 }
 
@@ -159,11 +159,11 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
     }
     p->treated++;
     if (!grows)
-        lend(p, i, &l, "growth");
+        set_lent(p, i, &l, "growth");
     if (borrows)
-        lend(p, i, &l, "cutting");
+        set_lent(p, i, &l, "cutting");
     if (l.fit > 0)
-        tell_lent(p, belt->name, &l, !grows, borrows);
+        report_lent(p, belt->name, &l, !grows, borrows);
     if (selection && grows && s->growth.shoots_old < lent_belt(&l)->stand.growth.shoots_old)
         ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.growth.shoots_old", stand), "%g",
                           lent_belt(&l)->stand.growth.shoots_old);
@@ -195,7 +195,7 @@ static struct plan make_plan(struct app *app, enum treatment kind, double number
 }
 
 /* Append the texts of the plan, and free them. */
-static void end_plan(struct plan *p, struct text *text)
+static void append_plan(struct plan *p, struct text *text)
 {
     for (int i = 0; i < 2; i++) {
         struct text *part = i == 0 ? &p->borrowed : &p->untreated;
@@ -212,7 +212,7 @@ static const char *name_option(const struct plan *p)
     const struct app *app = p->app;
     const struct ceduo_scene *scene = &app->document.file.scene;
     const char *name = _("selection coppice");
-    bool taken = false;
+    bool in_use = false;
     if (p->kind == CUT_NOW)
         name = ceduo_app_format(app, _("cut now, keep %g"), p->number);
     else if (p->kind == NO_CUT)
@@ -221,30 +221,30 @@ static const char *name_option(const struct plan *p)
                    : ceduo_app_format(app, ngettext("no cut for %g year", "no cut for %g years", p->number == 1 ? 1 : 2),
                                       p->number);
     for (size_t i = 0; i < scene->options_count; i++)
-        taken |= strcmp(scene->options[i].name, name) == 0;
-    return taken ? ceduo_app_format(app, "%s (%s)", name, ceduo_app_option(app)->name) : name;
+        in_use |= strcmp(scene->options[i].name, name) == 0;
+    return in_use ? ceduo_app_format(app, "%s (%s)", name, ceduo_app_option(app)->name) : name;
 }
 
 /* The cursor stays on the copied option, which can be treated again. */
-static bool add_option(struct app *app, enum treatment kind, double number)
+static bool add_treated_option(struct app *app, enum treatment kind, double number)
 {
     struct plan p = make_plan(app, kind, number);
-    LOCAL_TEXT(said);
+    LOCAL_TEXT(text);
     bool good = p.treated > 0 &&
-                ceduo_app_edited(app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), &p.edits));
+                ceduo_app_finish_edit(app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), &p.edits));
     const struct ceduo_scene *scene = &app->document.file.scene;
     if (good)
-        ceduo_text_format(&said, _("added '%s'."), scene->options[scene->options_count - 1].name);
-    end_plan(&p, &said);
+        ceduo_text_format(&text, _("added '%s'."), scene->options[scene->options_count - 1].name);
+    append_plan(&p, &text);
     if (good || p.treated == 0)
-        ceduo_app_show_problem(app, !good, "%s", said.bytes ? said.bytes : _("There is no forest here to treat."));
+        ceduo_app_show_problem(app, !good, "%s", text.bytes ? text.bytes : _("There is no forest here to treat."));
     return good;
 }
 
-static bool filled_number(struct app *app, struct popup *p)
+static bool submit_number(struct app *app, struct popup *p)
 {
     double number = NAN;
-    return ceduo_popup_number(app, p, 0, &number) && add_option(app, find_treatment(p->path), number);
+    return ceduo_popup_number(app, p, 0, &number) && add_treated_option(app, find_treatment(p->target), number);
 }
 
 /* Ask for the number of a treatment. */
@@ -256,9 +256,10 @@ static void ask_number(struct app *app, enum treatment kind)
         stay = fmax(stay, ceduo_stand_retained_per_ha(&o->belts[i].stand));
     bool cut = kind == CUT_NOW;
     const char *offered = ceduo_app_format(app, "%g", stay > 0 ? round(stay) : KEPT_USUALLY);
-    struct popup *p = ceduo_popup_fields(app, _(treatments[kind].item), treatments[kind].value, filled_number);
-    struct field *own = ceduo_popup_value(p, cut ? _("standards kept per ha") : _("years without a cut"), cut ? offered : "",
-                                          ceduo_schema_at(cut ? "forest[0].stand.trees[0].per_ha" : "forest[0].cut_year"));
+    struct popup *p = ceduo_popup_fields(app, _(treatments[kind].item), treatments[kind].value, submit_number);
+    struct field *own =
+        ceduo_popup_add_value(p, cut ? _("standards kept per ha") : _("years without a cut"), cut ? offered : "",
+                              ceduo_schema_at(cut ? "forest[0].stand.trees[0].per_ha" : "forest[0].cut_year"));
     ceduo_text_append(&p->text, cut ? _("Of all ages together, in the proportion that the stand says. 0: all stems are cut.")
                                     : _("In the year after them it is cut. Empty: it is never cut."));
     own->flags = cut ? FIELD_REQUIRED : 0;
@@ -273,7 +274,7 @@ void ceduo_popup_offer_treatments(struct app *app, struct popup *p)
 {
     if (ceduo_app_option(app)->belts_count > 0)
         for (int t = 0; t < TREATMENTS; t++)
-            ceduo_popup_item(p, _(treatments[t].item), treatments[t].value);
+            ceduo_popup_add_item(p, _(treatments[t].item), treatments[t].value);
 }
 
 bool ceduo_popup_preview_treatment(struct app *app, struct popup *p)
@@ -282,16 +283,16 @@ bool ceduo_popup_preview_treatment(struct app *app, struct popup *p)
     if (kind == TREATMENTS)
         return false;
     struct plan plan = make_plan(app, kind, NAN);
-    ceduo_text_append(&p->text, _(treatments[kind].about));
-    end_plan(&plan, &p->text);
+    ceduo_text_append(&p->text, _(treatments[kind].description));
+    append_plan(&plan, &p->text);
     return true;
 }
 
-bool ceduo_popup_on_treatment(struct app *app, const char *value)
+bool ceduo_popup_choose_treatment(struct app *app, const char *value)
 {
     enum treatment kind = find_treatment(value);
     if (kind == SELECTION)
-        add_option(app, kind, NAN);
+        add_treated_option(app, kind, NAN);
     else if (kind != TREATMENTS)
         ask_number(app, kind);
     return kind != TREATMENTS;

@@ -7,11 +7,11 @@
 #include "base/language.h"
 #include "popup.h"
 
-static void undo_or_redo(struct app *app, int by)
+static void undo_or_redo(struct app *app, int step)
 {
     struct document *d = &app->document;
-    bool redo = by > 0;
-    if (!ceduo_document_undo_or_redo(d, by)) {
+    bool redo = step > 0;
+    if (!ceduo_document_undo_or_redo(d, step)) {
         ceduo_app_show_message(app, "%s", redo ? _("nothing to redo") : _("nothing to undo"));
         return;
     }
@@ -20,17 +20,17 @@ static void undo_or_redo(struct app *app, int by)
                            ceduo_app_path(app, d->states[d->current + !redo].what));
 }
 
-static void next_option(struct app *app, int by)
+static void show_option(struct app *app, int step)
 {
     size_t n = app->document.file.scene.options_count;
-    ceduo_app_show_option(app, (app->option + (by > 0 ? 1 : n - 1)) % n);
+    ceduo_app_show_option(app, (app->option + (step > 0 ? 1 : n - 1)) % n);
     ceduo_app_show_message(app, _("option %zu of %zu: %s"), app->option + 1, n, ceduo_app_option(app)->name);
 }
 
-static void next_pane(struct app *app, int by)
+static void show_pane(struct app *app, int step)
 {
     int panes = ceduo_views[app->view]->panes;
-    ceduo_app_state(app)->pane = (ceduo_app_state(app)->pane + panes + by) % panes;
+    ceduo_app_state(app)->pane = (ceduo_app_state(app)->pane + panes + step) % panes;
 }
 
 static void move_lines(struct app *app, int lines)
@@ -38,22 +38,22 @@ static void move_lines(struct app *app, int lines)
     if (ceduo_app_state(app)->pane == 0 && ceduo_app_form(app)->n > 0)
         ceduo_form_move(ceduo_app_form(app), lines, 0);
     else
-        ceduo_app_continue_form(app, lines);
+        ceduo_app_scroll_text(app, lines);
 }
 
-static void move_page(struct app *app, int by)
+static void move_page(struct app *app, int step)
 {
-    move_lines(app, by * (app->height > 12 ? app->height / 2 : 5));
+    move_lines(app, step * (app->height > 12 ? app->height / 2 : 5));
 }
 
-static void move_column(struct app *app, int by)
+static void move_column(struct app *app, int step)
 {
     if (ceduo_app_state(app)->pane == 0)
-        ceduo_form_move(ceduo_app_form(app), 0, by);
+        ceduo_form_move(ceduo_app_form(app), 0, step);
 }
 
 /* Move the cursor to the next line that contains the search text. */
-static void search_again(struct app *app)
+static void search_next(struct app *app)
 {
     bool found = ceduo_form_search(ceduo_app_form(app), app->search);
     ceduo_app_state(app)->pane *= !found;
@@ -61,19 +61,19 @@ static void search_again(struct app *app)
         ceduo_app_show_message(app, _("'%s' is not found in this view"), app->search);
 }
 
-static bool filled_search(struct app *app, struct popup *p)
+static bool submit_search_text(struct app *app, struct popup *p)
 {
     snprintf(app->search, sizeof app->search, "%.*s", (int)sizeof app->search - 1, p->fields[0].line.text);
-    search_again(app);
+    search_next(app);
     return true;
 }
 
-static void ask_for_word(struct app *app)
+static void ask_search_text(struct app *app)
 {
-    ceduo_popup_field(ceduo_popup_fields(app, _("Search in this view"), "", filled_search), _("word"), app->search);
+    ceduo_popup_add_field(ceduo_popup_fields(app, _("Search in this view"), "", submit_search_text), _("word"), app->search);
 }
 
-static void next_charset(struct app *app)
+static void change_charset(struct app *app)
 {
     app->charset = (enum ceduo_charset)((app->charset + 1) % 3);
     ceduo_app_resize(app, app->width, app->height);
@@ -81,17 +81,17 @@ static void next_charset(struct app *app)
 
 /* ---- commands by name ---- */
 
-static void chose_command(struct app *app, struct popup *p)
+static void select_command(struct app *app, struct popup *p)
 {
     ceduo_program_key(app, ceduo_actions[atoi(p->value)].key);
 }
 
 static void list_commands(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("Commands"), "", chose_command);
+    struct popup *p = ceduo_popup_list(app, _("Commands"), "", select_command);
     for (int i = 0; i < ACTION_COUNT; i++)
         if (i != ACTION_COMMANDS)
-            ceduo_popup_item(
+            ceduo_popup_add_item(
                 p, ceduo_app_format(app, "%-10s %s", ceduo_actions[i].word, ceduo_translate_in(ceduo_actions[i].help)),
                 ceduo_app_format(app, "%d", i));
 }
@@ -102,9 +102,9 @@ static void list_commands(struct app *app)
 static const struct {
     enum action first;
     const char *heading;
-} groups[] = {{ACTION_UP, N_("Moving")},        {ACTION_EDIT, N_("Changing")},
-              {ACTION_VIEW_SLOPE, N_("Views")}, {ACTION_FIND, N_("Looking further")},
-              {ACTION_NEW, N_("Files")},        {ACTION_CHARSET, N_("Screen")}};
+} help_groups[] = {{ACTION_UP, N_("Moving")},        {ACTION_EDIT, N_("Changing")},
+                   {ACTION_VIEW_SLOPE, N_("Views")}, {ACTION_FIND, N_("Looking further")},
+                   {ACTION_NEW, N_("Files")},        {ACTION_CHARSET, N_("Screen")}};
 
 /* Terms of the right column. Fields are explained at the cursor. */
 static const struct {
@@ -131,9 +131,9 @@ static void show_help(struct app *app)
     ceduo_text_append(&p->text, _("Every edit is live: figures and pictures follow at once.\n \n"));
     for (int i = 0; i < ACTION_COUNT; i++) {
         const struct action_info *a = &ceduo_actions[i];
-        for (size_t k = 0; k < sizeof groups / sizeof groups[0]; k++)
-            if ((int)groups[k].first == i)
-                ceduo_text_format(&p->text, "%s%s\n", k > 0 ? " \n" : "", _(groups[k].heading));
+        for (size_t k = 0; k < sizeof help_groups / sizeof help_groups[0]; k++)
+            if ((int)help_groups[k].first == i)
+                ceduo_text_format(&p->text, "%s%s\n", k > 0 ? " \n" : "", _(help_groups[k].heading));
         const char *keys = ceduo_app_format(app, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
         ceduo_text_format(&p->text, "  %-16s%s\n", keys, ceduo_translate_in(a->help));
     }
@@ -156,7 +156,7 @@ static void show_help(struct app *app)
 /* ---- actions of all views ---- */
 
 const struct action_info ceduo_actions[ACTION_COUNT] = {
-#define X(NAME, key, word, key2, word2, bar, help, act) {key, key2, word, word2, bar, help},
+#define X(NAME, key, word, key2, word2, bar, help, binding) {key, key2, word, word2, bar, help},
     ACTIONS(X)
 #undef X
 };
@@ -169,12 +169,12 @@ enum action ceduo_action_find(int key)
     return ACTION_NONE;
 }
 
-static void show_view(struct app *app, int view)
+static void open_view(struct app *app, int view)
 {
     ceduo_app_show(app, (enum view_number)view);
 }
 
-static void next_theme(struct app *app)
+static void change_theme(struct app *app)
 {
     app->theme = (app->theme + 1) % 3;
 }
@@ -185,21 +185,21 @@ static void redraw(struct app *app)
 }
 
 /* Handlers of all views. */
-#define BY(f, n)                                        .function = f, .by = n
-#define DO(f)                                           .plain = f
-#define X(NAME, key, word, key2, word2, bar, help, act) [ACTION_##NAME] = {act},
-static const struct act acts[ACTION_COUNT] = {ACTIONS(X)};
+#define CALL_WITH(f, n)                                     .handler = f, .step = n
+#define CALL(f)                                             .plain = f
+#define X(NAME, key, word, key2, word2, bar, help, binding) [ACTION_##NAME] = {binding},
+static const struct key_binding common_bindings[ACTION_COUNT] = {ACTIONS(X)};
 #undef X
 
 /* Call the handler of the view, or the common one. */
-static void act(struct app *app, enum action action)
+static void run_action(struct app *app, enum action action)
 {
-    const struct act *a = ceduo_views[app->view]->acts[ceduo_app_state(app)->pane];
-    while (a && (a->function || a->plain) && a->action != action)
+    const struct key_binding *a = ceduo_views[app->view]->bindings[ceduo_app_state(app)->pane];
+    while (a && (a->handler || a->plain) && a->action != action)
         a++;
-    a = a && (a->function || a->plain) ? a : &acts[action];
-    if (a->function)
-        a->function(app, a->by);
+    a = a && (a->handler || a->plain) ? a : &common_bindings[action];
+    if (a->handler)
+        a->handler(app, a->step);
     else if (a->plain)
         a->plain(app);
 }
@@ -212,20 +212,20 @@ static void begin_input(struct app *app)
     ceduo_arena_free(app->scratch);
     if (!app->popup) {
         app->message[0] = '\0';
-        app->once_saved = NULL;
+        app->after_save = NULL;
     }
 }
 
 /* End an input: offer unsaved work, update the popup's preview and the belt under the cursor. */
 static void end_input(struct app *app)
 {
-    if (app->opened && !app->no_recovery)
+    if (app->just_opened && !app->no_recovery)
         ceduo_popup_recover(app);
-    app->opened = false;
+    app->just_opened = false;
     if (app->popup)
-        ceduo_popup_browse(app);
-    if (!app->quit && ceduo_views[app->view]->follow)
-        ceduo_views[app->view]->follow(app);
+        ceduo_popup_update_note(app);
+    if (!app->quit && ceduo_views[app->view]->after_key)
+        ceduo_views[app->view]->after_key(app);
 }
 
 void ceduo_program_key(struct app *app, int key)
@@ -235,7 +235,7 @@ void ceduo_program_key(struct app *app, int key)
     if (app->popup)
         ceduo_popup_key(app, key);
     else if (action != ACTION_NONE)
-        act(app, action);
+        run_action(app, action);
     end_input(app);
 }
 
@@ -257,7 +257,7 @@ void ceduo_program_click(struct app *app, int x, int y)
         return;
     begin_input(app);
     if (y == 0) {
-        enum view_number view = ceduo_screen_view_at(app, x);
+        enum view_number view = ceduo_screen_find_view(app, x);
         if (view < VIEW_COUNT)
             ceduo_app_show(app, view);
     } else if (ceduo_form_click(&state->form, x, y)) {
@@ -298,9 +298,9 @@ bool ceduo_program_poll(struct app *app)
     if (years && app->year >= years->count)
         app->year = 0;
     if (results->preview)
-        ceduo_popup_previewed(app, results->preview);
+        ceduo_popup_on_preview(app, results->preview);
     if (results->search)
-        ceduo_popup_found(app, results->search);
+        ceduo_popup_on_found(app, results->search);
     ceduo_job_results_drop(results, JOB_PREVIEW);
     ceduo_job_results_drop(results, JOB_SEARCH);
     return changed;

@@ -8,7 +8,7 @@
 #define BARS_MIN   7   /* min. lines of the energies as bars */
 
 /* Draw the text; `bars`: with the energies as bars. */
-static void draw_page(struct app *app, struct ceduo_area area, const struct ceduo_picture *picture, bool bars)
+static void draw_results_text(struct app *app, struct ceduo_area area, const struct ceduo_picture *picture, bool bars)
 {
     area.width -= 2; /* columns for the mark that the text continues */
     struct ceduo_page page = {.width = (size_t)area.width};
@@ -16,17 +16,17 @@ static void draw_page(struct app *app, struct ceduo_area area, const struct cedu
     ceduo_pane_belts(&page, &pane);
     ceduo_pane_residual(&page, &pane);
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
-    int rest = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0);
+    int remaining = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0);
     if (bars) {
         ceduo_plot_add(CEDUO_PLOT_HISTOGRAM, &page, picture,
-                       rest > BARS_MIN ? rest < 2 * BARS_MIN ? rest : 2 * BARS_MIN : BARS_MIN);
+                       remaining > BARS_MIN ? remaining < 2 * BARS_MIN ? remaining : 2 * BARS_MIN : BARS_MIN);
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
     }
     ceduo_pane_words(&page, &pane);
-    ceduo_app_page(app, area, &page);
+    ceduo_app_draw_page(app, area, &page);
 }
 
-static void draw(struct app *app, struct ceduo_area area)
+static void draw_results(struct app *app, struct ceduo_area area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app);
     bool wide = area.width >= WIDE_MIN, blocks = picture.scene->blocks_count > 0;
@@ -41,12 +41,12 @@ static void draw(struct app *app, struct ceduo_area area)
         cut_bottom(&page, 1);
     }
     for (int i = 0; i < n; i++, plot.top += plot.height + 1)
-        ceduo_app_plot(app, plots[i], plot, &picture);
-    draw_page(app, page, &picture, n == 0);
+        ceduo_app_draw_plot(app, plots[i], plot, &picture);
+    draw_results_text(app, page, &picture, n == 0);
 }
 
 const struct view ceduo_view_results = {
     .panes = 1,
     .result = true,
-    .draw = draw,
+    .draw = draw_results,
     .bar = {KEY(DOWN, N_("read on")), KEY(EXPORT, N_("export")), KEY(NEXT_OPTION, N_("next option"))}};

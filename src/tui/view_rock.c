@@ -17,7 +17,7 @@ static void build_blocks(struct form *form, const struct node *blocks)
         ceduo_form_table(form, "blocks", NULL, columns);
 }
 
-static void build(struct app *app, struct form *form)
+static void build_rock(struct app *app, struct form *form)
 {
     static const char *const sizes[] = {[CEDUO_SPHERE] = "shape diameter_m volume_m3",
                                         [CEDUO_CYLINDER] = "shape diameter_m height_m",
@@ -47,7 +47,7 @@ static void build(struct app *app, struct form *form)
 
 #define WIDE 70 /* columns for a remark */
 
-static void draw(struct app *app, struct ceduo_area area)
+static void draw_rock(struct app *app, struct ceduo_area area)
 {
     struct ceduo_rock rock = ceduo_rock_mean(&app->document.file.scene.rock);
     struct text text = {0};
@@ -66,8 +66,8 @@ static void draw(struct app *app, struct ceduo_area area)
         ceduo_text_append_joined(&text, " ", "%s",
                                  _("The lumped law knows neither mass nor shape: on the ground they scale the "
                                    "energy alone."));
-    int lines = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
-    ceduo_app_set_cursor(app, cut_bottom(&area, lines), CEDUO_ROLE_DIM, &text);
+    int lines = ceduo_app_count_lines(app, ceduo_text_string(&text), area.width);
+    ceduo_app_draw_text(app, cut_bottom(&area, lines), CEDUO_ROLE_DIM, &text);
     cut_bottom(&area, 1);
     ceduo_app_draw_form(app, area);
 }
@@ -79,15 +79,16 @@ static void delete_blocks(struct app *app)
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     if (!blocks || blocks->kind != NODE_MAP || !cell || strncmp(cell->path, "blocks.", 7) != 0)
         ceduo_items_delete(app);
-    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, "blocks")))
+    else if (ceduo_app_finish_edit(app, ceduo_document_delete(&app->document, "blocks")))
         ceduo_app_show_message(app, "%s", _("blocks deleted: every rock is the one above; u brings them back"));
 }
 
-static const struct act acts[] = {KEY(ADD, .plain = ceduo_items_add_blocks), KEY(DELETE, .plain = delete_blocks), {0}};
+static const struct key_binding rock_view_bindings[] = {
+    KEY(ADD, .plain = ceduo_items_add_blocks), KEY(DELETE, .plain = delete_blocks), {0}};
 
 const struct view ceduo_view_rock = {
     .panes = 1,
-    .build = build,
-    .draw = draw,
-    .acts = {acts},
-    .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("blocks")), KEY(MORE, N_("more")), KEY(LESS, N_("less"))}};
+    .build = build_rock,
+    .draw = draw_rock,
+    .bindings = {rock_view_bindings},
+    .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("blocks")), KEY(INCREASE, N_("more")), KEY(DECREASE, N_("less"))}};

@@ -4,7 +4,7 @@
 #include "app.h"
 #include "base/language.h"
 
-static void build(struct app *app, struct form *form)
+static void build_ranges(struct app *app, struct form *form)
 {
     const struct node *rows = ceduo_node_get(app->document.file.root, "uncertainty");
     size_t n = rows && rows->kind == NODE_LIST ? rows->n : 0;
@@ -22,7 +22,7 @@ static void build(struct app *app, struct form *form)
 #define WORDS_MIN 4 /* min. lines of the text below the picture */
 
 /* Draw the picture and its text, which scroll together, and the ranges of the scene. */
-static void draw(struct app *app, struct ceduo_area area)
+static void draw_uncertainty(struct app *app, struct ceduo_area area)
 {
     ceduo_app_draw_form(app, cut_bottom(&area, ceduo_app_form(app)->n > 1 ? area.height / 4 : 1));
     cut_bottom(&area, 1);
@@ -31,26 +31,26 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     const struct ceduo_uncertainty_report *r = pane.report->uncertainty;
-    bool waits = app->over && r && r->answer && !r->over;
-    picture.uncertainty = waits ? NULL : r;
-    const char *never = waits ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;
-    if (never)
-        ceduo_page_para(&page, CEDUO_PAGE_NOTE, "%s", _(never));
+    bool pending = app->rotation_mean && r && r->answer && !r->over;
+    picture.uncertainty = pending ? NULL : r;
+    const char *reason = pending ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;
+    if (reason)
+        ceduo_page_para(&page, CEDUO_PAGE_NOTE, "%s", _(reason));
     else if (ceduo_plot_add(CEDUO_PLOT_UNCERTAINTY, &page, &picture, pane.height - WORDS_MIN - 1))
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
-    if (!waits)
+    if (!pending)
         ceduo_pane_uncertainty(&page, &pane);
-    if (r && r->answer && !waits)
+    if (r && r->answer && !pending)
         ceduo_page_para(&page, CEDUO_PAGE_NOTE,
                         r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
                         (unsigned long long)r->answer->evaluations,
                         (unsigned long long)(r->over ? CEDUO_UNCERTAINTY_YEAR_ROCKS : r->rocks));
-    ceduo_app_page(app, area, &page);
+    ceduo_app_draw_page(app, area, &page);
 }
 
-static void turn(struct app *app)
+static void toggle_rotation(struct app *app)
 {
-    app->over = !app->over;
+    app->rotation_mean = !app->rotation_mean;
     ceduo_app_state(app)->text.first = 0;
 }
 
@@ -65,7 +65,7 @@ static bool is_named(const struct node *rows, const char *path)
 }
 
 /* Write the most important input without a range in the scene, with its current range. */
-static void add(struct app *app)
+static void add_range(struct app *app)
 {
     const struct node *rows = ceduo_node_get(app->document.file.root, "uncertainty");
     struct ceduo_uncertainty_report r;
@@ -88,25 +88,25 @@ static void add(struct app *app)
         ceduo_uncertainty_input_end(&row, &r, f->order[i], 1);
         ceduo_text_char(&row, '}');
         size_t n = rows ? rows->n : 0;
-        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "uncertainty", n, row.bytes)))
-            ceduo_form_go(ceduo_app_form(app), "uncertainty", n);
+        if (ceduo_app_finish_edit(app, ceduo_document_insert(&app->document, "uncertainty", n, row.bytes)))
+            ceduo_form_go_to_item(ceduo_app_form(app), "uncertainty", n);
         return;
     }
     ceduo_app_show_message(app, "%s", _("every uncertain value has a range of the scene already"));
 }
 
-static const struct act acts[] = {KEY(ADD, .plain = add),
-                                  KEY(NEXT_PANE, .plain = turn),
-                                  KEY(LAST_PANE, .plain = turn),
-                                  KEY(PAGE_UP, .function = ceduo_app_continue_form, .by = -4),
-                                  KEY(PAGE_DOWN, .function = ceduo_app_continue_form, .by = 4),
-                                  {0}};
+static const struct key_binding uncertainty_bindings[] = {KEY(ADD, .plain = add_range),
+                                                          KEY(NEXT_PANE, .plain = toggle_rotation),
+                                                          KEY(PREV_PANE, .plain = toggle_rotation),
+                                                          KEY(PAGE_UP, .handler = ceduo_app_scroll_text, .step = -4),
+                                                          KEY(PAGE_DOWN, .handler = ceduo_app_scroll_text, .step = 4),
+                                                          {0}};
 
 const struct view ceduo_view_uncertainty = {.panes = 1,
                                             .uncertainty = true,
-                                            .build = build,
-                                            .draw = draw,
-                                            .acts = {acts},
+                                            .build = build_ranges,
+                                            .draw = draw_uncertainty,
+                                            .bindings = {uncertainty_bindings},
                                             .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("a range")), KEY(DELETE, N_("delete")),
                                                     KEY(NEXT_PANE, N_("today or years")), KEY(NEXT_OPTION, N_("next option")),
                                                     KEY(PAGE_DOWN, N_("read on"))}};

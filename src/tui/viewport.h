@@ -14,17 +14,17 @@ struct viewport {
 #define ALL_LINES 1000000 /* a step of this size goes to the first or last line */
 
 /* Scroll by n lines. */
-static inline void viewport_scroll(struct viewport *v, int by)
+static inline void viewport_scroll(struct viewport *v, int n)
 {
-    int moved = v->first + by;
-    v->first = by >= ALL_LINES ? -1 : by <= -ALL_LINES ? 0 : (v->first < 0) == (moved < 0) ? moved : v->first < 0 ? -1 : 0;
+    int moved = v->first + n;
+    v->first = n >= ALL_LINES ? -1 : n <= -ALL_LINES ? 0 : (v->first < 0) == (moved < 0) ? moved : v->first < 0 ? -1 : 0;
 }
 
 /* Move the cursor by n lines, within the list. */
-static inline void viewport_move(struct viewport *v, int by)
+static inline void viewport_move(struct viewport *v, int n)
 {
-    int at = v->selected + by < v->count ? v->selected + by : v->count - 1;
-    v->selected = at > 0 ? at : 0;
+    int line = v->selected + n < v->count ? v->selected + n : v->count - 1;
+    v->selected = line > 0 ? line : 0;
 }
 
 /* Set both sizes, and keep the viewport within the list. */
