@@ -185,8 +185,8 @@ static void redraw(struct app *app)
 }
 
 /* Handlers of all views. */
-#define CALL_WITH(f, n)                                     .handler = f, .step = n
-#define CALL(f)                                             .plain = f
+#define RUN(f, n)                                           .handler = f, .step = n
+#define DO(f)                                               .plain = f
 #define X(NAME, key, word, key2, word2, bar, help, binding) [ACTION_##NAME] = {binding},
 static const struct key_binding common_bindings[ACTION_COUNT] = {ACTIONS(X)};
 #undef X
