@@ -67,12 +67,12 @@ static void follow_border(struct follow *f)
         return;
     if (to ? end <= now : end >= now)
         ceduo_text_format(&f->refused,
-                          to ? _("what comes next ends at %g m already; delete that first")
-                             : _("what comes before begins at %g m only; delete that first"),
+                          to ? _("the next item ends at %g m; delete it first")
+                             : _("the previous item begins at %g m; delete it first"),
                           end);
     ceduo_changes_set(&f->changes, border, "%s",
                       f->value[0] == 'e' ? f->value : NUMERAL(now)); /* keep the unit: distance from the end */
-    ceduo_text_format(&f->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
+    ceduo_text_format(&f->followed, to ? _("the next item now begins at %s m") : _("the previous item now ends at %s m"),
                       ceduo_number_spoken(NUMERAL(now)));
 }
 
@@ -105,8 +105,8 @@ static void follow_diameter(struct follow *f, const struct ceduo_curve *curve, c
     if (taller > 0)
         ceduo_changes_add(&f->changes, CHANGE_KEEP_SOURCE, height, written);
     ceduo_text_format(&f->followed,
-                      taller > 0 ? _("its height, assumed, goes along by the growth curve: %s m")
-                                 : _("its height, %s m, is assumed and stays: no growth curve has this diameter"),
+                      taller > 0 ? _("assumed height adjusted by the growth curve: %s m")
+                                 : _("assumed height unchanged at %s m: the growth curve does not reach this diameter"),
                       ceduo_number_spoken(ceduo_arena_string(f->arena, written)));
 }
 
@@ -131,7 +131,7 @@ static void follow_design(struct follow *f)
     for (int i = 0; i < 2; i++)
         if (strcmp(f->path, both[i]) == 0 && !ceduo_document_node(f->d, "design")) {
             ceduo_changes_set(&f->changes, both[1 - i], "poor");
-            ceduo_text_append(&f->followed, _("the other survey is taken as poor"));
+            ceduo_text_append(&f->followed, _("the other survey is assumed to be poor"));
         }
 }
 
@@ -225,7 +225,7 @@ static void follow_cylinder(struct follow *f)
     for (int i = 0; f->d->file.scene.rock.shape == CEDUO_CYLINDER && i < 2; i++)
         if (strcmp(f->path, keys[i]) == 0 && !ceduo_document_node(f->d, keys[1 - i])) {
             ceduo_changes_set(&f->changes, keys[1 - i], "%s", f->value);
-            ceduo_text_append(&f->followed, _("diameter and height are equal now"));
+            ceduo_text_append(&f->followed, _("diameter and height are now equal"));
         }
 }
 
@@ -266,7 +266,7 @@ bool ceduo_document_set_and_follow(struct document *d, const char *path, const c
     follow_stand(&f);
     ceduo_changes_set(&f.changes, path, "%s", value);
     if (f.filled.length)
-        ceduo_text_format(notes, _("filled in for the same volume: %s"), f.filled.bytes);
+        ceduo_text_format(notes, _("set for the same volume: %s"), f.filled.bytes);
     if (f.removed.length)
         ceduo_text_format(notes, _("%sremoved: %s"), notes->length ? "; " : "", f.removed.bytes);
     if (f.followed.length)

@@ -233,7 +233,7 @@ const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
 {
     if (scene->simulation.contact_model == CEDUO_INDEX)
         return N_("not computed: years by the index have no uncertainty");
-    return ceduo_window_in(scene).kind == CEDUO_WINDOW_CONSTANT ? N_("not computed: all years are alike") : NULL;
+    return ceduo_window_in(scene).kind == CEDUO_WINDOW_CONSTANT ? N_("not computed: all years are the same") : NULL;
 }
 
 #define PROGRESS_STEP 0.01 /* report progress in steps of this share */

@@ -259,7 +259,7 @@ static bool has_requirements(const struct search *s)
                              _("exceed: with contact_model index no rock is simulated in the forest"));
     if (s->def.sure > 0 && s->def.rotation && s->def.goal == CEDUO_GOAL_ENERGY)
         return ceduo_problem(s->problems, &sure_source, 0, 0,
-                             _("over a rotation the mean energy is not known at each point; use the goal exceed or arrive"));
+                             _("over a rotation the mean energy has no uncertainty; use the goal exceed or arrive"));
     return true;
 }
 

@@ -67,7 +67,7 @@ void ceduo_edit_step(struct app *app, int direction)
     if (!ceduo_form_step(ceduo_app_form(app), direction, &value) || !value.bytes)
         ceduo_app_show_message(app, "%s", _("this field has no steps; Enter edits it"));
     else if (strcmp(value.bytes, cell->text) == 0)
-        ceduo_app_show_message(app, "%s", _("the limit of its range"));
+        ceduo_app_show_message(app, "%s", _("limit of the range reached"));
     else
         set_cell_value(app, cell, value.bytes);
 }
@@ -97,7 +97,7 @@ static bool find_item(struct app *app, struct item *item, bool exists)
     const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
     bool has_item = row && row->list[0] && ceduo_app_state(app)->pane == 0;
     if (!has_item || (exists && row->n == 0)) {
-        ceduo_app_show_message(app, "%s", _("this works on an item of a list: put the cursor on one"));
+        ceduo_app_show_message(app, "%s", _("put the cursor on an item of a list first"));
         return false;
     }
     *item = make_item(app, row->list, row->index);
@@ -139,7 +139,7 @@ static bool split_profile(struct app *app, size_t segment, bool split_ground, do
 {
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
     if (!vertices || segment + 1 >= vertices->n) {
-        ceduo_app_warn(app, "%s", _("the profile comes from a CSV file: its points are edited there"));
+        ceduo_app_warn(app, "%s", _("the profile is a CSV file: edit its points there"));
         return false;
     }
     double px[2], pz[2];
@@ -269,7 +269,7 @@ static bool ask_block_class(struct app *app, const struct item *item)
         largest ? ceduo_number_spoken(ceduo_app_format(app, "%.10g %.10g", largest->volumes[1], 10 * largest->volumes[1]))
                 : ""};
     ceduo_popup_new_item(app, item->list, NULL, offered, 2);
-    app->popup->title = _("A class of blocks that come down");
+    app->popup->title = _("New class of blocks");
     return false;
 }
 
@@ -344,7 +344,7 @@ void ceduo_items_add(struct app *app)
         return;
     make_new_item(app, &item, true);
     if (strcmp(item.key, "forest") == 0 && !app->message[0])
-        ceduo_app_show_message(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
+        ceduo_app_show_message(app, "%s", _("new belt: p chooses its stand, c enters a sample plot"));
 }
 
 void ceduo_items_add_at(struct app *app, const char *list, size_t index, double x)
@@ -362,12 +362,12 @@ void ceduo_items_delete(struct app *app)
     const struct node *list = ceduo_document_node(&app->document, item.list);
     const char *path = ceduo_app_format(app, "%s[%zu]", item.list, item.index);
     if (list && list->n == 1 && strcmp(item.list, "controls") == 0) {
-        ceduo_app_show_message(app, "%s", _("the only place where rocks are counted stays"));
+        ceduo_app_show_message(app, "%s", _("the only control cannot be deleted"));
     } else if (ceduo_app_finish_edit(app, remove_item(app, &item, path))) {
         const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
         if (row && strcmp(row->list, item.list) != 0) /* stay in this list, so that repeating d is safe */
             ceduo_form_move(ceduo_app_form(app), -1, 0);
-        ceduo_app_show_message(app, _("deleted: %s; u brings it back"), ceduo_app_path(app, path));
+        ceduo_app_show_message(app, _("deleted: %s; u undoes"), ceduo_app_path(app, path));
     }
 }
 
@@ -434,9 +434,7 @@ static bool submit_item(struct app *app, struct popup *p)
     }
     ceduo_form_go_to_item(ceduo_app_form(app), list, n);
     ceduo_app_show_message(
-        app, "%s",
-        counted ? _("taken over; blocks say how many rocks a year come down, so rocks_per_year is removed; u takes it back")
-                : _("taken over; u takes it back"));
+        app, "%s", counted ? _("added; blocks replace rocks_per_year, which is removed; u undoes") : _("added; u undoes"));
     return true;
 }
 
@@ -446,7 +444,7 @@ void ceduo_popup_new_item(struct app *app, const char *list, const char *group, 
     object_field = group ? ceduo_schema_field(object_field->object, group) : object_field;
     struct popup *p = ceduo_popup_fields(app, _(object_field->meaning), list, submit_item);
     p->context = group ? object_field->key : NULL;
-    ceduo_text_append(&p->text, _("Several numbers with blanks between them, decimals with a dot or a comma: 41 44.5 52."));
+    ceduo_text_append(&p->text, _("Separate numbers with blanks. Decimals have a dot or a comma: 41 44.5 52."));
     for (const struct field *f = object_field->object->fields; f < object_field->object->fields + object_field->object->n;
          f++) {
         if (f->type != FIELD_NUMBER && f->type != FIELD_NUMBERS && f->type != FIELD_COUNT && f->type != FIELD_SPREAD)

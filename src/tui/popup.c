@@ -126,15 +126,16 @@ bool ceduo_popup_read(struct app *app, const struct field *field, struct line *l
         return false;
     if (line->text[0] == '\0') {
         if (needed)
-            ceduo_app_warn(app, _("%s: it is needed; %s"), label, _(field->meaning));
+            ceduo_app_warn(app, _("%s: required; %s"), label, _(field->meaning));
         return !needed;
     }
     ceduo_typed_value(field, line->text, value);
     const char *written = ceduo_text_string(value);
     if (list ? written[0] == '[' : written[0] == '{' || ceduo_number_read(written, &number) == CEDUO_NUMBER_GOOD)
         return true;
-    ceduo_app_warn(app, list ? _("%s: numbers with blanks between them, not '%s'") : _("%s: '%s' is not a number"), label,
-                   line->text);
+    ceduo_app_warn(app,
+                   list ? _("%s: '%s' is not a list of numbers; separate them with blanks") : _("%s: '%s' is not a number"),
+                   label, line->text);
     return false;
 }
 
@@ -153,7 +154,7 @@ bool ceduo_popup_confirm_overwrite(struct app *app, struct popup *p)
     if (access(line->text, F_OK) != 0 || line->confirmed)
         return true;
     line->confirmed = true;
-    ceduo_app_warn(app, "%s", _("there is such a file already; Enter once more replaces it"));
+    ceduo_app_warn(app, "%s", _("the file exists; Enter again replaces it"));
     return false;
 }
 
@@ -421,10 +422,10 @@ static const struct {
     void (*draw)(struct app *app, struct popup *popup);
     const char *bar;
 } popup_kinds[] = {
-    [POPUP_TEXT] = {handle_text_key, draw_text, N_("Up Down PgUp PgDn read on  any other key closes")},
-    [POPUP_FIELD] = {handle_field_key, NULL, N_("Enter takes the value  Esc leaves it as it was  empty: the default")},
-    [POPUP_LIST] = {handle_list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab completes  Up Down move")},
-    [POPUP_FIELDS] = {handle_fields_key, draw_fields, N_("Enter next, at the last one done  Esc one back  Tab completes")}};
+    [POPUP_TEXT] = {handle_text_key, draw_text, N_("Up Down PgUp PgDn scroll  any other key closes")},
+    [POPUP_FIELD] = {handle_field_key, NULL, N_("Enter accept  Esc cancel  empty: default")},
+    [POPUP_LIST] = {handle_list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab complete  Up Down move")},
+    [POPUP_FIELDS] = {handle_fields_key, draw_fields, N_("Enter next field, on the last one done  Esc back  Tab complete")}};
 
 void ceduo_popup_key(struct app *app, int key)
 {
@@ -441,7 +442,7 @@ bool ceduo_popup_paste(struct app *app, const char *text)
     if (ceduo_line_paste(&p->fields[p->current].line, text))
         update_items(app, p);
     else
-        ceduo_app_warn(app, "%s", _("what was pasted is too long for this line, which stays as it was"));
+        ceduo_app_warn(app, "%s", _("the pasted text is too long for this line"));
     return true;
 }
 

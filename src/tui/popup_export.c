@@ -31,13 +31,13 @@ static void show_command(struct app *app, struct popup *p)
     ceduo_text_char(&p->text, '\n');
     if (shown)
         ceduo_text_format(&p->text,
-                          app->live.busy ? _("\nThe figures on the screen are of %llu rocks; more are falling.\n")
-                                         : _("\nThe figures on the screen are of %llu rocks.\n"),
+                          app->live.busy ? _("\nThe figures on the screen are from %llu rocks; the simulation continues.\n")
+                                         : _("\nThe figures on the screen are from %llu rocks.\n"),
                           (unsigned long long)shown->released);
     else
-        ceduo_text_append(&p->text, _("\nThere are no figures yet: -n is what the scene says.\n"));
+        ceduo_text_append(&p->text, _("\nThere are no figures yet: -n is the number of rocks in the scene.\n"));
     if (ceduo_document_unsaved(&app->document))
-        ceduo_text_append(&p->text, _("\nThere is unsaved work: s saves it first.\n"));
+        ceduo_text_append(&p->text, _("\nThere are unsaved changes: save them first (s).\n"));
 }
 
 /* True if the last level of uncertainty is computed. */
@@ -76,8 +76,8 @@ static const struct {
                       {"ceduo-screen.txt", N_("this screen, with its picture, as text")},
                       {"ceduo.csv", N_("CSV, a row for each option and control")},
                       {"ceduo.json", N_("JSON")},
-                      {"ceduo.html", N_("a page to hand in, as HTML")},
-                      {NULL, N_("the batch command that gives the same")}};
+                      {"ceduo.html", N_("a report, as HTML")},
+                      {NULL, N_("the batch command for these figures")}};
 
 static void append_export(struct app *app, enum export_kind kind, struct text *text)
 {
@@ -120,7 +120,7 @@ static bool submit_export(struct app *app, struct popup *p)
     else
         ceduo_app_show_message(app,
                                kind == EXPORT_REPORT && !is_uncertainty_done(app)
-                                   ? _("written: %s; how sure it is was not known yet: write it again in a moment")
+                                   ? _("written: %s; without uncertainty, which is not computed yet")
                                    : _("written: %s"),
                                path);
     return good;
@@ -176,7 +176,7 @@ static void select_export(struct app *app, struct popup *p)
     struct tm local;
     /* Translators: a date, as strftime() writes it. */
     strftime(today, sizeof today, _("%Y-%m-%d"), localtime_r(&time_now, &local));
-    ceduo_text_append(&head->text, _("Each line may stay empty. What is written here is kept in the scene, as 'page'."));
+    ceduo_text_append(&head->text, _("All lines are optional. They are stored in the scene, as 'page'."));
     for (size_t i = 0; i < page->n; i++)
         ceduo_popup_add_field(head, _(page->fields[i].shown.label), strcmp(page->fields[i].key, "date") == 0 ? today : "");
 }
@@ -191,7 +191,7 @@ void ceduo_popup_copy(struct app *app)
     const struct ceduo_scene *scene = &app->document.file.scene;
     LOCAL_TEXT(text);
     if (!app->copy) {
-        ceduo_app_warn(app, "%s", _("this terminal has no clipboard that a program may write; w writes to a file"));
+        ceduo_app_warn(app, "%s", _("this terminal gives programs no clipboard; w writes a file"));
         return;
     }
     if (ceduo_views[app->view]->result && !r) {
@@ -227,10 +227,9 @@ void ceduo_popup_copy(struct app *app)
     app->cells = screen;
     *state = saved_state;
     if (app->copy(text.bytes))
-        ceduo_app_show_message(
-            app, ngettext("copied: %zu line of what this view says", "copied: %zu lines of what this view says", lines), lines);
+        ceduo_app_show_message(app, ngettext("copied: %zu line", "copied: %zu lines", lines), lines);
     else
-        ceduo_app_warn(app, "%s", _("this view says too much for a clipboard; w writes it to a file"));
+        ceduo_app_warn(app, "%s", _("the text is too long for the clipboard; w writes it to a file"));
 }
 
 void ceduo_popup_export(struct app *app)

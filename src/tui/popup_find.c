@@ -19,11 +19,11 @@ static const struct {
     const char *words, *unit;
     double per; /* amount of the unit in one unit of the goal */
 } goals[] = {{CEDUO_GOAL_ADC, N_("mean distance between hits below … m (ADC)"), "m", 1},
-             {CEDUO_GOAL_FREE_RUN, N_("chance of a free run at most … %"), "%", 100},
-             {CEDUO_GOAL_EXCEED, N_("at most … of 1000 arrive with too much"), N_("of 1000"), 1000},
-             {CEDUO_GOAL_ARRIVE, N_("at most … of 1000 arrive"), N_("of 1000"), 1000},
-             {CEDUO_GOAL_WORST_EXCEED, N_("in the worst year at most … of 1000 arrive with too much"), N_("of 1000"), 1000},
-             {CEDUO_GOAL_WORST_ARRIVE, N_("in the worst year at most … of 1000 arrive"), N_("of 1000"), 1000},
+             {CEDUO_GOAL_FREE_RUN, N_("probability of a free run at most … %"), "%", 100},
+             {CEDUO_GOAL_EXCEED, N_("at most … per 1000 above the accepted energy"), N_("per 1000"), 1000},
+             {CEDUO_GOAL_ARRIVE, N_("at most … per 1000 arrive"), N_("per 1000"), 1000},
+             {CEDUO_GOAL_WORST_EXCEED, N_("worst year: at most … per 1000 above the accepted energy"), N_("per 1000"), 1000},
+             {CEDUO_GOAL_WORST_ARRIVE, N_("worst year: at most … per 1000 arrive"), N_("per 1000"), 1000},
              {CEDUO_GOAL_ENERGY, N_("mean energy of arrivals at most … kJ"), "kJ", 1}};
 #define GOALS_OFFERED (sizeof goals / sizeof goals[0])
 
@@ -46,7 +46,7 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
     if (row == GOALS_OFFERED)
         ceduo_app_warn(app, "%s",
                        reading == CEDUO_GOAL_NO_SHARE
-                           ? _("a share is 0 to 1, as 0.05 for 5 %")
+                           ? _("a share is a number from 0 to 1: 0.05 for 5 %")
                            : _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
     double amount = NAN;
     if (row == GOALS_OFFERED || !ceduo_popup_number(app, p, FIND_TARGET, &amount))
@@ -55,9 +55,9 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
     search->target = reading == CEDUO_GOAL_GOOD ? search->target : NAN;
     search->target = isnan(amount) ? search->target : amount / goals[row].per;
     if (ceduo_goal_is_share(search->goal) && search->target > 1)
-        ceduo_app_warn(app, _("%g %s cannot be"), amount, _(goals[row].unit));
+        ceduo_app_warn(app, _("%g %s is impossible"), amount, _(goals[row].unit));
     else if (!ceduo_goals[search->goal].usual && isnan(search->target))
-        ceduo_app_warn(app, _("how many %s? This goal has no usual limit"), _(goals[row].unit));
+        ceduo_app_warn(app, _("how many %s? This goal has no default"), _(goals[row].unit));
     else
         return true;
     return false;
@@ -78,11 +78,11 @@ static void append_standards_rule(struct app *app, const char *path, struct text
     struct ceduo_compliance c = ceduo_regulation_check(&app->document.file.scene.rules, &belt->stand);
     double own = app->document.file.scene.reserves_minimum;
     if (c.standards_item)
-        ceduo_text_append_joined(text, " ", _("The rules of %s ask for %g standards per ha at least (%s, %u); %g are left."),
+        ceduo_text_append_joined(text, " ", _("The rules of %s require at least %g standards per ha (%s, %u); %g are left."),
                                  c.of->name, c.standards_item->least, c.standards_item->article, c.standards_item->year,
                                  c.standards);
     if (!isnan(own) && own > 0)
-        ceduo_text_append_joined(text, " ", _("The scene asks for %g per ha at least."), own);
+        ceduo_text_append_joined(text, " ", _("The scene requires at least %g per ha."), own);
 }
 
 /* Read the fields; the path is the popup's. */
@@ -96,7 +96,7 @@ static bool read_search(struct app *app, struct popup *p, struct ceduo_search *s
     search->sure = cases / 100;
     if (search->lo <= search->hi)
         return true;
-    ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
+    ceduo_app_warn(app, "%s", _("two bounds are needed, the smaller first"));
     return false;
 }
 
@@ -218,13 +218,13 @@ static void ask_goal(struct app *app, const char *path, const char *written)
     propose_range(app, path, f, written, &lo, &hi);
     struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), path, submit_search);
     ceduo_text_format(&p->text,
-                      _("The value of: %s. The same rocks for every value; the goal counts at the worst control. "
-                        "What is found is put into the field; u takes it back."),
+                      _("Value of: %s. Every value is tried with the same rocks; the goal applies to the worst control. The "
+                        "result replaces the field (u undoes)."),
                       ceduo_app_path(app, path));
     append_standards_rule(app, path, &p->text);
     ceduo_popup_add_choice(p, _("goal"), _(goals[0].words), complete_goals);
-    ceduo_popup_add_value(p, _("how many (empty: usual limit)"), "", &ceduo_popup_amount);
-    struct field *cases = ceduo_popup_add_value(p, _("sure in … of 100 (empty: no)"), "", &ceduo_popup_amount);
+    ceduo_popup_add_value(p, _("how many (empty: default)"), "", &ceduo_popup_amount);
+    struct field *cases = ceduo_popup_add_value(p, _("in … % of plausible cases"), "", &ceduo_popup_amount);
     cases->hi = 100;
     cases->flags = FIELD_ABOVE;
     for (int i = 0; i < 2; i++) {
@@ -248,7 +248,7 @@ static void ask_list_number(struct app *app, const char *path, const struct node
         ask_goal(app, ceduo_app_format(app, "%s[0]", path), list->items[0]->text);
         return;
     }
-    struct popup *p = ceduo_popup_list(app, _("Which of its numbers is looked for?"), "", select_number);
+    struct popup *p = ceduo_popup_list(app, _("Which number of the list?"), "", select_number);
     for (size_t i = 0; i < list->n && i < POPUP_DIGITS_MAX; i++)
         ceduo_popup_add_menu_item(p, (char)('1' + i), list->items[i]->kind == NODE_SCALAR ? list->items[i]->text : "",
                                   ceduo_app_format(app, "%s[%zu]", path, i));
@@ -265,5 +265,5 @@ void ceduo_popup_find(struct app *app)
     else if (type == FIELD_NUMBER || type == FIELD_COUNT || type == FIELD_SPREAD)
         ask_goal(app, cell->path, cell->written);
     else
-        ceduo_app_warn(app, "%s", _("put the cursor on a number first: f looks for its value that reaches a goal"));
+        ceduo_app_warn(app, "%s", _("put the cursor on a number first; f finds its value for a goal"));
 }

@@ -21,7 +21,8 @@ static const struct {
     unsigned flags;
     const char *meaning;
 } count_rows[COUNTS] = {
-    [AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE, N_("all was counted on it")},
+    [AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE,
+              N_("the area on which stems were counted")},
     [ANGLE] = {N_("angle of the slope, degrees"), COUNTS, NULL, 90, FIELD_REQUIRED | FIELD_UNDER, N_("0 on level ground")},
     [STOOLS] = {N_("stools counted"), COUNTS, NULL, 1e6, 0, NULL},
     [SHOOTS] = {N_("shoots counted on them"), COUNTS, NULL, 1e6, 0, NULL},
@@ -43,11 +44,11 @@ static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
         if (!ceduo_popup_number(app, p, i, &v[i]))
             return false;
         if (sized && v[i] == 0)
-            wrong = ceduo_app_format(app, _("%s: it is needed; %s"), _(count_rows[i].label),
-                                     _(count_rows[count_rows[i].count].label));
+            wrong =
+                ceduo_app_format(app, _("%s: required; %s"), _(count_rows[i].label), _(count_rows[count_rows[i].count].label));
     }
     if (v[SHOOTS] > 0 && v[SHOOTS] < v[STOOLS])
-        wrong = _("fewer shoots than stools: a stool has one shoot at least");
+        wrong = _("fewer shoots than stools: each stool has at least one shoot");
     else if ((v[SHOOTS] > 0) != (v[STOOLS] > 0))
         wrong = _("stools and shoots belong together: count both");
     if (wrong)
@@ -84,7 +85,7 @@ static bool submit_counts(struct app *app, struct popup *p)
     ceduo_changes_set(c, ceduo_app_format(app, "%s.name", p->target), "%s", ceduo_app_scalar(app, _("sample plot")));
     bool good = ceduo_app_finish_edit(app, ceduo_changes_apply(c, _("counts of a plot")));
     if (good)
-        ceduo_app_show_message(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
+        ceduo_app_show_message(app, _("plot of %.4g m2 (horizontal): each counted stem is %.4g per ha"), area, per);
     return good;
 }
 
@@ -100,11 +101,10 @@ void ceduo_popup_ask_counts(struct app *app)
     const struct ceduo_stand *stand = &belt->stand;
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     double fall = ceduo_slope_height(s, belt->from) - ceduo_slope_height(s, belt->to);
-    struct popup *p = ceduo_popup_fields(app, _("Stand from the counts of a sample plot"), ceduo_app_stand(app), submit_counts);
+    struct popup *p = ceduo_popup_fields(app, _("Stand from a sample plot"), ceduo_app_stand(app), submit_counts);
     ceduo_text_format(&p->text,
-                      _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2, and "
-                        "400 m2 of a map, of 0 degrees, are 400. Nothing counted is nothing there. Species, growth and cuts "
-                        "stay those of %s."),
+                      _("Densities are per horizontal hectare: 400 m2 measured along a slope of 40 degrees are 306 m2. For an "
+                        "area from a map enter 0 degrees. An empty count is 0. Species, growth and cutting of %s are kept."),
                       belt->name);
     const double offered[COUNTS] = {
         [AREA] = 400,
@@ -164,8 +164,8 @@ static void set_surveyed_stand(struct app *app, const char *path, const char *va
     else if (!app->message[0])
         ceduo_app_show_message(app,
                                ceduo_stand_grows(&ceduo_app_belt(app)->stand)
-                                   ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
-                                   : _("the stand of the survey; it has no growth and cutting; %s"),
+                                   ? _("stand set from the survey; growth and cutting are assumed: check them; %s")
+                                   : _("stand set from the survey, without growth and cutting; %s"),
                                understood);
 }
 
@@ -208,7 +208,7 @@ static bool submit_survey_form(struct app *app, struct popup *p)
             if (strcmp(f->line.text, _(questions[f->row].answers[i])) == 0)
                 answers.given[f->row] = i + 1;
         if (answers.given[f->row] == 0) {
-            ceduo_app_warn(app, _("%s: choose an answer, or Esc and name the column with its unit"), f->label);
+            ceduo_app_warn(app, _("%s: choose an answer, or press Esc and add the unit to the column name"), f->label);
             return false;
         }
     }
@@ -218,7 +218,7 @@ static bool submit_survey_form(struct app *app, struct popup *p)
 
 static void ask_survey_units(struct app *app, const char *path, const char *survey, const struct survey_answers *answers)
 {
-    struct popup *p = ceduo_popup_fields(app, _("How is the survey to be read?"), path, submit_survey_form);
+    struct popup *p = ceduo_popup_fields(app, _("How to read the survey"), path, submit_survey_form);
     p->context = ceduo_arena_string(&p->arena, survey);
     ceduo_problem_line(app->document.problems.wrong.items, &p->text);
     for (int q = 0; q < SURVEY_QUESTIONS; q++)
@@ -235,7 +235,7 @@ static void complete_surveys(struct app *app, struct popup *p)
     const char *shipped = ceduo_file_find(&p->arena, "surveys/six-plots.csv", NULL, "surveys");
     ceduo_popup_offer_files(app, p);
     if (shipped && !ceduo_picker_has(&p->picker, shipped))
-        ceduo_popup_add_item(p, _("six-plots.csv: an example, made up"), shipped);
+        ceduo_popup_add_item(p, _("six-plots.csv: an invented example"), shipped);
 }
 
 static void select_survey(struct app *app, struct popup *p)
@@ -245,8 +245,8 @@ static void select_survey(struct app *app, struct popup *p)
 
 static void ask_survey_file(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem, or for each class"),
-                                       ceduo_app_stand(app), select_survey);
+    struct popup *p =
+        ceduo_popup_list(app, _("Survey: a CSV file with one row per stem or class"), ceduo_app_stand(app), select_survey);
     ceduo_text_append(&p->text,
                       _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, status; "
                         "see ceduo-stand(5)."));

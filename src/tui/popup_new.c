@@ -77,10 +77,10 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
     } else {
         ceduo_text_append(&a->slope, "vertices_m: ");
         if (!ceduo_typed_points(typed, &a->slope, &a->first, &a->last))
-            wrong = _("the profile: a file that ends in .csv, or points x z, x z, … with x rising");
+            wrong = _("the profile is a .csv file or points x z, x z, … with increasing x");
     }
     if (!wrong && !make_profile(a, "") && !make_profile(a, "  reversed: true\n"))
-        wrong = _("two points of the profile lie too close together for their distance from the first");
+        wrong = _("two points of the profile are too close together");
     if (wrong)
         ceduo_app_warn(app, "%s", wrong);
     return !wrong;
@@ -139,7 +139,7 @@ static void describe_profile(struct popup *p, const struct answers *a)
                           -s->z[s->vertices - 1]);
     ceduo_text_append_joined(&p->text, " ", _("Steepest at %.4g m, %.0f\xc2\xb0."), x + s->origin_x, slope_degrees(s, x));
     if (s->reversed)
-        ceduo_text_append_joined(&p->text, " ", "%s", _("Turned round."));
+        ceduo_text_append_joined(&p->text, " ", "%s", _("Reversed."));
     if (a->release >= a->first && a->release < a->last)
         ceduo_text_append_joined(&p->text, " ", _("Rocks start at %.4g m, on %.0f\xc2\xb0."), a->release,
                                  slope_degrees(s, a->release - s->origin_x));
@@ -176,7 +176,7 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
     if (!ground || !stand)
         ceduo_app_warn(app,
                        stand ? _("no ground '%s' in the library")
-                             : _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"),
+                             : _("no stand '%s'; enter a file, a name such as simple-coppice, or nothing"),
                        typed);
     return ground && stand;
 }
@@ -307,8 +307,8 @@ static void ask_new_scene(struct app *app)
 {
     char buf[CEDUO_NUMBER_ROOM];
     struct popup *p = ceduo_popup_fields(app, _("New scene"), "", submit_new);
-    ceduo_text_append(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is "
-                                  "left empty is not there; rocks are then counted at the end. All can be changed later."));
+    ceduo_text_append(&p->text, _("Profile: a CSV file (distance, elevation) or points x z, x z, … Empty fields are omitted; "
+                                  "without a control rocks are counted at the end. Everything can be changed later."));
     p->endings = ".csv .txt";
     p->validate = validate_new;
     p->picture = draw_profile;
@@ -318,9 +318,9 @@ static void ask_new_scene(struct app *app)
     ceduo_popup_add_value(p, _("face from the top to x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
     ceduo_popup_add_choice(p, _("ground below it"), _(ceduo_material_talus()->name), ceduo_popup_offer_grounds);
     ceduo_popup_add_value(p, _("rock: diameter, m"), ceduo_shown_number(NULL, 0.6, buf), ceduo_schema_at("rock.diameter_m"));
-    ceduo_popup_add_value(p, _("counted at x, m"), "", ceduo_schema_at("controls[0].x_m"))->flags = FIELD_ABOVE;
-    ceduo_popup_add_value(p, _("the place withstands, kJ"), "50", ceduo_schema_at("controls[0].accepted_kJ"));
-    ceduo_popup_add_choice(p, _("stand on the way"), "simple-coppice", ceduo_popup_offer_stands);
+    ceduo_popup_add_value(p, _("control at x, m"), "", ceduo_schema_at("controls[0].x_m"))->flags = FIELD_ABOVE;
+    ceduo_popup_add_value(p, _("accepted energy, kJ"), "50", ceduo_schema_at("controls[0].accepted_kJ"));
+    ceduo_popup_add_choice(p, _("stand"), "simple-coppice", ceduo_popup_offer_stands);
 }
 
 void ceduo_popup_new(struct app *app)

@@ -93,7 +93,7 @@ static void add_files(struct app *app, struct popup *p, const char *kind, bool s
                 continue;
             const char *label = name;
             const char *about = stands  ? describe_stand(app, local ? path : name, owner, &label)
-                                : local ? _("yours, beside the scene")
+                                : local ? _("yours, in this folder")
                                         : owner;
             const char *text = about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(label, 33), label, about) : label;
             const char *searched = label == name ? name : ceduo_app_format(app, "%s %s", label, name);
@@ -123,9 +123,9 @@ static void append_lights(struct app *app, struct text *text, const struct previ
     append_light(text, "; ", _("free run"), f->index.free_run, current->free_run);
     append_light(text, "; ", _("energy"), f->index.energy, current->energy);
     if (!isnan(f->exceed))
-        ceduo_text_append_joined(text, ", ", _("about %.0f of 1000 with too much"), 1000 * f->exceed);
+        ceduo_text_append_joined(text, ", ", _("about %.0f per 1000 above the accepted energy"), 1000 * f->exceed);
     else if (!isnan(f->reach))
-        ceduo_text_append_joined(text, ", ", _("about %.0f of 1000 arrive"), 1000 * f->reach);
+        ceduo_text_append_joined(text, ", ", _("about %.0f per 1000 arrive"), 1000 * f->reach);
     ceduo_text_append(text, "\n");
 }
 
@@ -229,7 +229,7 @@ bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *va
                                                           : _("the cutting of '%s' is dropped: '%s' has none"),
                                  name, belt->name);
     if (!isnan(belt->cut_year) && ceduo_node_get(current, "cutting"))
-        ceduo_text_append_joined(&notes, notes.length > 0 ? "; " : "", _("it is cut in year %g as before"), belt->cut_year);
+        ceduo_text_append_joined(&notes, notes.length > 0 ? "; " : "", _("it is still cut in year %g"), belt->cut_year);
     if (notes.length > 0)
         ceduo_app_show_message(app, "%s", notes.bytes);
     return true;
@@ -273,7 +273,7 @@ static void select_stand(struct app *app, struct popup *p)
 
 static void offer_measured(struct popup *p)
 {
-    ceduo_popup_add_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
+    ceduo_popup_add_item(p, _("from a sample plot: counts and measurements"), STAND_COUNTED);
     ceduo_popup_add_item(p, _("from a survey: a CSV file of plots and stems"), STAND_SURVEY);
 }
 
@@ -329,7 +329,7 @@ void ceduo_popup_list_stands(struct app *app)
 
 void ceduo_popup_new_option(struct app *app)
 {
-    list_stands(app, _("A new option: the present one treated, or another stand"), select_new_option);
+    list_stands(app, _("New option: a treatment of this one, or another stand"), select_new_option);
 }
 
 void ceduo_popup_list_choices(struct app *app, const struct form_cell *cell)
@@ -372,7 +372,7 @@ static void select_scene(struct app *app, struct popup *p)
 
 static void list_scenes(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("Open a scene: a name, or the path of a file"), "", select_scene);
+    struct popup *p = ceduo_popup_list(app, _("Open a scene: name or path"), "", select_scene);
     p->fields[0].complete = offer_scenes;
     p->endings = ".yaml";
 }

@@ -21,7 +21,7 @@ static bool save_to(struct app *app, const char *path)
     const char *old = app->document.path; /* name of the old file if it is another */
     old = old && strcmp(old, path) != 0 ? ceduo_app_format(app, "%s", ceduo_file_name(old)) : NULL;
     if (ceduo_document_is_shipped(path)) {
-        ceduo_app_warn(app, "%s", _("This scene belongs to the program and is never written over; save your own copy."));
+        ceduo_app_warn(app, "%s", _("This scene is part of the program and cannot be changed; save your own copy."));
         return false;
     }
     if (!ceduo_document_save(&app->document, path, &reformatted)) {
@@ -32,8 +32,8 @@ static bool save_to(struct app *app, const char *path)
     }
     if (reformatted)
         ceduo_app_show_message(app,
-                               old ? _("saved %s; laid out anew, without the comments of %s")
-                                   : _("saved %s; laid out anew, the old file is %s.bak"),
+                               old ? _("saved %s; reformatted, without the comments of %s")
+                                   : _("saved %s; reformatted, the old file is %s.bak"),
                                path, old ? old : path);
     else
         ceduo_app_show_message(app, _("saved %s"), path);
@@ -98,9 +98,9 @@ static bool ask_stand_name(struct app *app, void (*next)(struct app *app))
                 continue;
             const char *option = options ? ceduo_app_format(app, "options[%zu].", o) : "";
             const char *path = ceduo_app_format(app, "%sforest[%zu].stand.name", option, b);
-            struct popup *p = ceduo_popup_fields(app, _("A stand was changed: its name"), path, submit_stand_name);
-            ceduo_text_format(&p->text, _("It stands from %g to %g m in '%s' and is no longer what its name said."),
-                              belt->from_given, belt->to_given, scene->options[o].name);
+            struct popup *p = ceduo_popup_fields(app, _("Name of the changed stand"), path, submit_stand_name);
+            ceduo_text_format(&p->text, _("The stand from %g to %g m in '%s' no longer matches its name."), belt->from_given,
+                              belt->to_given, scene->options[o].name);
             p->on_done = next;
             ceduo_popup_add_field(p, _("name"), belt->name);
             return true;
@@ -116,9 +116,9 @@ static void ask_file_name(struct app *app, const char *reason)
     struct popup *p = ceduo_popup_fields(app, _("Save as"), "", submit_save);
     const struct document *d = &app->document;
     if (reason)
-        ceduo_text_format(&p->text, _("It could not be saved: %s. Give another name, or one in another folder."), reason);
+        ceduo_text_format(&p->text, _("Saving failed: %s. Choose another name or folder."), reason);
     else if (d->shipped)
-        ceduo_text_append(&p->text, _("This scene belongs to the program and is never written over; save your own copy."));
+        ceduo_text_append(&p->text, _("This scene is part of the program and cannot be changed; save your own copy."));
     p->endings = ENDING;
     p->keep_input = true;
     ceduo_popup_add_choice(p, _("file"),
@@ -162,11 +162,11 @@ void ceduo_popup_save(struct app *app)
     } else {
         bool missing = access(d->path, F_OK) != 0;
         struct popup *p = ceduo_popup_list(
-            app, missing ? _("The file is no longer there") : _("The file has changed on disk since it was read"), "",
+            app, missing ? _("The file no longer exists") : _("The file has changed on disk since it was read"), "",
             select_disk_action);
-        ceduo_popup_add_menu_item(p, 'n', _("never mind: do not save now"), "");
+        ceduo_popup_add_menu_item(p, 'n', _("no: do not save now"), "");
         ceduo_popup_add_menu_item(p, 'a', _("save under another name"), "as");
-        ceduo_popup_add_menu_item(p, 'w', missing ? _("write it again") : _("write over what is there"), "write");
+        ceduo_popup_add_menu_item(p, 'w', missing ? _("write it again") : _("overwrite it"), "write");
     }
 }
 
@@ -188,11 +188,11 @@ void ceduo_popup_confirm_unsaved(struct app *app, void (*next)(struct app *app))
         next(app);
         return;
     }
-    struct popup *p = ceduo_popup_list(app, _("There is unsaved work"), "", select_unsaved_action);
+    struct popup *p = ceduo_popup_list(app, _("There are unsaved changes"), "", select_unsaved_action);
     p->on_done = next;
-    ceduo_popup_add_menu_item(p, 'n', _("stay"), "");
-    ceduo_popup_add_menu_item(p, 's', _("save it, then go on"), "save");
-    ceduo_popup_add_menu_item(p, 'd', _("discard it"), "discard");
+    ceduo_popup_add_menu_item(p, 'n', _("no: stay here"), "");
+    ceduo_popup_add_menu_item(p, 's', _("save them"), "save");
+    ceduo_popup_add_menu_item(p, 'd', _("discard them"), "discard");
 }
 
 static void quit_program(struct app *app)
@@ -217,7 +217,7 @@ static void add_recovery(const struct app *app, struct popup *p, const struct re
     struct tm tm;
     if (localtime_r(&r->when, &tm))
         strftime(date, sizeof date, "%Y-%m-%d %H:%M", &tm);
-    const char *words = ceduo_app_format(app, _("unsaved work of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
+    const char *words = ceduo_app_format(app, _("unsaved changes of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
                                          r->scene ? ceduo_file_name(r->scene) : _("never saved"));
     const char *value = ceduo_app_format(app, RECOVERY "%s", r->file);
     if (key)
@@ -259,7 +259,7 @@ bool ceduo_popup_open_recovery(struct app *app, const char *value)
                                    : ceduo_app_open(app, NULL, text))) {
             unlink(list[i].file); /* this process keeps its own copy now */
             app->just_opened = false;
-            ceduo_app_show_message(app, "%s", _("your work is back; s saves it, u shows what was before"));
+            ceduo_app_show_message(app, "%s", _("changes recovered; s saves, u undoes"));
         }
         free(text);
     }
@@ -283,13 +283,13 @@ void ceduo_popup_recover(struct app *app)
     for (size_t i = 0; i < n; i++)
         count += is_of_this_document(app, &list[i]);
     if (count > 0) {
-        struct popup *p = ceduo_popup_list(app, _("Unsaved work was left behind"), "", select_recovery);
+        struct popup *p = ceduo_popup_list(app, _("Unsaved changes were found"), "", select_recovery);
         char key = '1';
         for (int pass = 0; pass < 2; pass++)
             for (size_t i = 0; i < n && key <= '9'; i++)
                 if (is_of_this_document(app, &list[i]) == !pass)
                     add_recovery(app, p, &list[i], key++);
-        ceduo_popup_add_menu_item(p, 'n', _("leave it for later: o lists it, too"), "");
-        ceduo_popup_add_menu_item(p, 'f', n > 1 ? _("forget all of it") : _("forget it"), "forget");
+        ceduo_popup_add_menu_item(p, 'n', _("not now: o lists them, too"), "");
+        ceduo_popup_add_menu_item(p, 'f', n > 1 ? _("forget all") : _("forget them"), "forget");
     }
 }

@@ -133,8 +133,7 @@ static void keep_standards(struct plan *p, size_t belt, const struct ceduo_stand
 
 static void leave_belt(struct plan *p, size_t belt, const char *why)
 {
-    ceduo_text_append_joined(&p->untreated, p->untreated.length > 0 ? " " : "", _("Belt %zu stays as it is: %s."), belt + 1,
-                             why);
+    ceduo_text_append_joined(&p->untreated, p->untreated.length > 0 ? " " : "", _("Belt %zu is unchanged: %s."), belt + 1, why);
 }
 
 static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
@@ -260,8 +259,8 @@ static void ask_number(struct app *app, enum treatment kind)
     struct field *own =
         ceduo_popup_add_value(p, cut ? _("standards kept per ha") : _("years without a cut"), cut ? offered : "",
                               ceduo_schema_at(cut ? "forest[0].stand.trees[0].per_ha" : "forest[0].cut_year"));
-    ceduo_text_append(&p->text, cut ? _("Of all ages together, in the proportion that the stand says. 0: all stems are cut.")
-                                    : _("In the year after them it is cut. Empty: it is never cut."));
+    ceduo_text_append(&p->text, cut ? _("Total of all ages, in the proportions of the stand. 0: all stems are cut.")
+                                    : _("Cut in the following year. Empty: never cut."));
     own->flags = cut ? FIELD_REQUIRED : 0;
     own->meaning = cut ? N_("0: all stems are cut") : "";
     own->lo = cut ? 0 : 1;

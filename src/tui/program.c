@@ -16,7 +16,7 @@ static void undo_or_redo(struct app *app, int step)
         return;
     }
     ceduo_app_refresh(app);
-    ceduo_app_show_message(app, redo ? _("again: %s") : _("undone: %s"),
+    ceduo_app_show_message(app, redo ? _("redone: %s") : _("undone: %s"),
                            ceduo_app_path(app, d->states[d->current + !redo].what));
 }
 
@@ -58,7 +58,7 @@ static void search_next(struct app *app)
     bool found = ceduo_form_search(ceduo_app_form(app), app->search);
     ceduo_app_state(app)->pane *= !found;
     if (!found)
-        ceduo_app_show_message(app, _("'%s' is not found in this view"), app->search);
+        ceduo_app_show_message(app, _("'%s' not found in this view"), app->search);
 }
 
 static bool submit_search_text(struct app *app, struct popup *p)
@@ -102,20 +102,19 @@ static void list_commands(struct app *app)
 static const struct {
     enum action first;
     const char *heading;
-} help_groups[] = {{ACTION_UP, N_("Moving")},        {ACTION_EDIT, N_("Changing")},
-                   {ACTION_VIEW_SLOPE, N_("Views")}, {ACTION_FIND, N_("Looking further")},
-                   {ACTION_NEW, N_("Files")},        {ACTION_CHARSET, N_("Screen")}};
+} help_groups[] = {{ACTION_UP, N_("Moving")},      {ACTION_EDIT, N_("Changing")}, {ACTION_VIEW_SLOPE, N_("Views")},
+                   {ACTION_FIND, N_("Exploring")}, {ACTION_NEW, N_("Files")},     {ACTION_CHARSET, N_("Screen")}};
 
 /* Terms of the right column. Fields are explained at the cursor. */
 static const struct {
     const char *word, *meaning;
 } glossary[] = {
     {N_("ADC"), N_("mean distance between stem hits along the fall line; less than 30 m passes")},
-    {N_("free run"), N_("chance that a rock meets no stem over 30 m of forest")},
-    {N_("two signs"), N_("of a test: today, and in the worst of the years ahead")},
-    {N_("index"), N_("the paper's way: so many contacts, each takes one mean stem's energy")},
-    {N_("p95"), N_("of 100 rocks 95 stay below it")},
-    {N_("uncertainty"), N_("what is not known of the inputs, such as the ground; more rocks do not reduce it")},
+    {N_("free run"), N_("probability that a rock meets no stem over 30 m of forest")},
+    {N_("two signs"), N_("of a light: today, and in the worst year ahead")},
+    {N_("index"), N_("method of the paper: each contact takes the energy of one mean stem")},
+    {N_("p95"), N_("95 of 100 rocks stay below it")},
+    {N_("uncertainty"), N_("effect of uncertain inputs, such as the ground; more rocks do not reduce it")},
 };
 
 static void show_help(struct app *app)
@@ -128,7 +127,7 @@ static void show_help(struct app *app)
         ceduo_text_append_escaped(&p->text, field.bytes);
         ceduo_text_append(&p->text, "\n \n");
     }
-    ceduo_text_append(&p->text, _("Every edit is live: figures and pictures follow at once.\n \n"));
+    ceduo_text_append(&p->text, _("Figures and pictures follow every edit at once.\n \n"));
     for (int i = 0; i < ACTION_COUNT; i++) {
         const struct action_info *a = &ceduo_actions[i];
         for (size_t k = 0; k < sizeof help_groups / sizeof help_groups[0]; k++)
@@ -138,16 +137,13 @@ static void show_help(struct app *app)
         ceduo_text_format(&p->text, "  %-16s%s\n", keys, ceduo_translate_in(a->help));
     }
     ceduo_text_append(&p->text, " \n");
-    ceduo_text_append(&p->text, _("A star marks what is assumed and not measured. Dim values are defaults.\n"
-                                  "A number is typed with a comma or a dot, a diameter in cm; one with a spread as "
-                                  "0.6 +- 0.1, with a u behind it where all between is alike. A point is x z with a blank "
-                                  "between.\n"
-                                  "In a list, type to search: the best match stands first. a and y split a ground, a belt "
-                                  "or a point of the profile; its neighbours follow where a border is moved.\n"
-                                  "The column on the right: of 1000 rocks released, without forest; the three lights; what "
-                                  "the index (Eq. 4 and 5 of Ciabocco et al. 2009) takes and leaves; how sure it is.\n"
-                                  "With the mouse: click a field or a view's name; the wheel moves; with Shift held the "
-                                  "terminal itself selects text.\n"));
+    ceduo_text_append(
+        &p->text, _("A star marks an assumed value. Dim values are defaults.\nType numbers with a comma or a dot, diameters in "
+                    "cm, a spread as 0.6 +- 0.1 (u after it: uniform), a point as x z.\nIn a list, type to search: the best "
+                    "match is first. a and y split a ground, a belt or a segment of the profile. Neighbours follow a moved "
+                    "border.\nThe right column: arrivals per 1000 rocks released, without and with forest; the three lights; "
+                    "energy absorbed and remaining by the index (Eq. 4 and 5 of Ciabocco et al. 2009); uncertainty.\nMouse: "
+                    "click a field or the name of a view; the wheel scrolls; hold Shift to select text in the terminal.\n"));
     ceduo_text_format(&p->text, " \n%s\n", _("Words"));
     for (size_t i = 0; i < sizeof glossary / sizeof glossary[0]; i++)
         ceduo_text_format(&p->text, "  %s: %s\n", _(glossary[i].word), _(glossary[i].meaning));
@@ -244,7 +240,7 @@ void ceduo_program_paste(struct app *app, const char *text)
     begin_input(app);
     app->message[0] = '\0'; /* also the message of a popup */
     if (!app->popup || !ceduo_popup_paste(app, text))
-        ceduo_app_show_message(app, "%s", _("what was pasted goes nowhere: no field is open"));
+        ceduo_app_show_message(app, "%s", _("nothing pasted: no field is open"));
     end_input(app);
 }
 

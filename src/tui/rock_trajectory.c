@@ -89,12 +89,12 @@ size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *s)
 /* Describe the last segment shown, or the end of the trajectory. */
 static void describe_rock(const struct rock_trajectory *s, const struct ceduo_scene *scene, struct text *text)
 {
-    static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
+    static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("is still moving"),
                                                  N_("is stopped by stems")};
     double origin = scene->slope.origin_x, gravity = scene->simulation.gravity;
     if (s->shown == 0 || s->shown > s->n) {
         ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock,
-                          s->cut_short ? _("goes on too long to be shown") : _(ends[s->whole.end]), s->whole.x + origin,
+                          s->cut_short ? _("is not shown further") : _(ends[s->whole.end]), s->whole.x + origin,
                           (unsigned long long)s->whole.contacts);
         if (s->whole.stems_drawn > 0)
             ceduo_text_append_joined(text, ", ", _("%llu stems hit"), (unsigned long long)s->whole.stems_hit);
@@ -103,12 +103,12 @@ static void describe_rock(const struct rock_trajectory *s, const struct ceduo_sc
     const struct ceduo_trajectory_segment *p = &s->segments[s->shown - 1].segment;
     double up = p->vz > 0 && !p->rolls ? fmin(p->vz / gravity, p->seconds) : 0;
     double x = p->x + p->vx * up, z = p->z + (p->vz - gravity / 2 * up) * up;
-    ceduo_text_format(text, _("rock %llu, piece %zu of %zu"), (unsigned long long)s->rock, s->shown, s->n);
+    ceduo_text_format(text, _("rock %llu, segment %zu of %zu"), (unsigned long long)s->rock, s->shown, s->n);
     if (p->rolls)
         ceduo_text_append_joined(text, ": ", _("rolls from %.2f to %.2f m, %.1f to %.1f m/s"), p->x + origin, p->x1 + origin,
                                  hypot(p->vx, p->vz), hypot(p->vx1, p->vz1));
     else
-        ceduo_text_append_joined(text, ": ", _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m over the ground"),
+        ceduo_text_append_joined(text, ": ", _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m above the ground"),
                                  p->x + origin, p->x1 + origin, hypot(p->vx1, p->vz1),
                                  fmax(0, z - ceduo_slope_height(&scene->slope, x)));
     for (size_t i = s->shown > 1 ? s->segments[s->shown - 2].stems : 0; i < s->segments[s->shown - 1].stems; i++) {

@@ -232,7 +232,7 @@ static void draw_column(struct app *app, struct ceduo_area area, bool titled)
         ceduo_page_drop(&page);
     }
     if (hidden > 0)
-        ceduo_page_para(&page, CEDUO_PAGE_WARNING, ngettext("%zu remark more: view 4", "%zu remarks more: view 4", hidden),
+        ceduo_page_para(&page, CEDUO_PAGE_WARNING, ngettext("%zu more remark: view 4", "%zu more remarks: view 4", hidden),
                         hidden);
     if (ceduo_page_draw(&page, canvas, area, 0) > area.height)
         ceduo_canvas_label_right(canvas, app->width - 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, " \xe2\x80\xa6");
@@ -245,9 +245,8 @@ void ceduo_screen_draw(struct app *app)
     app->pictures_count = 0;
     if (app->width < WIDTH_MIN || app->height < HEIGHT_MIN) {
         struct ceduo_area whole = {0, 0, app->width, app->height};
-        const char *text =
-            ceduo_app_format(app, _("ceduo needs a window of %d x %d; this one is %d x %d. Make it larger; q quits."),
-                             WIDTH_MIN, HEIGHT_MIN, app->width, app->height);
+        const char *text = ceduo_app_format(app, _("The window (%d x %d) is too small: at least %d x %d is needed. q quits."),
+                                            app->width, app->height, WIDTH_MIN, HEIGHT_MIN);
         ceduo_app_draw_wrapped(app, whole, CEDUO_ROLE_WARN, text, 0);
         return;
     }

@@ -104,13 +104,13 @@ static enum script_end run_command(struct app *app, char *command, const char *p
         int width, height, used = 0;
         if (sscanf(rest, "%d %d%n", &width, &height, &used) != 2 || rest[used] || width < 1 || height < 1 ||
             width > CEDUO_CANVAS_MAX_WIDTH || height > CEDUO_CANVAS_MAX_HEIGHT)
-            return report_error(path, line, _("a width and a height are wanted"), rest, CEDUO_FOREIGN_MAX);
+            return report_error(path, line, _("width and height expected"), rest, CEDUO_FOREIGN_MAX);
         ceduo_app_resize(app, width, height);
     } else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0) {
         ceduo_jobs_wait(app->live.jobs, true);
         ceduo_program_poll(app);
     } else {
-        return report_error(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command,
+        return report_error(path, line, _("key, type, resize, wait idle, dump, roles or draw expected"), command,
                             CEDUO_FOREIGN_MAX);
     }
     return SCRIPT_DONE;

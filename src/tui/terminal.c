@@ -427,12 +427,12 @@ const char *ceduo_terminal_missing(void)
     int error;
     bool in = isatty(STDIN_FILENO), out = isatty(STDOUT_FILENO);
     if (!in || !out)
-        return in    ? _("standard output is no terminal")
-               : out ? _("standard input is no terminal")
-                     : _("standard input and output are no terminal");
+        return in    ? _("standard output is not a terminal")
+               : out ? _("standard input is not a terminal")
+                     : _("standard input and output are not a terminal");
     const char *name = getenv("TERM");
     if (!name || !name[0] || setupterm(NULL, STDOUT_FILENO, &error) != OK)
-        return _("TERM names a terminal that is not known here; try 'TERM=xterm-256color ceduo'");
+        return _("unknown terminal in TERM; try 'TERM=xterm-256color ceduo'");
     const char *move = tigetstr("cup");
     bool moves = move && move != (char *)-1;
     del_curterm(cur_term); /* curses opens it again */

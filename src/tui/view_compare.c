@@ -8,7 +8,7 @@ static void build_compare(struct app *app, struct form *form)
     if (ceduo_node_get(app->document.file.root, "options"))
         ceduo_form_table(form, "options", NULL, "name");
     else
-        ceduo_form_note(form, _("One way to treat this forest so far. a adds another, y a copy of this one."));
+        ceduo_form_note(form, _("Only one option. a adds a preset, y a copy."));
     form->row = app->option + 1; /* below the column heads */
 }
 
@@ -94,9 +94,9 @@ static void delete_option(struct app *app)
     const char *path = ceduo_app_format(app, "options[%zu]", app->option);
     const char *name = ceduo_app_format(app, "%s", ceduo_app_option(app)->name);
     if (app->document.file.scene.options_count < 2)
-        ceduo_app_show_message(app, "%s", _("the only option stays"));
+        ceduo_app_show_message(app, "%s", _("the only option cannot be deleted"));
     else if (ceduo_app_finish_edit(app, ceduo_document_delete(&app->document, path)))
-        ceduo_app_show_message(app, _("deleted: %s; u brings it back"), name);
+        ceduo_app_show_message(app, _("deleted: %s; u undoes"), name);
 }
 
 static void move_option(struct app *app, int step)
@@ -140,4 +140,4 @@ const struct view ceduo_view_compare = {.panes = PANES,
                                         .bindings = {compare_bindings, compare_bindings, compare_bindings},
                                         .bar = {KEY(ADD, N_("add")), KEY(NEXT_PANE, N_("picture")), KEY(DUPLICATE, N_("copy")),
                                                 KEY(DELETE, N_("delete")), KEY(EDIT, N_("name")),
-                                                KEY(PAGE_DOWN, N_("read on"))}};
+                                                KEY(PAGE_DOWN, N_("scroll"))}};

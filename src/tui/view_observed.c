@@ -26,7 +26,7 @@ static void append_number(struct text *text, const struct scene_file *file, cons
 static void add_rows(struct ceduo_page *page, const struct scene_file *file, const struct ceduo_predicted *predicted)
 {
     static const struct ceduo_page_column columns[] = {{N_("mean or count"), 13, 0, CEDUO_FILLS | CEDUO_WHOLE},
-                                                       {N_("seen"), -8, 1, CEDUO_FITS},
+                                                       {N_("observed"), -8, 1, CEDUO_FITS},
                                                        {N_("sim., 95 %"), -11, 1, CEDUO_FITS},
                                                        {"", 10, 1, CEDUO_FITS}};
     CEDUO_PAGE_TABLE_OF(page, columns);
@@ -79,20 +79,20 @@ static void append_comparison(struct app *app, struct ceduo_page *page)
         ceduo_text_append_escaped(&misfits, file->observations[i].name);
         const char *chance = p->p_value < 0.001 ? "<.001" : WRITTEN(p->p_value, 2);
         if (isnan(p->p_value))
-            ceduo_text_format(&misfits, " (%s)", _("no simulated rock does that"));
+            ceduo_text_format(&misfits, " (%s)", _("no simulated rock does this"));
         else
             ceduo_text_format(&misfits,
-                              p->inside                    ? _(" (the mean fits, how the values are spread does not: p %s)")
-                              : p->p_value >= CEDUO_MISFIT ? _(" (the mean lies outside: p %s)")
+                              p->inside                    ? _(" (mean fits, distribution does not: p %s)")
+                              : p->p_value >= CEDUO_MISFIT ? _(" (mean outside: p %s)")
                                                            : " (p %s)",
                               chance);
     }
     if (misfits.length > 0)
-        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("The scene as it is does not give what was seen: %s."), misfits.bytes);
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("The scene does not reproduce: %s."), misfits.bytes);
     else
-        ceduo_page_note(page, _("The scene as it is can give all that was seen."));
+        ceduo_page_note(page, _("The scene reproduces all observations."));
     if (ceduo_fit_has_observations(file))
-        ceduo_page_note(page, _("c fits the ground to what was seen; only a fit says what of it is determined."));
+        ceduo_page_note(page, _("c fits the ground to the observations. Only a fit shows which values they determine."));
     ceduo_page_para(page, CEDUO_PAGE_NOTE, _("Simulated: %llu rocks."), (unsigned long long)s->rocks);
 }
 
@@ -108,12 +108,12 @@ static void append_progress(const struct live *live, struct ceduo_page *page)
     const struct fit *f = live->results.fit; /* NULL: no progress yet */
     const struct ceduo_calibration_state *s = f ? &f->state : NULL;
     LOCAL_TEXT(undetermined);
-    ceduo_page_note(page, _("A fit is under way. Esc stops it, and nothing of it is kept."));
+    ceduo_page_note(page, _("Fitting. Esc cancels and discards the fit."));
     if (!s || s->evaluations == 0)
         return;
     if (s->stage == CEDUO_CHAINS && isfinite(s->rhat))
         ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                        _("%llu scenes; R-hat %.3f (at most 1.05 is wanted), effective size %.0f (200)."),
+                        _("%llu scenes; R-hat %.3f (target: at most 1.05), effective size %.0f (target: 200)."),
                         (unsigned long long)s->evaluations, s->rhat, s->effective_size);
     else
         ceduo_page_para(page, CEDUO_PAGE_NOTE, _("%llu scenes; log-likelihood %.2f."), (unsigned long long)s->evaluations,
@@ -125,9 +125,9 @@ static void append_progress(const struct live *live, struct ceduo_page *page)
         }
     if (f->undetermined.n > 0)
         ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                        _("What was seen does not hold %zu values: fix %s. c fits without it; to go on takes long."),
+                        _("The observations do not determine all %zu values: fix %s. c fits without it, which is faster."),
                         f->request.n, ceduo_text_string(&undetermined));
-    ceduo_page_note(page, _("The best values so far:"));
+    ceduo_page_note(page, _("Best values now:"));
     for (size_t i = 0; i < f->request.n; i++)
         append_best(ceduo_page_add(page, CEDUO_PAGE_ITEM), f->request.values[i].path, s->best[i]);
 }
@@ -142,7 +142,7 @@ static void append_fit(const struct fit *f, struct ceduo_page *page)
 {
     const struct ceduo_calibration_report r = make_report(f);
     ceduo_page_note(page,
-                    _("Fitted. Enter takes these values into the scene, Esc leaves it as it is, as the picture shows it."));
+                    _("Fitted. Enter applies these values, Esc discards them. The picture shows the scene without them."));
     for (size_t i = 0; i < f->request.n; i++) {
         const struct ceduo_fitted *fitted = &f->answer.parameters[i];
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
@@ -161,10 +161,9 @@ static void append_fit(const struct fit *f, struct ceduo_page *page)
     ceduo_calibration_words(page, &r);
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     /* the draws are not kept; print the command that writes them */
-    ceduo_page_note(page,
-                    _("Enter keeps the best values and, as their source, these ranges. It does not keep all that fits as well, "
-                      "the draws. Once the scene is saved, as SCENE.yaml, this writes them to FITTED.draws.csv, and "
-                      "FITTED.yaml, which reads them:"));
+    ceduo_page_note(page, _("Enter writes the best values into the scene, with these ranges as their source. It does not write "
+                            "the draws, all plausible values. After saving the scene as SCENE.yaml, this command writes them "
+                            "to FITTED.draws.csv, and a scene FITTED.yaml that uses them:"));
     struct text *command = ceduo_page_add(page, CEDUO_PAGE_NOTE);
     ceduo_text_append(command, "ceduo");
     for (size_t i = 0; i < f->request.n; i++) {
@@ -214,7 +213,7 @@ static void build_observed(struct app *app, struct form *form)
         ceduo_form_heading(form, _(kind->meaning));
         ceduo_form_table(form, "observed", kind->key, ceduo_text_string(&keys));
     }
-    ceduo_form_heading(form, _("All that was seen"));
+    ceduo_form_heading(form, _("All observations"));
     ceduo_form_table(form, "observed", NULL, "name use option");
 }
 
@@ -225,7 +224,7 @@ static void select_kind(struct app *app, struct popup *p)
 
 static void ask_observation(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("What was seen?"), "", select_kind);
+    struct popup *p = ceduo_popup_list(app, _("New observation"), "", select_kind);
     char key = '1';
     for (const struct field *kind = next_kind(NULL); kind; kind = next_kind(kind))
         ceduo_popup_add_menu_item(p, key++, _(kind->meaning), kind->key);
@@ -256,14 +255,12 @@ static void draw_observed(struct app *app, struct ceduo_area area)
     area.width -= 2; /* columns for the mark that the text continues */
     struct ceduo_page page = {.width = (size_t)area.width};
     if (file->observations_count == 0) {
-        ceduo_page_note(&page, _("This scene does not say what was seen on its slope."));
+        ceduo_page_note(&page, _("This scene has no observations."));
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
-        ceduo_page_note(
-            &page,
-            _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: a asks "
-              "for what of it is known. A table of values is named in the scene's file, see man ceduo-scene."));
+        ceduo_page_note(&page, _("a adds observations: stop positions, numbers of passages, speeds, heights, scars on stems. A "
+                                 "table of values is named in the scene's file, see man ceduo-scene."));
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
-        ceduo_page_note(&page, _("Here it is then compared with simulated rocks, and c fits the ground to it."));
+        ceduo_page_note(&page, _("They are compared with simulated rocks here, and c fits the ground to them."));
     } else if (f->fitting)
         append_progress(f, &page);
     else if (fit)
@@ -307,7 +304,7 @@ static bool read_bounds(struct app *app, const char *typed, struct fit_value *va
         ceduo_number_read(ceduo_text_string(&end), to);
     }
     if (!(value->lo < value->hi))
-        ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
+        ceduo_app_warn(app, "%s", _("two bounds are needed, the smaller first"));
     return value->lo < value->hi;
 }
 
@@ -325,7 +322,7 @@ static bool submit_fit(struct app *app, struct popup *p)
         selected.values[selected.n++] = request.values[i];
     }
     if (selected.n == 0)
-        ceduo_app_warn(app, "%s", _("nothing is to be fitted: give one value its bounds, as 0.3:0.4"));
+        ceduo_app_warn(app, "%s", _("no value to fit: give at least one its bounds, such as 0.3:0.4"));
     else
         ceduo_live_fit(&app->live, &app->document.file, &selected);
     return selected.n > 0;
@@ -349,13 +346,13 @@ static void ask_fit_values(struct app *app)
     struct fit_request request;
     const struct fit *running = app->live.fitting ? app->live.results.fit : NULL;
     ceduo_fit_offer(&app->document.file, &request);
-    struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), "", submit_fit);
-    ceduo_text_format(
-        &p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
-        (unsigned long long)request.rocks);
+    struct popup *p = ceduo_popup_fields(app, _("Values to fit to the observations"), "", submit_fit);
+    ceduo_text_format(&p->text,
+                      _("Each value is fitted within its bounds; an empty field is not fitted. Each trial has %llu rocks."),
+                      (unsigned long long)request.rocks);
     for (size_t i = FILLED; i < request.n; i++) {
         if (i == FILLED)
-            ceduo_text_format(&p->text, " %s ", _("Usual bounds of the others:"));
+            ceduo_text_format(&p->text, " %s ", _("Usual bounds of other values:"));
         ceduo_text_append(&p->text, i == FILLED ? "" : "; ");
         ceduo_calibration_name(&p->text, request.values[i].path);
         ceduo_text_char(&p->text, ' ');
@@ -376,9 +373,9 @@ static void ask_fit_values(struct app *app)
 static void start_fit(struct app *app)
 {
     if (app->document.file.observations_count == 0)
-        ceduo_app_warn(app, "%s", _("nothing was seen here that could be fitted: a asks for it"));
+        ceduo_app_warn(app, "%s", _("no observations; a adds one"));
     else if (!ceduo_fit_has_observations(&app->document.file))
-        ceduo_app_warn(app, "%s", _("all that was seen is to check a fit: mark what is to be fitted 'use: fit'"));
+        ceduo_app_warn(app, "%s", _("all observations are for checking; mark those to fit with 'use: fit'"));
     else
         ask_fit_values(app);
 }
@@ -391,8 +388,8 @@ static void apply_fit(struct app *app)
         ceduo_edit_start(app);
     else if (!f)
         ceduo_app_show_message(app, "%s",
-                               app->live.fitting ? _("the fit is not done yet; Esc stops it")
-                                                 : _("c fits the ground to what was seen"));
+                               app->live.fitting ? _("the fit is still running; Esc cancels it")
+                                                 : _("c fits the ground to the observations"));
     if (!f)
         return;
     const struct ceduo_calibration_report r = make_report(f);
@@ -400,13 +397,13 @@ static void apply_fit(struct app *app)
     ceduo_calibration_sources(&source, &r);
     const struct fit_values values = {&f->answer, f->inputs, ceduo_text_string(&source), NULL};
     if (ceduo_app_finish_edit(app, ceduo_apply_fit(&app->document, &values)))
-        ceduo_app_show_message(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
+        ceduo_app_show_message(app, "%s", _("values and ranges written to the scene, without the draws; u undoes"));
 }
 
 static void stop_fit(struct app *app)
 {
     if (app->live.fitting || ceduo_live_fitted(&app->live))
-        ceduo_app_show_message(app, "%s", _("the scene is as it was"));
+        ceduo_app_show_message(app, "%s", _("fit discarded; the scene is unchanged"));
     ceduo_live_drop_fit(&app->live);
 }
 
@@ -421,6 +418,6 @@ const struct view ceduo_view_observed = {.panes = PANES,
                                          .build = build_observed,
                                          .draw = draw_observed,
                                          .bindings = {observed_bindings, observed_bindings},
-                                         .bar = {KEY(ADD, N_("add")), KEY(COUNTS, N_("fit")), KEY(EDIT, N_("take the fit")),
-                                                 KEY(STOP, N_("leave it")), KEY(NEXT_PANE, N_("read on")),
+                                         .bar = {KEY(ADD, N_("add")), KEY(COUNTS, N_("fit")), KEY(EDIT, N_("apply")),
+                                                 KEY(STOP, N_("discard")), KEY(NEXT_PANE, N_("scroll")),
                                                  KEY(NEXT_OPTION, N_("next option"))}};

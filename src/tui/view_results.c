@@ -49,4 +49,4 @@ const struct view ceduo_view_results = {
     .panes = 1,
     .result = true,
     .draw = draw_results,
-    .bar = {KEY(DOWN, N_("read on")), KEY(EXPORT, N_("export")), KEY(NEXT_OPTION, N_("next option"))}};
+    .bar = {KEY(DOWN, N_("scroll")), KEY(EXPORT, N_("export")), KEY(NEXT_OPTION, N_("next option"))}};

@@ -22,7 +22,7 @@ static void build_rotation(struct app *app, struct form *form)
     }
     ceduo_form_heading(form, _("Years shown (empty: the years ahead)"));
     ceduo_form_fields(form, "years.", "first last");
-    ceduo_form_heading(form, _("What comes down, what must stay"));
+    ceduo_form_heading(form, _("Rockfall frequency and standards"));
     ceduo_form_fields(form, "", "rocks_per_year minimum.reserves_per_ha rules");
     ceduo_form_rest(form, "minimum");
 }

@@ -29,7 +29,7 @@ static void build_slope(struct app *app, struct form *form)
     ceduo_form_heading(form, _("Ground"));
     ceduo_form_field(form, "slope.facets", NULL);
     if (d->file.scene.slope.reversed)
-        ceduo_form_note(form, _("the profile is drawn upward: below, x of ground and points counts from its lower end"));
+        ceduo_form_note(form, _("the profile is drawn upward: below, x of ground and points starts at its lower end"));
     if (!segments && !ceduo_document_node(d, "slope.materials"))
         ceduo_form_note(form, _("talus is assumed everywhere"));
     if (segments) {
@@ -158,8 +158,8 @@ static void hint_cursor(struct app *app)
     bool is_near = o && o->cells > 1 && fabs(o->cell_x[cell] - x) <= fabs(o->cell_x[1] - o->cell_x[0]);
     const struct ceduo_envelope *e = is_near && run && run->envelopes ? &run->envelopes[cell] : NULL;
     if (e && e->passed > 0)
-        ceduo_text_append_joined(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
-                                 WRITTEN(e->height.p95, 2), WRITTEN(e->mean_energy * J_TO_KJ, 3));
+        ceduo_text_append_joined(&text, "; ", _("underside p95 %s m, mean energy %s kJ"), WRITTEN(e->height.p95, 2),
+                                 WRITTEN(e->mean_energy * J_TO_KJ, 3));
     ceduo_app_show_hint(app, text.bytes);
 }
 
@@ -211,7 +211,7 @@ static void add_ground_items(struct app *app, double x)
     if (by_segment || material < n)
         add_place_item(app, ceduo_app_format(app, _("edit the ground here: number %zu"), i + 1), "", list, i);
     if (by_segment ? vertices != NULL : material < n)
-        add_place_item(app, _("another ground from here on"), "+", list, i);
+        add_place_item(app, _("new ground from here on"), "+", list, i);
     if (vertices && vertices->n <= LISTED_MAX) {
         double a = ceduo_node_item_number(vertices->items[j], 0), b = ceduo_node_item_number(vertices->items[j + 1], 0);
         bool first = file_x - a < b - file_x;
@@ -219,7 +219,7 @@ static void add_ground_items(struct app *app, double x)
                        ceduo_app_format(app, _("edit the nearest point of the profile: number %zu, at %.4g m"),
                                         j + (first ? 1 : 2), ceduo_slope_mirrored(s, first ? a : b)),
                        "", "slope.vertices_m", j + (first ? 0 : 1));
-        add_place_item(app, _("a new point of the profile here"), "+", "slope.vertices_m", j);
+        add_place_item(app, _("new point of the profile here"), "+", "slope.vertices_m", j);
     }
 }
 
@@ -235,14 +235,14 @@ static void list_at_cursor(struct app *app)
     ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->slope.origin_x), "", select_place);
     if (belt < o->belts_count) {
         add_place_item(app, ceduo_app_format(app, _("edit the belt here: %.100s"), o->belts[belt].name), "", forest, belt);
-        add_place_item(app, _("two belts: end this one here and begin another"), "+", forest, belt);
+        add_place_item(app, _("split the belt here"), "+", forest, belt);
     }
     add_ground_items(app, x);
     for (size_t i = 0; i < s->controls_count; i++)
         if (fabs(s->controls[i].x - x) <= tolerance)
             add_place_item(app, ceduo_app_format(app, _("edit the control at %.4g m"), s->controls[i].x_given), "", controls,
                            i);
-    add_place_item(app, _("count rocks here too: a new control"), "+", controls, s->controls_count);
+    add_place_item(app, _("new control here"), "+", controls, s->controls_count);
 }
 
 /* ---- the pictures ---- */
@@ -281,7 +281,7 @@ static void draw_slope(struct app *app, struct ceduo_area area)
     if (has_cursor)
         hint_cursor(app);
     else if (picture_only)
-        ceduo_app_show_hint(app, _("left, right: another rock; down, up: along its way; Tab: along the slope"));
+        ceduo_app_show_hint(app, _("left, right: another rock; down, up: along its trajectory; Tab: along the slope"));
     ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, cut_top(&area, rows - strip * strips - !picture_only), &picture);
     picture.no_x_axis = true;
     if (strips > 1)
@@ -298,7 +298,7 @@ static void change_zoom(struct app *app, int step)
     struct slope_cursor *p = ceduo_app_private_state(app);
     step += p->zoom;
     if (step < 0 || step > ZOOM_MAX)
-        ceduo_app_show_message(app, "%s", step < 0 ? _("this is the whole slope") : _("this is as near as it gets"));
+        ceduo_app_show_message(app, "%s", step < 0 ? _("this is the whole slope") : _("maximum zoom"));
     else
         p->zoom = step;
 }
@@ -332,5 +332,5 @@ const struct view ceduo_view_slope = {.panes = PANES,
                                       .bindings = {form_bindings, picture_bindings, cursor_bindings},
                                       .after_key = sync_shown_belt,
                                       .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("add")), KEY(DELETE, N_("delete")),
-                                              KEY(NEXT_PANE, N_("picture")), KEY(ZOOM, N_("nearer")),
-                                              KEY(NEXT_ROCK, N_("a rock"))}};
+                                              KEY(NEXT_PANE, N_("picture")), KEY(ZOOM, N_("zoom in")),
+                                              KEY(NEXT_ROCK, N_("next rock"))}};

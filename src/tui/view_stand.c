@@ -48,13 +48,13 @@ static void build_stand(struct app *app, struct form *form)
     if (s->cutting.rotation > 0) /* apart from the trees of today: independent values */
         ceduo_form_fields(form, prefix, "cutting.stay_per_ha");
     if (s->cutting.rotation > 0 && fabs(today - stay) > 0.5)
-        ceduo_form_note(form, ceduo_app_format(app, _("! today %g, after a cut %g: two things"), today, stay));
+        ceduo_form_note(form, ceduo_app_format(app, _("! today %g, after a cut %g"), today, stay));
     for (size_t i = 0; i < s->trees_count; i++) { /* radius first: a group requires it */
         const char *item = ceduo_app_format(app, "%s.trees[%zu].groups", path, i);
         ceduo_form_field(form, ceduo_app_format(app, "%s.radius_m", item),
-                         ceduo_app_format(app, _("trees %zu: a group, m"), i + 1));
+                         ceduo_app_format(app, _("trees %zu: radius of a group, m"), i + 1));
         ceduo_form_field(form, ceduo_app_format(app, "%s.stems", item),
-                         ceduo_app_format(app, _("trees %zu: in a group"), i + 1));
+                         ceduo_app_format(app, _("trees %zu: stems per group"), i + 1));
     }
     ceduo_form_heading(form, _("Energy of a contact"));
     ceduo_form_fields(form, prefix, "energy.model energy.u_J_m3 energy.fracture_ratio energy.offset energy.hit_below_m");

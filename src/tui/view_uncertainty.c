@@ -14,7 +14,7 @@ static void build_ranges(struct app *app, struct form *form)
     if (n > 0)
         ceduo_form_table(form, "uncertainty", NULL, means ? "path lo hi mean sd" : "path lo hi");
     else
-        ceduo_form_note(form, _("a: name a range in the scene, to edit it"));
+        ceduo_form_note(form, _("a adds a range to the scene"));
 }
 
 /* ---- drawing ---- */
@@ -71,7 +71,7 @@ static void add_range(struct app *app)
     struct ceduo_uncertainty_report r;
     bool known = ceduo_app_uncertainty(app, &r) && (!r.answer || !isnan(ceduo_uncertainty_main(&r, app->option)->fit.p5));
     if (!known || !r.answer || (rows && rows->kind != NODE_LIST)) {
-        ceduo_app_show_message(app, "%s", known ? _("nothing here has a range") : _("not computed yet"));
+        ceduo_app_show_message(app, "%s", known ? _("no input has a range") : _("not computed yet"));
         return;
     }
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_main(&r, app->option);
@@ -92,7 +92,7 @@ static void add_range(struct app *app)
             ceduo_form_go_to_item(ceduo_app_form(app), "uncertainty", n);
         return;
     }
-    ceduo_app_show_message(app, "%s", _("every uncertain value has a range of the scene already"));
+    ceduo_app_show_message(app, "%s", _("all uncertain inputs already have a range in the scene"));
 }
 
 static const struct key_binding uncertainty_bindings[] = {KEY(ADD, .plain = add_range),
@@ -109,4 +109,4 @@ const struct view ceduo_view_uncertainty = {.panes = 1,
                                             .bindings = {uncertainty_bindings},
                                             .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("a range")), KEY(DELETE, N_("delete")),
                                                     KEY(NEXT_PANE, N_("today or years")), KEY(NEXT_OPTION, N_("next option")),
-                                                    KEY(PAGE_DOWN, N_("read on"))}};
+                                                    KEY(PAGE_DOWN, N_("scroll"))}};

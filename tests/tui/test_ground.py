@@ -142,7 +142,7 @@ def test_neighbours_follow():
     """Where a border moves its neighbour moves with it, and that is said; u takes both back."""
     moved, over, back = land("find forest[0].to_m\nset 50\ndump\nkey Down Left\nset 30\ndump\nkey u u\ndump")
     expect_equal([s[:2] for s in stretches(moved, BELTS)], [(10, 50), (50, 80)], "to_m")
-    expect_in("what comes next begins at 50 m now", moved.note)
+    expect_in("the next item now begins at 50 m", moved.note)
     expect_equal([s[:2] for s in stretches(over, BELTS)], [(10, 30), (30, 80)], "from_m")
     expect_equal([s[:2] for s in stretches(back, BELTS)], [(10, 45), (45, 80)], "after u u")
     gap, into = land("find forest[1]\nset 60\ndump\nkey u\nfind forest[0]\nkey Right\nset 40\ndump",
@@ -153,7 +153,7 @@ def test_neighbours_follow():
     expect_equal([s[:2] for s in stretches(into, BELTS)], [(10, 60), (60, 80)], "over the gap and into the next: it gives way")
     refused = land("wait idle\nfind forest[0]\nkey Right\nset 85\ndump")[0]
     expect_in("Esc leaves it as it was", refused.bar, "a belt is not swallowed")
-    expect_in("what comes next ends at 80 m already", refused.note)
+    expect_in("the next item ends at 80 m; delete it first", refused.note)
     longer = land("find vertices_m[2]\nset 120 0\ndump\nset 110,5 -5\ndump")
     expect_equal(stretches(longer[0], GROUNDS), [(0, 120, "talus")], "the ground goes with the profile")
     expect_equal(stretches(longer[1], GROUNDS), [(0, 110.5, "talus")], "and back")

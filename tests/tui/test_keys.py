@@ -158,7 +158,7 @@ def test_paste_nowhere():
         changed(t)
         for text in ("s", "\x1b[<0;12;1M\x1b[M ,!", "qsno\nwdd\r\n", "\x1b[99s", "2\x1bOs", "s" * 5000):
             paste(t, text)
-            t.sees("what was pasted goes nowhere: no field is open")
+            t.sees("nothing pasted: no field is open")
             unharmed(t, place, repr(text[:20]))
 
 

@@ -76,7 +76,7 @@ def test_new_typed():
             key Enter
             dump""")
         screens[0].has("New scene", "profile (CSV file or points)", "rocks start at x", "face from the top", "ground",
-                       "rock: diameter, m", "counted at x, m", "the place withstands, kJ", "stand on the way", "Esc one back")
+                       "rock: diameter, m", "control at x, m", "accepted energy, kJ", "stand", "Esc one back")
         screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0,9", "95", "30", "simple-coppice")
         screens[2].has("* Above the mill", "At 95 m", "above 30 kJ")
         screens[3].has("Save as")
@@ -119,16 +119,16 @@ def test_new_refused():
                          (("x", "0 60, 100 12", "", "", "moon"), "no ground 'moon'"),
                          (("x", "0 60, 100 12", "", "", "talus", "-1"), "-1 is below 0 m"),
                          (("x", "0 60, 100 12", "", "", "talus", "wide"), "'wide' is not a number"),
-                         (("x", "0 60, 100 12", "", "10", "talus", "0.6", "500"), "counted at x, m: 500 is above 100 m"),
-                         (("x", "0 60, 100 12", "", "10", "talus", "0.6", "5"), "counted at x, m: 5 is below 10 m"),
-                         (("x", "0 60, 100 12", "20", "10", "talus", "0.6", "15"), "counted at x, m: 15 is below 20 m"),
+                         (("x", "0 60, 100 12", "", "10", "talus", "0.6", "500"), "control at x, m: 500 is above 100 m"),
+                         (("x", "0 60, 100 12", "", "10", "talus", "0.6", "5"), "control at x, m: 5 is below 10 m"),
+                         (("x", "0 60, 100 12", "20", "10", "talus", "0.6", "15"), "control at x, m: 15 is below 20 m"),
                          (("x", "0 60, 100 12", "", "", "talus", "0.6", "90", "much"), "'much' is not a number")):
         script = "wait idle\nkey n\n"
         for field in fields:
             script += f"key Ctrl-U\ntype {field}\nkey Enter\n"
         refused, after = fast(script + "dump\n" + "key Esc\n" * len(fields) + "clear\ndump")
         refused.has("New scene", fields[-1])
-        expect(part in refused.popup.split("stand on the way")[1], f"{fields} is not refused with a reason:", refused)
+        expect(part in refused.popup.split("stand ")[1], f"{fields} is not refused with a reason:", refused)
         after.has("1 5 45 upper")
         expect(after.title.endswith(" fast"), after.title)
     refused = fast("key n Enter Ctrl-U\ntype 0 1, 0 2, 0 3\n" + "key Enter\n" * 8 + "dump")[0]
@@ -199,8 +199,8 @@ def test_unsaved():
     for key, then in (("o", "Open a scene"), ("n", "New scene"), ("q", None)):
         with Place() as place:
             asked, stayed = place.play(f"{edit}key {key}\ndump\nkey Enter\ndump")
-            asked.has("There is unsaved work", "n stay", "s save it", "d discard it").lacks("search:")
-            stayed.has("* other").lacks("There is unsaved work")
+            asked.has("There are unsaved changes", "n no: stay here", "s save them", "d discard them").lacks("search:")
+            stayed.has("* other").lacks("There are unsaved changes")
             expect_in("title: fast", place.text("fast.yaml"))
             script = f"{edit}key {key}\nkey d\n"
             if then:
@@ -307,8 +307,8 @@ def test_a_survey_that_asks():
                 type {answer}
                 key Enter
                 dump""")
-            asked.whole().has("How is the survey to be read?", "slopes are in", "degrees", "percent")
-            unanswered.whole().has("How is the survey to be read?")
+            asked.whole().has("How to read the survey", "slopes are in", "degrees", "percent")
+            unanswered.whole().has("How to read the survey")
             given.lacks("How is the survey").has(f"{per_ha:.4g}")
 
 
@@ -333,7 +333,7 @@ def test_picker():
         dump""", "wood.yaml")
     all_.has("from a sample plot", "simple-coppice")
     expect(re.search(r"search: lresc_ large-reserves-cut", some.popup), "the best match first", some)
-    expect(re.search(r"Contact (passes|FAILS).*free run .*energy .*about \d+ of 1000 with too much", some.popup), some)
+    expect(re.search(r"Contact (passes|FAILS).*free run .*energy .*about \d+ per 1000 above the accepted energy", some.popup), some)
     none.has("nothing matches")
     expect_equal(took.row("^system")[1:], ["large", "reserves"], "the one that was under the cursor")
     now = fast("key 2\nkey p\ndump", "paper-site")[0]
@@ -396,7 +396,7 @@ def test_search():
     expect(screens[1].note.startswith("density, kg/m³: "), screens[1].note)
     notes = [s.note.split(":")[0] for s in screens[2:5]]
     expect(notes[0] != notes[1] and {"speed along, m/s", "speed upward, m/s"} <= set(notes), notes)
-    expect_in("'zzz' is not found in this view", screens[5].note)
+    expect_in("'zzz' not found in this view", screens[5].note)
     expect_equal(screens[6].note.split(":")[0], notes[2], "the field after Esc")
 
 
@@ -409,7 +409,7 @@ def test_help():
             pattern = re.escape(word) + (r" +" + re.escape(word2) if word2 else "") + r" +" + re.escape(text)
             expect(re.search(r"[│|] +" + pattern, tall.text), f"{name}: {word} {word2} {text} is missing in the", tall)
         closed.lacks("Every edit is live")
-    for heading in ("Moving", "Changing", "Views", "Looking further", "Files", "Screen", "Words"):
+    for heading in ("Moving", "Changing", "Views", "Exploring", "Files", "Screen", "Words"):
         expect(re.search(rf"[│|] {heading} +[│|]", tall.text), f"the heading {heading}", tall)
     expect_in("mean distance between stem hits", tall.text, "the glossary")
     for view in "123456":
@@ -420,7 +420,7 @@ def test_help():
 
 
 def test_end():
-    """End goes to the last line of texts, forms and lists, and to the end of a line that is typed; the key after it moves from
+    """End goes last line of texts, forms and lists, and to the end of a line that is typed; the key after it moves from
     there, also if nothing was drawn between."""
     with Place() as place:
         place.write("many.yaml", FAST + "observed:\n" + "".join(
@@ -493,7 +493,7 @@ def test_counts():
         with Place() as place:
             before, form, screen, _ = place.play(counts_script(COUNTED[0], how, *COUNTED[2:]) + "\nkey s", "fast.yaml")
             lower = place.text("fast.yaml").split("to_m: 80")[1]
-        form.has("Stand from the counts of a sample plot", "size of the plot, m²", "angle", "their mean diameter, cm")
+        form.has("Stand from a sample plot", "size of the plot, m²", "angle", "their mean diameter, cm")
         rows = [re.findall(r"^\d +(\S+) +(\S+) +(\S+)", part, re.M) for part in screen.body.split("\n    per ha")[1:]]
         found = [float(screen.row("^stools per ha")[-1]), float(rows[0][0][0]), float(rows[1][0][0])]
         for value, count in zip(found, (100, 250, 20)):
@@ -588,7 +588,7 @@ def test_more_in_popups():
 
 def test_share_above_one():
     """f: a share above 100 % or 1000 of 1000 is refused with its number, one of 100 % is looked for."""
-    for down, typed, said in (("Down", "120", "120 % cannot be"), ("Down Down", "1001", "1001 of 1000 cannot be"),
+    for down, typed, said in (("Down", "120", "120 % is impossible"), ("Down Down", "1001", "1001 per 1000 is impossible"),
                               ("Down", "100", "every value of the range reaches the goal")):
         fast(f"key 2 f {down} Enter\ntype {typed}\nkey Enter Enter Enter Enter\nwait idle\ndump")[0].has(said)
 

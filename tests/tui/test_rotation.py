@@ -481,8 +481,8 @@ def test_find():
         text = (place.path / "reserves.yaml").read_text()
         check_good(place.path, "reserves.yaml")
     popup, found, undone, _ = screens
-    for part in ("per hectare, trees 1, belt 1", "mean distance between hits below … m (ADC)", "chance of a free run at most … %",
-                 "at most … of 1000 arrive with too much", "at most … of 1000 arrive", "mean energy of arrivals", "u takes it back"):
+    for part in ("per hectare, trees 1, belt 1", "mean distance between hits below … m (ADC)", "probability of a free run at most … %",
+                 "at most … per 1000 above the accepted energy", "at most … per 1000 arrive", "mean energy of arrivals", "u takes it back"):
         expect_in(part, popup.popup, "the question")
     expect_equal(re.findall(r"(?:from|to) +(\d+)", popup.popup), ["6", "600"], "the range that is offered")
     expect_equal(found.row(r"^1 +379")[:2], ["1", "379"])
@@ -526,7 +526,7 @@ def test_find_in_list():
                                               steps + "wait idle\ndump", f"{scene}.yaml")
             asked.has(*(("Which of its numbers", "1 30", "2 30") if which else ("Which value reaches a goal?",)))
             if which:
-                for words in ("rules of Marche ask for 60 standards per ha at least (Ministry Decree", "60 are left.", "asks for 70 per ha"):
+                for words in ("rules of Marche require at least 60 standards per ha (Ministry Decree", "60 are left.", "requires at least 70 per ha"):
                     expect_in(words, popup.popup, "the law")
             expect(wanted["found"] and wanted["over"] == "rotation", scene, wanted)
             values = screen.row("^trees kept")[-2 if which else -1:]

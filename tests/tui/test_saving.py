@@ -140,10 +140,10 @@ def test_anew():
         saved = place.play("key 1\nfind stand\nkey a\nkey s Ctrl-U\ntype my.yaml\nkey Enter\ndump", "paper-site")[0]
         expect("# Test site" not in place.text("my.yaml"), "this test's own scene keeps its comments")
         expect("my.yaml.bak" not in place.names() and ".bak" not in saved.note, saved.note)
-        expect_equal(saved.note, "saved my.yaml; laid out anew, without the comments of paper-site.yaml")
+        expect_equal(saved.note, "saved my.yaml; reformatted, without the comments of paper-site.yaml")
         check_good(place.path, "my.yaml")
         saved = place.play("key 1\nfind stand\nkey d\nkey s\ndump\nclear\nkey u s\ndump", "fast.yaml")
-        expect_equal(saved[0].note, "saved fast.yaml; laid out anew, the old file is fast.yaml.bak")
+        expect_equal(saved[0].note, "saved fast.yaml; reformatted, the old file is fast.yaml.bak")
         expect_equal(saved[1].note, "saved fast.yaml", "what the program laid out itself is no loss")
         expect_equal(place.text("fast.yaml.bak"), FAST, "the old file, with its comments, still")
 
@@ -214,7 +214,7 @@ def test_save_shipped():
             set 1500
             key s
             dump""", "paper-site")
-        named.has("A stand was changed: its name", "ADS 1 (changed)", "from 0 to 67.5 m in 'current'")
+        named.has("Name of the changed stand", "ADS 1 (changed)", "from 0 to 67.5 m in 'current'")
         asked.has("Save as", "never written over", "paper-site.yaml")
         expect_in("saved paper-site.yaml", saved.note)
         expect_in("saved paper-site.yaml", later.note)
@@ -297,10 +297,10 @@ def test_quit():
         expect("late.txt" not in place.names(), "still there after q")
         edit = "key 2\nkey /\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
         asked = place.play(edit + "key q\ndump\nkey Enter\ndump\nkey q Esc\ndump\nkey F10\ndump")
-        asked[0].has("There is unsaved work", "stay", "save it", "discard it")
-        asked[1].has("* fast").lacks("There is unsaved work")
-        asked[2].has("* fast").lacks("There is unsaved work")
-        asked[3].has("There is unsaved work")
+        asked[0].has("There are unsaved changes", "stay here", "save them", "discard them")
+        asked[1].has("* fast").lacks("There are unsaved changes")
+        asked[2].has("* fast").lacks("There are unsaved changes")
+        asked[3].has("There are unsaved changes")
         expect_equal(place.text("fast.yaml"), FAST, "the file after staying")
         run_script(place.path, edit + "key q End Enter\ndump late.txt\n", "fast.yaml")
         expect("late.txt" not in place.names(), "still there after 'quit and lose it'")
@@ -309,7 +309,7 @@ def test_quit():
         expect("late.txt" not in place.names(), "still there after 'save and quit'")
         expect_in("per_ha: 1234", place.text("fast.yaml"), "the file after saving")
         named, shipped = place.play(edit + "key q Down Enter\ndump\nkey Enter\ndump", "paper-site")
-        named.has("A stand was changed: its name")
+        named.has("Name of the changed stand")
         shipped.has("Save as")
 
 
@@ -404,8 +404,8 @@ def test_report_head():
         screens[0].has("Head of the report", "place", "owner", "parcel", "author", "date", "note", "Each line may stay empty")
         days.append(time.strftime("%Y-%m-%d"))
         expect(any(re.search(f"date +{day}", screens[0].text) for day in days), "the date is today's:", screens[0])
-        screens[1].has("a page to hand in, as HTML", "ceduo.html")
-        screens[2].has("a page to hand in, as HTML", "ceduo.html")
+        screens[1].has("a report, as HTML", "ceduo.html")
+        screens[2].has("a report, as HTML", "ceduo.html")
         screens[3].has("Head of the report")
         report, kept = place.text("ceduo.html"), place.text("options.yaml")
         expect_in("<dt>Place</dt>\n<dd>Serra &#39;de\u2019 Conti&#39;: &lt;b&gt;</dd>\n<dt>Date</dt>\n<dd>2026-11-24</dd>", report, "the head")
@@ -454,7 +454,7 @@ def test_export_rocks():
     none, last, screen = fast("key w End Enter\ndump\nwait idle\ndump\nkey Esc\ndump", "wood.yaml")
     none.has("ceduo --batch -n 1000 ", "no figures yet", "what the scene says")
     rocks = int(screen.figure("finished,"))
-    last.has(f"ceduo --batch -n {rocks} ", f"The figures on the screen are of {rocks} rocks").lacks("no figures yet")
+    last.has(f"ceduo --batch -n {rocks} ", f"The figures on the screen are from {rocks} rocks").lacks("no figures yet")
 
 
 def test_export_unsaved():

@@ -58,7 +58,7 @@ def test_nothing_seen():
     with Place() as place:
         for size in ("80 24", "200 50"):
             view, key = place.play(f"resize {size}\nwait idle\nkey 8\ndump\nkey c\ndump")
-            says(view, "This scene does not say what was seen on its slope.", "a asks for what of it is known", "c fits the ground to it.")
+            says(view, "This scene has no observations.", "a asks for what of it is known", "c fits the ground to it.")
             view.lacks("not computed yet", "fallin")
             key.whole().has("a asks for it").lacks("What is fitted")
 
@@ -118,8 +118,8 @@ def test_typed():
             dump""", "flight.yaml")
         text = place.text("flight.yaml")
         check_good(place.path, "flight.yaml")
-    kinds.has("What was seen?", "1 where rocks stopped", "2 how many passed", "4 height of their", "6 scars on stems").lacks("search:")
-    stops.has("taken over; u takes it back")
+    kinds.has("New observation", "1 where rocks stopped", "2 how many passed", "4 height of their", "6 scars on stems").lacks("search:")
+    stops.has("added; u undoes")
     expect(re.search(r"^1 +41 44\.5 52 61 +6 +-$", stops.body, re.M), stops)
     refused.has("'sixty' is not a number")
     wrong.has("how many passed a place")
@@ -173,7 +173,7 @@ def test_unknown():
                     "  - {name: at the end, speed: {x_m: 59, n: 5, mean: 3, sd: 1}}\n"
                     "  - {name: at the gate, speed: {x_m: 20, n: 5, mean: 22, sd: 1}}\nsimulation: {rocks: 100}\n")
         screen = place.play("resize 120 40\nkey 8\nwait idle\ndump", "flight.yaml")[0]
-    says(screen, "does not give what was seen: at the end (no simulated rock does that).")
+    says(screen, "does not give what was seen: at the end (no simulated rock does this).")
     expect(re.search(r"^at the end +3.00 m/s +- OUTSIDE$", screen.body, re.M), screen)
 
 
@@ -209,7 +209,7 @@ def test_fit_taken():
         says(screen, "Fitted. Enter takes these values", "The fit does not hold for what was to check it: too slow.")
     says(large, "The model can give all that it was fitted to.", "a hundred metres beside it may be another.")
     says(large, "It does not keep all that fits as well, the draws.", "-n 100 -o FITTED.yaml SCENE.yaml")
-    expect_in("the scene has the values and their ranges, not the draws; u takes them back", taken.note)
+    expect_in("values and ranges written to the scene, without the draws; u undoes", taken.note)
     expect("*" in taken.title and "*" not in saved.title, "a star while it is unsaved", taken, saved)
     value = re.search(r"vx_m_s: *([\d.]+)", text)
     expect(value and abs(speed_at_gate(float(value.group(1))) - 22) < 0.05, "the value in the file", text)
@@ -262,7 +262,7 @@ def test_fit_left():
     done.has("Fitted.")
     for screen in (stopped, left):
         expect("*" not in screen.title and "Fitted." not in screen.body, screen)
-    expect_in("the scene is as it was", left.note)
+    expect_in("fit discarded; the scene is unchanged", left.note)
     edited.lacks("Fitted.", "under way").has("Simulated: 2000 rocks.")
 
 
@@ -304,7 +304,7 @@ def test_grounds():
     for screen in (look, wide):
         screen.whole().has("farther:", "1.0┤", "0.0┤")
         expect(re.search(r"^stops +101 m .*(inside|OUTSIDE)$", screen.body, re.M), screen)
-    popup.has("bounce Rn, cliff", "Usual bounds of the others: bounce Rn, talus")
+    popup.has("bounce Rn, cliff", "Usual bounds of other values: bounce Rn, talus")
     # A half to one and a half times the scene's own; a length also all that the library has, from 0 m of pavement on.
     expect(re.search(r"roughness, m +0:0\.6 ", length.popup), length)
     expect(re.search(r"roughness, rad +0\.05:0\.15 ", angle.popup), angle)
@@ -324,7 +324,7 @@ def test_too_many_values():
         t.sees("What is fitted")
         t.keys("Enter", "Enter", "Enter", "Enter")
         told = " ".join(line[:50].strip() for line in t.sees("does not hold 4").split("\n"))
-        named = re.search(r"does not hold 4 values: fix (.*?)\. c fits without it", told)
+        named = re.search(r"do not determine all 4 values: fix (.*?)\. c fits without it", told)
         expect(named and re.search("bounce Rn|slide Rt", named.group(1)), told)
         t.keys("c")
         asked = t.sees("What is fitted")
@@ -332,7 +332,7 @@ def test_too_many_values():
             empty = not re.search(rf"{name} +[\d.]+:[\d.]+", asked)
             expect_equal(empty, name in named.group(1), f"{name}, where {named.group(1)} is to be fixed:\n{asked}")
         t.keys("Escape", "Escape")
-        t.sees("the scene is as it was")
+        t.sees("fit discarded; the scene is unchanged")
 
 
 def test_quarry():
@@ -346,7 +346,7 @@ def test_quarry():
         says(screen, "farther:", "does not give what was seen: stops")
         expect(re.search(rf"^stops +{mean:.0f} m .* OUTSIDE$", screen.body, re.M), screen)
     says(fitted, "roughness, m", "friction", "The model can give all that it was fitted to.")
-    says(taken, "The scene as it is can give all that was seen.")
+    says(taken, "The scene reproduces all observations.")
     expect(re.search(rf"^stops +{mean:.0f} m .* inside$", taken.body, re.M), taken)
 
 

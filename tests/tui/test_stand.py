@@ -73,7 +73,7 @@ def test_diameter_alone():
     expect_equal(counted.row(r"^2 +500")[2:4], ["15", "10"], counted)
     expect("its height" not in counted.note, counted)
     for screen, height in ((beyond, "7"), (tree, "12")):
-        expect_in(f"its height, {height} m, is assumed and stays", screen.note)
+        expect_in(f"assumed height unchanged at {height} m", screen.note)
 
 
 def test_standards():
@@ -89,7 +89,7 @@ def test_standards():
         dump""")
     expect_equal(start.row("^trees kept per ha")[4:6], ["60", "40"], start)
     start.lacks("two things")
-    more.has("! today 140, after a cut 100: two things")
+    more.has("! today 140, after a cut 100")
     cut.lacks("two things")
 
 
