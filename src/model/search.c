@@ -144,12 +144,11 @@ static enum ceduo_status evaluate_once(struct search *s, double value, struct re
     return status;
 }
 
-/* A whole number represents all values that round to it. */
 static enum ceduo_status evaluate_margin(void *context, double value, double *above)
 {
     struct search *s = context;
     struct reliability_result answer;
-    enum ceduo_status status = evaluate_once(s, s->whole ? round(value) : value, &answer);
+    enum ceduo_status status = evaluate_once(s, value, &answer);
     *above = status == CEDUO_OK ? answer.above : NAN;
     return status;
 }
@@ -182,7 +181,7 @@ static enum ceduo_status read_error(struct search *s, const struct ceduo_find_de
     return status;
 }
 
-/* Search the value that reaches the goal in the wanted share of cases. The share is smooth, a few values suffice. */
+/* Search the value that reaches the goal in the wanted share of cases. */
 static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_def *plain, const struct ceduo_found *found)
 {
     struct ceduo_find_def def = *plain;
@@ -198,16 +197,9 @@ static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_d
     if (status != CEDUO_OK || s->answer->sure.inputs == 0)
         return status;
     def.tolerance = SURE_TOLERANCE;
-    if (def.whole) {
-        def.lo = ceil(def.lo), def.hi = floor(def.hi);
-        def.whole = false;
-        def.tolerance = def.hi > def.lo ? .5 / (def.hi - def.lo) : 0;
-    }
     def.goal = evaluate_margin;
     def.target = 0;
     status = ceduo_find(&def, to);
-    if (s->whole)
-        to->value = round(to->value), to->nearest = round(to->nearest);
     value = to->found ? to->value : to->nearest;
     if (status == CEDUO_OK && !isnan(value))
         status = evaluate_once(s, value, &answer);
@@ -290,16 +282,18 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
     *answer = (struct search_answer){.target = s->def.target, .rotation = s->def.rotation};
     if (!has_requirements(s))
         return CEDUO_BAD_SLOPE;
-    bool counted =
-        field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* whole numbers, as foresters count */
+    bool counted = field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* as foresters count */
     bool whole = s->whole = counted || (field && strcmp(field->unit, "y") == 0);
-    s->passes = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target;
-    struct ceduo_find_def def = {
-        .lo = s->def.lo, .hi = s->def.hi, .whole = whole, .target = s->passes, .tolerance = 1e-4, .cancel = cancel};
-    def.goal = evaluate_goal;
-    def.context = s;
-    double first = whole ? ceil(def.lo) : def.lo, last = whole ? floor(def.hi) : def.hi;
-    if (!check_ends(s, first, last))
+    struct ceduo_find_def def = {.lo = whole ? ceil(s->def.lo) : s->def.lo,
+                                 .hi = whole ? floor(s->def.hi) : s->def.hi,
+                                 .whole = whole,
+                                 .target = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target,
+                                 .goal = evaluate_goal,
+                                 .context = s,
+                                 .tolerance = 1e-4,
+                                 .cancel = cancel};
+    s->passes = def.target;
+    if (!check_ends(s, def.lo, def.hi))
         return CEDUO_BAD_SLOPE;
     struct ceduo_found *found = &answer->found;
     enum ceduo_status status = ceduo_find(&def, found);
@@ -307,7 +301,7 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
     if (status == CEDUO_OK && s->def.sure > 0)
         status = search_sure(s, &def, found);
     if (status == CEDUO_OK) {
-        struct ceduo_yield lo = compute_yield(s, first), hi = compute_yield(s, last);
+        struct ceduo_yield lo = compute_yield(s, def.lo), hi = compute_yield(s, def.hi);
         answer->yield = compute_yield(s, found->found ? found->value : found->nearest);
         answer->yield_depends = is_different(lo.cut_per_year, hi.cut_per_year) || is_different(lo.standing, hi.standing) ||
                                 is_different(lo.died_per_year, hi.died_per_year);

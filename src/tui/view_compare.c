@@ -2,19 +2,20 @@
 /* View 5: the silvicultural options side by side, today and over one rotation. */
 #include "base/language.h"
 #include "popup.h"
+#include "view/page_parts.h"
 
 static void build_compare(struct app *app, struct form *form)
 {
     if (ceduo_node_get(app->document.file.root, "options"))
         ceduo_form_table(form, "options", NULL, "name");
     else
-        ceduo_form_note(form, _("Only one option. a adds a preset, y a copy."));
+        ceduo_form_note(form, _("Only one option. Press a to add a preset, y to copy."));
     form->row = app->option + 1; /* below the column heads */
 }
 
 enum { PANE_TABLE, PANE_COMPARE, PANE_TRADEOFF, PANES };
 
-#define HEADS            2   /* lines above the table */
+#define HEADS            3   /* lines above the table */
 #define WORDS_MIN        4   /* min. lines of the text below */
 #define TRADEOFF_MIN     11  /* min. lines of the picture of protection against yield */
 #define SIDE_BY_SIDE_MIN 128 /* columns for table and picture side by side */
@@ -35,7 +36,8 @@ static void draw_options(struct app *app, struct ceduo_area area)
            max_rows = area.height > HEADS + WORDS_MIN + 1 ? (size_t)(area.height - HEADS - WORDS_MIN - 1) : 1;
     size_t shown = n <= max_rows ? n : max_rows - (max_rows > 1);
     size_t first = app->option >= shown ? app->option - shown + 1 : 0;
-    ceduo_pane_options(&table, &pane, first, shown);
+    ceduo_page_shares(&table, pane.report, true);
+    ceduo_page_options(&table, pane.report, CEDUO_OPTIONS_PANE, pane.report->result->last_control, app->option, first, shown);
     if (shown < n)
         ceduo_page_para(&table, CEDUO_PAGE_NOTE, _("%zu\xe2\x80\x93%zu of %zu options; up, down: the others"), first + 1,
                         first + shown, n);

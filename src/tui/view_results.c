@@ -13,9 +13,6 @@ static void draw_results_text(struct app *app, struct ceduo_area area, const str
     area.width -= 2; /* columns for the mark that the text continues */
     struct ceduo_page page = {.width = (size_t)area.width};
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
-    ceduo_pane_belts(&page, &pane);
-    ceduo_pane_residual(&page, &pane);
-    ceduo_page_add(&page, CEDUO_PAGE_GAP);
     int remaining = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0);
     if (bars) {
         ceduo_plot_add(CEDUO_PLOT_HISTOGRAM, &page, picture,

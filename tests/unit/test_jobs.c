@@ -216,7 +216,7 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
         if (i != shown)
             EXPECT_NAN(ceduo_uncertainty_find_figure(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5);
     EXPECT_NAN(ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, true)->fit.p95);
-    assert_int_equal(ceduo_uncertainty_ranking_by(a)->count, 0);
+    assert_int_equal(a->orders_count, 0);
     a = &uncertainty(shown, UNCERTAINTY_LEVELS)->answer;
     f = ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
     EXPECT(f->fit.p5, ==, p5);
@@ -224,8 +224,8 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
     EXPECT(f->fit.left[f->order[0]], ==, leaves);
     for (size_t i = 0; i < n; i++)
         EXPECT(ceduo_uncertainty_find_figure(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5, >, 0);
-    assert_int_equal(ceduo_uncertainty_ranking_by(a)->count, n - 1);
-    assert_true(ceduo_uncertainty_ranking_by(a)->rotation);
+    assert_int_equal(a->orders_count, n - 1);
+    assert_true(a->rotation);
 }
 
 /* What is stopped ends soon, and nothing comes of it. */
