@@ -275,7 +275,7 @@ static void draw_stretch(struct app *app, const struct ceduo_area *area, const s
 
 #define PROFILE_MIN 6 /* lines */
 
-/* Draw the profile read so far: release, end of the face, control, and the steepest stretch below. */
+/* Draw the profile as read: release, end of the face, control, and the steepest stretch below. */
 static void draw_profile(struct app *app, struct popup *p, struct ceduo_area area)
 {
     struct answers a = {.release = NAN};

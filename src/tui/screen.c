@@ -73,7 +73,7 @@ static bool draw_title(struct app *app)
     return fits;
 }
 
-/* Draw the answer for the option shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty may change it. */
+/* Draw the answer for the option shown, with the progress of the uncertainty while that may change the answer. */
 static void draw_verdict(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;

@@ -239,7 +239,7 @@ static void draw_observed(struct app *app, struct ceduo_area area)
     const struct scene_file *file = &app->document.file;
     const struct live *f = &app->live;
     const struct comparison *c = ceduo_live_comparison(f, file);
-    const struct ceduo_observed_stops *stops = NULL; /* of the option shown, otherwise the first */
+    const struct ceduo_observed_stops *stops = NULL; /* stops of the option shown, otherwise the first */
     const struct ceduo_observation *observed = c ? c->file.observations : NULL;
     for (size_t i = 0; c && i < c->file.observations_count; i++)
         if (c->stops[i].known &&

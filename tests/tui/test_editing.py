@@ -263,7 +263,7 @@ def wrong(view, word, value, *parts):
     before, refused, after = screens
     for part in parts:
         expect_in(part, refused.note, f"what is said to {value!r}")
-    expect_in("Esc leaves it as it was", refused.bar, "still in the field")
+    expect_in("Esc cancel", refused.bar, "still in the field")
     expect_in(value, refused.body, "what was typed is still there")
     expect_equal(refused.now, before.now, "the figures")
     expect_equal(after.text, before.text, "after Esc")
@@ -531,7 +531,7 @@ def test_blocks_without_size():
         expect_in("ADC and index use one rock: 170.2 kg, mean diameter B 0.5 m", " ".join(sized.body.split()))
         expect_in(f"ADC and index use one rock: {mean * 2600:.1f} kg", " ".join(none.body.split()))
         expect_in("'diameter_m' is missing; the shape 'cylinder' needs it", refused.note)
-        expect("filled in" not in block.note, block)
+        expect("set for the same volume" not in block.note, block)
         check_good(place.path, "sizes.yaml")
         expect_in("rock: {shape: cylinder}", place.text("sizes.yaml"))
         wide, high = 0.6, 0.7
@@ -553,9 +553,9 @@ def test_blocks_from_anywhere():
         for words in ("{per_year: 2, volume_m3: [0.02, 5], exponent: 1.2}", "{per_year: 0.2, volume_m3: [5, 50]}"):
             expect_in(words, place.text("law.yaml"))
         expect_in("blocks deleted", gone.note)
-        gone.has("none; a adds one").lacks("blocks need no size")
+        gone.has("none; a adds one").lacks("sizes come from the blocks")
         said, = place.play("key 3 a\ntype 0.5\nkey Enter\ntype 0,02 5\nkey Enter Enter\ndump\nkey s", "counted.yaml")
-        expect_in("rocks_per_year is removed", said.note)
+        expect_in("rocks_per_year, which is removed", said.note)
         check_good(place.path, "counted.yaml")
         expect("rocks_per_year" not in place.text("counted.yaml"), place.text("counted.yaml"))
 

@@ -259,7 +259,7 @@ def test_compare_one():
         clear
         dump""")
     expect_equal([cells["best"] for _, cells in compared(one)], [""], "one alone")
-    expect_in("One way to treat this forest so far", " ".join(one.body.split()))
+    expect_in("Only one option", " ".join(one.body.split()))
     expect_equal(len(compared(two)), 2, "options")
     expect_in("Without forest every option sees the same rocks", " ".join(two.body.split()))
 

@@ -76,7 +76,7 @@ def test_new_typed():
             key Enter
             dump""")
         screens[0].has("New scene", "profile (CSV file or points)", "rocks start at x", "face from the top", "ground",
-                       "rock: diameter, m", "control at x, m", "accepted energy, kJ", "stand", "Esc one back")
+                       "rock: diameter, m", "control at x, m", "accepted energy, kJ", "stand", "Esc back")
         screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0,9", "95", "30", "simple-coppice")
         screens[2].has("* Above the mill", "At 95 m", "above 30 kJ")
         screens[3].has("Save as")
@@ -309,7 +309,7 @@ def test_a_survey_that_asks():
                 dump""")
             asked.whole().has("How to read the survey", "slopes are in", "degrees", "percent")
             unanswered.whole().has("How to read the survey")
-            given.lacks("How is the survey").has(f"{per_ha:.4g}")
+            given.lacks("How to read the survey").has(f"{per_ha:.4g}")
 
 
 def test_presets_in_view_3():
@@ -408,7 +408,7 @@ def test_help():
         for name, word, word2, bar, text in rows:
             pattern = re.escape(word) + (r" +" + re.escape(word2) if word2 else "") + r" +" + re.escape(text)
             expect(re.search(r"[│|] +" + pattern, tall.text), f"{name}: {word} {word2} {text} is missing in the", tall)
-        closed.lacks("Every edit is live")
+        closed.lacks("Figures and pictures follow every edit at once")
     for heading in ("Moving", "Changing", "Views", "Exploring", "Files", "Screen", "Words"):
         expect(re.search(rf"[│|] {heading} +[│|]", tall.text), f"the heading {heading}", tall)
     expect_in("mean distance between stem hits", tall.text, "the glossary")
@@ -452,8 +452,8 @@ def test_help_field():
     expect(line.note.endswith("…"), line.note)
     wide = fast("resize 300 24\nkey 2\nfind stools.per_ha\ndump", "paper-site")[0]
     expect_in("Table 1", wide.note, "the source")
-    expect(helped.popup.startswith(re.sub(" +", " ", wide.note) + " Every edit is live"), wide.note, helped)
-    expect(fast("key 4\nkey ?\ndump")[0].popup.startswith("Every edit is live"), "without a field")
+    expect(helped.popup.startswith(re.sub(" +", " ", wide.note) + " Figures and pictures follow every edit at once"), wide.note, helped)
+    expect(fast("key 4\nkey ?\ndump")[0].popup.startswith("Figures and pictures follow every edit at once"), "without a field")
 
 
 def test_help_scrolls():
@@ -462,7 +462,7 @@ def test_help_scrolls():
     text = "\n".join(p.text for p in pages[:10])
     for name, word, word2, bar, what in actions():
         expect_in(what, text, name)
-    expect_in("terminal itself selects text", re.sub(r"\s+[│|]\n.?[│|]\s+", " ", text))
+    expect_in("select text in the terminal", re.sub(r"\s+[│|]\n.?[│|]\s+", " ", text))
     expect_equal(pages[10].text, pages[0].text, "after g")
     pages[11].lacks("─Keys")
 
@@ -522,15 +522,15 @@ def test_counts_of_nothing():
 def test_counts_refused():
     """c: what cannot be is refused with a reason, nothing changes; what is unusual is asked once."""
     for at, value, part in ((0, "0", "0 itself is outside"), (0, "-4", "-4"), (1, "90", "90 itself is outside"),
-                            (1, "x", "'x' is not a number"), (2, "3,5,5", "'3,5,5' is not a number"), (3, "50", "one shoot at least"),
+                            (1, "x", "'x' is not a number"), (2, "3,5,5", "'3,5,5' is not a number"), (3, "50", "at least one shoot"),
                             (2, "", "belong together"), (3, "nan", "'nan' is not a number"), (4, "0", "0 itself is outside"),
                             (4, "900", "900 cm? Usual is"), (8, "1000", "above 150 m"), (0, "1e-320", ""), (2, "1e300", "")):
         later = COUNTED[at + 1:] if (at, value) in ((2, ""), (3, "50"), (0, "1e-320"), (2, "1e300")) else []
         before, filled, refused, after = fast(counts_script(*COUNTED[:at], value, *later))
-        (refused if later or at == 8 else filled).has("Stand from the counts", part)
+        (refused if later or at == 8 else filled).has("Stand from a sample plot", part)
         expect_equal(after.text, before.text, f"after {value!r} and Esc")
     taken = fast(counts_script(*COUNTED[:4], "900", *COUNTED[5:]).replace("type 900\nkey Tab", "type 900\nkey Tab Tab"))[2]
-    taken.lacks("Stand from the counts")
+    taken.lacks("Stand from a sample plot")
 
 
 def test_keys_at_once():
@@ -564,7 +564,7 @@ def test_new_is_data():
 def test_popup_bar():
     """The bar has the keys of what lies over the view, and those of the view again once it is closed."""
     for keys, words in (("p", ("type to search", "Enter choose", "Esc cancel")), ("q", ("a letter", "Enter", "Esc cancel")),
-                        ("?", ("Up Down", "any other key closes")), ("n", ("Enter next", "Esc one back")),
+                        ("?", ("Up Down", "any other key closes")), ("n", ("Enter next", "Esc back")),
                         ("w End Enter", ("any other key closes",))):
         for width in (60, 80, 200):
             edit = "find stools.per_ha\nkey +\n" if keys == "q" else ""

@@ -482,7 +482,7 @@ def test_find():
         check_good(place.path, "reserves.yaml")
     popup, found, undone, _ = screens
     for part in ("per hectare, trees 1, belt 1", "mean distance between hits below … m (ADC)", "probability of a free run at most … %",
-                 "at most … per 1000 above the accepted energy", "at most … per 1000 arrive", "mean energy of arrivals", "u takes it back"):
+                 "at most … per 1000 above the accepted energy", "at most … per 1000 arrive", "mean energy of arrivals", "u undoes"):
         expect_in(part, popup.popup, "the question")
     expect_equal(re.findall(r"(?:from|to) +(\d+)", popup.popup), ["6", "600"], "the range that is offered")
     expect_equal(found.row(r"^1 +379")[:2], ["1", "379"])
@@ -524,7 +524,7 @@ def test_find_in_list():
             steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", "", lo, hi))
             asked, popup, screen = place.play("key 6\n" + ("" if which else "key ]\n") + "find stay_per_ha\nkey f\ndump\n" + keys + "dump\n" +
                                               steps + "wait idle\ndump", f"{scene}.yaml")
-            asked.has(*(("Which of its numbers", "1 30", "2 30") if which else ("Which value reaches a goal?",)))
+            asked.has(*(("Which number of the list", "1 30", "2 30") if which else ("Which value reaches a goal?",)))
             if which:
                 for words in ("rules of Marche require at least 60 standards per ha (Ministry Decree", "60 are left.", "requires at least 70 per ha"):
                     expect_in(words, popup.popup, "the law")

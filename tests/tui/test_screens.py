@@ -358,7 +358,7 @@ def test_too_small():
         dump""")
     for screen in screens[:3]:
         screen.whole().has(f"The window ({screen.width} x {screen.height}) is too small: at least 60 x 16 is needed.", "q quits")
-    screens[3].whole().has("ceduo needs a")
+    screens[3].whole().has("The window")
     screens[4].whole()
     screens[5].whole().has("Belts of forest")
 

@@ -58,9 +58,9 @@ def test_nothing_seen():
     with Place() as place:
         for size in ("80 24", "200 50"):
             view, key = place.play(f"resize {size}\nwait idle\nkey 8\ndump\nkey c\ndump")
-            says(view, "This scene has no observations.", "a asks for what of it is known", "c fits the ground to it.")
+            says(view, "This scene has no observations.", "a adds observations", "c fits the ground to them.")
             view.lacks("not computed yet", "fallin")
-            key.whole().has("a asks for it").lacks("What is fitted")
+            key.whole().has("a adds one").lacks("Values to fit")
 
 
 def test_typed():
@@ -163,7 +163,7 @@ def test_rows():
         expect(re.search(r"^all pass +10 +10–10 inside$", screen.body, re.M), screen)
         expect(re.search(r"^(few pass and nobody knows why \(check\))?\s+6 +10–10 OUTSIDE$", screen.body, re.M), screen)
         says(screen, "few pass and nobody knows why (check)", "does not give what was seen: too slow (p <.001); few pass and nobody",
-                   "only a fit says what of it is determined.", "Simulated: 2000 rocks.")
+                   "Only a fit shows which values they determine.", "Simulated: 2000 rocks.")
 
 
 def test_unknown():
@@ -206,9 +206,9 @@ def test_fit_taken():
     for screen in (fitted, large):
         best, lo, hi = map(float, re.search(r"speed along, m/s ([\d.]+) \(([\d.]+)–([\d.]+)\)", screen.body).groups())
         expect(abs(speed_at_gate(best) - 22) < 0.15 and abs(lo - 10.02 + slope) < 0.1 and abs(hi - 10.02 - slope) < 0.1, screen)
-        says(screen, "Fitted. Enter takes these values", "The fit does not hold for what was to check it: too slow.")
+        says(screen, "Fitted. Enter applies these values", "The fit does not hold for what was to check it: too slow.")
     says(large, "The model reproduces all fitted observations.", "a hundred metres beside it may be another.")
-    says(large, "It does not keep all that fits as well, the draws.", "-n 100 -o FITTED.yaml SCENE.yaml")
+    says(large, "It does not write the draws, all plausible values.", "-n 100 -o FITTED.yaml SCENE.yaml")
     expect_in("values and ranges written to the scene, without the draws; u undoes", taken.note)
     expect("*" in taken.title and "*" not in saved.title, "a star while it is unsaved", taken, saved)
     value = re.search(r"vx_m_s: *([\d.]+)", text)
@@ -263,7 +263,7 @@ def test_fit_left():
     for screen in (stopped, left):
         expect("*" not in screen.title and "Fitted." not in screen.body, screen)
     expect_in("fit discarded; the scene is unchanged", left.note)
-    edited.lacks("Fitted.", "under way").has("Simulated: 2000 rocks.")
+    edited.lacks("Fitted.", "Fitting.").has("Simulated: 2000 rocks.")
 
 
 def test_bounds():
@@ -271,7 +271,7 @@ def test_bounds():
     with Place() as place:
         place.write("flight.yaml", FLIGHT + SEEN)
         for typed, said in (("ten", "'ten' is not a number"), ("5", "the smaller first"), ("9:5", "the smaller first"),
-                            ("5:5000", "5000"), ("", "nothing is to be fitted")):
+                            ("5:5000", "5000"), ("", "no value to fit")):
             wrong, = place.play(f"key 8\nwait idle\nkey c Ctrl-U\n{'type ' + typed if typed else ''}\nkey Enter\nwait idle\ndump",
                                 "flight.yaml")
             expect_in(said, wrong.popup)
@@ -312,7 +312,7 @@ def test_grounds():
     usual = dict(re.findall(r"(bounce Rn|slide Rt), talus ([\d.:]+)", popup.popup))
     for name in ("bounce Rn", "slide Rt"):
         expect(re.search(rf"{name} +{usual[name]}", unsaid.popup), f"{name} of talus, {usual[name]}, where nothing is said", unsaid)
-    check.has("all that was seen is to check a fit").lacks("What is fitted")
+    check.has("all observations are for checking").lacks("Values to fit")
 
 
 def test_too_many_values():
@@ -321,13 +321,13 @@ def test_too_many_values():
     with Place() as place, Tmux(place) as t:
         t.start("quarry")
         t.keys("8", "c")
-        t.sees("What is fitted")
+        t.sees("Values to fit")
         t.keys("Enter", "Enter", "Enter", "Enter")
         told = " ".join(line[:50].strip() for line in t.sees("does not hold 4").split("\n"))
         named = re.search(r"do not determine all 4 values: fix (.*?)\. c fits without it", told)
         expect(named and re.search("bounce Rn|slide Rt", named.group(1)), told)
         t.keys("c")
-        asked = t.sees("What is fitted")
+        asked = t.sees("Values to fit")
         for name in ("bounce Rn", "slide Rt", "roughness, m", "friction"):
             empty = not re.search(rf"{name} +[\d.]+:[\d.]+", asked)
             expect_equal(empty, name in named.group(1), f"{name}, where {named.group(1)} is to be fixed:\n{asked}")
