@@ -83,8 +83,7 @@ bool ceduo_document_vary_option(struct document *document, size_t index, const c
 bool ceduo_document_rename_option(struct document *document, size_t index, const char *name);
 
 /* As ceduo_document_set(), but remove conflicting values: another size or mass of the rock, roughness or number of shoots. A
- * new shape keeps the volume. Neighbours follow a border, and assumed heights follow their diameter. Append the other
- * changes to `notes`. */
+ * new shape keeps the volume. Neighbours follow a border, assumed heights their diameter. Append these to `notes`. */
 bool ceduo_document_set_and_follow(struct document *document, const char *path, const char *value, struct text *notes);
 
 /* Insert a vertex ([x, z]) into segment `index`; both parts keep its ground. `split_ground`: give each segment its own
@@ -103,8 +102,7 @@ bool ceduo_document_save(struct document *document, const char *path, bool *refo
 /* Append the document as YAML, as saved to `path`; NULL: to its own path. */
 void ceduo_document_append_yaml(struct document *document, const char *path, struct text *text);
 
-/* True if a path leads to a file of the program, which is never written. True if the file on disk has changed since it was
- * read. */
+/* True if a path leads to a file of the program, never written. True if the file on disk was changed by others. */
 bool ceduo_document_is_shipped(const char *path);
 bool ceduo_document_changed_on_disk(const struct document *document);
 
@@ -127,8 +125,7 @@ double ceduo_document_get_place(const struct document *document, const char *pat
 /* Name the copy of a scene (NULL: no file) without writing it. The path is NULL if no folder can be made. */
 struct recovery_copy ceduo_recovery_begin(const char *path);
 
-/* Write and lock the copy, readable by its owner only, with the scene's path in the first line. On failure return false; the
- * old copy stays. */
+/* Write and lock the copy, readable by its owner, with the scene's path in the first line. False: the old copy stays. */
 bool ceduo_recovery_write(struct recovery_copy *copy, const char *path, const char *bytes, size_t n);
 
 void ceduo_recovery_delete(struct recovery_copy *copy); /* the copy can be written again */

@@ -144,8 +144,7 @@ static const char *change_prefix(struct arena *arena, const char *path, const vo
 
 /* ---- changes of a tree ---- */
 
-/* Remove an entry or an item; remove its list too if it becomes empty, except the list of options. Set `*path` to what was
- * removed. */
+/* Remove an entry or an item, also its list if it becomes empty, except options. Set `*path` to what was removed. */
 static void remove_entry(struct edit *e, const char **path)
 {
     const char *dot = strrchr(*path, '.'), *bracket = strrchr(*path, '[');

@@ -58,8 +58,7 @@ bool ceduo_document_changed_on_disk(const struct document *d)
 
 /* ---- saving ---- */
 
-/* Return a path for a scene at `to`: unchanged if it still leads to the same file, the name of a table of draws, or the full
- * path. */
+/* Return a path for a scene at `to`: unchanged if it leads to the same file, the name of a table of draws, or in full. */
 static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
 {
     const struct source *s = node->source;

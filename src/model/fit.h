@@ -19,8 +19,7 @@ struct fit_request {
     uint64_t rocks; /* rocks of each evaluation */
 };
 
-/* Values that the observations do not determine, found by a short first fit. A fit without them is quicker and as
- * informative. */
+/* Values that the observations do not determine, by a short first fit. A fit without them is quicker. */
 struct fit_undetermined {
     size_t n;
     bool values[CEDUO_CALIBRATION_MAX]; /* for each value of the request */
@@ -36,15 +35,13 @@ struct fit {
     struct ceduo_calibration answer;
 };
 
-/* List the values that can be fitted: those with a range in the scene, otherwise rn, rt, roughness and friction with ranges
- * of the library. */
+/* List the values to fit: those with a range in the scene, otherwise the ground with ranges of the library. */
 void ceduo_fit_offer(const struct scene_file *file, struct fit_request *offer);
 
 /* True if the scene has observations to fit. */
 bool ceduo_fit_has_observations(const struct scene_file *file);
 
-/* Fit with the threads and progress callback of `options`. Set `*undetermined` before the main fit begins. The caller frees the
- * fit even on failure. */
+/* Fit with the threads and progress callback of `options`. Set `*undetermined` before the main fit. Always free the fit. */
 enum ceduo_status ceduo_fit_compute(const struct scene_file *file, const struct fit_request *request,
                                     const struct ceduo_calibration_def *options, struct fit_undetermined *undetermined,
                                     struct fit *fit);

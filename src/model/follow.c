@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Side effects of an edit: a neighbour follows a moved border, an assumed height its diameter, and conflicting values are
- * removed. */
+/* Side effects of an edit: neighbours follow a border, assumed heights their diameter; conflicting values are removed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

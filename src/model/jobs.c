@@ -481,8 +481,7 @@ static void drop_job(struct jobs *q, enum job_kind kind)
         atomic_store(&q->cancel, true);
 }
 
-/* Replace the job of this kind. A job with the same key continues up to the requested levels. Return true if there is work
- * to do. */
+/* Replace the job of this kind. One with the same key continues up to these levels. True if there is work. */
 static bool enqueue(struct jobs *q, const struct job *job)
 {
     pthread_mutex_lock(&q->lock);

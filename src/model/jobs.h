@@ -10,8 +10,7 @@
 #include "study/seen.h"
 
 /* The queue of jobs: one thread computes on a snapshot of the scene. A job has levels from coarse to fine; the thread takes
- * the coarsest step of all jobs. A new job replaces the job of its kind and interrupts the running step, which is repeated
- * later. */
+ * the coarsest step of all jobs. A new job replaces that kind and interrupts the running step. */
 
 /* Kinds of jobs by priority if steps are equally coarse: name, slot, type of the result, function that frees it. */
 #define JOBS(X)                                                                                                                \
@@ -94,8 +93,7 @@ void ceduo_jobs_free(struct jobs *jobs);
 /* Return a key of everything that affects the runs of a scene. Scenes with equal keys have the same figures. */
 uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
 
-/* ---- requests copy the scene; its pointers must stay valid until the jobs are freed. Return true if there is work to do
- * ---- */
+/* ---- requests: copy the scene, whose pointers stay valid until the jobs are freed; true if there is work ---- */
 
 /* Request the figures of a scene: option `shown` and no forest first, then all options and their years. */
 bool ceduo_jobs_request_figures(struct jobs *jobs, const struct scene_file *file, size_t shown);

@@ -67,8 +67,7 @@ const struct fit *ceduo_live_fitted(const struct live *l)
 
 /* ---- assessing the current scene ---- */
 
-/* Return the figures of the other energy law if they fit the scene. Keep stale figures until new ones arrive, except those
- * of another law. */
+/* Return the figures of the other energy law if they fit the scene. Keep stale ones unless they are of another law. */
 static const struct ceduo_alternative_energy *fitting_alternatives(struct live *l, const struct ceduo_scene *scene)
 {
     struct alternatives *o = l->results.alternatives;

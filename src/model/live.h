@@ -22,8 +22,7 @@ struct live {
 bool ceduo_live_create(struct live *live, unsigned threads);
 void ceduo_live_free(struct live *live);
 
-/* Update after a change of the scene or of the option shown. Uncertainty and comparison: levels wanted, 0: none. Drop a fit
- * of another scene. */
+/* Update after a change of the scene or of the option shown. Uncertainty, comparison: levels, 0: none. Drop another fit. */
 void ceduo_live_update(struct live *live, const struct scene_file *file, size_t option, size_t uncertainty, size_t comparison);
 
 void ceduo_live_fit(struct live *live, const struct scene_file *file, const struct fit_request *request);

@@ -87,8 +87,7 @@ static enum ceduo_status evaluate_goal(void *context, double value, double *goal
 
 /* ---- one value, under uncertainty ---- */
 
-/* Remove the places of the searched value from an input. Return false if no place is left, or the input does not concern the
- * option. */
+/* Remove the places of the searched value from an input. False: nothing is left for the option. */
 static bool exclude_searched(struct search *s, const struct value *searched, struct ceduo_input *input)
 {
     struct arena *arena = &s->file->arena;

@@ -237,8 +237,7 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
 
 /* ---- opening and closing ---- */
 
-/* Replace the document. The figures use its memory, so they are freed first. Report an unusual value. Return false without a
- * thread. */
+/* Replace the document. The figures use its memory, so they are freed first. Report an unusual value. False: no thread. */
 static bool replace_document(struct app *app, struct document *next, unsigned threads)
 {
     struct live live;

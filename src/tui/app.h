@@ -129,8 +129,7 @@ struct app {
     bool (*copy)(const char *text);      /* copy to the clipboard; false: too long. NULL: no clipboard */
 };
 
-/* Open a scene; NULL: the site of the paper. Return false with the reason in app->document.problems. The caller frees the
- * app in any case. */
+/* Open a scene; NULL: the site of the paper. False with the reason in app->document.problems. Always free the app. */
 bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery);
 void ceduo_app_free(struct app *app);
 
@@ -168,8 +167,8 @@ struct view_state *ceduo_app_state(struct app *app); /* state of the open view *
 struct form *ceduo_app_form(struct app *app);
 void *ceduo_app_private_state(const struct app *app); /* private state of the open view */
 
-/* Collect the current results: for a picture; for pages, whose result may be missing; for a pane of n lines. Pages and panes
- * live until the next key. */
+/* Collect the results for a picture, a page (may have no result) or a pane of n lines. Pages and panes live until the next
+ * key. */
 struct ceduo_picture ceduo_app_picture(const struct app *app);
 struct ceduo_report *ceduo_app_report(const struct app *app);
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height);
@@ -177,15 +176,13 @@ struct ceduo_pane ceduo_app_pane(const struct app *app, int height);
 /* Get the uncertainty of the figures. Return false if it is not computed yet. Without inputs it has no answer. */
 bool ceduo_app_uncertainty(const struct app *app, struct ceduo_uncertainty_report *report);
 
-/* Return the option shown; the path of its forest, "options[2].forest"; the path of the stand of the belt shown. Paths live
- * until the next key. */
+/* Return the option shown, the path of its forest, "options[2].forest", or of its stand. Paths live until the next key. */
 const struct ceduo_option *ceduo_app_option(const struct app *app);
 const struct ceduo_belt *ceduo_app_belt(const struct app *app); /* NULL: the option has none */
 const char *ceduo_app_forest(const struct app *app);
 const char *ceduo_app_stand(const struct app *app);
 
-/* Return the arrivals of the right column: through the forest of the option shown, or by the index. NULL before the first
- * rocks. */
+/* Return the arrivals of the right column, through the forest shown or by the index. NULL before the first rocks. */
 const struct ceduo_arrivals *ceduo_app_arrivals(const struct app *app);
 
 /* ---- the trajectory of a rock (rock_trajectory.c) ---- */
@@ -223,8 +220,7 @@ void ceduo_screen_draw(struct app *app);
 /* Return the view whose title is at this column of the top row; VIEW_COUNT: none. */
 enum view_number ceduo_screen_find_view(const struct app *app, int column);
 
-/* Draw wrapped text in a rectangle, without the first `skip` lines. Return the number of lines. The second function only
- * counts them. */
+/* Draw wrapped text in a rectangle, without the first `skip` lines. Return the number of lines; the second only counts. */
 int ceduo_app_draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip);
 int ceduo_app_count_lines(struct app *app, const char *text, int width);
 

@@ -47,15 +47,13 @@ void ceduo_form_heading(struct form *form, const char *text);
 void ceduo_form_note(struct form *form, const char *text);
 
 /* Add a line with the value at a path; label NULL: from the schema. Add a line for each key of a list separated by blanks,
- * after a prefix that is "" or ends in a dot. Add a line for each field of a group (such as growth.shoots) that has none
- * yet. */
+ * after a prefix that is "" or ends in a dot. Add lines for the other fields of a group (growth.shoots). */
 void ceduo_form_field(struct form *form, const char *path, const char *label);
 void ceduo_form_fields(struct form *form, const char *prefix, const char *keys);
 void ceduo_form_rest(struct form *form, const char *group);
 
 /* Add a table of list items: column heads, then a line for each item. Keys are separated by blanks. With a group, show only
- * items that have it; the keys belong to the group. An empty list has one line that explains how to add an item. Add a line
- * for each point of a list. */
+ * items that have it, with its keys. An empty list has one line of help. Add a line for each point of a list. */
 void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys);
 void ceduo_form_points(struct form *form, const char *list);
 

@@ -21,8 +21,7 @@ enum {
 };
 #define K_F(n) (K_SHIFT_TAB + (n))
 
-/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, name in lower case, key, its word,
- * title. */
+/* The views. A new one is a file with a `struct view` (app.h) and a line here: NAME, name, key, its word, title. */
 #define VIEWS(V)                                                                                                               \
     V(SLOPE, slope, '1', "1", NP_("view", "slope"))                                                                            \
     V(STAND, stand, '2', "2", NP_("view", "stand"))                                                                            \

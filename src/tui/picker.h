@@ -17,8 +17,7 @@ struct line {
 void ceduo_line_set(struct line *line, const char *text);
 bool ceduo_line_handle_key(struct line *line, int key); /* return false if the key has no meaning here */
 
-/* Insert pasted text. Line ends and tabs become one blank, control characters are dropped. Return false if it does not fit;
- * the line stays. */
+/* Insert pasted text. Line ends and tabs become one blank, control characters are dropped. False: it does not fit. */
 bool ceduo_line_paste(struct line *line, const char *text);
 
 /* ---- the list ---- */

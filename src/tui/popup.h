@@ -141,8 +141,7 @@ bool ceduo_popup_ask_measured(struct app *app, const char *stand); /* asks for t
 /* Replace the stand of the belt shown. Report dropped growth and cutting, and that the year of its cut stays. */
 bool ceduo_popup_replace_stand(struct app *app, const char *target, const char *value);
 
-/* Read a minimal scene with this stand and the rock of the document. Return false if it is not a stand. The caller releases
- * `file` in any case. */
+/* Read a minimal scene with this stand and the rock of the document. False: it is no stand. Release `file` in any case. */
 bool ceduo_popup_read_stand(const struct app *app, const char *value, struct scene_file *file);
 
 #endif

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists to choose from: words of a field, files of the program and of the user; with the effect of each choice on the
- * lights. */
+/* Lists to choose from: words of a field, shipped and own files; with the effect of each choice on the lights. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -30,8 +29,7 @@ bool ceduo_popup_read_stand(const struct app *app, const char *value, struct sce
     return good;
 }
 
-/* Describe stems, mean diameter, age of the oldest shoots, basal area and owner. In Italian, set `*label` to the name of a
- * shipped stand. */
+/* Describe stems, mean diameter, age, basal area and owner. In Italian, set `*label` to the name of a shipped stand. */
 static const char *describe_stand(struct app *app, const char *value, const char *owner, const char **label)
 {
     struct scene_file file;
@@ -68,13 +66,11 @@ static bool has_header(const char *path, const char *tag)
     return strstr(head, tag) != NULL;
 }
 
-/* Add files of a kind ("stands", …), shipped or the user's. Files in the scene's folder come first; `full_path`: with the
- * path. */
+/* Add files of a kind ("stands", …), shipped or the user's. Those in the scene's folder come first; `full_path`: with path. */
 static void add_files(struct app *app, struct popup *p, const char *kind, bool shipped, bool full_path, const char *current)
 {
     const char *scene = app->document.path && !app->document.shipped ? app->document.path : "", *slash = strrchr(scene, '/');
-    const char *own_folder =
-        ceduo_app_format(app, "%.*s", slash ? (int)(slash - scene) + 1 : 0, scene); /* "": the current folder */
+    const char *own_folder = ceduo_app_format(app, "%.*s", slash ? (int)(slash - scene) + 1 : 0, scene); /* "": current */
     const char *tag = ceduo_app_format(app, "ceduo: %.*s", (int)strlen(kind) - 1, kind);
     const char *const *folders = ceduo_file_folders(&p->arena);
     for (size_t i = shipped; i == 0 || (folders && folders[i - 1]); i++) {

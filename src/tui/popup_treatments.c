@@ -46,8 +46,7 @@ static const struct ceduo_belt *lent_belt(const struct lender *l)
     return &l->file.scene.options[0].belts[0];
 }
 
-/* Find the best shipped stand with growth and cutting: same species, else hop hornbeam; same system. The caller releases
- * l->file. */
+/* Find the best shipped stand with growth and cutting: by species, hop hornbeam, system. Caller releases l->file. */
 static void find_lender(struct app *app, int species, enum ceduo_system system, struct lender *l)
 {
     const char *const *folders = ceduo_file_folders(app->scratch);

@@ -213,8 +213,7 @@ void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
     ceduo_form_draw(ceduo_app_form(app), app->cells, area, p ? p->fields[0].line.text : NULL);
 }
 
-/* Draw the newest figures. Warnings that do not fit are counted; view 4 shows them. `titled`: the scene's title is the first
- * line. */
+/* Draw the newest figures. Warnings that do not fit are only counted. `titled`: with the scene's title. */
 static void draw_column(struct app *app, struct ceduo_area area, bool titled)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;

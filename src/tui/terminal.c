@@ -454,8 +454,7 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     tcgetattr(STDIN_FILENO, &saved_mode); /* before curses changes it */
     set_handlers();
     /* The terminal is opened again for its keys, so that a read never waits. After an unwanted mouse event, such as the
-     * release of a button, curses ignores nodelay() and would wait for the next key. Standard input stays unchanged, because
-     * the shell shares it. */
+     * release of a button, curses ignores nodelay() and would wait for the next key. The shell shares standard input. */
     const char *name = ttyname(STDIN_FILENO);
     int fd = name ? open(name, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC) : -1;
     FILE *keys = fd >= 0 ? fdopen(fd, "r") : NULL;
