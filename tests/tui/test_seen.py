@@ -162,7 +162,7 @@ def test_rows():
                 expect(abs(float(found) - wanted) < 0.09, f"{found}, {wanted:.2f} wanted", screen)
         expect(re.search(r"^all pass +10 +10–10 inside$", screen.body, re.M), screen)
         expect(re.search(r"^(few pass and nobody knows why \(check\))?\s+6 +10–10 OUTSIDE$", screen.body, re.M), screen)
-        says(screen, "few pass and nobody knows why (check)", "does not give what was seen: too slow (p <.001); few pass and nobody",
+        says(screen, "few pass and nobody knows why (check)", "does not reproduce: too slow (p <.001); few pass and nobody",
                    "Only a fit shows which values they determine.", "Simulated: 2000 rocks.")
 
 
@@ -173,16 +173,16 @@ def test_unknown():
                     "  - {name: at the end, speed: {x_m: 59, n: 5, mean: 3, sd: 1}}\n"
                     "  - {name: at the gate, speed: {x_m: 20, n: 5, mean: 22, sd: 1}}\nsimulation: {rocks: 100}\n")
         screen = place.play("resize 120 40\nkey 8\nwait idle\ndump", "flight.yaml")[0]
-    says(screen, "does not give what was seen: at the end (no simulated rock does this).")
+    says(screen, "does not reproduce: at the end (no simulated rock does this).")
     expect(re.search(r"^at the end +3.00 m/s +- OUTSIDE$", screen.body, re.M), screen)
 
 
 def test_spread():
-    """What 'does not give what was seen' names is not called inside in the row above it: of block 1 the mean alone fits"""
+    """What 'does not reproduce' names is not called inside in the row above it: of block 1 the mean alone fits"""
     with Place() as place:
         screen = place.play("resize 150 40\nkey 8\nwait idle\ndump", "tschamut-arm")[0].whole()
     words = " ".join(screen.body.split())
-    expect_in("does not give what was seen: block 1 (the mean fits, how the values are spread does not: p", words)
+    expect_in("does not reproduce: block 1 (mean fits, distribution does not: p", words)
     rows = dict(re.findall(r"^(block \d).* m +\S+–\S+ (inside|OUTSIDE|mean only)$", screen.body, re.M))
     expect_equal(rows["block 1"], "mean only", screen)
 
@@ -207,7 +207,7 @@ def test_fit_taken():
         best, lo, hi = map(float, re.search(r"speed along, m/s ([\d.]+) \(([\d.]+)–([\d.]+)\)", screen.body).groups())
         expect(abs(speed_at_gate(best) - 22) < 0.15 and abs(lo - 10.02 + slope) < 0.1 and abs(hi - 10.02 - slope) < 0.1, screen)
         says(screen, "Fitted. Enter applies these values", "The fit does not hold for what was to check it: too slow.")
-    says(large, "The model reproduces all fitted observations.", "a hundred metres beside it may be another.")
+    says(large, "The model reproduces all fitted observations.", "A neighbouring profile may need another ground.")
     says(large, "It does not write the draws, all plausible values.", "-n 100 -o FITTED.yaml SCENE.yaml")
     expect_in("values and ranges written to the scene, without the draws; u undoes", taken.note)
     expect("*" in taken.title and "*" not in saved.title, "a star while it is unsaved", taken, saved)
@@ -343,7 +343,7 @@ def test_quarry():
             "key 8 Tab\nwait idle\ndump\nresize 200 50\ndump\nkey c Ctrl-U Backspace Enter Ctrl-U Backspace Enter Enter Enter\n"
             "wait idle\ndump\nkey Enter\nwait idle\ndump", "quarry")
     for screen in (small, large):
-        says(screen, "farther:", "does not give what was seen: stops")
+        says(screen, "farther:", "does not reproduce: stops")
         expect(re.search(rf"^stops +{mean:.0f} m .* OUTSIDE$", screen.body, re.M), screen)
     says(fitted, "roughness, m", "friction", "The model reproduces all fitted observations.")
     says(taken, "The scene reproduces all observations.")
