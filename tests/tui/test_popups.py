@@ -420,7 +420,7 @@ def test_help():
 
 
 def test_end():
-    """End goes last line of texts, forms and lists, and to the end of a line that is typed; the key after it moves from
+    """End goes to the last line of texts, forms and lists, and to the end of a line that is typed; the key after it moves from
     there, also if nothing was drawn between."""
     with Place() as place:
         place.write("many.yaml", FAST + "observed:\n" + "".join(

@@ -482,7 +482,7 @@ def test_find():
         check_good(place.path, "reserves.yaml")
     popup, found, undone, _ = screens
     for part in ("per hectare, trees 1, belt 1", "mean distance between hits below … m (ADC)", "probability of a free run at most … %",
-                 "at most … per 1000 above the accepted energy", "at most … per 1000 arrive", "mean energy of arrivals", "u undoes"):
+                 "at most … per 1000 exceed accepted_kJ", "at most … per 1000 arrive", "mean energy of arrivals", "u undoes"):
         expect_in(part, popup.popup, "the question")
     expect_equal(re.findall(r"(?:from|to) +(\d+)", popup.popup), ["6", "600"], "the range that is offered")
     expect_equal(found.row(r"^1 +379")[:2], ["1", "379"])
