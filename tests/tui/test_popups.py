@@ -254,7 +254,7 @@ def test_new_is_drawn():
     for screen in (typed, known):
         screen.whole().has(f"┤ steepest, {degrees}°")
     typed.lacks("▼ release")
-    known.has("70 m long and falls by 90 m", f"Steepest at 10 m, {degrees}°", "Turned", "Rocks start at 0 m, on 68°", "▼ release")
+    known.has("70 m long and falls by 90 m", f"Steepest at 10 m, {degrees}°", "Reversed", "Rocks start at 0 m, on 68°", "▼ release")
     line = next(line for line in known.lines if "steepest," in line and "├" in line)
     axis = next(line for line in known.lines if re.search(r"0 m +10 +20 +30", line))
     for sign, number in (("├", "10"), ("┤", "20")):
@@ -347,7 +347,7 @@ def test_preview_is_what_comes():
     """The lights that a choice is said to have are those that it has once it is taken."""
     for name in ("bare", "simple-coppice", "large-reserves-cut"):
         ahead, after = fast(f"key 2\nwait idle\nkey p\ntype {name}\ndump\nkey Enter\nwait idle\ndump", "wood.yaml")
-        found = re.search(r"Contact (\w+).*?free run (\w+).*?energy (\w+).*?about (\d+) of 1000", ahead.popup)
+        found = re.search(r"Contact (\w+).*?free run (\w+).*?energy (\w+).*?about (\d+) per 1000", ahead.popup)
         expect(found, "no lights in", ahead.popup)
         expect_equal(list(found.groups()[:3]), [lights(after, "braille")[k] for k in ("Contact", "Free run", "Energy")], name)
         expect_near(float(found.group(4)), after.pair("above 250 kJ")[0], 60, f"{name}: of 1000")  # 4 s.e. of 1024 rocks
