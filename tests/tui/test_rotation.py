@@ -574,7 +574,7 @@ def test_find_refused():
     for goal, lo, hi, words in (("quick", 6, 600, "adc, free-run, energy=KJ, exceed"), ("energy", 6, 600, "how many kJ"),
                                 ("adc=x", 6, 600, "adc, free-run, energy=KJ, exceed"), ("adc=-3", 6, 600, "the goal is"),
                                 ("adc", "x", 600, "'x' is not a number"), ("adc", 600, 6, "the smaller first"),
-                                ("adc", 6, "", "to: it is needed"), ("exceed", 6, 600, "index"), ("exceed=5", 6, 600, "0.05 for 5 %"),
+                                ("adc", 6, "", "to: required"), ("exceed", 6, 600, "index"), ("exceed=5", 6, 600, "0.05 for 5 %"),
                                 ("free-run=2", 6, 600, "0.05 for 5 %")):
         steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", "", lo, hi)[:4 if lo == "x" else 5])
         with Place() as place:
