@@ -111,7 +111,7 @@ static bool print_scene(const struct fit_job *j, const struct ceduo_calibration_
     good = good && ceduo_apply_fit(&document, &fit);
     if (good) {
         const char *mark = draws->temporary + strlen(draws->target);
-        ceduo_document_text(&document, a->output, scene);
+        ceduo_document_append_yaml(&document, a->output, scene);
         char *found = strstr(scene->bytes, mark);
         if (found) {
             scene->length -= strlen(mark);

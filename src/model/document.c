@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene and the states it was in. States are trees that share nodes in the arena of the scene's file. */
+/* The scene and its history. States are trees that share nodes in the arena of the scene's file. */
 #include "document.h"
 
 #include <stdlib.h>
@@ -13,29 +13,29 @@
 
 static void push_state(struct document *d, const struct node *root, const char *what)
 {
-    if (d->at + 1 < d->count && d->saved > d->at && d->saved < d->count)
-        d->saved = SIZE_MAX; /* the state on disk can no longer be reached by redo */
+    if (d->current + 1 < d->count && d->saved > d->current && d->saved < d->count)
+        d->saved = SIZE_MAX; /* redo can no longer reach the state on disk */
     if (d->count > 0)
-        d->count = d->at + 1;
-    d->states = ceduo_grow(d->states, d->count, &d->room, sizeof *d->states);
+        d->count = d->current + 1;
+    d->states = ceduo_grow(d->states, d->count, &d->capacity, sizeof *d->states);
     d->states[d->count] = (struct document_state){root, what};
-    d->at = d->count++;
+    d->current = d->count++;
 }
 
-/* Forget the older half of the history once the arena has grown by DOCUMENT_HISTORY_BYTES. It is freed with the document. */
+/* Drop the older half of the history once the arena has grown by DOCUMENT_HISTORY_BYTES. The arena is freed on close. */
 static void trim_history(struct document *d)
 {
     if (d->file.arena.bytes - d->trimmed < DOCUMENT_HISTORY_BYTES || d->count < 4)
         return;
     d->trimmed = d->file.arena.bytes;
-    size_t drop = d->at / 2;
-    memmove(d->states, d->states + drop, (d->count - drop) * sizeof *d->states);
-    d->count -= drop;
-    d->at -= drop;
-    d->saved = d->saved >= drop && d->saved != SIZE_MAX ? d->saved - drop : SIZE_MAX;
+    size_t dropped = d->current / 2;
+    memmove(d->states, d->states + dropped, (d->count - dropped) * sizeof *d->states);
+    d->count -= dropped;
+    d->current -= dropped;
+    d->saved = d->saved >= dropped && d->saved != SIZE_MAX ? d->saved - dropped : SIZE_MAX;
 }
 
-/* Makes `root` the scene, if it is one; otherwise everything stays. */
+/* Make `root` the scene if it is valid; otherwise change nothing. */
 static bool adopt(struct document *d, const struct node *root)
 {
     struct scene_file before = d->file;
@@ -46,7 +46,7 @@ static bool adopt(struct document *d, const struct node *root)
         good = ceduo_scene_bind(&d->file, &d->problems);
     }
     if (!good) {
-        struct arena arena = d->file.arena; /* it has grown */
+        struct arena arena = d->file.arena; /* keep the arena: it has grown */
         d->file = before;
         d->file.arena = arena;
     }
@@ -58,25 +58,25 @@ bool ceduo_document_commit(struct document *d, const struct node *root, const ch
     const struct node *before = d->file.root;
     if (!adopt(d, root))
         return false;
-    if (ceduo_node_equal(before, d->file.root)) { /* nothing has changed: no state for it */
+    if (ceduo_node_equal(before, d->file.root)) { /* nothing has changed: add no state */
         d->file.root = before;
         return true;
     }
     push_state(d, d->file.root, ceduo_arena_string(&d->file.arena, what));
     trim_history(d);
-    ceduo_document_keep(d);
+    ceduo_document_write_recovery(d);
     return true;
 }
 
-bool ceduo_document_undo_or_redo(struct document *d, int by)
+bool ceduo_document_undo_or_redo(struct document *d, int step)
 {
-    size_t state = d->at + (size_t)by; /* before the first it is larger than any */
+    size_t state = d->current + (size_t)step; /* wraps around before the first state */
     ceduo_problems_free(&d->problems);
     if (state >= d->count || !adopt(d, d->states[state].root))
         return false;
-    d->at = state;
+    d->current = state;
     if (ceduo_document_unsaved(d))
-        ceduo_document_keep(d);
+        ceduo_document_write_recovery(d);
     else
         ceduo_recovery_delete(&d->recovery);
     return true;
@@ -84,14 +84,14 @@ bool ceduo_document_undo_or_redo(struct document *d, int by)
 
 bool ceduo_document_unsaved(const struct document *d)
 {
-    return d->count > 0 && d->at != d->saved;
+    return d->count > 0 && d->current != d->saved;
 }
 
 /* ---- opening ---- */
 
 const struct node *ceduo_document_parse(struct document *d, const char *name, const char *text)
 {
-    /* its own copy of the path: the document may be saved elsewhere, what was typed is looked for where it was typed */
+    /* copy of the path: saving elsewhere must not change how typed paths are resolved */
     const struct source *source =
         ceduo_source_copy(&d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .beside = d->path});
     return ceduo_yaml_read(&d->file.arena, source, &d->problems);
@@ -106,7 +106,7 @@ bool ceduo_document_open(struct document *d, const char *path, const char *const
     d->raw = d->file.raw;
     d->path = strcmp(path, "-") == 0 ? NULL : ceduo_check_memory(strdup(d->file.path));
     d->shipped = d->path && ceduo_document_is_shipped(d->path);
-    ceduo_document_note_disk(d);
+    ceduo_document_record_disk_state(d);
     d->recovery = ceduo_recovery_begin(d->path);
     return true;
 }
@@ -118,7 +118,7 @@ bool ceduo_document_new(struct document *d, const char *text)
         return false;
     push_state(d, d->file.root, "");
     d->recovery = ceduo_recovery_begin(NULL);
-    ceduo_document_keep(d);
+    ceduo_document_write_recovery(d);
     return true;
 }
 

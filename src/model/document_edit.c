@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edits. Each makes a changed tree, which shares all nodes but those on the path to the change, and commits it as a new state.
- * Rows of `uncertainty` name values by their paths: they follow a value that moves. */
+/* Edits. Each makes a changed tree, which shares all nodes off the path of the change, and commits it as a new state. Rows
+ * of `uncertainty` name values by path; their paths follow a value that moves. */
 #include "document.h"
 
 #include <math.h>
@@ -16,16 +16,16 @@
 struct edit {
     struct document *d;
     struct arena *arena;
-    const struct node *root; /* as far as it is changed; NULL once the edit has failed */
+    const struct node *root; /* changed tree; NULL: the edit has failed */
 };
 
-static struct edit begin(struct document *d)
+static struct edit begin_edit(struct document *d)
 {
     ceduo_problems_free(&d->problems);
     return (struct edit){d, &d->file.arena, d->file.root};
 }
 
-static bool commit(const struct edit *e, const char *what)
+static bool commit_edit(const struct edit *e, const char *what)
 {
     return e->root && ceduo_document_commit(e->d, e->root, what);
 }
@@ -35,7 +35,7 @@ const struct node *ceduo_document_node(const struct document *d, const char *pat
     return ceduo_resolve_at(d->file.root, path);
 }
 
-double ceduo_document_place(const struct document *d, const char *written)
+double ceduo_document_read_place(const struct document *d, const char *written)
 {
     const struct ceduo_slope *s = &d->file.scene.slope;
     double value;
@@ -44,14 +44,14 @@ double ceduo_document_place(const struct document *d, const char *written)
     return written && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD ? value : NAN;
 }
 
-double ceduo_document_place_at(const struct document *d, const char *path)
+double ceduo_document_get_place(const struct document *d, const char *path)
 {
     const struct node *node = ceduo_document_node(d, path);
-    return node && node->kind == NODE_SCALAR ? ceduo_document_place(d, node->text) : NAN;
+    return node && node->kind == NODE_SCALAR ? ceduo_document_read_place(d, node->text) : NAN;
 }
 
-/* Replaces the node at a path. */
-static void put(struct edit *e, const char *path, const struct node *value)
+/* Replace the node at a path. */
+static void replace_node(struct edit *e, const char *path, const struct node *value)
 {
     const struct source *source = ceduo_source_copy(e->arena, (struct source){.name = path, .bytes = path, .is_option = true});
     bool good = e->root && value;
@@ -60,10 +60,10 @@ static void put(struct edit *e, const char *path, const struct node *value)
 
 /* ---- rows of uncertainty ---- */
 
-/* What becomes of the path of a row: itself, another in its place, or NULL: the row goes. */
+/* Return the new path of a row: unchanged, another one, or NULL to remove the row. */
 typedef const char *path_change(struct arena *arena, const char *path, const void *context);
 
-static const struct node *with_paths(struct arena *arena, const struct node *root, path_change *change, const void *context)
+static const struct node *change_paths(struct arena *arena, const struct node *root, path_change *change, const void *context)
 {
     const struct node *rows = ceduo_node_get(root, "uncertainty"), *now = rows;
     if (!rows || rows->kind != NODE_LIST)
@@ -82,11 +82,11 @@ static const struct node *with_paths(struct arena *arena, const struct node *roo
     return now->n == 0 ? ceduo_node_without(arena, root, "uncertainty") : ceduo_node_with(arena, root, "uncertainty", now);
 }
 
-/* What became of an item of a list: inserted before `from` (by 1), removed (by -1), or moved to `to` (by 0). */
+/* An item of a list was inserted before `from` (1), removed (-1), or moved to `to` (0). */
 struct shift {
     const char *list;
     size_t from, to;
-    int by;
+    int delta;
 };
 
 static const char *shift_path(struct arena *arena, const char *path, const void *context)
@@ -96,83 +96,85 @@ static const char *shift_path(struct arena *arena, const char *path, const void 
     char *end;
     if (strncmp(path, s->list, n) != 0 || path[n] != '[' || path[n + 1] < '0' || path[n + 1] > '9')
         return path;
-    size_t at = strtoul(path + n + 1, &end, 10), now = at;
-    if (s->by < 0 && at == s->from)
+    size_t position = strtoul(path + n + 1, &end, 10), now = position;
+    if (s->delta < 0 && position == s->from)
         return *end == ']' ? NULL : path;
-    if (s->by != 0)
-        now = at < s->from ? at : s->by < 0 ? at - 1 : at + 1;
-    else if (at == s->from)
+    if (s->delta != 0)
+        now = position < s->from ? position : s->delta < 0 ? position - 1 : position + 1;
+    else if (position == s->from)
         now = s->to;
-    else if (at >= (s->from < s->to ? s->from : s->to) && at <= (s->from < s->to ? s->to : s->from))
-        now = s->from < s->to ? at - 1 : at + 1;
-    return now == at || *end != ']' ? path : ceduo_arena_format(arena, "%s[%zu%s", s->list, now, end);
+    else if (position >= (s->from < s->to ? s->from : s->to) && position <= (s->from < s->to ? s->to : s->from))
+        now = s->from < s->to ? position - 1 : position + 1;
+    return now == position || *end != ']' ? path : ceduo_arena_format(arena, "%s[%zu%s", s->list, now, end);
 }
 
-/* Rows about the items of a list follow them, in the scene and in the stand of the list, whose file may have rows again. */
-static void shift_uncertainties(struct edit *e, const char *list, size_t from, size_t to, int by)
+/* Adjust rows about the items of a list, in the scene and in the stand of the list. Without rows left, write "none": the
+ * file of the stand may have rows. */
+static void shift_uncertainties(struct edit *e, const char *list, size_t from, size_t to, int delta)
 {
-    const char *within = strstr(list, ".stand.");
+    const char *in_stand = strstr(list, ".stand.");
     if (!e->root)
         return;
-    e->root = with_paths(e->arena, e->root, shift_path, &(struct shift){list, from, to, by});
-    const char *path = within ? ceduo_arena_copy(e->arena, list, (size_t)(within - list) + strlen(".stand")) : NULL;
+    e->root = change_paths(e->arena, e->root, shift_path, &(struct shift){list, from, to, delta});
+    const char *path = in_stand ? ceduo_arena_copy(e->arena, list, (size_t)(in_stand - list) + strlen(".stand")) : NULL;
     const struct node *stand = path ? ceduo_resolve_at(e->root, path) : NULL;
     if (!stand)
         return;
-    const struct node *now = with_paths(e->arena, stand, shift_path, &(struct shift){within + strlen(".stand."), from, to, by});
+    const struct node *now =
+        change_paths(e->arena, stand, shift_path, &(struct shift){in_stand + strlen(".stand."), from, to, delta});
     if (now == stand)
         return;
     if (!ceduo_node_get(now, "uncertainty"))
         now = ceduo_node_with(e->arena, now, "uncertainty", ceduo_node_scalar(e->arena, stand->source, "none", false));
     ceduo_node_keep_text(now, stand);
-    put(e, path, now);
+    replace_node(e, path, now);
 }
 
-/* Another beginning of a path: an option is named by its number, or rows about the forest become rows about options. */
-struct beginning {
+/* A new prefix for paths: the number of an option for its name, or an option for the forest. */
+struct prefix_change {
     const char *from, *to;
 };
 
-static const char *begin_path(struct arena *arena, const char *path, const void *context)
+static const char *change_prefix(struct arena *arena, const char *path, const void *context)
 {
-    const struct beginning *b = context;
+    const struct prefix_change *b = context;
     size_t n = strlen(b->from);
     return strncmp(path, b->from, n) == 0 ? ceduo_arena_format(arena, "%s%s", b->to, path + n) : path;
 }
 
 /* ---- changes of a tree ---- */
 
-/* Remove an entry or an item, or its list if that is empty then, unless it is that of options. `*path` is what was removed. */
-static void take_out(struct edit *e, const char **path)
+/* Remove an entry or an item, also its list if it becomes empty, except options. Set `*path` to what was removed. */
+static void remove_entry(struct edit *e, const char **path)
 {
     const char *dot = strrchr(*path, '.'), *bracket = strrchr(*path, '[');
     const char *cut = bracket && (!dot || bracket > dot) ? bracket : dot, *last = cut ? cut + 1 : *path;
     const char *parent = ceduo_arena_copy(e->arena, *path, cut ? (size_t)(cut - *path) : 0);
-    const struct node *holder = parent[0] ? ceduo_resolve_at(e->root, parent) : e->root, *less = NULL;
+    const struct node *holder = parent[0] ? ceduo_resolve_at(e->root, parent) : e->root, *reduced = NULL;
     size_t index = strtoul(last, NULL, 10);
     bool list = holder && holder->kind == NODE_LIST;
     if (list && index < holder->n)
-        less = ceduo_node_removed(e->arena, holder, index);
+        reduced = ceduo_node_removed(e->arena, holder, index);
     else if (holder && holder->kind == NODE_MAP)
-        less = ceduo_node_without(e->arena, holder, ceduo_arena_copy(e->arena, last, strcspn(last, "]")));
-    if (list && less && less->n == 0 && strcmp(parent, "options") != 0) {
+        reduced = ceduo_node_without(e->arena, holder, ceduo_arena_copy(e->arena, last, strcspn(last, "]")));
+    if (list && reduced && reduced->n == 0 && strcmp(parent, "options") != 0) {
         *path = parent;
         shift_uncertainties(e, parent, index, 0, -1);
-        take_out(e, path);
+        remove_entry(e, path);
         return;
     }
-    if (less)
-        ceduo_node_keep_text(less, holder);
+    if (reduced)
+        ceduo_node_keep_text(reduced, holder);
     if (parent[0])
-        put(e, parent, less);
+        replace_node(e, parent, reduced);
     else
-        e->root = less;
+        e->root = reduced;
     if (list)
         shift_uncertainties(e, parent, index, 0, -1);
 }
 
-/* Puts an item into a list, which is made where there is none. */
-static void put_item(struct edit *e, const char *list, size_t index, const struct node *item)
+/* Insert an item into a list; create the list if it is missing. */
+static void insert_item(struct edit *e, const char *list, size_t index, const struct node *item)
 {
     const struct node *holder = ceduo_resolve_at(e->root, list);
     holder = holder ? holder : ceduo_document_parse(e->d, list, "[]");
@@ -181,12 +183,12 @@ static void put_item(struct edit *e, const char *list, size_t index, const struc
         return;
     }
     index = index > holder->n ? holder->n : index;
-    put(e, list, ceduo_node_inserted(e->arena, holder, index, ceduo_node_renamed(e->arena, item, NULL)));
+    replace_node(e, list, ceduo_node_inserted(e->arena, holder, index, ceduo_node_renamed(e->arena, item, NULL)));
     shift_uncertainties(e, list, index, 0, 1);
 }
 
-/* Makes changes whose paths begin with `prefix`. */
-static void change(struct edit *e, const char *prefix, const struct changes *changes)
+/* Apply changes whose paths are relative to `prefix`. */
+static void apply_changes(struct edit *e, const char *prefix, const struct changes *changes)
 {
     for (size_t i = 0; e->root && i < changes->n; i++) {
         const struct change *c = &changes->items[i];
@@ -194,12 +196,12 @@ static void change(struct edit *e, const char *prefix, const struct changes *cha
         const struct node *old = ceduo_resolve_at(e->root, path);
         if (c->kind == CHANGE_DELETE) {
             if (old)
-                take_out(e, &path);
+                remove_entry(e, &path);
             continue;
         }
         const struct node *value = ceduo_document_parse(e->d, path, c->value);
         bool keeps = value && old && c->kind == CHANGE_KEEP_SOURCE;
-        put(e, path, keeps ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);
+        replace_node(e, path, keeps ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);
     }
 }
 
@@ -218,27 +220,27 @@ void ceduo_changes_set(struct changes *c, const char *path, const char *format, 
     va_end(args);
 }
 
-bool ceduo_changes_make(const struct changes *c, const char *what)
+bool ceduo_changes_apply(const struct changes *c, const char *what)
 {
-    struct edit e = begin(c->document);
-    change(&e, "", c);
-    return commit(&e, what);
+    struct edit e = begin_edit(c->document);
+    apply_changes(&e, "", c);
+    return commit_edit(&e, what);
 }
 
 /* ---- values ---- */
 
 bool ceduo_document_set(struct document *d, const char *path, const char *value)
 {
-    struct edit e = begin(d);
-    put(&e, path, ceduo_document_parse(d, path, value));
-    return commit(&e, path);
+    struct edit e = begin_edit(d);
+    replace_node(&e, path, ceduo_document_parse(d, path, value));
+    return commit_edit(&e, path);
 }
 
 bool ceduo_document_delete(struct document *d, const char *path)
 {
-    struct edit e = begin(d);
-    take_out(&e, &path);
-    return commit(&e, path);
+    struct edit e = begin_edit(d);
+    remove_entry(&e, &path);
+    return commit_edit(&e, path);
 }
 
 /* ---- lists ---- */
@@ -251,12 +253,12 @@ static const struct node *with_name(const struct edit *e, const struct node *ite
 
 bool ceduo_document_insert(struct document *d, const char *list, size_t index, const char *text)
 {
-    struct edit e = begin(d);
-    put_item(&e, list, index, ceduo_document_parse(d, list, text));
-    return commit(&e, list);
+    struct edit e = begin_edit(d);
+    insert_item(&e, list, index, ceduo_document_parse(d, list, text));
+    return commit_edit(&e, list);
 }
 
-/* A copy gets a name of its own where names must differ: the number of a copy, " (2)", grows. A larger one is a year. */
+/* Give a copy a unique name: increment its number, " (2)". A larger number is a year. */
 static const struct node *with_new_name(struct edit *e, const struct node *list, const struct node *item)
 {
     const char *given = ceduo_node_text(item, "name"), *name = ceduo_in_language(given, ceduo_node_text(item, "name_it"));
@@ -268,42 +270,43 @@ static const struct node *with_new_name(struct edit *e, const struct node *list,
     int n = copy ? (int)(open - 1 - name) : (int)strlen(name);
     for (unsigned i = copy ? (unsigned)strtoul(open + 1, NULL, 10) : 1;;
          own = ceduo_arena_format(e->arena, "%.*s (%u)", n, name, ++i)) {
-        bool taken = false;
+        bool in_use = false;
         for (size_t k = 0; k < list->n; k++) {
-            const char *other = ceduo_node_text(list->items[k], "name"), *italian = ceduo_node_text(list->items[k], "name_it");
-            taken |= other && (strcmp(other, own) == 0 || strcmp(ceduo_in_language(other, italian), own) == 0);
+            const char *existing = ceduo_node_text(list->items[k], "name"),
+                       *italian = ceduo_node_text(list->items[k], "name_it");
+            in_use |= existing && (strcmp(existing, own) == 0 || strcmp(ceduo_in_language(existing, italian), own) == 0);
         }
-        if (!taken)
+        if (!in_use)
             return with_name(e, item, own);
     }
 }
 
 bool ceduo_document_move(struct document *d, const char *list, size_t from, size_t to)
 {
-    struct edit e = begin(d);
+    struct edit e = begin_edit(d);
     const struct node *holder = ceduo_document_node(d, list);
     if (!holder || holder->kind != NODE_LIST || from >= holder->n || to >= holder->n || from == to)
         return true;
-    const struct node *less = ceduo_node_removed(e.arena, holder, from);
-    put(&e, list, ceduo_node_inserted(e.arena, less, to, holder->items[from]));
+    const struct node *reduced = ceduo_node_removed(e.arena, holder, from);
+    replace_node(&e, list, ceduo_node_inserted(e.arena, reduced, to, holder->items[from]));
     shift_uncertainties(&e, list, from, to, 0);
-    return commit(&e, list);
+    return commit_edit(&e, list);
 }
 
 /* ---- the profile ---- */
 
 static const char vertices_list[] = "slope.vertices_m", ground_list[] = "slope.segments";
 
-bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, bool apart)
+bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, bool split_ground)
 {
-    struct edit e = begin(d);
+    struct edit e = begin_edit(d);
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
-    put_item(&e, vertices_list, index + 1, ceduo_document_parse(d, vertices_list, vertex));
+    insert_item(&e, vertices_list, index + 1, ceduo_document_parse(d, vertices_list, vertex));
     if (e.root && grounds && grounds->n > 1)
-        put_item(&e, ground_list, index + 1, grounds->items[index]);
-    for (size_t i = 1; e.root && grounds && grounds->n == 1 && vertices && apart && i < vertices->n; i++)
-        put_item(&e, ground_list, i, grounds->items[0]);
-    return commit(&e, vertices_list);
+        insert_item(&e, ground_list, index + 1, grounds->items[index]);
+    for (size_t i = 1; e.root && grounds && grounds->n == 1 && vertices && split_ground && i < vertices->n; i++)
+        insert_item(&e, ground_list, i, grounds->items[0]);
+    return commit_edit(&e, vertices_list);
 }
 
 bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segment)
@@ -316,13 +319,13 @@ bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segm
     ceduo_changes_add(&c, CHANGE_DELETE, ceduo_arena_format(&d->file.arena, "%s[%zu]", vertices_list, vertex), NULL);
     if (grounds && grounds->n > 1)
         ceduo_changes_add(&c, CHANGE_DELETE, ceduo_arena_format(&d->file.arena, "%s[%zu]", ground_list, segment), NULL);
-    return ceduo_changes_make(&c, vertices_list);
+    return ceduo_changes_apply(&c, vertices_list);
 }
 
 /* ---- options ---- */
 
-/* The list of options; of a scene that has only a forest it is made, "current" the first. */
-static const struct node *need_options(struct edit *e)
+/* Return the list of options. A scene without options gets one, "current", with its forest. */
+static const struct node *ensure_options(struct edit *e)
 {
     const struct node *options = ceduo_node_get(e->root, "options"), *forest = ceduo_node_get(e->root, "forest");
     if (options)
@@ -333,14 +336,14 @@ static const struct node *need_options(struct edit *e)
     if (forest)
         options = ceduo_node_replaced(e->arena, options, 0, ceduo_node_with(e->arena, options->items[0], "forest", forest));
     e->root = ceduo_node_without(e->arena, e->root, "forest");
-    e->root = with_paths(e->arena, e->root, begin_path, &(struct beginning){"forest[*]", "options[*].forest[*]"});
-    e->root = with_paths(e->arena, e->root, begin_path,
-                         &(struct beginning){"forest[", ceduo_arena_format(e->arena, "options[%s].forest[", name)});
+    e->root = change_paths(e->arena, e->root, change_prefix, &(struct prefix_change){"forest[*]", "options[*].forest[*]"});
+    e->root = change_paths(e->arena, e->root, change_prefix,
+                           &(struct prefix_change){"forest[", ceduo_arena_format(e->arena, "options[%s].forest[", name)});
     e->root = ceduo_node_with(e->arena, e->root, "options", options);
     return options;
 }
 
-void ceduo_document_belts(const struct document *d, const char *stand, struct text *yaml)
+void ceduo_document_append_belts(const struct document *d, const char *stand, struct text *yaml)
 {
     const struct ceduo_scene *s = &d->file.scene;
     size_t n = s->options[0].belts_count;
@@ -359,38 +362,38 @@ void ceduo_document_belts(const struct document *d, const char *stand, struct te
 
 bool ceduo_document_add_option(struct document *d, const char *stand, const char *name)
 {
-    struct edit e = begin(d);
+    struct edit e = begin_edit(d);
     LOCAL_TEXT(yaml);
     ceduo_text_append(&yaml, "{name: new, forest: ");
-    ceduo_document_belts(d, stand, &yaml);
+    ceduo_document_append_belts(d, stand, &yaml);
     ceduo_text_append_char(&yaml, '}');
-    const struct node *item = ceduo_document_parse(d, "options", yaml.bytes), *list = need_options(&e);
-    put_item(&e, "options", list->n, item ? with_new_name(&e, list, with_name(&e, item, name)) : NULL);
-    return commit(&e, stand);
+    const struct node *item = ceduo_document_parse(d, "options", yaml.bytes), *list = ensure_options(&e);
+    insert_item(&e, "options", list->n, item ? with_new_name(&e, list, with_name(&e, item, name)) : NULL);
+    return commit_edit(&e, stand);
 }
 
 bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const struct changes *changes)
 {
-    struct edit e = begin(d);
+    struct edit e = begin_edit(d);
     bool options = strcmp(list, "options") == 0;
-    const struct node *holder = options ? need_options(&e) : ceduo_document_node(d, list);
+    const struct node *holder = options ? ensure_options(&e) : ceduo_document_node(d, list);
     const struct node *item = holder && holder->kind == NODE_LIST && index < holder->n ? holder->items[index] : NULL;
-    put_item(&e, list, index + 1, item && options ? with_new_name(&e, holder, item) : item);
+    insert_item(&e, list, index + 1, item && options ? with_new_name(&e, holder, item) : item);
     if (changes)
-        change(&e, "", changes);
-    return commit(&e, list);
+        apply_changes(&e, "", changes);
+    return commit_edit(&e, list);
 }
 
 bool ceduo_document_vary_option(struct document *d, size_t index, const char *name, const struct changes *changes)
 {
-    struct edit e = begin(d);
-    const struct node *options = need_options(&e), *item = options->items[index];
-    put_item(&e, "options", options->n, with_new_name(&e, options, with_name(&e, item, name)));
-    change(&e, ceduo_arena_format(e.arena, "options[%zu].", options->n), changes);
-    return commit(&e, name);
+    struct edit e = begin_edit(d);
+    const struct node *options = ensure_options(&e), *item = options->items[index];
+    insert_item(&e, "options", options->n, with_new_name(&e, options, with_name(&e, item, name)));
+    apply_changes(&e, ceduo_arena_format(e.arena, "options[%zu].", options->n), changes);
+    return commit_edit(&e, name);
 }
 
-/* A node with every `option: old` in it as `name`. */
+/* Return a node in which each `option: old` is `name`. */
 static const struct node *with_option_named(struct arena *arena, const struct node *node, const char *old,
                                             const struct node *name)
 {
@@ -406,7 +409,7 @@ static const struct node *with_option_named(struct arena *arena, const struct no
 
 bool ceduo_document_rename_option(struct document *d, size_t index, const char *name)
 {
-    struct edit e = begin(d);
+    struct edit e = begin_edit(d);
     const struct node *list = ceduo_node_get(e.root, "options"), *observed = ceduo_node_get(e.root, "observed");
     if (!list || index >= list->n)
         return false;
@@ -414,10 +417,10 @@ bool ceduo_document_rename_option(struct document *d, size_t index, const char *
     const struct node *item = with_name(&e, list->items[index], name), *scalar = ceduo_node_get(item, "name");
     e.root = ceduo_node_with(e.arena, e.root, "options", ceduo_node_replaced(e.arena, list, index, item));
     if (old)
-        e.root = with_paths(e.arena, e.root, begin_path,
-                            &(struct beginning){ceduo_arena_format(e.arena, "options[%s]", old),
-                                                ceduo_arena_format(e.arena, "options[%zu]", index)});
+        e.root = change_paths(e.arena, e.root, change_prefix,
+                              &(struct prefix_change){ceduo_arena_format(e.arena, "options[%s]", old),
+                                                      ceduo_arena_format(e.arena, "options[%zu]", index)});
     if (old && observed)
         e.root = ceduo_node_with(e.arena, e.root, "observed", with_option_named(e.arena, observed, old, scalar));
-    return commit(&e, "options");
+    return commit_edit(&e, "options");
 }

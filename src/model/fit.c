@@ -10,24 +10,24 @@
 #include "scene/ranges.h"
 #include "scene/value.h"
 
-/* ---- what may be fitted ---- */
+/* ---- values that can be fitted ---- */
 
-static void offer(const struct scene_file *file, struct fit_request *to, const char *path, double lo, double hi)
+static void offer_value(const struct scene_file *file, struct fit_request *request, const char *path, double lo, double hi)
 {
     struct scene_file own = *file;
     struct ceduo_input input = {0};
     own.arena = (struct arena){0};
     const struct field *field = ceduo_input_find(&own, path, &input);
-    bool there = field && input.places_count > 0;
+    bool exists = field && input.places_count > 0;
     const struct ceduo_calibration_scene scene = {
         .observations_count = file->observations_count, .observations = file->observations, .scene = &file->scene};
-    if (there &&
-        strcmp(field->key, "mu") == 0) /* it acts through the shape of the rock: only rocks of two shapes determine it */
-        there = ceduo_calibration_identifies_mu(&scene, 1);
+    if (exists &&
+        strcmp(field->key, "mu") == 0) /* mu acts through the shape of the rock: only rocks of two shapes determine it */
+        exists = ceduo_calibration_identifies_mu(&scene, 1);
     ceduo_arena_free(&own.arena);
-    if (!there || to->n == CEDUO_CALIBRATION_MAX || strlen(path) >= FIT_PATH_ROOM || !(lo < hi))
+    if (!exists || request->n == CEDUO_CALIBRATION_MAX || strlen(path) >= FIT_PATH_MAX || !(lo < hi))
         return;
-    struct fit_value *value = &to->values[to->n++];
+    struct fit_value *value = &request->values[request->n++];
     *value = (struct fit_value){.lo = lo, .hi = hi};
     strcpy(value->path, path);
 }
@@ -35,7 +35,7 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
 static const char *const keys[] = {"rn", "rt", "roughness_m", "friction"};
 #define KEYS (sizeof keys / sizeof keys[0])
 
-/* What the values that the scene has may be, by their own row of ranges. */
+/* Return the range of the scene's values, from their own row of ranges. */
 static struct range range_around(const struct scene_file *file, const char *key)
 {
     const struct field *field = ceduo_schema_field(ceduo_schema_segment(), key);
@@ -54,54 +54,54 @@ static struct range range_around(const struct scene_file *file, const char *key)
     return range;
 }
 
-/* Offer the ground of all stretches as one (rows NULL), or each ground of the library that the scene names. One ground has the
- * range of talus if it is assumed, otherwise that of the library and of the scene's values. Angles have no library. */
-static void offer_ground(const struct scene_file *file, const struct node *rows, struct fit_request *to)
+/* Offer one ground for all segments (rows NULL), or each ground of the library that the scene names. An assumed ground has
+ * the range of talus; a given one those of the library and of the scene. Angles have no library. */
+static void offer_ground(const struct scene_file *file, const struct node *rows, struct fit_request *request)
 {
     size_t n;
     const struct ceduo_material *library = ceduo_materials(&n);
     bool angle = !rows && isnan(file->scene.slope.segments[0].roughness_m);
     for (size_t m = 0; m < (rows ? n : 1); m++) {
-        bool there = !rows;
+        bool exists = !rows;
         for (size_t i = 0; rows && i < rows->n; i++) {
             const char *name = ceduo_node_text(rows->items[i], "material");
-            there |= name && ceduo_choice_find(&ceduo_material_words, name) == (int)m;
+            exists |= name && ceduo_choice_find(&ceduo_material_words, name) == (int)m;
         }
-        for (size_t k = 0; there && k < KEYS; k++) {
+        for (size_t k = 0; exists && k < KEYS; k++) {
             const char *key = k == 2 && angle ? "roughness_rad" : keys[k];
-            char path[FIT_PATH_ROOM];
+            char path[FIT_PATH_MAX];
             struct range range = rows                   ? ceduo_range_find_material(&library[m], key)
                                  : file->ground_assumed ? ceduo_range_find_material(ceduo_material_talus(), key)
                                                         : range_around(file, key);
             for (size_t i = 0; i < n && !rows && !file->ground_assumed && key == keys[k]; i++) {
-                struct range other = ceduo_range_find_material(&library[i], key);
-                range.lo = fmin(range.lo, other.lo);
-                range.hi = fmax(range.hi, other.hi);
+                struct range library_range = ceduo_range_find_material(&library[i], key);
+                range.lo = fmin(range.lo, library_range.lo);
+                range.hi = fmax(range.hi, library_range.hi);
             }
             if (rows)
                 snprintf(path, sizeof path, "slope.materials[%s].%s", library[m].name, key);
             else
                 snprintf(path, sizeof path, "slope.segments[*].%s", key);
-            if (strcmp(key, "rt") != 0 || file->scene.simulation.law != CEDUO_LAW_ARM) /* which does not know it */
-                offer(file, to, path, range.lo, range.hi);
+            if (strcmp(key, "rt") != 0 || file->scene.simulation.law != CEDUO_LAW_ARM) /* the arm law has no Rt */
+                offer_value(file, request, path, range.lo, range.hi);
         }
     }
 }
 
-void ceduo_fit_offer(const struct scene_file *file, struct fit_request *to)
+void ceduo_fit_offer(const struct scene_file *file, struct fit_request *request)
 {
     const struct node *rows = ceduo_node_get(ceduo_node_get(file->root, "slope"), "materials");
     uint64_t own = file->scene.simulation.rocks;
-    *to = (struct fit_request){.rocks = own > 0 && own < CEDUO_CALIBRATION_ROCKS ? own : CEDUO_CALIBRATION_ROCKS};
+    *request = (struct fit_request){.rocks = own > 0 && own < CEDUO_CALIBRATION_ROCKS ? own : CEDUO_CALIBRATION_ROCKS};
     for (size_t i = 0; i < file->inputs_of_scene; i++) {
         const struct ceduo_input *input = &file->inputs[i];
         if (input->kind == CEDUO_INPUT_RANGE && input->places_count > 0)
-            offer(file, to, input->path, input->lo, input->hi);
+            offer_value(file, request, input->path, input->lo, input->hi);
     }
-    if (to->n > 0)
+    if (request->n > 0)
         return;
     bool named = !file->ground_assumed && file->scene.slope.segments_given == 0 && rows && rows->kind == NODE_LIST;
-    offer_ground(file, named ? rows : NULL, to);
+    offer_ground(file, named ? rows : NULL, request);
 }
 
 bool ceduo_fit_has_observations(const struct scene_file *file)
@@ -114,35 +114,36 @@ bool ceduo_fit_has_observations(const struct scene_file *file)
 
 /* ---- fitting ---- */
 
-#define FIRST_STEPS 200 /* of each chain: with the search before them some seconds */
+#define FIRST_STEPS 200 /* steps of each chain; takes some seconds, with the search before them */
 
-enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request,
-                                 const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *f)
+enum ceduo_status ceduo_fit_compute(const struct scene_file *file, const struct fit_request *request,
+                                    const struct ceduo_calibration_def *options, struct fit_undetermined *undetermined,
+                                    struct fit *f)
 {
     *f = (struct fit){.file = *file, .request = *request, .done = true};
     for (size_t i = 0; i < request->n; i++) {
         const struct fit_value *value = &f->request.values[i];
-        ceduo_input_find(&f->file, value->path, &f->inputs[i]); /* it was offered: it is there */
+        ceduo_input_find(&f->file, value->path, &f->inputs[i]); /* a fit offers only paths that exist */
         f->inputs[i].lo = value->lo;
         f->inputs[i].hi = value->hi;
     }
     const struct ceduo_calibration_scene scene = {&f->file.scene, f->inputs, file->observations_count, file->observations};
-    struct ceduo_calibration_def def = *how;
+    struct ceduo_calibration_def def = *options;
     def.scenes_count = 1;
     def.scenes = &scene;
     def.parameters_count = request->n;
     def.rocks = request->rocks;
     def.seed = file->scene.simulation.seed;
-    if (request->n > 1) { /* what the observations do not hold */
+    if (request->n > 1) { /* find the values that the observations do not determine */
         struct ceduo_calibration_def first = def;
         first.steps_max = FIRST_STEPS;
         enum ceduo_status status = ceduo_calibrate(&first, &f->answer);
         if (status != CEDUO_OK)
             return status;
-        f->loose.n = ceduo_calibration_unidentified(&f->answer, f->loose.loose);
+        f->undetermined.n = ceduo_calibration_unidentified(&f->answer, f->undetermined.values);
         ceduo_calibration_free(&f->answer);
     }
-    *loose = f->loose;
+    *undetermined = f->undetermined;
     return ceduo_calibrate(&def, &f->answer);
 }
 
@@ -158,19 +159,19 @@ void ceduo_fit_free(void *fit)
 
 #define SEGMENTS "slope.segments["
 
-static void put_number(struct text *t, const char *before, double value)
+static void append_number(struct text *t, const char *before, double value)
 {
     ceduo_text_format(t, "%s%s", before, ROUNDTRIP(value));
 }
 
-/* True for a row of uncertainty about ground or points that the written scene no longer has. */
-static bool is_of_library(const struct node *row)
+/* True for a row of uncertainty about ground or points that the new scene no longer has. */
+static bool concerns_library(const struct node *row)
 {
     const char *path = ceduo_node_text(row, "path");
     return path && (strcmp(path, "slope.tolerance_m") == 0 || strncmp(path, "slope.materials[", 16) == 0);
 }
 
-/* Rows of uncertainty, NULL if there is no list; `list`: its path. */
+/* Return the rows of uncertainty, or NULL if there is no list. Set `list` to its path. */
 static const struct node *uncertainty_rows(const struct document *d, const char **list)
 {
     const struct node *uncertainty = ceduo_node_get(d->file.root, "uncertainty");
@@ -180,33 +181,33 @@ static const struct node *uncertainty_rows(const struct document *d, const char 
     return rows && rows->kind == NODE_LIST ? rows : NULL;
 }
 
-static void add_ground(struct changes *c, const struct document *d)
+static void change_ground(struct changes *c, const struct document *d)
 {
     const char *list;
     const struct node *rows = uncertainty_rows(d, &list);
     for (size_t i = rows ? rows->n : 0; i-- > 0;)
-        if (is_of_library(rows->items[i]))
+        if (concerns_library(rows->items[i]))
             ceduo_changes_add(c, CHANGE_DELETE, ceduo_arena_format(&c->document->file.arena, "%s[%zu]", list, i), NULL);
-    static const char *const gone[] = {"slope.materials", "slope.csv", "slope.reversed",
-                                       "slope.tolerance_m"}; /* vertices are written as they are simulated */
+    static const char *const removed_keys[] = {"slope.materials", "slope.csv", "slope.reversed",
+                                               "slope.tolerance_m"}; /* vertices are written as simulated */
     const struct ceduo_slope *s = &d->file.scene.slope;
     LOCAL_TEXT(vertices);
     LOCAL_TEXT(segments);
-    for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
-        ceduo_changes_add(c, CHANGE_DELETE, gone[i], NULL);
+    for (size_t i = 0; i < sizeof removed_keys / sizeof removed_keys[0]; i++)
+        ceduo_changes_add(c, CHANGE_DELETE, removed_keys[i], NULL);
     for (size_t i = 0; i < s->vertices; i++) {
-        put_number(&vertices, i == 0 ? "[[" : ", [", s->x[i] + s->origin_x);
-        put_number(&vertices, ", ", s->z[i] + s->origin_z);
+        append_number(&vertices, i == 0 ? "[[" : ", [", s->x[i] + s->origin_x);
+        append_number(&vertices, ", ", s->z[i] + s->origin_z);
         ceduo_text_append(&vertices, "]");
     }
     ceduo_changes_set(c, "slope.vertices_m", "%s]", vertices.bytes);
     for (size_t i = 0; i + 1 < s->vertices; i++) {
         const struct ceduo_segment *g = &s->segments[i];
         bool angle = isnan(g->roughness_m);
-        put_number(&segments, i == 0 ? "[{rn: " : ", {rn: ", g->rn.mean);
-        put_number(&segments, ", rt: ", g->rt.mean);
-        put_number(&segments, angle ? ", roughness_rad: " : ", roughness_m: ", angle ? g->roughness_rad : g->roughness_m);
-        put_number(&segments, ", friction: ", g->friction);
+        append_number(&segments, i == 0 ? "[{rn: " : ", {rn: ", g->rn.mean);
+        append_number(&segments, ", rt: ", g->rt.mean);
+        append_number(&segments, angle ? ", roughness_rad: " : ", roughness_m: ", angle ? g->roughness_rad : g->roughness_m);
+        append_number(&segments, ", friction: ", g->friction);
         ceduo_text_append(&segments, "}");
     }
     ceduo_changes_set(c, "slope.segments", "%s]", segments.bytes);
@@ -214,7 +215,7 @@ static void add_ground(struct changes *c, const struct document *d)
 
 /* ---- values ---- */
 
-/* Say once for the holder of a value where that comes from; a value of the scene itself has none. */
+/* Add the source of a value once for the mapping that holds it. A top-level value has no source. */
 static void add_source(struct changes *c, const char *place, const char *source)
 {
     const char *dot = strrchr(place, '.');
@@ -229,7 +230,7 @@ static void add_source(struct changes *c, const char *place, const char *source)
     ceduo_changes_set(c, path, "{kind: calibrated, text: %s}", text.bytes);
 }
 
-/* Whether a row of uncertainty is about a fitted value. */
+/* True if a row of uncertainty is about a fitted value. */
 static bool is_fitted(const struct document *d, const struct fit_values *fit, const struct node *row)
 {
     const char *path = ceduo_node_text(row, "path");
@@ -240,36 +241,36 @@ static bool is_fitted(const struct document *d, const struct fit_values *fit, co
     return false;
 }
 
-/* The table of draws beside the rows of uncertainty that there are; what they say of fitted values no longer holds. */
-static void add_draws(struct changes *c, const struct document *d, const struct fit_values *fit, bool of_library)
+/* Add the table of draws to the rows of uncertainty. Drop the rows about fitted values. */
+static void add_draws(struct changes *c, const struct document *d, const struct fit_values *fit, bool from_library)
 {
     const char *list;
     const struct node *rows = uncertainty_rows(d, &list);
     LOCAL_TEXT(t);
-    bool some = false;
+    bool has_rows = false;
     ceduo_text_append(&t, "{draws: ");
     ceduo_emit_scalar(&t, fit->draws, true);
     for (size_t i = 0; rows && i < rows->n; i++) {
-        if (is_fitted(d, fit, rows->items[i]) || (of_library && is_of_library(rows->items[i])))
+        if (is_fitted(d, fit, rows->items[i]) || (from_library && concerns_library(rows->items[i])))
             continue;
-        ceduo_text_append(&t, some ? ", " : ", rows: [");
+        ceduo_text_append(&t, has_rows ? ", " : ", rows: [");
         ceduo_emit_flow(&t, rows->items[i]);
-        some = true;
+        has_rows = true;
     }
-    ceduo_text_append(&t, some ? "]}" : "}");
+    ceduo_text_append(&t, has_rows ? "]}" : "}");
     ceduo_changes_add(c, CHANGE_SET, "uncertainty", t.bytes);
 }
 
 bool ceduo_apply_fit(struct document *d, const struct fit_values *fit)
 {
     struct changes c = {.document = d};
-    bool of_segments = false;
+    bool in_segments = false;
     for (size_t i = 0; i < fit->answer->parameters_count; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
-            of_segments |= strncmp(fit->inputs[i].places[k], SEGMENTS, sizeof SEGMENTS - 1) == 0;
-    bool of_library = of_segments && d->file.scene.slope.segments_given == 0;
-    if (of_library)
-        add_ground(&c, d);
+            in_segments |= strncmp(fit->inputs[i].places[k], SEGMENTS, sizeof SEGMENTS - 1) == 0;
+    bool from_library = in_segments && d->file.scene.slope.segments_given == 0;
+    if (from_library)
+        change_ground(&c, d);
     for (size_t i = 0; i < fit->answer->parameters_count; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++) {
             const char *place = fit->inputs[i].places[k];
@@ -283,6 +284,6 @@ bool ceduo_apply_fit(struct document *d, const struct fit_values *fit)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
             add_source(&c, fit->inputs[i].places[k], fit->source);
     if (fit->draws)
-        add_draws(&c, d, fit, of_library);
-    return ceduo_changes_make(&c, _("fitted values"));
+        add_draws(&c, d, fit, from_library);
+    return ceduo_changes_apply(&c, _("fitted values"));
 }

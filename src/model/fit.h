@@ -5,56 +5,57 @@
 #include "ceduo/calibrate.h"
 #include "document.h"
 
-/* Values of the scene of the live program, fitted to what was observed there. */
+/* Fit of values of the live scene to its observations. */
 
-#define FIT_PATH_ROOM 160
+#define FIT_PATH_MAX 160
 
-/* What is to be fitted. */
+/* The values to fit. */
 struct fit_request {
     size_t n;
     struct fit_value {
-        char path[FIT_PATH_ROOM];
-        double lo, hi; /* in the unit of the file */
+        char path[FIT_PATH_MAX];
+        double lo, hi; /* bounds, in the unit of the file */
     } values[CEDUO_CALIBRATION_MAX];
-    uint64_t rocks; /* of each evaluation */
+    uint64_t rocks; /* rocks of each evaluation */
 };
 
-/* Values that the observations do not hold, by a short first fit: a fit without them is quicker and as informative. */
-struct fit_loose {
+/* Values that the observations do not determine, by a short first fit. A fit without them is quicker. */
+struct fit_undetermined {
     size_t n;
-    bool loose[CEDUO_CALIBRATION_MAX]; /* of the request */
+    bool values[CEDUO_CALIBRATION_MAX]; /* for each value of the request */
 };
 
 struct fit {
     struct fit_request request;
-    struct fit_loose loose;
-    bool done;                            /* false: under way, and has come so far: */
-    struct ceduo_calibration_state state; /* nothing below is known yet */
-    struct scene_file file;               /* as it was; its nodes are the document's */
+    struct fit_undetermined undetermined;
+    bool done;                            /* false: still running; only `state` is valid */
+    struct ceduo_calibration_state state; /* progress; the members below are set when done */
+    struct scene_file file;               /* scene at the start of the fit; its nodes are the document's */
     struct ceduo_input inputs[CEDUO_CALIBRATION_MAX];
     struct ceduo_calibration answer;
 };
 
-/* What may be fitted: values with a range of the scene, otherwise rn, rt, roughness and friction with ranges of the library. */
+/* List the values to fit: those with a range in the scene, otherwise the ground with ranges of the library. */
 void ceduo_fit_offer(const struct scene_file *file, struct fit_request *offer);
 
-/* Whether something was observed that a fit may rest on. */
+/* True if the scene has observations to fit. */
 bool ceduo_fit_has_observations(const struct scene_file *file);
 
-/* Fit with the threads and progress of `how`; `*loose` is set before the fit itself begins. The caller frees the fit anyway. */
-enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request,
-                                 const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *fit);
+/* Fit with the threads and progress callback of `options`. Set `*undetermined` before the main fit. Always free the fit. */
+enum ceduo_status ceduo_fit_compute(const struct scene_file *file, const struct fit_request *request,
+                                    const struct ceduo_calibration_def *options, struct fit_undetermined *undetermined,
+                                    struct fit *fit);
 void ceduo_fit_free(void *fit);
 
-/* What was fitted goes into a document: the best values, where they come from, and the draws as its uncertainty. */
+/* Fitted values to write into a document: best values, their source, and the draws as uncertainty. */
 struct fit_values {
     const struct ceduo_calibration *answer;
-    const struct ceduo_input *inputs; /* places in the document's scene; those without are left out */
-    const char *source;               /* what the fit rests on */
-    const char *draws;                /* path of the table of draws, as the document is to name it; NULL: none */
+    const struct ceduo_input *inputs; /* places in the document's scene; inputs without places are skipped */
+    const char *source;               /* source of the values, as text */
+    const char *draws;                /* path of the table of draws, as the document names it; NULL: none */
 };
 
-/* One edit, which undo takes back. A ground from materials is written out as segments. False with the reason in document->problems. */
+/* Apply the fit as one edit. Write a ground from materials as segments. Return false with the reason in document->problems. */
 bool ceduo_apply_fit(struct document *document, const struct fit_values *fit);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A neighbour follows a border that is changed, an assumed height its diameter. What would be given twice is removed. */
+/* Side effects of an edit: neighbours follow a border, assumed heights their diameter; conflicting values are removed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,24 +9,24 @@
 #include "ceduo/rotation.h"
 #include "document.h"
 
-/* The value that a person changes, and what goes along with it. */
+/* A changed value and its side effects. */
 struct follow {
     struct document *d;
-    struct arena *arena; /* of the document */
+    struct arena *arena; /* arena of the document */
     const char *path, *value;
-    const char *list, *key; /* of an item of a list "forest" and "to_m" of "forest[1].to_m"; "": it is in none */
+    const char *list, *key; /* "forest" and "to_m" for "forest[1].to_m"; "": not in a list */
     size_t index;
     struct changes changes;
-    struct text taken, filled, followed;
-    struct text refused; /* the reason; "": not refused */
+    struct text removed, filled, followed;
+    struct text refused; /* reason; "": not refused */
 };
 
-/* A number of so many digits as text, in the arena of the document. */
+/* Return a number with n digits as text, in the arena of the document. */
 static const char *rounded(struct follow *f, double value, int digits)
 {
-    char room[CEDUO_NUMBER_SIZE];
-    snprintf(room, sizeof room, "%.*g", digits, value);
-    return ceduo_arena_string(f->arena, ceduo_number_shortest(strtod(room, NULL), room));
+    char buf[CEDUO_NUMBER_SIZE];
+    snprintf(buf, sizeof buf, "%.*g", digits, value);
+    return ceduo_arena_string(f->arena, ceduo_number_shortest(strtod(buf, NULL), buf));
 }
 
 /* ---- borders ---- */
@@ -37,7 +37,7 @@ static bool ends_in(const char *text, const char *end)
     return n >= length && strcmp(text + n - length, end) == 0;
 }
 
-static void find_place(struct follow *f)
+static void split_path(struct follow *f)
 {
     const char *open = strrchr(f->path, '[');
     char *end = NULL;
@@ -49,34 +49,34 @@ static void find_place(struct follow *f)
     f->key = end[1] == '.' ? end + 2 : "";
 }
 
-/* Of a border that moves the neighbour there moves, too. */
+/* Move the border of the neighbour with this border. */
 static void follow_border(struct follow *f)
 {
-    double now = ceduo_document_place(f->d, f->value), old = ceduo_document_place_at(f->d, f->path);
+    double now = ceduo_document_read_place(f->d, f->value), old = ceduo_document_get_place(f->d, f->path);
     bool to = strcmp(f->key, "to_m") == 0;
     if (isnan(now) || !(ends_in(f->list, "forest") || ends_in(f->list, "slope.materials")) ||
         !(to || (strcmp(f->key, "from_m") == 0 && f->index > 0)))
         return;
-    size_t other = to ? f->index + 1 : f->index - 1;
-    const char *border = ceduo_arena_format(f->arena, "%s[%zu].%s", f->list, other, to ? "from_m" : "to_m");
-    double there = ceduo_document_place_at(f->d, border),
-           end = ceduo_document_place_at(f->d, ceduo_arena_format(f->arena, "%s[%zu].%s", f->list, other, f->key));
-    bool overlaps = to ? there < now : there > now;
-    if (isnan(there) || (there != old && !overlaps))
+    size_t neighbour = to ? f->index + 1 : f->index - 1;
+    const char *border = ceduo_arena_format(f->arena, "%s[%zu].%s", f->list, neighbour, to ? "from_m" : "to_m");
+    double neighbour_border = ceduo_document_get_place(f->d, border),
+           end = ceduo_document_get_place(f->d, ceduo_arena_format(f->arena, "%s[%zu].%s", f->list, neighbour, f->key));
+    bool overlaps = to ? neighbour_border < now : neighbour_border > now;
+    if (isnan(neighbour_border) || (neighbour_border != old && !overlaps))
         return;
     if (to ? end <= now : end >= now)
         ceduo_text_format(&f->refused,
-                          to ? _("what comes next ends at %g m already; delete that first")
-                             : _("what comes before begins at %g m only; delete that first"),
+                          to ? _("the next item ends at %g m; delete it first")
+                             : _("the previous item begins at %g m; delete it first"),
                           end);
     ceduo_changes_set(&f->changes, border, "%s",
-                      f->value[0] == 'e' ? f->value : ROUNDTRIP(now)); /* from the end, as this one is */
-    ceduo_text_format(&f->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
+                      f->value[0] == 'e' ? f->value : ROUNDTRIP(now)); /* keep the unit: distance from the end */
+    ceduo_text_format(&f->followed, to ? _("the next item now begins at %s m") : _("the previous item now ends at %s m"),
                       ceduo_number_localize(ROUNDTRIP(now)));
 }
 
-/* The ground reaches as far as the profile does. */
-static void follow_end(struct follow *f)
+/* Extend the ground to the end of the profile. */
+static void extend_ground(struct follow *f)
 {
     double now;
     const struct node *materials = ceduo_document_node(f->d, "slope.materials");
@@ -93,7 +93,7 @@ static void follow_end(struct follow *f)
 
 /* ---- stands ---- */
 
-/* A height that is only assumed goes along with its diameter, as both do while stems grow. */
+/* Scale an assumed height with its diameter, as both grow. */
 static void follow_diameter(struct follow *f, const struct ceduo_curve *curve, const struct ceduo_stems *stems, double dbh)
 {
     const char *height = ceduo_arena_format(f->arena, "%s[%zu].height_m", f->list, f->index);
@@ -104,8 +104,8 @@ static void follow_diameter(struct follow *f, const struct ceduo_curve *curve, c
     if (taller > 0)
         ceduo_changes_add(&f->changes, CHANGE_KEEP_SOURCE, height, written);
     ceduo_text_format(&f->followed,
-                      taller > 0 ? _("its height, assumed, goes along by the growth curve: %s m")
-                                 : _("its height, %s m, is assumed and stays: no growth curve has this diameter"),
+                      taller > 0 ? _("assumed height adjusted by the growth curve: %s m")
+                                 : _("assumed height unchanged at %s m: the growth curve does not reach this diameter"),
                       ceduo_number_localize(ceduo_arena_string(f->arena, written)));
 }
 
@@ -123,21 +123,21 @@ static void follow_stand(struct follow *f)
                         cm ? now / 100 : now);
 }
 
-/* Both surveys are judged or none: the other one is taken as poor, which asks for more. */
+/* Surveys are assessed together or not at all: a missing one is assumed poor, which asks for more. */
 static void follow_design(struct follow *f)
 {
     static const char *const both[2] = {"design.survey", "design.blocks"};
     for (int i = 0; i < 2; i++)
         if (strcmp(f->path, both[i]) == 0 && !ceduo_document_node(f->d, "design")) {
             ceduo_changes_set(&f->changes, both[1 - i], "poor");
-            ceduo_text_append(&f->followed, _("the other survey is taken as poor"));
+            ceduo_text_append(&f->followed, _("the other survey is assumed to be poor"));
         }
 }
 
-/* ---- what would say the same ---- */
+/* ---- conflicting values ---- */
 
-/* What people call a value: its label without the unit. */
-static const struct field *put_name(struct text *text, const char *path)
+/* Append the label of a value without its unit. */
+static const struct field *append_label(struct text *text, const char *path)
 {
     const struct field *field = ceduo_schema_at(path);
     const char *label = field ? _(field->shown.label) : strrchr(path, '.') + 1;
@@ -146,22 +146,22 @@ static const struct field *put_name(struct text *text, const char *path)
     return field;
 }
 
-/* Takes an entry of a mapping out, if it is there. */
-static void take_out(struct follow *f, const char *map, const char *key)
+/* Remove an entry of a mapping if it exists. */
+static void drop_entry(struct follow *f, const char *map, const char *key)
 {
     const char *path = ceduo_arena_format(f->arena, "%s.%s", map, key);
     if (!ceduo_node_get(ceduo_document_node(f->d, map), key))
         return;
     ceduo_changes_add(&f->changes, CHANGE_DELETE, path, NULL);
-    put_name(&f->taken, path);
+    append_label(&f->removed, path);
 }
 
 static void fill_in(struct follow *f, const char *path, const char *value)
 {
     ceduo_changes_set(&f->changes, path, "%s", value);
-    const struct field *field = put_name(&f->filled, path);
+    const struct field *field = append_label(&f->filled, path);
     char *spoken = ceduo_arena_string(f->arena, value), *end = spoken;
-    for (const char *from = value; *from; from++) /* a list as forms show it: its commas would be taken for decimal ones */
+    for (const char *from = value; *from; from++) /* show a list without commas, which look like decimal commas */
         if (!strchr("[],", *from))
             *end++ = *from;
     *end = '\0';
@@ -170,28 +170,28 @@ static void fill_in(struct follow *f, const char *path, const char *value)
 
 /* ---- another shape ---- */
 
-/* Another shape of the same volume. Ellipsoid and block have the same sizes: then there is nothing to do. */
+/* Replace the sizes so that the new shape keeps the volume. Ellipsoid and block have the same sizes. */
 static void change_shape(struct follow *f, enum ceduo_shape shape)
 {
     static const double full[] = {[CEDUO_SPHERE] = 6, [CEDUO_CYLINDER] = 4, [CEDUO_ELLIPSOID] = 6};
     const struct ceduo_rock_def *def = &f->d->file.scene.rock;
     bool cylinder = def->shape == CEDUO_CYLINDER, round = cylinder || def->shape == CEDUO_SPHERE;
-    bool axes_then = shape == CEDUO_ELLIPSOID || shape == CEDUO_BLOCK, mass = !isnan(def->mass.mean);
-    bool sized = false; /* blocks may say it instead */
+    bool new_axes = shape == CEDUO_ELLIPSOID || shape == CEDUO_BLOCK, mass = !isnan(def->mass.mean);
+    bool sized = false; /* blocks may give the size instead */
     static const char *const sizes[] = {"rock.diameter_m", "rock.height_m", "rock.volume_m3", "rock.mass_kg", "rock.axes_m"};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         sized |= ceduo_document_node(f->d, sizes[i]) != NULL;
     struct ceduo_rock rock;
-    if (!sized || shape == def->shape || (!round && axes_then) || ceduo_rock_from_means(def, &rock) != CEDUO_OK)
+    if (!sized || shape == def->shape || (!round && new_axes) || ceduo_rock_from_means(def, &rock) != CEDUO_OK)
         return;
-    if (axes_then)
-        take_out(f, "rock", "diameter_m");
-    take_out(f, "rock", "volume_m3");
+    if (new_axes)
+        drop_entry(f, "rock", "diameter_m");
+    drop_entry(f, "rock", "volume_m3");
     if (shape != CEDUO_CYLINDER)
-        take_out(f, "rock", "height_m");
-    if (!axes_then)
-        take_out(f, "rock", "axes_m");
-    double s[3]; /* length, width, height: a volume is that of a box of these times a number of the shape */
+        drop_entry(f, "rock", "height_m");
+    if (!new_axes)
+        drop_entry(f, "rock", "axes_m");
+    double s[3]; /* length, width, height: volume = their product times a factor of the shape */
     for (int i = 0; i < 3; i++)
         s[i] = !round ? def->axes[i].mean : !cylinder ? rock.mean_diameter : i < 2 ? def->diameter.mean : def->height.mean;
     double box = shape == CEDUO_BLOCK ? rock.volume : rock.volume * full[shape] / M_PI;
@@ -206,75 +206,75 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
                 ceduo_arena_format(f->arena, "[%s, %s, %s]", rounded(f, scale * s[0], 3), rounded(f, scale * s[1], 3),
                                    rounded(f, scale * s[2], 3)));
     }
-    if (shape == CEDUO_SPHERE && mass) { /* where it would be a size */
-        take_out(f, "rock", "mass_kg");
+    if (shape == CEDUO_SPHERE && mass) { /* a sphere takes mass as a size */
+        drop_entry(f, "rock", "mass_kg");
         fill_in(f, "rock.density_kg_m3", rounded(f, rock.mass / rock.volume, 4));
     } else if (mass) {
-        take_out(f, "rock", "density_kg_m3");
+        drop_entry(f, "rock", "density_kg_m3");
     }
     if (fmax(def->diameter.spread, fmax(def->height.spread, def->volume.spread)) > 0 ||
         fmax(def->axes[0].spread, fmax(def->axes[1].spread, def->axes[2].spread)) > 0)
         ceduo_text_append_joined(&f->filled, " ", _("(means, without spread)"));
 }
 
-/* The first dimension of a cylinder, whose size blocks said before, brings the other along: both are given or none. */
+/* A cylinder that had its size from blocks needs both dimensions: copy the first one. */
 static void follow_cylinder(struct follow *f)
 {
     static const char *const keys[] = {"rock.diameter_m", "rock.height_m"};
     for (int i = 0; f->d->file.scene.rock.shape == CEDUO_CYLINDER && i < 2; i++)
         if (strcmp(f->path, keys[i]) == 0 && !ceduo_document_node(f->d, keys[1 - i])) {
             ceduo_changes_set(&f->changes, keys[1 - i], "%s", f->value);
-            ceduo_text_append(&f->followed, _("diameter and height are equal now"));
+            ceduo_text_append(&f->followed, _("diameter and height are now equal"));
         }
 }
 
-/* ---- one of several ---- */
+/* ---- alternatives ---- */
 
-/* Takes out what would say the same as a value: of the rock the other sizes, or what says its mass otherwise. */
+/* Remove the alternatives of a value: other sizes of the rock, or mass and density. */
 static void keep_one_of_all(struct follow *f)
 {
-    static const char *const of_rock[2][3] = {{"mass_kg", "density_kg_m3"}, {"diameter_m", "volume_m3", "mass_kg"}};
-    bool sphere = f->d->file.scene.rock.shape == CEDUO_SPHERE, is_one = false; /* whose mass is a size */
+    static const char *const rock_keys[2][3] = {{"mass_kg", "density_kg_m3"}, {"diameter_m", "volume_m3", "mass_kg"}};
+    bool sphere = f->d->file.scene.rock.shape == CEDUO_SPHERE, is_one = false; /* for a sphere, mass is a size */
     const char *dot = strrchr(f->path, '.'), *key = dot ? dot + 1 : f->path;
     const char *map = ceduo_arena_copy(f->arena, f->path, dot ? (size_t)(dot - f->path) : 0);
     const struct field *holder = ceduo_schema_row(map), *field = ceduo_schema_at(f->path);
-    const char *other = holder && holder->object && field ? ceduo_schema_other(holder->object, key) : NULL;
-    if (other && !ceduo_schema_unit(holder->object, field))
-        take_out(f, map, other);
-    for (size_t i = 0; strcmp(map, "rock") == 0 && i < 3 && of_rock[sphere][i]; i++)
-        is_one |= strcmp(of_rock[sphere][i], key) == 0;
-    for (size_t i = 0; is_one && i < 3 && of_rock[sphere][i]; i++)
-        if (strcmp(of_rock[sphere][i], key) != 0)
-            take_out(f, map, of_rock[sphere][i]);
+    const char *alternative = holder && holder->object && field ? ceduo_schema_other(holder->object, key) : NULL;
+    if (alternative && !ceduo_schema_unit(holder->object, field))
+        drop_entry(f, map, alternative);
+    for (size_t i = 0; strcmp(map, "rock") == 0 && i < 3 && rock_keys[sphere][i]; i++)
+        is_one |= strcmp(rock_keys[sphere][i], key) == 0;
+    for (size_t i = 0; is_one && i < 3 && rock_keys[sphere][i]; i++)
+        if (strcmp(rock_keys[sphere][i], key) != 0)
+            drop_entry(f, map, rock_keys[sphere][i]);
 }
 
-bool ceduo_document_set_alone(struct document *d, const char *path, const char *value, struct text *said)
+bool ceduo_document_set_and_follow(struct document *d, const char *path, const char *value, struct text *notes)
 {
     struct follow f = {.d = d, .arena = &d->file.arena, .path = path, .value = value, .changes = {.document = d}};
     int shape = strcmp(path, "rock.shape") == 0 ? ceduo_choice_find(&ceduo_shape_words, value) : -1;
     ceduo_problems_free(&d->problems);
-    find_place(&f);
+    split_path(&f);
     if (shape >= 0)
         change_shape(&f, (enum ceduo_shape)shape);
     else
         keep_one_of_all(&f);
-    follow_end(&f);
+    extend_ground(&f);
     follow_design(&f);
     follow_cylinder(&f);
     follow_border(&f);
     follow_stand(&f);
     ceduo_changes_set(&f.changes, path, "%s", value);
     if (f.filled.length)
-        ceduo_text_format(said, _("filled in for the same volume: %s"), f.filled.bytes);
-    if (f.taken.length)
-        ceduo_text_format(said, _("%sremoved: %s"), said->length ? "; " : "", f.taken.bytes);
+        ceduo_text_format(notes, _("set for the same volume: %s"), f.filled.bytes);
+    if (f.removed.length)
+        ceduo_text_format(notes, _("%sremoved: %s"), notes->length ? "; " : "", f.removed.bytes);
     if (f.followed.length)
-        ceduo_text_format(said, "%s%s", said->length ? "; " : "", f.followed.bytes);
-    bool good = f.refused.length == 0 && ceduo_changes_make(&f.changes, path);
+        ceduo_text_format(notes, "%s%s", notes->length ? "; " : "", f.followed.bytes);
+    bool good = f.refused.length == 0 && ceduo_changes_apply(&f.changes, path);
     if (f.refused.length > 0)
         ceduo_problem(&d->problems, &(struct source){.name = path, .is_option = true}, 0, 0, "%s", f.refused.bytes);
     ceduo_text_free(&f.filled);
-    ceduo_text_free(&f.taken);
+    ceduo_text_free(&f.removed);
     ceduo_text_free(&f.followed);
     ceduo_text_free(&f.refused);
     return good;

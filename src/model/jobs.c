@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One thread takes the coarsest step of all jobs, works on a copy of the job without the lock, and publishes the result unless
- * the job was replaced meanwhile. A new job cancels the step under way. The queue owns results until they are taken. */
+/* One thread takes the coarsest step of all jobs and works on a copy of the job without the lock. It publishes the result
+ * unless the job was replaced. A new job cancels the running step. The queue owns results until they are taken. */
 #include "jobs.h"
 
 #include <fcntl.h>
@@ -23,15 +23,15 @@
 
 struct job {
     enum job_kind kind;
-    uint64_t number; /* of the request; 0: none. A result of another number is stale */
-    uint64_t key;    /* of what was asked for last; 0: nothing */
-    double asked;
+    uint64_t number; /* number of the request; 0: none; results of other numbers are stale */
+    uint64_t key;    /* key of the last request; 0: none */
+    double request_time;
     size_t option;
-    size_t level, levels; /* the next one, and so many */
+    size_t level, levels; /* next level, number of levels */
     struct scene_file file;
     struct ceduo_search search;
     struct fit_request fit;
-    char path[JOB_TEXT], value[JOB_TEXT]; /* of the search, which has no value; of the preview */
+    char path[JOB_TEXT], value[JOB_TEXT]; /* path of a search or preview; value of a preview */
 };
 
 struct jobs {
@@ -41,18 +41,18 @@ struct jobs {
     pthread_cond_t changed;
     int pipe[2];
     atomic_bool cancel;
-    struct runs *runs;  /* the thread's own */
-    uint64_t rocks_max; /* of a level; 0: unlimited */
-    /* under the lock */
+    struct runs *runs;  /* owned by the thread */
+    uint64_t rocks_max; /* limit of rocks per level; 0: unlimited */
+    /* guarded by the lock */
     bool quit;
-    enum job_kind working; /* JOB_KINDS: on none */
-    double uncertainty;    /* share of the level under way that is computed */
+    enum job_kind running; /* running job; JOB_KINDS: none */
+    double uncertainty;    /* share (0…1) computed of the running level */
     uint64_t requests;
     struct job jobs[JOB_KINDS];
-    union results fresh;
+    union results unread;
 };
 
-/* What each kind does: a step works on a copy of its job, in the thread, and makes its result unless it publishes by itself. */
+/* Functions of each kind. A step works on a copy of its job in the thread. It sets *result, or publishes its results. */
 struct kind {
     enum ceduo_status (*step)(struct jobs *jobs, struct job *job, void **result);
     void (*free)(void *result);
@@ -77,7 +77,7 @@ static void free_snapshot(void *result)
 
 static void free_years(void *result)
 {
-    struct years_known *y = result;
+    struct option_years *y = result;
     for (size_t i = 0; i < y->n; i++)
         ceduo_years_free(y->items[i]);
     free(y);
@@ -107,56 +107,56 @@ static void free_result(enum job_kind kind, void *result)
         kinds[kind].free(result);
 }
 
-/* Puts a result into a slot; years of options that it does not have stay. */
-static void put_result(union results *results, enum job_kind kind, void *fresh)
+/* Store a result in a slot. Keep the years of options that it lacks. */
+static void store_result(union results *results, enum job_kind kind, void *result)
 {
-    struct years_known *old = results->years, *years = fresh;
+    struct option_years *old = results->years, *years = result;
     for (size_t i = 0; kind == JOB_YEARS && old && old->n == years->n && i < years->n; i++)
         if (!years->items[i]) {
             years->items[i] = old->items[i];
             old->items[i] = NULL;
         }
     free_result(kind, results->slots[kind]);
-    results->slots[kind] = fresh;
+    results->slots[kind] = result;
 }
 
-void ceduo_result_list_drop(union results *results, enum job_kind kind)
+void ceduo_job_results_drop(union results *results, enum job_kind kind)
 {
     free_result(kind, results->slots[kind]);
     results->slots[kind] = NULL;
 }
 
-void ceduo_result_list_free(union results *results)
+void ceduo_job_results_free(union results *results)
 {
     for (enum job_kind k = 0; k < JOB_KINDS; k++)
-        ceduo_result_list_drop(results, k);
+        ceduo_job_results_drop(results, k);
 }
 
-static void tell(struct jobs *q)
+static void notify(struct jobs *q)
 {
     char byte = 0;
     if (write(q->pipe[1], &byte, 1) < 0)
-        return; /* full: news is waiting to be read anyway */
+        return; /* full: a notification is pending already */
 }
 
-/* Hands over a result of the job, unless the job was replaced or stopped meanwhile. */
+/* Publish a result of the job, unless the job was replaced or stopped. */
 static void publish(struct jobs *q, const struct job *job, void *result)
 {
     pthread_mutex_lock(&q->lock);
     bool current = q->jobs[job->kind].number == job->number;
     if (current)
-        put_result(&q->fresh, job->kind, result);
+        store_result(&q->unread, job->kind, result);
     pthread_mutex_unlock(&q->lock);
     if (!current)
         free_result(job->kind, result);
     else
-        tell(q);
+        notify(q);
 }
 
 /* ---- steps ---- */
 
-/* Number of rocks of a level. */
-static uint64_t rocks_of(const struct jobs *q, size_t level)
+/* Return the number of rocks of a level. */
+static uint64_t level_rocks(const struct jobs *q, size_t level)
 {
     uint64_t rocks = RUNS_FIRST * (level > 1 ? 100 : level > 0 ? 10 : 1);
     return q->rocks_max > 0 && rocks > q->rocks_max ? q->rocks_max : rocks;
@@ -168,7 +168,7 @@ static enum ceduo_status step_search(struct jobs *q, struct job *job, void **res
     job->search.path = job->path;
     enum ceduo_status status = ceduo_search(&job->file, &job->search, q->threads, &q->cancel, answer);
     ceduo_arena_free(&job->file.arena);
-    answer->status = status; /* what was asked may be wrong: done, too */
+    answer->status = status; /* an invalid request is done, too */
     return status == CEDUO_CANCELLED || status == CEDUO_NO_MEMORY ? status : CEDUO_OK;
 }
 
@@ -182,14 +182,14 @@ struct publisher {
     struct jobs *queue;
     const struct job *job;
     double last;
-    struct fit_loose loose; /* of a fit */
+    struct fit_undetermined undetermined; /* set by a fit */
 };
 
 static void publish_snapshot(void *context, struct ceduo_snapshot *snapshot)
 {
     const struct publisher *p = context;
     struct snapshot *s = ceduo_check_memory(calloc(1, sizeof *s));
-    *s = (struct snapshot){snapshot, p->job->key, ceduo_clock() - p->job->asked};
+    *s = (struct snapshot){snapshot, p->job->key, ceduo_clock() - p->job->request_time};
     publish(p->queue, p->job, s);
 }
 
@@ -197,20 +197,20 @@ static enum ceduo_status step_snapshot(struct jobs *q, struct job *job, void **r
 {
     (void)result;
     struct publisher publisher = {.queue = q, .job = job};
-    struct runs_step step = {&job->file.scene, job->option, rocks_of(q, job->level), publish_snapshot, &publisher, false};
+    struct runs_step step = {&job->file.scene, job->option, level_rocks(q, job->level), publish_snapshot, &publisher, false};
     enum ceduo_status status = ceduo_runs_figures(q->runs, &step);
     job->level = step.enough ? LEVELS_MAX : job->level;
     return status;
 }
 
-static enum ceduo_status step_others(struct jobs *q, struct job *job, void **result)
+static enum ceduo_status step_alternatives(struct jobs *q, struct job *job, void **result)
 {
     size_t options = job->file.scene.options_count, controls = job->file.scene.controls_count;
-    struct others *others = *result =
-        ceduo_check_memory(calloc(1, sizeof *others + options * controls * sizeof others->items[0]));
-    others->options = options;
-    others->controls = controls;
-    return ceduo_runs_others(q->runs, &job->file.scene, rocks_of(q, job->level), others->items);
+    struct alternatives *alternatives = *result =
+        ceduo_check_memory(calloc(1, sizeof *alternatives + options * controls * sizeof alternatives->items[0]));
+    alternatives->options = options;
+    alternatives->controls = controls;
+    return ceduo_runs_alternative_energies(q->runs, &job->file.scene, level_rocks(q, job->level), alternatives->items);
 }
 
 static enum ceduo_status step_years(struct jobs *q, struct job *job, void **result)
@@ -219,9 +219,9 @@ static enum ceduo_status step_years(struct jobs *q, struct job *job, void **resu
     size_t n = scene->options_count;
     enum ceduo_status status = CEDUO_OK;
     for (size_t k = 0; k < n && status == CEDUO_OK; k++) {
-        struct years_known *years = *result = ceduo_check_memory(calloc(1, sizeof *years + n * sizeof years->items[0]));
+        struct option_years *years = *result = ceduo_check_memory(calloc(1, sizeof *years + n * sizeof years->items[0]));
         size_t option = (job->option + k) % n;
-        *years = (struct years_known){.n = n, .done = k + 1, .rocks = rocks_of(q, job->level)};
+        *years = (struct option_years){.n = n, .done = k + 1, .rocks = level_rocks(q, job->level)};
         status = ceduo_runs_years(q->runs, scene, option, years->rocks, &years->items[option]);
         if (status == CEDUO_OK && k + 1 < n)
             publish(q, job, years);
@@ -233,22 +233,22 @@ const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
 {
     if (scene->simulation.contact_model == CEDUO_INDEX)
         return N_("not computed: years by the index have no uncertainty");
-    return ceduo_scene_window(scene).kind == CEDUO_WINDOW_CONSTANT ? N_("not computed: all years are alike") : NULL;
+    return ceduo_scene_window(scene).kind == CEDUO_WINDOW_CONSTANT ? N_("not computed: all years are the same") : NULL;
 }
 
-#define PROGRESS_STEP 0.01 /* a smaller part is no news */
+#define PROGRESS_STEP 0.01 /* report progress in steps of this share */
 
 static void note_progress(void *context, uint64_t done, uint64_t all)
 {
     struct jobs *q = context;
     double share = all > 0 ? (double)done / (double)all : 0;
     pthread_mutex_lock(&q->lock);
-    bool news = share >= q->uncertainty + PROGRESS_STEP || share < q->uncertainty; /* it falls if more points are taken */
-    if (news)
+    bool changed = share >= q->uncertainty + PROGRESS_STEP || share < q->uncertainty; /* falls if more points are taken */
+    if (changed)
         q->uncertainty = share;
     pthread_mutex_unlock(&q->lock);
-    if (news)
-        tell(q);
+    if (changed)
+        notify(q);
 }
 
 static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void **result)
@@ -277,10 +277,10 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
     def.cancel = &q->cancel;
     def.progress = note_progress;
     def.context = q;
-    enum ceduo_status status = ceduo_effort_bound(&def, NULL); /* of all levels the same, so that nothing moves */
+    enum ceduo_status status = ceduo_effort_bound(&def, NULL); /* bound all levels equally, so that figures do not move */
     if (status != CEDUO_OK)
         return status;
-    if (def.points == 0) /* a screen waits for nobody */
+    if (def.points == 0) /* never skip: the screen must not wait */
         def.points = def.points_max = CEDUO_UNCERTAINTY_MIN;
     def.effort_max = 0;
     def.alone = u->level == 0;
@@ -289,9 +289,9 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
 
 static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void **result)
 {
-    static const uint64_t rocks_of_levels[COMPARISON_LEVELS] = {200, 2000};
+    static const uint64_t comparison_rocks[COMPARISON_LEVELS] = {200, 2000};
     struct comparison *c = *result = ceduo_check_memory(calloc(1, sizeof *c));
-    *c = (struct comparison){.file = job->file, .rocks = rocks_of_levels[job->level]};
+    *c = (struct comparison){.file = job->file, .rocks = comparison_rocks[job->level]};
     size_t count = c->file.observations_count;
     const struct ceduo_observation *o = c->file.observations;
     c->predicted = ceduo_check_memory(calloc(count + 1, sizeof *c->predicted));
@@ -320,7 +320,7 @@ static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void *
     return status;
 }
 
-/* Ten times a second is enough to look at. */
+/* Publish progress at most ten times a second. */
 static void publish_progress(void *context, const struct ceduo_calibration_state *state)
 {
     struct publisher *p = context;
@@ -329,7 +329,7 @@ static void publish_progress(void *context, const struct ceduo_calibration_state
         return;
     p->last = now;
     struct fit *fit = ceduo_check_memory(calloc(1, sizeof *fit));
-    *fit = (struct fit){.request = p->job->fit, .state = *state, .loose = p->loose};
+    *fit = (struct fit){.request = p->job->fit, .state = *state, .undetermined = p->undetermined};
     publish(p->queue, p->job, fit);
 }
 
@@ -339,7 +339,7 @@ static enum ceduo_status step_fit(struct jobs *q, struct job *job, void **result
     const struct ceduo_calibration_def how = {
         .threads = q->threads, .cancel = &q->cancel, .progress = publish_progress, .context = &publisher};
     struct fit *fit = *result = ceduo_check_memory(calloc(1, sizeof *fit));
-    return ceduo_fit_make(&job->file, &job->fit, &how, &publisher.loose, fit);
+    return ceduo_fit_compute(&job->file, &job->fit, &how, &publisher.undetermined, fit);
 }
 
 static const struct kind kinds[JOB_KINDS] = {
@@ -350,24 +350,24 @@ static const struct kind kinds[JOB_KINDS] = {
 
 /* ---- the thread ---- */
 
-static bool is_wanted(const struct job *job)
+static bool is_pending(const struct job *job)
 {
     return job->level < job->levels;
 }
 
-/* Rocks of the next step: the job with the fewest is next. Years have many forests. */
-static uint64_t cost_of(const struct jobs *q, const struct job *job)
+/* Rocks of the next step: the job with the fewest runs next. Years have many forests. */
+static uint64_t step_rocks(const struct jobs *q, const struct job *job)
 {
     if (job->kind == JOB_SEARCH || job->kind == JOB_PREVIEW)
         return 0;
-    return rocks_of(q, job->level) * (job->kind == JOB_YEARS && job->level > 0 ? 2 : 1);
+    return level_rocks(q, job->level) * (job->kind == JOB_YEARS && job->level > 0 ? 2 : 1);
 }
 
-static enum job_kind next_kind(const struct jobs *q)
+static enum job_kind next_job(const struct jobs *q)
 {
     enum job_kind next = JOB_KINDS;
     for (enum job_kind k = 0; k < JOB_KINDS; k++)
-        if (is_wanted(&q->jobs[k]) && (next == JOB_KINDS || cost_of(q, &q->jobs[k]) < cost_of(q, &q->jobs[next])))
+        if (is_pending(&q->jobs[k]) && (next == JOB_KINDS || step_rocks(q, &q->jobs[k]) < step_rocks(q, &q->jobs[next])))
             next = k;
     return next;
 }
@@ -377,10 +377,10 @@ static void *work(void *argument)
     struct jobs *q = argument;
     pthread_mutex_lock(&q->lock);
     while (!q->quit) {
-        enum job_kind kind = q->working = next_kind(q);
+        enum job_kind kind = q->running = next_job(q);
         if (kind == JOB_KINDS) {
             pthread_cond_broadcast(&q->changed);
-            tell(q);
+            notify(q);
             pthread_cond_wait(&q->changed, &q->lock);
             continue;
         }
@@ -397,7 +397,7 @@ static void *work(void *argument)
         else
             free_result(kind, result);
         pthread_mutex_lock(&q->lock);
-        if (q->jobs[kind].number == job.number && status != CEDUO_CANCELLED) /* otherwise it is repeated */
+        if (q->jobs[kind].number == job.number && status != CEDUO_CANCELLED) /* otherwise the step is repeated */
             q->jobs[kind].level = status == CEDUO_OK ? job.level + 1 : LEVELS_MAX;
         if (kind == JOB_SEARCH || kind == JOB_PREVIEW)
             pthread_cond_broadcast(&q->changed);
@@ -406,12 +406,12 @@ static void *work(void *argument)
     return NULL;
 }
 
-/* ---- making and freeing ---- */
+/* ---- creating and freeing ---- */
 
-static void release(struct jobs *q)
+static void free_jobs(struct jobs *q)
 {
     ceduo_runs_free(q->runs);
-    ceduo_result_list_free(&q->fresh);
+    ceduo_job_results_free(&q->unread);
     if (q->pipe[0] >= 0) {
         close(q->pipe[0]);
         close(q->pipe[1]);
@@ -423,7 +423,7 @@ struct jobs *ceduo_jobs_create(unsigned threads)
 {
     struct jobs *q = ceduo_check_memory(calloc(1, sizeof *q));
     q->threads = threads;
-    q->working = JOB_KINDS;
+    q->running = JOB_KINDS;
     const char *rocks = getenv("CEDUO_ROCKS");
     if (!rocks || ceduo_count_read(rocks, 1, CEDUO_ROCKS_MAX, &q->rocks_max) != CEDUO_NUMBER_GOOD)
         q->rocks_max = 0;
@@ -432,7 +432,7 @@ struct jobs *ceduo_jobs_create(unsigned threads)
     pthread_mutex_init(&q->lock, NULL);
     pthread_cond_init(&q->changed, NULL);
     if (pipe2(q->pipe, O_NONBLOCK | O_CLOEXEC) != 0 || pthread_create(&q->thread, NULL, work, q) != 0) {
-        release(q);
+        free_jobs(q);
         return NULL;
     }
     return q;
@@ -450,7 +450,7 @@ void ceduo_jobs_free(struct jobs *q)
     pthread_join(q->thread, NULL);
     pthread_mutex_destroy(&q->lock);
     pthread_cond_destroy(&q->changed);
-    release(q);
+    free_jobs(q);
 }
 
 /* ---- requests ---- */
@@ -464,79 +464,79 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene)
     return key;
 }
 
-/* A job on a snapshot of the scene, whose memory is the job's own. */
-static struct job job_of(enum job_kind kind, const struct scene_file *file, size_t option, size_t levels)
+/* Return a job on a snapshot of the scene. The job owns the snapshot's memory. */
+static struct job make_job(enum job_kind kind, const struct scene_file *file, size_t option, size_t levels)
 {
     struct job job = {.kind = kind, .option = option, .levels = levels, .file = *file};
     job.file.arena = (struct arena){0};
     return job;
 }
 
-/* Forgets a job and its result; under the lock. */
-static void forget(struct jobs *q, enum job_kind kind)
+/* Drop a job and its result. Requires the lock. */
+static void drop_job(struct jobs *q, enum job_kind kind)
 {
-    ceduo_result_list_drop(&q->fresh, kind);
+    ceduo_job_results_drop(&q->unread, kind);
     q->jobs[kind] = (struct job){.kind = kind};
-    if (q->working == kind)
+    if (q->running == kind)
         atomic_store(&q->cancel, true);
 }
 
-/* Replace the job of its kind. One of the same key goes on up to the levels now asked for. True if something is to be done. */
-static bool ask(struct jobs *q, const struct job *job)
+/* Replace the job of this kind. One with the same key continues up to these levels. True if there is work. */
+static bool enqueue(struct jobs *q, const struct job *job)
 {
     pthread_mutex_lock(&q->lock);
     struct job *now = &q->jobs[job->kind];
-    bool asked = job->levels > 0;
-    if (!asked) {
-        if (is_wanted(now))
-            forget(q, job->kind);
+    bool queued = job->levels > 0;
+    if (!queued) {
+        if (is_pending(now))
+            drop_job(q, job->kind);
     } else if (job->key != 0 && now->key == job->key) {
-        asked = !is_wanted(now) && now->level < job->levels;
+        queued = !is_pending(now) && now->level < job->levels;
         now->levels = job->levels;
-        if (q->working == job->kind && !is_wanted(now))
+        if (q->running == job->kind && !is_pending(now))
             atomic_store(&q->cancel, true);
     } else {
-        ceduo_result_list_drop(&q->fresh, job->kind);
+        ceduo_job_results_drop(&q->unread, job->kind);
         *now = *job;
         now->number = ++q->requests;
-        now->asked = ceduo_clock();
+        now->request_time = ceduo_clock();
         atomic_store(&q->cancel, true);
     }
-    if (asked)
+    if (queued)
         pthread_cond_broadcast(&q->changed);
     pthread_mutex_unlock(&q->lock);
-    return asked;
+    return queued;
 }
 
-bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown)
+bool ceduo_jobs_request_figures(struct jobs *q, const struct scene_file *file, size_t shown)
 {
-    bool index = file->scene.simulation.contact_model == CEDUO_INDEX; /* knows no other energy law */
-    struct job figures = job_of(JOB_SNAPSHOT, file, shown, RUNS_LEVELS);
-    struct job others = job_of(JOB_OTHERS, file, shown, index ? 0 : RUNS_LEVELS - 1);
-    struct job coming = job_of(JOB_YEARS, file, shown, RUNS_LEVELS - 1);
-    struct ceduo_scene other;
-    figures.key = coming.key = ceduo_jobs_key(&file->scene);
+    bool index = file->scene.simulation.contact_model == CEDUO_INDEX; /* the index uses no other energy law */
+    struct job figures = make_job(JOB_SNAPSHOT, file, shown, RUNS_LEVELS);
+    struct job alternatives = make_job(JOB_ALTERNATIVES, file, shown, index ? 0 : RUNS_LEVELS - 1);
+    struct job years = make_job(JOB_YEARS, file, shown, RUNS_LEVELS - 1);
+    struct ceduo_scene alternative_scene;
+    figures.key = years.key = ceduo_jobs_key(&file->scene);
     if (!index) {
-        if (!ceduo_alternative_scene(&file->scene, &other))
+        if (!ceduo_alternative_scene(&file->scene, &alternative_scene))
             ceduo_oom_set_flag();
-        others.key = figures.key;
-        hash_count(&others.key, JOB_OTHERS); /* without it two laws have the same key as when they change places */
-        hash_count(&others.key, ceduo_jobs_key(&other));
-        ceduo_alternative_scene_release(&other);
+        alternatives.key = figures.key;
+        hash_count(&alternatives.key, JOB_ALTERNATIVES); /* otherwise two laws would have the same key as after a swap */
+        hash_count(&alternatives.key, ceduo_jobs_key(&alternative_scene));
+        ceduo_alternative_scene_release(&alternative_scene);
     }
     for (size_t i = 0; i < file->scene.options_count; i++)
-        hash_count(&coming.key, ceduo_runs_years_key(&file->scene, i));
-    bool asked = ask(q, &figures); /* otherwise the rocks meet the same */
-    if (asked)
+        hash_count(&years.key, ceduo_runs_years_key(&file->scene, i));
+    bool queued = enqueue(q, &figures); /* false: no rock meets anything new */
+    if (queued)
         ceduo_jobs_stop(q, JOB_YEARS);
-    asked |= ask(q, &others);
-    asked |= ask(q, &coming);
-    return asked;
+    queued |= enqueue(q, &alternatives);
+    queued |= enqueue(q, &years);
+    return queued;
 }
 
-bool ceduo_jobs_ask(struct jobs *q, const struct job_request *r)
+bool ceduo_jobs_request(struct jobs *q, const struct job_request *r)
 {
-    struct job job = job_of(r->kind, r->file, r->option, r->levels);
+    struct job job = make_job(r->kind, r->file, r->option, r->levels);
     snprintf(job.path, sizeof job.path, "%s", r->search ? r->search->path : r->path ? r->path : "");
     snprintf(job.value, sizeof job.value, "%s", r->value ? r->value : "");
     if (r->search)
@@ -545,37 +545,37 @@ bool ceduo_jobs_ask(struct jobs *q, const struct job_request *r)
         job.fit = *r->fit;
     if (r->kind == JOB_UNCERTAINTY || r->kind == JOB_COMPARISON)
         job.key = (uint64_t)(uintptr_t)r->file->root;
-    return ask(q, &job);
+    return enqueue(q, &job);
 }
 
 void ceduo_jobs_stop(struct jobs *q, enum job_kind kind)
 {
     pthread_mutex_lock(&q->lock);
-    forget(q, kind);
+    drop_job(q, kind);
     pthread_mutex_unlock(&q->lock);
 }
 
-/* ---- news ---- */
+/* ---- notifications ---- */
 
 int ceduo_jobs_fd(const struct jobs *q)
 {
     return q->pipe[0];
 }
 
-struct jobs_state ceduo_jobs_take(struct jobs *q, union results *results)
+struct jobs_state ceduo_jobs_collect(struct jobs *q, union results *results)
 {
     char bytes[64];
     while (read(q->pipe[0], bytes, sizeof bytes) > 0)
         ;
     pthread_mutex_lock(&q->lock);
-    struct jobs_state state = {.busy = q->working != JOB_KINDS || next_kind(q) != JOB_KINDS,
-                               .fitting = is_wanted(&q->jobs[JOB_FIT]),
-                               .uncertainty = is_wanted(&q->jobs[JOB_UNCERTAINTY]) ? q->uncertainty : NAN};
+    struct jobs_state state = {.busy = q->running != JOB_KINDS || next_job(q) != JOB_KINDS,
+                               .fitting = is_pending(&q->jobs[JOB_FIT]),
+                               .uncertainty = is_pending(&q->jobs[JOB_UNCERTAINTY]) ? q->uncertainty : NAN};
     for (enum job_kind k = 0; k < JOB_KINDS; k++)
-        if (q->fresh.slots[k]) {
-            state.fresh |= 1u << k;
-            put_result(results, k, q->fresh.slots[k]);
-            q->fresh.slots[k] = NULL;
+        if (q->unread.slots[k]) {
+            state.new_kinds |= 1u << k;
+            store_result(results, k, q->unread.slots[k]);
+            q->unread.slots[k] = NULL;
         }
     pthread_mutex_unlock(&q->lock);
     return state;
@@ -584,10 +584,10 @@ struct jobs_state ceduo_jobs_take(struct jobs *q, union results *results)
 bool ceduo_jobs_wait(struct jobs *q, bool all)
 {
     pthread_mutex_lock(&q->lock);
-    while (all ? q->working != JOB_KINDS || next_kind(q) != JOB_KINDS
-               : is_wanted(&q->jobs[JOB_SEARCH]) || is_wanted(&q->jobs[JOB_PREVIEW]))
+    while (all ? q->running != JOB_KINDS || next_job(q) != JOB_KINDS
+               : is_pending(&q->jobs[JOB_SEARCH]) || is_pending(&q->jobs[JOB_PREVIEW]))
         pthread_cond_wait(&q->changed, &q->lock);
-    bool news = q->fresh.search || q->fresh.preview;
+    bool changed = q->unread.search || q->unread.preview;
     pthread_mutex_unlock(&q->lock);
-    return news;
+    return changed;
 }

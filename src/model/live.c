@@ -16,7 +16,7 @@ void ceduo_live_free(struct live *l)
     ceduo_jobs_free(l->jobs);
     ceduo_result_free(l->result);
     ceduo_verdict_release(&l->verdict);
-    ceduo_result_list_free(&l->results);
+    ceduo_job_results_free(&l->results);
     *l = (struct live){0};
 }
 
@@ -28,7 +28,7 @@ const struct ceduo_snapshot *ceduo_live_snapshot(const struct live *l, const str
 
 struct ceduo_years *ceduo_live_years(const struct live *l, const struct ceduo_scene *scene, size_t option)
 {
-    const struct years_known *known = l->results.years;
+    const struct option_years *known = l->results.years;
     struct ceduo_years *years = known && option < known->n ? known->items[option] : NULL;
     return years && years->scene.controls_count == scene->controls_count ? years : NULL;
 }
@@ -39,11 +39,11 @@ const struct uncertainty *ceduo_live_uncertainty(const struct live *l, const str
     return u && u->file.root == file->root ? u : NULL;
 }
 
-double ceduo_live_awaits_uncertainty(const struct live *l, const struct scene_file *file, size_t option)
+double ceduo_live_uncertainty_progress(const struct live *l, const struct scene_file *file, size_t option)
 {
     const struct uncertainty *u = ceduo_live_uncertainty(l, file);
     if (ceduo_node_text(file->root, "uncertainty") || (u && (u->inputs.n == 0 || u->level > 0 || u->option == option)))
-        return NAN; /* uncertainty: none */
+        return NAN; /* "uncertainty: none" */
     return l->uncertainty;
 }
 
@@ -51,7 +51,7 @@ bool ceduo_live_is_stale(const struct live *l, const struct ceduo_scene *scene, 
 {
     const struct ceduo_snapshot *o = ceduo_live_snapshot(l, scene);
     bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
-    return !o || l->results.snapshot->key != l->asked || (wooded && !(option < o->options && o->wooded[option]));
+    return !o || l->results.snapshot->key != l->requested_key || (wooded && !(option < o->options && o->wooded[option]));
 }
 
 const struct comparison *ceduo_live_comparison(const struct live *l, const struct scene_file *file)
@@ -65,12 +65,12 @@ const struct fit *ceduo_live_fitted(const struct live *l)
     return l->results.fit && l->results.fit->done ? l->results.fit : NULL;
 }
 
-/* ---- the scene as it is, by what is known ---- */
+/* ---- assessing the current scene ---- */
 
-/* The other energy law if it fits: figures from before an edit stay until better ones come, unless they are of another law. */
-static const struct ceduo_alternative_energy *fitting_others(struct live *l, const struct ceduo_scene *scene)
+/* Return the figures of the other energy law if they fit the scene. Keep stale ones unless they are of another law. */
+static const struct ceduo_alternative_energy *fitting_alternatives(struct live *l, const struct ceduo_scene *scene)
 {
-    struct others *o = l->results.others;
+    struct alternatives *o = l->results.alternatives;
     if (!o || o->options != scene->options_count || o->controls != scene->controls_count)
         return NULL;
     for (size_t i = 0; i < o->options * o->controls; i++)
@@ -79,7 +79,7 @@ static const struct ceduo_alternative_energy *fitting_others(struct live *l, con
 }
 
 /* Assess the scene by its forests, and judge it by its years. Years of an earlier scene are shown, but do not count. */
-static void refresh(struct live *l, const struct ceduo_scene *scene)
+static void assess(struct live *l, const struct ceduo_scene *scene)
 {
     const struct ceduo_snapshot *o = ceduo_live_snapshot(l, scene);
     size_t n = scene->options_count, controls = scene->controls_count;
@@ -104,7 +104,8 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
     const struct ceduo_difference none = {CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE, CEDUO_NO_ESTIMATE};
     for (size_t i = 0; i < n * controls; i++)
         differences[i] = in_order ? o->differences[i] : none;
-    if (ceduo_result_assess(scene, &o->bare->simulated, wooded, differences, fitting_others(l, scene), &l->result) != CEDUO_OK)
+    if (ceduo_result_assess(scene, &o->bare->simulated, wooded, differences, fitting_alternatives(l, scene), &l->result) !=
+        CEDUO_OK)
         l->result = NULL;
     if (l->result && ceduo_compare_options(l->result, known, NULL, &l->verdict) != CEDUO_OK) {
         ceduo_result_free(l->result);
@@ -115,48 +116,48 @@ static void refresh(struct live *l, const struct ceduo_scene *scene)
     free(wooded);
 }
 
-/* ---- requests and news ---- */
+/* ---- requests and notifications ---- */
 
-void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t option, size_t uncertainty, size_t comparison)
+void ceduo_live_update(struct live *l, const struct scene_file *file, size_t option, size_t uncertainty, size_t comparison)
 {
-    bool asked = ceduo_jobs_show(l->jobs, file, option);
-    l->asked = ceduo_jobs_key(&file->scene);
-    l->busy |= asked;
-    if (asked && l->results.years)
-        l->results.years->done = l->results.years->n; /* that step is over */
-    refresh(l, &file->scene);
-    asked = ceduo_jobs_ask(l->jobs, &(struct job_request){JOB_UNCERTAINTY, file, option, .levels = uncertainty});
-    l->uncertainty = asked ? 0 : uncertainty == 0 ? NAN : l->uncertainty;
-    if (l->fit_of != file->root)
+    bool requested = ceduo_jobs_request_figures(l->jobs, file, option);
+    l->requested_key = ceduo_jobs_key(&file->scene);
+    l->busy |= requested;
+    if (requested && l->results.years)
+        l->results.years->done = l->results.years->n; /* that step has ended */
+    assess(l, &file->scene);
+    requested = ceduo_jobs_request(l->jobs, &(struct job_request){JOB_UNCERTAINTY, file, option, .levels = uncertainty});
+    l->uncertainty = requested ? 0 : uncertainty == 0 ? NAN : l->uncertainty;
+    if (l->fitted_root != file->root)
         ceduo_live_drop_fit(l);
-    l->busy |= asked | ceduo_jobs_ask(l->jobs, &(struct job_request){JOB_COMPARISON, file, .levels = comparison});
+    l->busy |= requested | ceduo_jobs_request(l->jobs, &(struct job_request){JOB_COMPARISON, file, .levels = comparison});
 }
 
 void ceduo_live_fit(struct live *l, const struct scene_file *file, const struct fit_request *request)
 {
     ceduo_live_drop_fit(l);
-    l->fit_of = file->root;
-    ceduo_jobs_ask(l->jobs, &(struct job_request){JOB_FIT, file, .levels = 1, .fit = request});
+    l->fitted_root = file->root;
+    ceduo_jobs_request(l->jobs, &(struct job_request){JOB_FIT, file, .levels = 1, .fit = request});
     l->busy = l->fitting = true;
 }
 
 void ceduo_live_drop_fit(struct live *l)
 {
     ceduo_jobs_stop(l->jobs, JOB_FIT);
-    ceduo_result_list_drop(&l->results, JOB_FIT);
+    ceduo_job_results_drop(&l->results, JOB_FIT);
     l->fitting = false;
 }
 
 bool ceduo_live_poll(struct live *l, const struct ceduo_scene *scene)
 {
-    struct jobs_state state = ceduo_jobs_take(l->jobs, &l->results);
+    struct jobs_state state = ceduo_jobs_collect(l->jobs, &l->results);
     bool computes = !isnan(state.uncertainty), computed = !isnan(l->uncertainty);
-    bool changed =
-        state.fresh != 0 || state.busy != l->busy || computes != computed || (computes && state.uncertainty != l->uncertainty);
+    bool changed = state.new_kinds != 0 || state.busy != l->busy || computes != computed ||
+                   (computes && state.uncertainty != l->uncertainty);
     l->busy = state.busy;
     l->uncertainty = state.uncertainty;
     l->fitting = state.fitting;
-    if (state.fresh & (1u << JOB_SNAPSHOT | 1u << JOB_YEARS | 1u << JOB_OTHERS))
-        refresh(l, scene);
+    if (state.new_kinds & (1u << JOB_SNAPSHOT | 1u << JOB_YEARS | 1u << JOB_ALTERNATIVES))
+        assess(l, scene);
     return changed;
 }

@@ -18,9 +18,9 @@
 #include "base/must.h"
 #include "io/file.h"
 
-#define UNSAVED "# unsaved work on " /* begins the first line of a copy */
+#define UNSAVED "# unsaved work on " /* start of the first line of a copy */
 
-/* Makes every folder of a path. */
+/* Create every folder of a path. */
 static bool make_folders(char *path)
 {
     for (char *p = path + 1;; p++) {
@@ -45,7 +45,7 @@ static bool state_folder(struct text *folder)
     return folder->bytes && make_folders(folder->bytes);
 }
 
-/* Number that no other program has, here or on another machine that shares the folder. */
+/* Return a number that is unique also among machines that share the folder. */
 static uint64_t random_number(void)
 {
     uint64_t number = (uint64_t)getpid();
@@ -68,7 +68,7 @@ struct recovery_copy ceduo_recovery_begin(const char *path)
     return (struct recovery_copy){.path = name.bytes, .file = -1};
 }
 
-/* Replace the copy. The new file is locked before it has the copy's name. Return its descriptor; -1 on failure. */
+/* Replace the copy. The new file is locked before it gets the copy's name. Return its descriptor; -1 on failure. */
 static int replace_copy(const char *path, const struct text *text)
 {
     LOCAL_TEXT(temporary);
@@ -84,7 +84,7 @@ static int replace_copy(const char *path, const struct text *text)
     return -1;
 }
 
-#define TRIES 3 /* another program may delete the new file before it is locked: it looks left behind */
+#define TRIES 3 /* another process may delete the new file before it is locked, because it looks abandoned */
 
 bool ceduo_recovery_write(struct recovery_copy *copy, const char *path, const char *bytes, size_t n)
 {
@@ -136,21 +136,21 @@ char *ceduo_recovery_text(const char *path)
     return source ? ceduo_check_memory(strdup(source->bytes)) : NULL;
 }
 
-/* True if no program locks the file, and it still has this name: its owner may have put a newer one in its place. */
-static bool is_left(const char *path)
+/* True if no process locks the file, and the path still leads to it: its owner may have replaced it. */
+static bool is_abandoned(const char *path)
 {
     int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     struct stat own, named;
     bool locked = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    bool left = file >= 0 && !locked && fstat(file, &own) == 0 && S_ISREG(own.st_mode) && stat(path, &named) == 0 &&
-                own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+    bool abandoned = file >= 0 && !locked && fstat(file, &own) == 0 && S_ISREG(own.st_mode) && stat(path, &named) == 0 &&
+                     own.st_dev == named.st_dev && own.st_ino == named.st_ino;
     if (file >= 0)
         close(file);
-    return left;
+    return abandoned;
 }
 
-/* Put the path of the next copy in the folder that was left behind; false if there is none. */
-static bool next_left(DIR *dir, const struct text *folder, struct text *name)
+/* Set `name` to the path of the next abandoned copy. Return false if there is none. */
+static bool next_abandoned(DIR *dir, const struct text *folder, struct text *name)
 {
     for (struct dirent *e; (e = readdir(dir));) {
         int used = 0;
@@ -159,11 +159,11 @@ static bool next_left(DIR *dir, const struct text *folder, struct text *name)
             continue;
         name->length = 0;
         ceduo_text_format(name, "%s/%s", folder->bytes, e->d_name);
-        if (!is_left(name->bytes))
+        if (!is_abandoned(name->bytes))
             continue;
         if (e->d_name[used] == '\0')
             return true;
-        unlink(name->bytes); /* its program was killed while it wrote the file: it may be half of a copy */
+        unlink(name->bytes); /* leftover temporary file of a killed process */
     }
     return false;
 }
@@ -183,7 +183,7 @@ static const struct node *read_yaml(struct arena *arena, const char *text)
     return ceduo_yaml_read(arena, &source, &problems);
 }
 
-/* Path of the scene, from the first line of a copy; NULL if the scene had no file. */
+/* Return the path of the scene from the first line of a copy; NULL: none. */
 static const char *read_scene(struct arena *arena, const char *text)
 {
     LOCAL_TEXT(line);
@@ -202,7 +202,7 @@ struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
     struct recovery *list = ceduo_arena_alloc(arena, LISTED_MAX * sizeof *list);
     DIR *dir = state_folder(&folder) ? opendir(folder.bytes) : NULL;
     *n = 0;
-    while (dir && *n < LISTED_MAX && next_left(dir, &folder, &name)) {
+    while (dir && *n < LISTED_MAX && next_abandoned(dir, &folder, &name)) {
         struct stat st;
         char *text = stat(name.bytes, &st) == 0 ? ceduo_recovery_text(name.bytes) : NULL;
         if (!text)

@@ -11,9 +11,9 @@ struct runs {
     unsigned threads;
     const atomic_bool *cancel;
     uint64_t scene_key;
-    struct ceduo_pool *figures, *years, *others;
-    struct ceduo_scene other;    /* that the pool of the others is turned to */
-    struct ceduo_snapshot *last; /* what was last made of the runs */
+    struct ceduo_pool *figures, *years, *alternative_pool;
+    struct ceduo_scene alternative_scene; /* scene of `alternative_pool` */
+    struct ceduo_snapshot *last;          /* newest snapshot */
 };
 
 struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel)
@@ -30,13 +30,12 @@ void ceduo_runs_free(struct runs *r)
     ceduo_snapshot_free(r->last);
     ceduo_pool_free(r->figures);
     ceduo_pool_free(r->years);
-    ceduo_pool_free(r->others);
-    ceduo_alternative_scene_release(&r->other);
+    ceduo_pool_free(r->alternative_pool);
+    ceduo_alternative_scene_release(&r->alternative_scene);
     free(r);
 }
 
-static enum ceduo_status turn_pool(struct runs *r, const struct ceduo_scene *scene, bool arrivals_only,
-                                   struct ceduo_pool **pool)
+static enum ceduo_status set_pool(struct runs *r, const struct ceduo_scene *scene, bool arrivals_only, struct ceduo_pool **pool)
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.threads = r->threads;
@@ -46,8 +45,8 @@ static enum ceduo_status turn_pool(struct runs *r, const struct ceduo_scene *sce
     return ceduo_pool_reuse_or_create(&def, pool);
 }
 
-/* Turns all to a scene. What was made of the runs of another one is of no use. */
-static enum ceduo_status turn(struct runs *r, const struct ceduo_scene *scene)
+/* Set the pools to a scene. Drop the snapshot of another one. */
+static enum ceduo_status set_pools(struct runs *r, const struct ceduo_scene *scene)
 {
     uint64_t key = ceduo_scene_key(scene);
     if (r->last && key != r->scene_key) {
@@ -55,8 +54,8 @@ static enum ceduo_status turn(struct runs *r, const struct ceduo_scene *scene)
         r->last = NULL;
     }
     r->scene_key = key;
-    enum ceduo_status status = turn_pool(r, scene, false, &r->figures);
-    return status == CEDUO_OK ? turn_pool(r, scene, true, &r->years) : status;
+    enum ceduo_status status = set_pool(r, scene, false, &r->figures);
+    return status == CEDUO_OK ? set_pool(r, scene, true, &r->years) : status;
 }
 
 /* ---- figures ---- */
@@ -71,41 +70,41 @@ static bool is_precise(const struct ceduo_run_snapshot *s)
     return true;
 }
 
-/* Hands over what is known so far; what has not changed is shared with what is kept. */
-static enum ceduo_status hand_over(struct runs *r, const struct runs_step *step)
+/* Publish the newest results. Unchanged parts are shared with the last snapshot. */
+static enum ceduo_status publish_figures(struct runs *r, const struct runs_step *step)
 {
-    struct ceduo_snapshot *mine, *theirs;
+    struct ceduo_snapshot *own, *published;
     struct ceduo_snapshot_def def = {.scene = step->scene, .runs = r->figures, .cancel = r->cancel, .last = r->last};
     def.envelope_rocks = step->rocks > RUNS_FIRST ? CEDUO_ENVELOPE_ROCKS : RUNS_SKETCH;
     def.trajectories = CEDUO_SNAPSHOT_TRAJECTORIES;
-    enum ceduo_status status = ceduo_snapshot_create(&def, &mine);
+    enum ceduo_status status = ceduo_snapshot_create(&def, &own);
     if (status != CEDUO_OK)
         return status;
     ceduo_snapshot_free(r->last);
-    def.last = r->last = mine;
-    status = ceduo_snapshot_create(&def, &theirs);
+    def.last = r->last = own;
+    status = ceduo_snapshot_create(&def, &published);
     if (status == CEDUO_OK)
-        step->publish(step->context, theirs);
+        step->publish(step->context, published);
     return status;
 }
 
-/* Hands over after each forest: once something is known it is shown with its own error until better is known. */
+/* Publish after each forest: a figure with its error is shown until a better one arrives. */
 enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
 {
     const struct ceduo_scene *scene = step->scene;
     bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
     struct ceduo_run *run;
-    enum ceduo_status status = turn(r, scene);
+    enum ceduo_status status = set_pools(r, scene);
     if (status == CEDUO_OK)
         status = ceduo_pool_simulate(r->figures, NULL, step->rocks, &run);
     for (size_t k = 0, n = scene->options_count; wooded && k < n && status == CEDUO_OK; k++) {
         status = ceduo_pool_simulate(r->figures, &scene->options[(step->shown + k) % n], step->rocks, &run);
-        bool says = k + 1 < n && (k == 0 || step->rocks >= RUNS_MAX);
-        if (status == CEDUO_OK && says)
-            status = hand_over(r, step);
+        bool publishes = k + 1 < n && (k == 0 || step->rocks >= RUNS_MAX);
+        if (status == CEDUO_OK && publishes)
+            status = publish_figures(r, step);
     }
     if (status == CEDUO_OK)
-        status = hand_over(r, step);
+        status = publish_figures(r, step);
     if (status != CEDUO_OK)
         return status;
     bool precise = is_precise(r->last->bare);
@@ -117,23 +116,23 @@ enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
 
 /* ---- the other energy law ---- */
 
-enum ceduo_status ceduo_runs_others(struct runs *r, const struct ceduo_scene *scene, uint64_t rocks,
-                                    struct ceduo_alternative_energy *others)
+enum ceduo_status ceduo_runs_alternative_energies(struct runs *r, const struct ceduo_scene *scene, uint64_t rocks,
+                                                  struct ceduo_alternative_energy *energies)
 {
-    struct ceduo_scene other, before = r->other;
+    struct ceduo_scene alternative_scene, old = r->alternative_scene;
     size_t n = scene->options_count, controls = scene->controls_count;
-    struct ceduo_run *first = NULL;
-    if (!ceduo_alternative_scene(scene, &other))
+    struct ceduo_run *first_run = NULL;
+    if (!ceduo_alternative_scene(scene, &alternative_scene))
         ceduo_oom_set_flag();
-    enum ceduo_status status = turn_pool(r, &other, true, &r->others);
-    r->other = status == CEDUO_OK ? other : before; /* that the pool is turned to */
-    ceduo_alternative_scene_release(status == CEDUO_OK ? &before : &other);
+    enum ceduo_status status = set_pool(r, &alternative_scene, true, &r->alternative_pool);
+    r->alternative_scene = status == CEDUO_OK ? alternative_scene : old; /* scene of the pool */
+    ceduo_alternative_scene_release(status == CEDUO_OK ? &old : &alternative_scene);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         struct ceduo_run *run;
-        status = ceduo_pool_simulate(r->others, &r->other.options[i], rocks, &run);
-        first = i == 0 ? run : first;
+        status = ceduo_pool_simulate(r->alternative_pool, &r->alternative_scene.options[i], rocks, &run);
+        first_run = i == 0 ? run : first_run;
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
-            status = ceduo_alternative_read(&scene->options[i], run, first, c, &others[i * controls + c]);
+            status = ceduo_alternative_read(&scene->options[i], run, first_run, c, &energies[i * controls + c]);
     }
     return status;
 }
@@ -144,10 +143,10 @@ uint64_t ceduo_runs_years_key(const struct ceduo_scene *scene, size_t option)
 {
     struct ceduo_window w = ceduo_scene_window(scene);
     uint64_t key = ceduo_scene_key(scene);
-    const uint64_t more[] = {ceduo_years_key(&scene->options[option]), w.kind, w.first, w.last,
-                             (uint64_t)scene->simulation.contact_model};
-    for (size_t i = 0; i < sizeof more / sizeof more[0]; i++)
-        hash_count(&key, more[i]);
+    const uint64_t parts[] = {ceduo_years_key(&scene->options[option]), w.kind, w.first, w.last,
+                              (uint64_t)scene->simulation.contact_model};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
+        hash_count(&key, parts[i]);
     return key;
 }
 
@@ -156,7 +155,7 @@ enum ceduo_status ceduo_runs_years(struct runs *r, const struct ceduo_scene *sce
 {
     *years = NULL;
     const struct ceduo_option *o = &scene->options[option];
-    enum ceduo_status status = turn(r, scene);
+    enum ceduo_status status = set_pools(r, scene);
     if (status == CEDUO_OK)
         status = r->last && r->last->bare ? ceduo_years_create(scene, o, ceduo_scene_window(scene), years) : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)

@@ -12,31 +12,31 @@
 #include "study/inputs.h"
 #include "study/sure.h"
 
-#define SURE_MAX       128  /* values looked at under uncertainty */
-#define ERROR_STEP     0.05 /* of the range: the first distance over which the slope at the value found is taken */
+#define SURE_MAX       128  /* values evaluated under uncertainty */
+#define ERROR_STEP     0.05 /* first step for the slope at the value found, as a share of the range */
 #define ERROR_STEPS    3
-#define SURE_TOLERANCE 1e-3 /* of the range: what so few points tell is no finer */
+#define SURE_TOLERANCE 1e-3 /* as a share of the range; n points resolve no finer */
 
-/* A search under way. */
+/* A running search. */
 struct search {
     struct scene_file *file;
     struct ceduo_search def;
     unsigned threads;
     const atomic_bool *cancel;
     struct search_answer *answer;
-    struct problems *problems; /* the answer's, or of nobody */
-    double passes;             /* the largest goal that is reached */
-    const struct node *root;   /* of the scene as it was read */
-    struct ceduo_pool *pool;   /* runs kept from value to value */
-    bool whole;                /* values are whole numbers */
-    size_t known_count;        /* what was asked under uncertainty */
-    struct known_sure {
+    struct problems *problems;   /* the answer's, or a scratch list */
+    double passes;               /* largest goal value that passes */
+    const struct node *original; /* root of the original scene */
+    struct ceduo_pool *pool;     /* runs kept between values */
+    bool whole;                  /* the value is a whole number */
+    size_t evaluations_count;    /* evaluated values, under uncertainty */
+    struct evaluation {
         double value;
         struct reliability_result answer;
-    } known[SURE_MAX];
+    } evaluations[SURE_MAX];
 };
 
-/* ---- what kind of number it is ---- */
+/* ---- the type of the value ---- */
 
 const struct field *ceduo_search_field(struct arena *arena, const char *path)
 {
@@ -54,16 +54,16 @@ const struct field *ceduo_search_field(struct arena *arena, const char *path)
 
 /* ---- one value ---- */
 
-/* The scene with the parameter at a value. */
+/* Set the parameter in the scene. */
 static bool set_value(struct search *s, double value)
 {
     LOCAL_TEXT(set);
     ceduo_text_format(&set, "%s=%s", s->def.path, ROUNDTRIP(value));
-    s->file->root = s->root;
+    s->file->root = s->original;
     return ceduo_scene_set(s->file, "--find", set.bytes, s->problems) && ceduo_scene_bind(s->file, s->problems);
 }
 
-static enum ceduo_status goal_at(void *context, double value, double *goal)
+static enum ceduo_status evaluate_goal(void *context, double value, double *goal)
 {
     struct search *s = context;
     if (!set_value(s, value))
@@ -87,8 +87,8 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
 
 /* ---- one value, under uncertainty ---- */
 
-/* An input of the option without the places where the searched value stands; false where nothing is left. */
-static bool leave_input(struct search *s, const struct value *searched, struct ceduo_input *input)
+/* Remove the places of the searched value from an input. False: nothing is left for the option. */
+static bool exclude_searched(struct search *s, const struct value *searched, struct ceduo_input *input)
 {
     struct arena *arena = &s->file->arena;
     const char **places = ceduo_arena_alloc(arena, input->places_count * sizeof *places);
@@ -104,19 +104,19 @@ static bool leave_input(struct search *s, const struct value *searched, struct c
     input->places = places;
     input->draws = input->draws ? draws : NULL;
     input->places_count = n;
-    bool asked = s->def.rotation || !ceduo_input_is_future(input);
-    return n > 0 && asked && ceduo_input_affects(input, s->def.option);
+    bool wanted = s->def.rotation || !ceduo_input_is_future(input);
+    return n > 0 && wanted && ceduo_input_affects(input, s->def.option);
 }
 
-/* What is known under uncertainty of the scene at a value; it is asked once. */
-static enum ceduo_status ask_once(struct search *s, double value, struct reliability_result *answer)
+/* Evaluate the scene under uncertainty at a value, once for each value. */
+static enum ceduo_status evaluate_once(struct search *s, double value, struct reliability_result *answer)
 {
     struct scene_inputs inputs;
     struct value searched;
     size_t n = 0;
-    for (size_t i = 0; i < s->known_count; i++)
-        if (s->known[i].value == value) {
-            *answer = s->known[i].answer;
+    for (size_t i = 0; i < s->evaluations_count; i++)
+        if (s->evaluations[i].value == value) {
+            *answer = s->evaluations[i].answer;
             return CEDUO_OK;
         }
     if (!set_value(s, value))
@@ -126,7 +126,7 @@ static enum ceduo_status ask_once(struct search *s, double value, struct reliabi
     if (!ceduo_value_find(&s->file->scene, s->def.path, &searched))
         searched.at = NULL;
     for (size_t i = 0; i < inputs.n; i++)
-        if (leave_input(s, &searched, &inputs.items[i]))
+        if (exclude_searched(s, &searched, &inputs.items[i]))
             inputs.items[n++] = inputs.items[i];
     s->answer->sure.inputs = n;
     struct reliability_def def = {.goal = s->def.goal, .target = s->passes, .sure = s->def.sure};
@@ -138,37 +138,37 @@ static enum ceduo_status ask_once(struct search *s, double value, struct reliabi
     def.uncertainty.threads = s->threads;
     def.uncertainty.cancel = s->cancel;
     enum ceduo_status status = ceduo_reliability_compute(&def, answer);
-    if (status == CEDUO_OK && s->known_count < SURE_MAX)
-        s->known[s->known_count++] = (struct known_sure){value, *answer};
+    if (status == CEDUO_OK && s->evaluations_count < SURE_MAX)
+        s->evaluations[s->evaluations_count++] = (struct evaluation){value, *answer};
     return status;
 }
 
-static enum ceduo_status above_at(void *context, double value, double *above)
+static enum ceduo_status evaluate_margin(void *context, double value, double *above)
 {
     struct search *s = context;
     struct reliability_result answer;
-    enum ceduo_status status = ask_once(s, value, &answer);
+    enum ceduo_status status = evaluate_once(s, value, &answer);
     *above = status == CEDUO_OK ? answer.above : NAN;
     return status;
 }
 
-/* Set the sampling error of the value found: that of the goal, over the goal's slope. NaN if the slope has the wrong sign. */
+/* Set the sampling error of the value found: error of the goal divided by its slope. NaN if the slope has the wrong sign. */
 static enum ceduo_status read_error(struct search *s, const struct ceduo_find_def *def, struct ceduo_reliability *sure)
 {
     const struct ceduo_found *f = &sure->found;
-    struct reliability_result at, lo, hi;
+    struct reliability_result middle, lo, hi;
     double sign = f->side == CEDUO_SMALLEST ? -1 : 1, width = def->hi - def->lo, half = ERROR_STEP * width;
-    enum ceduo_status status = ask_once(s, f->value, &at);
+    enum ceduo_status status = evaluate_once(s, f->value, &middle);
     for (int i = 0; i < ERROR_STEPS && status == CEDUO_OK; i++) {
         double from = fmax(def->lo, f->value - half), to = fmin(def->hi, f->value + half);
         from = s->whole ? floor(from) : from, to = s->whole ? ceil(to) : to;
-        status = ask_once(s, from, &lo);
+        status = evaluate_once(s, from, &lo);
         if (status == CEDUO_OK)
-            status = ask_once(s, to, &hi);
+            status = evaluate_once(s, to, &hi);
         double slope = sign * (hi.above - lo.above) / (to - from), before = half;
         if (status != CEDUO_OK || !(slope > 0))
             return status;
-        double above = (at.above_hi - at.above) / slope, below = (at.above - at.above_lo) / slope;
+        double above = (middle.above_hi - middle.above) / slope, below = (middle.above - middle.above_lo) / slope;
         sure->lo = fmax(def->lo, f->value - (sign < 0 ? below : above));
         sure->hi = fmin(def->hi, f->value + (sign < 0 ? above : below));
         half = fmin(width / 2, fmax((above + below) / 2, SURE_TOLERANCE * width));
@@ -192,25 +192,25 @@ static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_d
                                                  .lo = NAN,
                                                  .hi = NAN};
     double value = found->found ? found->value : isnan(found->nearest) ? plain->hi : found->nearest;
-    enum ceduo_status status = ask_once(s, value, &answer);
+    enum ceduo_status status = evaluate_once(s, value, &answer);
     if (status != CEDUO_OK || s->answer->sure.inputs == 0)
         return status;
     def.tolerance = SURE_TOLERANCE;
-    def.goal = above_at;
+    def.goal = evaluate_margin;
     def.target = 0;
     status = ceduo_find(&def, to);
     value = to->found ? to->value : to->nearest;
     if (status == CEDUO_OK && !isnan(value))
-        status = ask_once(s, value, &answer);
+        status = evaluate_once(s, value, &answer);
     s->answer->sure.share = answer.share;
     if (status == CEDUO_OK && to->found && !to->whole_range)
         status = read_error(s, &def, &s->answer->sure);
-    to->evaluations = (unsigned)s->known_count;
+    to->evaluations = (unsigned)s->evaluations_count;
     return status;
 }
 
-/* What the option yields at a value. */
-static struct ceduo_yield yield_at(struct search *s, double value)
+/* Compute the yield of the option at a value. */
+static struct ceduo_yield compute_yield(struct search *s, double value)
 {
     struct ceduo_yield yield = {0};
     bool known = !isnan(value) && set_value(s, value) &&
@@ -222,8 +222,8 @@ static struct ceduo_yield yield_at(struct search *s, double value)
     return yield;
 }
 
-/* By more than rounding. */
-static bool differ(double a, double b)
+/* True if the difference exceeds rounding. */
+static bool is_different(double a, double b)
 {
     return fabs(a - b) > 1e-9 * fabs(a);
 }
@@ -234,8 +234,8 @@ static const struct source goal_source = {.name = "--goal", .is_option = true};
 static const struct source sure_source = {.name = "--sure", .is_option = true};
 static const struct source path_source = {.name = "--find", .is_option = true};
 
-/* What the goal needs of the scene. */
-static bool is_askable(const struct search *s)
+/* True if the scene has what the goal needs; otherwise report. */
+static bool has_requirements(const struct search *s)
 {
     const struct ceduo_scene *scene = &s->file->scene;
     const struct field *field = ceduo_schema_at(s->def.path);
@@ -250,19 +250,19 @@ static bool is_askable(const struct search *s)
                              _("exceed: with contact_model index no rock is simulated in the forest"));
     if (s->def.sure > 0 && s->def.rotation && s->def.goal == CEDUO_GOAL_ENERGY)
         return ceduo_problem(s->problems, &sure_source, 0, 0,
-                             _("over a rotation the mean energy is not known at each point; use the goal exceed or arrive"));
+                             _("over a rotation the mean energy has no uncertainty; use the goal exceed or arrive"));
     return true;
 }
 
-/* Whether the scene can have both ends of a range; where it can have one of them, that is said. */
-static bool can_be_ends(struct search *s, double lo, double hi)
+/* True if both ends of a range are valid in the scene. Report if only one is. */
+static bool check_ends(struct search *s, double lo, double hi)
 {
     struct problems *problems = s->problems;
-    LOCAL_PROBLEMS(others);
-    if (lo > hi) /* no whole number lies between */
+    LOCAL_PROBLEMS(scratch);
+    if (lo > hi) /* no whole number in between */
         return true;
     bool first = set_value(s, lo);
-    s->problems = first ? problems : &others; /* what is wrong with both is reported once */
+    s->problems = first ? problems : &scratch; /* report problems of both ends once */
     bool last = set_value(s, hi);
     s->problems = problems;
     if (first != last)
@@ -271,29 +271,29 @@ static bool can_be_ends(struct search *s, double lo, double hi)
     return first && last;
 }
 
-enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *asked, unsigned threads,
+enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *request, unsigned threads,
                                const atomic_bool *cancel, struct search_answer *answer)
 {
-    struct search search = {file, *asked, threads, cancel, answer, &answer->problems, .root = file->root}, *s = &search;
-    const struct field *field = ceduo_search_field(&file->arena, asked->path);
+    struct search search = {file, *request, threads, cancel, answer, &answer->problems, .original = file->root}, *s = &search;
+    const struct field *field = ceduo_search_field(&file->arena, request->path);
     if (isnan(s->def.target))
         s->def.target = ceduo_goal_limit(s->def.goal, &file->scene);
     s->def.rotation |= (field && field->flags & FIELD_YEARS) || ceduo_goal_is_worst(s->def.goal);
     *answer = (struct search_answer){.target = s->def.target, .rotation = s->def.rotation};
-    if (!is_askable(s))
+    if (!has_requirements(s))
         return CEDUO_BAD_SLOPE;
-    bool counted = field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* as a forester does */
+    bool counted = field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* as foresters count */
     bool whole = s->whole = counted || (field && strcmp(field->unit, "y") == 0);
     struct ceduo_find_def def = {.lo = whole ? ceil(s->def.lo) : s->def.lo,
                                  .hi = whole ? floor(s->def.hi) : s->def.hi,
                                  .whole = whole,
                                  .target = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target,
-                                 .goal = goal_at,
+                                 .goal = evaluate_goal,
                                  .context = s,
                                  .tolerance = 1e-4,
                                  .cancel = cancel};
     s->passes = def.target;
-    if (!can_be_ends(s, def.lo, def.hi))
+    if (!check_ends(s, def.lo, def.hi))
         return CEDUO_BAD_SLOPE;
     struct ceduo_found *found = &answer->found;
     enum ceduo_status status = ceduo_find(&def, found);
@@ -301,17 +301,17 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
     if (status == CEDUO_OK && s->def.sure > 0)
         status = search_sure(s, &def, found);
     if (status == CEDUO_OK) {
-        struct ceduo_yield lo = yield_at(s, def.lo), hi = yield_at(s, def.hi);
-        answer->yield = yield_at(s, found->found ? found->value : found->nearest);
-        answer->yield_depends = differ(lo.cut_per_year, hi.cut_per_year) || differ(lo.standing, hi.standing) ||
-                                differ(lo.died_per_year, hi.died_per_year);
+        struct ceduo_yield lo = compute_yield(s, def.lo), hi = compute_yield(s, def.hi);
+        answer->yield = compute_yield(s, found->found ? found->value : found->nearest);
+        answer->yield_depends = is_different(lo.cut_per_year, hi.cut_per_year) || is_different(lo.standing, hi.standing) ||
+                                is_different(lo.died_per_year, hi.died_per_year);
     }
     return status;
 }
 
 /* ---- the preview of a change ---- */
 
-/* The scene with the change, which shares nodes and slope with the other. Release its arena alone. */
+/* Make a scene with the change. It shares nodes and slope with `from`; free only its arena. */
 static bool change_scene(const struct scene_file *from, const char *path, const char *value, struct scene_file *file)
 {
     LOCAL_PROBLEMS(problems);

@@ -10,40 +10,41 @@
 
 /* Search the value for which an option reaches a goal at its worst control. Every value is tried with the same rocks. */
 
-/* What a search came to. */
+/* Result of a search. */
 struct search_answer {
-    enum ceduo_status status; /* as it was returned */
-    double target;            /* the one looked for */
+    enum ceduo_status status; /* returned status */
+    double target;            /* goal value, given or default */
     bool rotation;            /* over one whole rotation */
     struct ceduo_found found;
-    struct ceduo_reliability sure; /* and under uncertainty */
-    struct ceduo_yield yield; /* of the option at the value that was found, or is nearest, without fellings; NaN: not known */
-    bool yield_depends;       /* on the value: otherwise it is the same at both ends of the range */
+    struct ceduo_reliability sure; /* result under uncertainty */
+    struct ceduo_yield yield;      /* yield at the value found or nearest, without fellings; NaN: unknown */
+    bool yield_depends;            /* the yield differs between the ends of the range */
     struct problems problems;
 };
 
-/* Search the value; with `sure` then the one that reaches the goal in that share of plausible cases. Leaves the scene at the last
- * value. The caller frees answer->problems. CEDUO_OK also if nothing is found. `cancel` may be NULL. */
+/* Search the value; with `sure` also the value that reaches the goal in that share of plausible cases. The scene keeps the
+ * last value tried. The caller frees answer->problems. Return CEDUO_OK even if nothing is found. `cancel` may be NULL. */
 enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *search, unsigned threads,
                                const atomic_bool *cancel, struct search_answer *answer);
 
-#define PREVIEW_ROCKS 1024 /* one block: some milliseconds, and a share to 3 in 100 */
+#define PREVIEW_ROCKS 1024 /* one batch: some milliseconds, and a share to ± 3 % */
 
-/* What a change would do to the lights, without making it. */
+/* Effect of a change on the lights. */
 struct preview {
-    bool known;               /* false: that is no scene */
-    struct ceduo_index index; /* of the last control, its lights among them */
-    double reach, exceed;     /* shares of the released; NaN: not known */
+    bool known;               /* false: the change is not valid */
+    struct ceduo_index index; /* at the last control, with its lights */
+    double reach, exceed;     /* shares of released rocks; NaN: unknown */
 };
 
-/* `value` is YAML. The file stays as it is; another thread may read it. CEDUO_CANCELLED, CEDUO_NO_MEMORY or CEDUO_OK. */
+/* Preview a change without making it; `value` is YAML. Another thread may read the file. Return CEDUO_CANCELLED,
+ * CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_preview(const struct scene_file *file, const char *path, const char *value, size_t option,
                                 unsigned threads, const atomic_bool *cancel, struct preview *preview);
 
-/* The row of the number at a path; of one in a list that of the list, as of one number, in the arena. NULL: there is none. */
+/* Return the field of the number at a path, or the field of its list as a single number, in the arena. NULL: none. */
 const struct field *ceduo_search_field(struct arena *arena, const char *path);
 
-/* True if a value may stand at a path: the scene with it is a scene. */
+/* True if the scene is valid with this value. */
 bool ceduo_preview_fits(const struct scene_file *file, const char *path, const char *value);
 
 #endif

@@ -43,11 +43,11 @@ void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...)
     ceduo_text_append_escaped(&safe, ceduo_arena_vformat(app->scratch, format, args));
     va_end(args);
     snprintf(app->message, sizeof app->message, "%s", ceduo_text_string(&safe));
-    app->message_bad = bad;
+    app->message_is_warning = bad;
 }
 
-/* The first of a list of problems, without the place, which the cursor shows. */
-static void say_problem(struct app *app, const struct problem_list *list)
+/* Show the first of a list of problems, without its place, which the cursor shows. */
+static void show_first_problem(struct app *app, const struct problem_list *list)
 {
     const struct problem *p = list->items;
     if (list->n > 0)
@@ -61,9 +61,9 @@ struct view_state *ceduo_app_state(struct app *app)
     return &app->views[app->view];
 }
 
-void *ceduo_app_own(const struct app *app)
+void *ceduo_app_private_state(const struct app *app)
 {
-    return app->views[app->view].own;
+    return app->views[app->view].private_state;
 }
 
 struct form *ceduo_app_form(struct app *app)
@@ -82,11 +82,11 @@ const struct ceduo_belt *ceduo_app_belt(const struct app *app)
     return app->belt < o->belts_count ? &o->belts[app->belt] : NULL;
 }
 
-const struct ceduo_arrivals *ceduo_app_shown(const struct app *app)
+const struct ceduo_arrivals *ceduo_app_arrivals(const struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
-    const struct ceduo_arrivals *wood = r ? ceduo_result_wooded(r, app->option, r->last_control) : NULL;
-    return wood || !r ? wood : &r->bare.arrivals[r->last_control];
+    const struct ceduo_arrivals *forested = r ? ceduo_result_wooded(r, app->option, r->last_control) : NULL;
+    return forested || !r ? forested : &r->bare.arrivals[r->last_control];
 }
 
 const char *ceduo_app_forest(const struct app *app)
@@ -120,18 +120,18 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
 bool ceduo_app_uncertainty(const struct app *app, struct ceduo_uncertainty_report *report)
 {
     const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
-    struct uncertainty *own = (struct uncertainty *)(uintptr_t)d; /* its scene is only read */
+    struct uncertainty *own = (struct uncertainty *)(uintptr_t)d; /* the report only reads the scene */
     if (!d)
         return false;
-    *report =
-        (struct ceduo_uncertainty_report){.file = &own->file,
-                                          .inputs = &own->inputs,
-                                          .answer = own->inputs.n > 0 ? &own->answer : NULL,
-                                          .points = own->answer.points,
-                                          .rocks = own->answer.rocks,
-                                          .finer = app->live.result,
-                                          .years = &app->live.verdict,
-                                          .rotation_mean = app->over && app->view == VIEW_UNCERTAINTY && own->answer.rotation};
+    *report = (struct ceduo_uncertainty_report){.file = &own->file,
+                                                .inputs = &own->inputs,
+                                                .answer = own->inputs.n > 0 ? &own->answer : NULL,
+                                                .points = own->answer.points,
+                                                .rocks = own->answer.rocks,
+                                                .finer = app->live.result,
+                                                .years = &app->live.verdict,
+                                                .rotation_mean = app->rotation_mean && app->view == VIEW_UNCERTAINTY &&
+                                                                 own->answer.rotation};
     return true;
 }
 
@@ -174,8 +174,8 @@ void ceduo_app_refresh(struct app *app)
     size_t belts = ceduo_app_option(app)->belts_count;
     if (app->belt >= belts)
         app->belt = belts > 0 ? belts - 1 : 0;
-    app->uncertainties |= view->uncertainty;
-    ceduo_live_follow(&app->live, &app->document.file, app->option, app->uncertainties ? UNCERTAINTY_LEVELS : 0,
+    app->uncertainty_on |= view->uncertainty;
+    ceduo_live_update(&app->live, &app->document.file, app->option, app->uncertainty_on ? UNCERTAINTY_LEVELS : 0,
                       view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_clear(&app->views[v].form, &app->document);
@@ -208,7 +208,7 @@ void ceduo_app_show_belt(struct app *app, size_t belt)
     ceduo_app_refresh(app);
 }
 
-void ceduo_app_follow_belt(struct app *app)
+void ceduo_app_sync_belt(struct app *app)
 {
     struct form_row *row = ceduo_form_row(ceduo_app_form(app));
     if (row && row->n > 0 && strcmp(row->list, ceduo_app_forest(app)) == 0)
@@ -217,10 +217,10 @@ void ceduo_app_follow_belt(struct app *app)
 
 /* ---- edits ---- */
 
-bool ceduo_app_edited(struct app *app, bool good)
+bool ceduo_app_finish_edit(struct app *app, bool good)
 {
     if (!good)
-        say_problem(app, &app->document.problems.wrong);
+        show_first_problem(app, &app->document.problems.wrong);
     else
         ceduo_app_refresh(app);
     return good;
@@ -228,17 +228,17 @@ bool ceduo_app_edited(struct app *app, bool good)
 
 bool ceduo_app_set(struct app *app, const char *path, const char *value)
 {
-    LOCAL_TEXT(said);
-    bool good = ceduo_app_edited(app, ceduo_document_set_alone(&app->document, path, value, &said));
-    if (good && said.length > 0)
-        ceduo_app_show_message(app, "%s", said.bytes);
+    LOCAL_TEXT(notes);
+    bool good = ceduo_app_finish_edit(app, ceduo_document_set_and_follow(&app->document, path, value, &notes));
+    if (good && notes.length > 0)
+        ceduo_app_show_message(app, "%s", notes.bytes);
     return good;
 }
 
 /* ---- opening and closing ---- */
 
-/* Replace the document; the figures, which use its memory, go first. Report a value that is unusual. False without a thread. */
-static bool take_opened(struct app *app, struct document *next, unsigned threads)
+/* Replace the document. The figures use its memory, so they are freed first. Report an unusual value. False: no thread. */
+static bool replace_document(struct app *app, struct document *next, unsigned threads)
 {
     struct live live;
     if (!ceduo_live_create(&live, threads)) {
@@ -250,37 +250,37 @@ static bool take_opened(struct app *app, struct document *next, unsigned threads
     ceduo_document_close(&app->document);
     app->live = live;
     app->document = *next;
-    ceduo_cells_free(app->kept.cells);
-    app->kept.cells = NULL;
+    ceduo_cells_free(app->last_screen.cells);
+    app->last_screen.cells = NULL;
     if (app->no_recovery) {
         ceduo_recovery_delete(&app->document.recovery);
         ceduo_recovery_end(&app->document.recovery);
     }
     app->option = app->belt = app->year = 0;
     app->rock = 0;
-    app->opened = true;
+    app->just_opened = true;
     for (int v = 0; v < VIEW_COUNT; v++) {
         struct view_state *state = &app->views[v];
         state->form.row = state->form.column = 0;
         state->form.lines.first = 0;
-        free(state->own);
-        state->own = ceduo_check_memory(calloc(1, ceduo_views[v]->own + 1));
+        free(state->private_state);
+        state->private_state = ceduo_check_memory(calloc(1, ceduo_views[v]->private_size + 1));
     }
     ceduo_app_show(app, app->view);
-    say_problem(app, &app->document.problems.unusual);
+    show_first_problem(app, &app->document.problems.unusual);
     return true;
 }
 
 bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery)
 {
     struct document document;
-    *app = (struct app){.charset = charset, .no_recovery = no_recovery, .uncertainties = !no_recovery};
+    *app = (struct app){.charset = charset, .no_recovery = no_recovery, .uncertainty_on = !no_recovery};
     app->scratch = ceduo_check_memory(calloc(1, sizeof *app->scratch));
     if (!ceduo_document_open(&document, path ? path : "paper-site", NULL, 0)) {
         app->document = document;
         return false;
     }
-    app->document.problems.memory = !take_opened(app, &document, threads);
+    app->document.problems.memory = !replace_document(app, &document, threads);
     return !app->document.problems.memory;
 }
 
@@ -291,11 +291,11 @@ void ceduo_app_free(struct app *app)
     for (int v = 0; v < VIEW_COUNT; v++) {
         free(app->views[v].form.rows);
         ceduo_arena_free(&app->views[v].form.arena);
-        free(app->views[v].own);
+        free(app->views[v].private_state);
     }
     ceduo_rock_trajectory_free(&app->trajectory);
     ceduo_cells_free(app->cells);
-    ceduo_cells_free(app->kept.cells);
+    ceduo_cells_free(app->last_screen.cells);
     ceduo_document_close(&app->document);
     ceduo_arena_free(app->scratch);
     free(app->scratch);
@@ -307,9 +307,9 @@ bool ceduo_app_open(struct app *app, const char *path, const char *text)
     struct document next;
     bool good = path ? ceduo_document_open(&next, path, NULL, 0) : ceduo_document_new(&next, text);
     if (!good) {
-        say_problem(app, &next.problems.wrong);
+        show_first_problem(app, &next.problems.wrong);
         ceduo_document_close(&next);
-    } else if (!take_opened(app, &next, app->live.threads)) {
+    } else if (!replace_document(app, &next, app->live.threads)) {
         ceduo_app_warn(app, "%s", _("out of memory"));
         good = false;
     }
@@ -322,8 +322,8 @@ void ceduo_app_resize(struct app *app, int width, int height)
     height = height < 1 ? 1 : height > CEDUO_CANVAS_MAX_HEIGHT ? CEDUO_CANVAS_MAX_HEIGHT : height;
     struct ceduo_cells *cells = ceduo_check_memory(ceduo_cells_create(width, height, app->charset));
     ceduo_cells_free(app->cells);
-    ceduo_cells_free(app->kept.cells);
-    app->kept.cells = NULL;
+    ceduo_cells_free(app->last_screen.cells);
+    app->last_screen.cells = NULL;
     app->cells = cells;
     app->width = width;
     app->height = height;
@@ -331,14 +331,14 @@ void ceduo_app_resize(struct app *app, int width, int height)
 
 /* ---- drawing ---- */
 
-void ceduo_app_plot(struct app *app, enum ceduo_plot plot, struct ceduo_area area, const struct ceduo_picture *picture)
+void ceduo_app_draw_plot(struct app *app, enum ceduo_plot plot, struct ceduo_area area, const struct ceduo_picture *picture)
 {
     if (app->pictures_count < PICTURES_MAX)
         app->pictures[app->pictures_count++] = area;
     ceduo_plot_draw(plot, &app->cells->canvas, &area, picture);
 }
 
-void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
+void ceduo_app_draw_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -346,61 +346,61 @@ void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const 
     va_end(args);
 }
 
-int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip)
+int ceduo_app_draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip)
 {
     int lines = 0;
     size_t width = area.width > 0 ? (size_t)area.width : 0;
     for (const char *next; *text; text = next, lines++) {
-        bool goes_on = ceduo_utf8_char_width(text, strcspn(text, "\n")) > width; /* its last column stays free */
-        size_t n = ceduo_utf8_wrap(text, goes_on && width > 0 ? width - 1 : width, &next);
+        bool continues = ceduo_utf8_char_width(text, strcspn(text, "\n")) > width; /* keep the last column free */
+        size_t n = ceduo_utf8_wrap(text, continues && width > 0 ? width - 1 : width, &next);
         if (lines >= skip && lines - skip < area.height)
-            ceduo_app_label(app, area.left, area.top + lines - skip, role, "%.*s", (int)n, text);
+            ceduo_app_draw_label(app, area.left, area.top + lines - skip, role, "%.*s", (int)n, text);
     }
     return lines;
 }
 
-int ceduo_app_text_lines(struct app *app, const char *text, int width)
+int ceduo_app_count_lines(struct app *app, const char *text, int width)
 {
-    return ceduo_app_text(app, (struct ceduo_area){.width = width}, CEDUO_ROLE_TEXT, text, 0);
+    return ceduo_app_draw_wrapped(app, (struct ceduo_area){.width = width}, CEDUO_ROLE_TEXT, text, 0);
 }
 
 void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
 {
-    bool fits = text->length == 0 || ceduo_app_text_lines(app, text->bytes, width) <= lines;
+    bool fits = text->length == 0 || ceduo_app_count_lines(app, text->bytes, width) <= lines;
     if (fits)
         return;
     for (size_t end = text->length; !fits; end = text->length) {
-        ceduo_text_append(text, " ..."); /* as wide as the sign is in ASCII */
-        fits = ceduo_app_text_lines(app, text->bytes, width) <= lines;
-        while (!fits && end > 0 && text->bytes[end - 1] != ' ' && text->bytes[end - 1] != '\n') /* the last word, */
+        ceduo_text_append(text, " ..."); /* as wide as the sign in ASCII */
+        fits = ceduo_app_count_lines(app, text->bytes, width) <= lines;
+        while (!fits && end > 0 && text->bytes[end - 1] != ' ' && text->bytes[end - 1] != '\n') /* drop the last word, */
             end--;
         if (!fits && end == 0)
             return;
-        ceduo_text_cut(text, end - !fits); /* and what stands before it */
+        ceduo_text_cut(text, end - !fits); /* and the blank before it */
     }
     ceduo_text_append(text, " \xe2\x80\xa6");
 }
 
-void ceduo_app_set_cursor(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text)
+void ceduo_app_draw_text(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text)
 {
     ceduo_app_shorten(app, text, area.width, area.height);
     if (text->bytes)
-        ceduo_app_text(app, area, role, text->bytes, 0);
+        ceduo_app_draw_wrapped(app, area, role, text->bytes, 0);
     ceduo_text_free(text);
 }
 
-void ceduo_app_continue_form(struct app *app, int by)
+void ceduo_app_scroll_text(struct app *app, int step)
 {
-    viewport_scroll(&ceduo_app_state(app)->text, by);
+    viewport_scroll(&ceduo_app_state(app)->text, step);
 }
 
-void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page)
+void ceduo_app_draw_page(struct app *app, struct ceduo_area area, struct ceduo_page *page)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;
     struct viewport *v = &ceduo_app_state(app)->text;
     viewport_fit(v, area.height, ceduo_page_draw(page, canvas, (struct ceduo_area){0}, 0));
     ceduo_page_draw(page, canvas, area, v->first);
     if (viewport_has_more(v))
-        ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
+        ceduo_app_draw_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
     ceduo_page_free(page);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edits the field under the cursor, and the items of the list there: belts, controls, segments, cohorts, classes. */
+/* Editing of the field under the cursor, and of list items: belts, controls, segments, cohorts, classes. */
 #include <math.h>
 #include <string.h>
 
@@ -8,45 +8,45 @@
 #include "popup.h"
 #include "view/typed.h"
 
-static bool set_value(struct app *app, const struct form_cell *cell, const char *value)
+static bool set_cell_value(struct app *app, const struct form_cell *cell, const char *value)
 {
     const struct field *field = cell->field;
-    const char *path = ceduo_app_format(app, "%s", cell->path); /* the form is made anew below */
+    const char *path = ceduo_app_format(app, "%s", cell->path); /* copy the path: an edit rebuilds the form */
     LOCAL_TEXT(written);
-    if (value[0] == '\0') /* nothing: back to the default */
-        return ceduo_app_edited(app, ceduo_document_delete(&app->document, path));
+    if (value[0] == '\0') /* empty: back to the default */
+        return ceduo_app_finish_edit(app, ceduo_document_delete(&app->document, path));
     if (field->type == FIELD_TEXT || field->type == FIELD_FILE)
         ceduo_emit_scalar(&written, value, true);
     else
         ceduo_input_parse_value(field, value, &written);
     if (ceduo_app_set(app, path, ceduo_text_string(&written)))
         return true;
-    const struct problem *p = app->document.problems.wrong.items; /* the label of the field stands for its path */
+    const struct problem *p = app->document.problems.wrong.items; /* the label of the field replaces its path */
     if (p->path && (strpbrk(p->path, "_.[") || strcmp(p->path, field->key) == 0))
         ceduo_app_warn(app, "%s: %s", _(field->shown.label), p->message);
     return false;
 }
 
-static bool filled_field(struct app *app, struct popup *p)
+static bool submit_field(struct app *app, struct popup *p)
 {
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     struct line *line = &p->fields[0].line;
-    return !cell || (ceduo_popup_confirm_unusual(app, cell->field, line) && set_value(app, cell, line->text));
+    return !cell || (ceduo_popup_confirm_unusual(app, cell->field, line) && set_cell_value(app, cell, line->text));
 }
 
-/* The whole value as it is typed: what is shown may be cut or put in other words. */
+/* Edit the whole value: the form may show it shortened or in words. */
 void ceduo_edit_start(struct app *app)
 {
     struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     if (!cell)
         return;
     if (cell->field->type == FIELD_CHOICE || (cell->field->flags & FIELD_FOLLOWS)) {
-        ceduo_popup_choices(app, cell);
+        ceduo_popup_list_choices(app, cell);
         return;
     }
     const struct node *node = ceduo_document_node(&app->document, cell->path);
     LOCAL_TEXT(text);
-    bool plain = node && node->kind == NODE_LIST; /* with blanks */
+    bool plain = node && node->kind == NODE_LIST; /* a list of scalars, with blanks */
     for (size_t i = 0; plain && i < node->n; i++)
         plain = node->items[i]->kind == NODE_SCALAR;
     if (node && node->kind == NODE_SCALAR)
@@ -55,9 +55,9 @@ void ceduo_edit_start(struct app *app)
         ceduo_emit_flow(&text, node);
     else
         ceduo_text_append(&text, cell->text);
-    struct popup *p = ceduo_popup_fields(app, "", "", filled_field);
+    struct popup *p = ceduo_popup_fields(app, "", "", submit_field);
     p->kind = POPUP_FIELD;
-    ceduo_popup_field(p, "", ceduo_text_string(&text));
+    ceduo_popup_add_field(p, "", ceduo_text_string(&text));
 }
 
 void ceduo_edit_step(struct app *app, int direction)
@@ -67,55 +67,55 @@ void ceduo_edit_step(struct app *app, int direction)
     if (!ceduo_form_step(ceduo_app_form(app), direction, &value) || !value.bytes)
         ceduo_app_show_message(app, "%s", _("this field has no steps; Enter edits it"));
     else if (strcmp(value.bytes, cell->text) == 0)
-        ceduo_app_show_message(app, "%s", _("the limit of its range"));
+        ceduo_app_show_message(app, "%s", _("limit of the range reached"));
     else
-        set_value(app, cell, value.bytes);
+        set_cell_value(app, cell, value.bytes);
 }
 
 /* ==== items ==== */
 
-/* The item under the cursor, copied because each edit builds the form again. */
+/* The item under the cursor. Its strings are copied, because each edit rebuilds the form. */
 struct item {
-    const char *list; /* path of its list */
+    const char *list; /* path of the list */
     const char *key;  /* last word of that path */
     size_t index;
-    bool there;        /* false: the list is empty */
-    const char *group; /* that alone of it; NULL: all */
-    double at;         /* where along the slope, m, as given; NAN: in the middle of what is split */
+    bool exists;       /* false: the list is empty */
+    const char *group; /* the only group of the item that is edited; NULL: the whole item */
+    double x;          /* m along the slope, as in the file; NAN: split in the middle */
 };
 
-static struct item item_of(const struct app *app, const char *list, size_t index)
+static struct item make_item(const struct app *app, const char *list, size_t index)
 {
     list = ceduo_app_format(app, "%s", list);
     const char *dot = strrchr(list, '.');
-    return (struct item){.list = list, .key = dot ? dot + 1 : list, .index = index, .there = true, .at = NAN};
+    return (struct item){.list = list, .key = dot ? dot + 1 : list, .index = index, .exists = true, .x = NAN};
 }
 
-/* `there`: an item must be under the cursor, not the line of an empty list. */
-static bool find_item(struct app *app, struct item *item, bool there)
+/* Find the item under the cursor. `must_exist`: reject the line of an empty list. */
+static bool find_item(struct app *app, struct item *item, bool exists)
 {
     const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
-    bool seen = row && row->list[0] && ceduo_app_state(app)->pane == 0;
-    if (!seen || (there && row->n == 0)) {
-        ceduo_app_show_message(app, "%s", _("this works on an item of a list: put the cursor on one"));
+    bool has_item = row && row->list[0] && ceduo_app_state(app)->pane == 0;
+    if (!has_item || (exists && row->n == 0)) {
+        ceduo_app_show_message(app, "%s", _("put the cursor on an item of a list first"));
         return false;
     }
-    *item = item_of(app, row->list, row->index);
-    item->there = row->n > 0;
+    *item = make_item(app, row->list, row->index);
+    item->exists = row->n > 0;
     item->group = row->group;
     return true;
 }
 
 /* ---- splitting ---- */
 
-/* The place at `list[index].key`; NaN where there is none. */
-static double place_of(const struct app *app, const struct item *item, size_t index, const char *key)
+/* Return the place at `list[index].key`; NaN: none. */
+static double get_place(const struct app *app, const struct item *item, size_t index, const char *key)
 {
-    return ceduo_document_place_at(&app->document, ceduo_app_format(app, "%s[%zu].%s", item->list, index, key));
+    return ceduo_document_get_place(&app->document, ceduo_app_format(app, "%s[%zu].%s", item->list, index, key));
 }
 
-/* Copies an item. `ends`: from_m and to_m of it, then of its copy; NaN: as they are. */
-static bool copy_with(struct app *app, const struct item *item, const double ends[4])
+/* Copy an item. `ends`: from_m and to_m of the item, then of the copy; NaN: unchanged. */
+static bool copy_with_ends(struct app *app, const struct item *item, const double ends[4])
 {
     struct changes c = {.document = &app->document};
     for (size_t i = 0; i < 4; i++)
@@ -126,98 +126,100 @@ static bool copy_with(struct app *app, const struct item *item, const double end
     return ceduo_document_duplicate(&app->document, item->list, item->index, &c);
 }
 
-/* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */
+/* Split an item with from_m and to_m into two, because two items cannot overlap. */
 static bool split_stretch(struct app *app, const struct item *item)
 {
-    double middle = (place_of(app, item, item->index, "from_m") + place_of(app, item, item->index, "to_m")) / 2;
-    middle = isnan(item->at) ? middle : item->at;
-    return copy_with(app, item, (const double[]){NAN, middle, middle, NAN});
+    double middle = (get_place(app, item, item->index, "from_m") + get_place(app, item, item->index, "to_m")) / 2;
+    middle = isnan(item->x) ? middle : item->x;
+    return copy_with_ends(app, item, (const double[]){NAN, middle, middle, NAN});
 }
 
-/* A point on a segment of the profile, `at` along the slope (NAN: in its middle). */
-static bool split_at(struct app *app, size_t segment, bool apart, double at)
+/* Insert a point into a segment of the profile at x (NAN: in its middle). */
+static bool split_profile(struct app *app, size_t segment, bool split_ground, double x)
 {
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
     if (!vertices || segment + 1 >= vertices->n) {
-        ceduo_app_warn(app, "%s", _("the profile comes from a CSV file: its points are edited there"));
+        ceduo_app_warn(app, "%s", _("the profile is a CSV file: edit its points there"));
         return false;
     }
-    double x[2], z[2];
+    double px[2], pz[2];
     for (size_t i = 0; i < 2; i++) {
-        x[i] = ceduo_node_item_number(vertices->items[segment + i], 0);
-        z[i] = ceduo_node_item_number(vertices->items[segment + i], 1);
+        px[i] = ceduo_node_item_number(vertices->items[segment + i], 0);
+        pz[i] = ceduo_node_item_number(vertices->items[segment + i], 1);
     }
-    at = isnan(at) ? (x[0] + x[1]) / 2 : at;
-    double height = z[0] + (at - x[0]) / (x[1] - x[0]) * (z[1] - z[0]);
-    return !isnan(height) &&
-           ceduo_document_split_segment(&app->document, segment, ceduo_app_format(app, "[%.10g, %.10g]", at, height), apart);
+    x = isnan(x) ? (px[0] + px[1]) / 2 : x;
+    double height = pz[0] + (x - px[0]) / (px[1] - px[0]) * (pz[1] - pz[0]);
+    return !isnan(height) && ceduo_document_split_segment(&app->document, segment,
+                                                          ceduo_app_format(app, "[%.10g, %.10g]", x, height), split_ground);
 }
 
-size_t ceduo_items_stretch_of(const struct app *app, double x_written)
+size_t ceduo_items_find_segment(const struct app *app, double x_written)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
-    size_t j = vertices ? 0 : ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x); /* of a CSV file */
+    size_t j =
+        vertices ? 0 : ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x); /* profile from a CSV file */
     while (vertices && j + 2 < vertices->n && x_written >= ceduo_node_item_number(vertices->items[j + 1], 0))
         j++;
     return !vertices && s->reversed ? s->vertices - 2 - j : j;
 }
 
-/* A segment in two, each with a ground of its own; of one ground for all segments that in the middle of the slope. */
+/* Split a segment into two with separate grounds; if all share one ground, split at `x` or in the middle of the slope. */
 static bool split_segment(struct app *app, const struct item *item)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
-    double at = isnan(item->at) ? s->origin_x + s->x[s->vertices - 1] / 2 : item->at;
-    size_t segment = segments && segments->n == 1 ? ceduo_items_stretch_of(app, at) : item->index;
-    return split_at(app, segment, true, item->at);
+    double x = isnan(item->x) ? s->origin_x + s->x[s->vertices - 1] / 2 : item->x;
+    size_t segment = segments && segments->n == 1 ? ceduo_items_find_segment(app, x) : item->index;
+    return split_profile(app, segment, true, item->x);
 }
 
-/* A point between this one and the next, or before the last. */
+/* Insert a point after this one; before the last one. */
 static bool split_point(struct app *app, const struct item *item)
 {
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
     bool last = vertices && item->index > 0 && item->index + 1 == vertices->n;
-    return split_at(app, item->index - last, false, item->at);
+    return split_profile(app, item->index - last, false, item->x);
 }
 
 /* ---- adding ---- */
 
-static bool insert(struct app *app, const struct item *item, size_t index, const char *yaml)
+static bool insert_new_item(struct app *app, const struct item *item, size_t index, const char *yaml)
 {
     return ceduo_document_insert(&app->document, item->list, index, yaml);
 }
 
-#define BELT_MIN 0.5 /* m: a shorter belt is not added */
+#define BELT_MIN 0.5 /* m; no shorter belt is added */
 
-/* A belt in two; on the end of a belt, if there is room, a copy of it down to the next control, the next belt or the end. */
+/* Split a belt. At its end, if there is space, copy it down to the next control, the next belt or the end of the slope. */
 static bool add_belt(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(app);
-    size_t next = item->there ? item->index + 1 : 0;
-    double from = item->there ? o->belts[item->index].to : s->release.x.mean;
+    size_t next = item->exists ? item->index + 1 : 0;
+    double from = item->exists ? o->belts[item->index].to : s->release.x.mean;
     double to = next < o->belts_count ? o->belts[next].from : s->slope.x[s->slope.vertices - 1];
-    if (item->there && !(to - from > BELT_MIN && ceduo_app_form(app)->column == 1))
+    if (item->exists && !(to - from > BELT_MIN && ceduo_app_form(app)->column == 1))
         return split_stretch(app, item);
     for (size_t i = 0; i < s->controls_count; i++)
         to = s->controls[i].x - from > BELT_MIN ? fmin(to, s->controls[i].x) : to;
     from += s->slope.origin_x;
     to += s->slope.origin_x;
-    if (!item->there)
-        return insert(app, item, 0, ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to));
-    return copy_with(app, item, (const double[]){NAN, NAN, from, to});
+    if (!item->exists)
+        return insert_new_item(app, item, 0,
+                               ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to));
+    return copy_with_ends(app, item, (const double[]){NAN, NAN, from, to});
 }
 
-/* Ground of the library, where none is said yet: that which was assumed. */
+/* Split a ground. Without grounds, add the assumed one from the library. */
 static bool add_ground(struct app *app, const struct item *item)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
-    if (item->there)
+    if (item->exists)
         return split_stretch(app, item);
-    return insert(app, item, 0,
-                  ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, material: %s}", s->origin_x,
-                                   s->origin_x + s->x[s->vertices - 1], ceduo_material_talus()->name));
+    return insert_new_item(app, item, 0,
+                           ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, material: %s}", s->origin_x,
+                                            s->origin_x + s->x[s->vertices - 1], ceduo_material_talus()->name));
 }
 
 static bool add_control(struct app *app, const struct item *item)
@@ -227,35 +229,35 @@ static bool add_control(struct app *app, const struct item *item)
     for (size_t i = 0; i < s->controls_count; i++)
         last = fmax(last, s->controls[i].x);
     double x = (last < end ? (last + end) / 2 : (start + s->controls[0].x) / 2) + s->slope.origin_x;
-    x = isnan(item->at) ? x : item->at;
+    x = isnan(item->x) ? x : item->x;
     bool plain = strcmp(item->key, "controls_m") == 0;
-    return insert(app, item, SIZE_MAX, ceduo_app_format(app, "%s%.6g%s", plain ? "" : "{x_m: ", x, plain ? "" : "}"));
+    return insert_new_item(app, item, SIZE_MAX, ceduo_app_format(app, "%s%.6g%s", plain ? "" : "{x_m: ", x, plain ? "" : "}"));
 }
 
 static bool copy_item(struct app *app, const struct item *item)
 {
-    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, NULL);
+    return item->exists && ceduo_document_duplicate(&app->document, item->list, item->index, NULL);
 }
 
-/* A first cohort of shoots needs stools to stand on. */
+/* Add a cohort. The first one also needs stools. */
 static bool add_shoots(struct app *app, const struct item *item)
 {
-    if (item->there)
+    if (item->exists)
         return copy_item(app, item);
     struct changes c = {.document = &app->document};
     ceduo_changes_set(&c, ceduo_app_format(app, "%.*sstools", (int)(item->key - item->list), item->list),
                       "{per_ha: 2500, spacing_m: 0.35}");
     ceduo_changes_set(&c, item->list, "[{per_stool: 3, dbh_m: 0.07, height_m: 8}]");
-    return ceduo_changes_make(&c, item->list);
+    return ceduo_changes_apply(&c, item->list);
 }
 
 static bool add_trees(struct app *app, const struct item *item)
 {
-    return item->there ? copy_item(app, item) : insert(app, item, 0, "{per_ha: 60, dbh_m: 0.2, height_m: 12}");
+    return item->exists ? copy_item(app, item) : insert_new_item(app, item, 0, "{per_ha: 60, dbh_m: 0.2, height_m: 12}");
 }
 
-/* A class of blocks larger than those there are, ten times as rare, is offered; where there are none, nothing is. */
-static bool ask_for_blocks(struct app *app, const struct item *item)
+/* Ask for a class of blocks. Propose the next larger class, ten times rarer, if there is one already. */
+static bool ask_block_class(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
     const struct ceduo_size_class *largest = NULL;
@@ -266,21 +268,21 @@ static bool ask_for_blocks(struct app *app, const struct item *item)
         largest ? ceduo_number_localize(ceduo_app_format(app, "%.4g", largest->per_year / 10)) : "",
         largest ? ceduo_number_localize(ceduo_app_format(app, "%.10g %.10g", largest->volumes[1], 10 * largest->volumes[1]))
                 : ""};
-    ceduo_popup_item_find(app, item->list, NULL, offered, 2);
-    app->popup->title = _("A class of blocks that come down");
+    ceduo_popup_new_item(app, item->list, NULL, offered, 2);
+    app->popup->title = _("New class of blocks");
     return false;
 }
 
 void ceduo_items_add_blocks(struct app *app)
 {
-    const struct item item = item_of(app, "blocks", 0);
-    ask_for_blocks(app, &item);
+    const struct item item = make_item(app, "blocks", 0);
+    ask_block_class(app, &item);
 }
 
 /* ---- deleting ---- */
 
-/* Delete an item: a segment with a vertex, the last shoots with their stools. A neighbour takes the place of a ground. */
-static bool delete_item(struct app *app, const struct item *item, const char *path)
+/* Delete an item: a segment with a vertex, the last shoots with their stools. A neighbour fills the gap of a ground. */
+static bool remove_item(struct app *app, const struct item *item, const char *path)
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
@@ -297,42 +299,42 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
     if (strcmp(item->key, "materials") == 0 && n > 1) {
         const char *end = index == 0 ? "from_m" : "to_m";
         ceduo_changes_set(&c, ceduo_app_format(app, "%s[%zu].%s", item->list, index == 0 ? 1 : index - 1, end), "%.10g",
-                          place_of(app, item, index, end));
+                          get_place(app, item, index, end));
     } else if (strcmp(item->key, "shoots") == 0 && n == 1) {
         ceduo_changes_add(&c, CHANGE_DELETE,
                           ceduo_app_format(app, "%.*s.stools", (int)(item->key - item->list) - 1, item->list), NULL);
     }
     ceduo_changes_add(&c, CHANGE_DELETE, path, NULL);
-    return ceduo_changes_make(&c, item->list);
+    return ceduo_changes_apply(&c, item->list);
 }
 
 /* ---- the actions ---- */
 
 typedef bool item_function(struct app *app, const struct item *item);
 
-/* How items are added and duplicated, where not by a copy of the one under the cursor. */
+/* Functions that add and duplicate items; otherwise the item under the cursor is copied. */
 static const struct {
     const char *key;
     item_function *add, *duplicate;
-} kinds[] = {{"forest", add_belt, split_stretch},        {"controls", add_control, add_control},
-             {"controls_m", add_control, add_control},   {"materials", add_ground, split_stretch},
-             {"segments", split_segment, split_segment}, {"vertices_m", split_point, split_point},
-             {"shoots", add_shoots, copy_item},          {"trees", add_trees, copy_item},
-             {"blocks", ask_for_blocks, copy_item}};
+} item_kinds[] = {{"forest", add_belt, split_stretch},        {"controls", add_control, add_control},
+                  {"controls_m", add_control, add_control},   {"materials", add_ground, split_stretch},
+                  {"segments", split_segment, split_segment}, {"vertices_m", split_point, split_point},
+                  {"shoots", add_shoots, copy_item},          {"trees", add_trees, copy_item},
+                  {"blocks", ask_block_class, copy_item}};
 
-/* Adds or duplicates. The cursor goes to the new item, or the last where it was put before others. */
-static void make(struct app *app, const struct item *item, bool add)
+/* Add or duplicate an item. The cursor goes to the new item, or to the last of the list. */
+static void make_new_item(struct app *app, const struct item *item, bool add)
 {
-    item_function *function = copy_item;
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
-        if (strcmp(kinds[i].key, item->key) == 0)
-            function = add ? kinds[i].add : kinds[i].duplicate;
+    item_function *handler = copy_item;
+    for (size_t i = 0; i < sizeof item_kinds / sizeof item_kinds[0]; i++)
+        if (strcmp(item_kinds[i].key, item->key) == 0)
+            handler = add ? item_kinds[i].add : item_kinds[i].duplicate;
     ceduo_problems_free(&app->document.problems);
-    bool good = function(app, item);
+    bool good = handler(app, item);
     if (!good && app->document.problems.met == 0 && (app->message[0] || app->popup))
-        return; /* it is said already, or asked for */
-    if (ceduo_app_edited(app, good))
-        ceduo_form_go(ceduo_app_form(app), item->list, item->there ? item->index + 1 : 0);
+        return; /* reported, or a popup is open */
+    if (ceduo_app_finish_edit(app, good))
+        ceduo_form_go_to_item(ceduo_app_form(app), item->list, item->exists ? item->index + 1 : 0);
 }
 
 void ceduo_items_add(struct app *app)
@@ -340,16 +342,16 @@ void ceduo_items_add(struct app *app)
     struct item item;
     if (!find_item(app, &item, false))
         return;
-    make(app, &item, true);
+    make_new_item(app, &item, true);
     if (strcmp(item.key, "forest") == 0 && !app->message[0])
-        ceduo_app_show_message(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
+        ceduo_app_show_message(app, "%s", _("new belt: p chooses its stand, c enters a sample plot"));
 }
 
-void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at)
+void ceduo_items_add_at(struct app *app, const char *list, size_t index, double x)
 {
-    struct item item = item_of(app, list, index);
-    item.at = at;
-    make(app, &item, false);
+    struct item item = make_item(app, list, index);
+    item.x = x;
+    make_new_item(app, &item, false);
 }
 
 void ceduo_items_delete(struct app *app)
@@ -360,12 +362,12 @@ void ceduo_items_delete(struct app *app)
     const struct node *list = ceduo_document_node(&app->document, item.list);
     const char *path = ceduo_app_format(app, "%s[%zu]", item.list, item.index);
     if (list && list->n == 1 && strcmp(item.list, "controls") == 0) {
-        ceduo_app_show_message(app, "%s", _("the only place where rocks are counted stays"));
-    } else if (ceduo_app_edited(app, delete_item(app, &item, path))) {
+        ceduo_app_show_message(app, "%s", _("the only control cannot be deleted"));
+    } else if (ceduo_app_finish_edit(app, remove_item(app, &item, path))) {
         const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
-        if (row && strcmp(row->list, item.list) != 0) /* another d would delete in the next list what nobody meant */
+        if (row && strcmp(row->list, item.list) != 0) /* stay in this list, so that repeating d is safe */
             ceduo_form_move(ceduo_app_form(app), -1, 0);
-        ceduo_app_show_message(app, _("deleted: %s; u brings it back"), ceduo_app_path(app, path));
+        ceduo_app_show_message(app, _("deleted: %s; u undoes"), ceduo_app_path(app, path));
     }
 }
 
@@ -373,41 +375,41 @@ void ceduo_items_duplicate(struct app *app)
 {
     struct item item;
     if (find_item(app, &item, true))
-        make(app, &item, false);
+        make_new_item(app, &item, false);
 }
 
-void ceduo_items_move(struct app *app, int by)
+void ceduo_items_move(struct app *app, int step)
 {
     struct item item;
-    if (!find_item(app, &item, true) || (by < 0 && item.index == 0))
+    if (!find_item(app, &item, true) || (step < 0 && item.index == 0))
         return;
-    size_t to = item.index + (size_t)by;
-    if (ceduo_app_edited(app, ceduo_document_move(&app->document, item.list, item.index, to)))
-        ceduo_form_move(ceduo_app_form(app), by, 0);
+    size_t to = item.index + (size_t)step;
+    if (ceduo_app_finish_edit(app, ceduo_document_move(&app->document, item.list, item.index, to)))
+        ceduo_form_move(ceduo_app_form(app), step, 0);
 }
 
-/* ==== a new item, field by field as the table of the scene has them ==== */
+/* ==== a new item: one field for each key of the schema ==== */
 
-/* Appends an item. A single power law of blocks becomes the first class; the first blocks replace rocks_per_year. */
-static bool append_item(struct app *app, const char *list, const struct node *now, const char *yaml)
+/* Append an item. A single power law of blocks becomes the first class. The first blocks replace rocks_per_year. */
+static bool append_item(struct app *app, const char *list, const struct node *existing, const char *yaml)
 {
     struct changes c = {.document = &app->document};
     LOCAL_TEXT(first);
-    if (now && now->kind == NODE_LIST)
-        return ceduo_document_insert(&app->document, list, now->n, yaml);
-    if (now)
-        ceduo_emit_flow(&first, now);
-    ceduo_text_append(&first, now ? ", " : "");
+    if (existing && existing->kind == NODE_LIST)
+        return ceduo_document_insert(&app->document, list, existing->n, yaml);
+    if (existing)
+        ceduo_emit_flow(&first, existing);
+    ceduo_text_append(&first, existing ? ", " : "");
     if (strcmp(list, "blocks") == 0)
         ceduo_changes_add(&c, CHANGE_DELETE, "rocks_per_year", NULL);
     ceduo_changes_set(&c, list, "[%s%s]", ceduo_text_string(&first), yaml);
-    return ceduo_changes_make(&c, list);
+    return ceduo_changes_apply(&c, list);
 }
 
-/* The path is that of the list; a group is kept. */
-static bool filled_item(struct app *app, struct popup *p)
+/* `p->target` is the path of the list, `p->context` the group. */
+static bool submit_item(struct app *app, struct popup *p)
 {
-    const char *list = p->path;
+    const char *list = p->target;
     LOCAL_TEXT(item);
     ceduo_text_append(&item, "{");
     for (size_t i = 0; i < p->fields_count; i++) {
@@ -421,34 +423,33 @@ static bool filled_item(struct app *app, struct popup *p)
     ceduo_text_append(&item, "}");
     bool counted = strcmp(list, "blocks") == 0 && ceduo_document_node(&app->document, "rocks_per_year");
     const char *yaml =
-        p->kept ? ceduo_app_format(app, "{%s: %s}", p->kept, item.bytes) : ceduo_app_format(app, "%s", item.bytes);
-    const struct node *now = ceduo_document_node(&app->document, list);
-    size_t n = !now ? 0 : now->kind == NODE_LIST ? now->n : 1;
-    if (!ceduo_app_edited(app, append_item(app, list, now, yaml))) {
+        p->context ? ceduo_app_format(app, "{%s: %s}", p->context, item.bytes) : ceduo_app_format(app, "%s", item.bytes);
+    const struct node *existing = ceduo_document_node(&app->document, list);
+    size_t n = !existing ? 0 : existing->kind == NODE_LIST ? existing->n : 1;
+    if (!ceduo_app_finish_edit(app, append_item(app, list, existing, yaml))) {
         const struct problem *first = app->document.problems.wrong.items;
-        if (first->path && strncmp(first->path, list, strlen(list)) == 0) /* a path of what is not there */
+        if (first->path && strncmp(first->path, list, strlen(list)) == 0) /* path of the rejected item */
             ceduo_app_warn(app, "%s", first->message);
         return false;
     }
-    ceduo_form_go(ceduo_app_form(app), list, n);
+    ceduo_form_go_to_item(ceduo_app_form(app), list, n);
     ceduo_app_show_message(
-        app, "%s",
-        counted ? _("taken over; blocks say how many rocks a year come down, so rocks_per_year is removed; u takes it back")
-                : _("taken over; u takes it back"));
+        app, "%s", counted ? _("added; blocks replace rocks_per_year, which is removed; u undoes") : _("added; u undoes"));
     return true;
 }
 
-void ceduo_popup_item_find(struct app *app, const char *list, const char *group, const char *const *offered, size_t n)
+void ceduo_popup_new_item(struct app *app, const char *list, const char *group, const char *const *offered, size_t n)
 {
-    const struct field *of = ceduo_schema_row(list);
-    of = group ? ceduo_schema_field(of->object, group) : of;
-    struct popup *p = ceduo_popup_fields(app, _(of->meaning), list, filled_item);
-    p->kept = group ? of->key : NULL;
-    ceduo_text_append(&p->text, _("Several numbers with blanks between them, decimals with a dot or a comma: 41 44.5 52."));
-    for (const struct field *f = of->object->fields; f < of->object->fields + of->object->n; f++) {
+    const struct field *object_field = ceduo_schema_row(list);
+    object_field = group ? ceduo_schema_field(object_field->object, group) : object_field;
+    struct popup *p = ceduo_popup_fields(app, _(object_field->meaning), list, submit_item);
+    p->context = group ? object_field->key : NULL;
+    ceduo_text_append(&p->text, _("Separate numbers with blanks. Decimals have a dot or a comma: 41 44.5 52."));
+    for (const struct field *f = object_field->object->fields; f < object_field->object->fields + object_field->object->n;
+         f++) {
         if (f->type != FIELD_NUMBER && f->type != FIELD_NUMBERS && f->type != FIELD_COUNT && f->type != FIELD_SPREAD)
-            continue; /* files of values are named in the scene's file */
+            continue; /* skip files of values: they are named in the scene's file */
         ceduo_text_format(&p->text, "\n%s: %s", _(f->shown.label), _(f->meaning));
-        ceduo_popup_value(p, _(f->shown.label), p->fields_count < n ? offered[p->fields_count] : "", f);
+        ceduo_popup_add_value(p, _(f->shown.label), p->fields_count < n ? offered[p->fields_count] : "", f);
     }
 }

@@ -12,9 +12,9 @@
 #include "base/utf8.h"
 #include "view/typed.h"
 
-#define LABEL_MIN  18 /* columns of the labels of lines */
-#define VALUE_MIN  25 /* columns that the labels leave to values */
-#define COLUMN_MAX 30 /* of a table's column */
+#define LABEL_MIN  18 /* min. columns of labels */
+#define VALUE_MIN  25 /* min. columns of values */
+#define COLUMN_MAX 30 /* max. columns of a table's column */
 
 void ceduo_form_clear(struct form *form, const struct document *document)
 {
@@ -25,7 +25,7 @@ void ceduo_form_clear(struct form *form, const struct document *document)
 
 static struct form_row *add_row(struct form *form, enum form_kind kind, const char *label)
 {
-    form->rows = ceduo_grow(form->rows, form->n, &form->room, sizeof *form->rows);
+    form->rows = ceduo_grow(form->rows, form->n, &form->capacity, sizeof *form->rows);
     struct form_row *row = &form->rows[form->n++];
     *row = (struct form_row){.kind = kind, .label = ceduo_arena_string(&form->arena, label), .list = ""};
     return row;
@@ -43,7 +43,7 @@ void ceduo_form_note(struct form *form, const char *text)
 
 /* ---- cells ---- */
 
-/* A value as it is shown: one word in the words and the unit of the field, a spread, a list, a mapping by its name. */
+/* Append a value as shown: a scalar in the words and unit of the field, a spread, a list, or the name of a mapping. */
 static void show_node(struct text *to, const struct node *node, const struct field *field)
 {
     const char *name = node->kind == NODE_MAP ? ceduo_node_text(node, "name") : NULL;
@@ -70,11 +70,11 @@ static void add_cell(struct form *form, struct form_row *row, const struct field
 {
     struct form_cell *cell = &row->cells[row->n++];
     const struct node *node = ceduo_document_node(form->document, path), *italian = NULL;
-    const char *usual = !node && field->value ? field->value : "";
+    const char *default_value = !node && field->value ? field->value : "";
     LOCAL_TEXT(shown);
     *cell = (struct form_cell){.path = ceduo_arena_string(&form->arena, path),
                                .field = field,
-                               .written = node && node->kind == NODE_SCALAR ? node->text : usual,
+                               .written = node && node->kind == NODE_SCALAR ? node->text : default_value,
                                .given = node != NULL,
                                .assumed = node && ceduo_scene_assumes_value(&form->document->file, path)};
     if (node && node->kind == NODE_SCALAR && field->type == FIELD_TEXT)
@@ -84,7 +84,7 @@ static void add_cell(struct form *form, struct form_row *row, const struct field
     else if (node)
         show_node(&shown, node, field);
     else
-        ceduo_format_value(field, usual, &shown);
+        ceduo_format_value(field, default_value, &shown);
     if ((field->type == FIELD_NUMBERS || field->type == FIELD_SPREADS || field->type == FIELD_SPREAD) && shown.bytes)
         ceduo_number_localize(shown.bytes);
     cell->text = ceduo_arena_string(&form->arena, ceduo_text_string(&shown));
@@ -96,7 +96,7 @@ void ceduo_form_field(struct form *form, const char *path, const char *label)
     add_cell(form, add_row(form, FORM_FIELDS, label ? label : _(field->shown.label)), field, path);
 }
 
-/* The next of some words with blanks between; NULL after the last. */
+/* Return the next word of a list separated by blanks; NULL at the end. */
 static const char *next_key(struct form *form, const char **keys)
 {
     size_t n = strcspn(*keys, " ");
@@ -116,15 +116,15 @@ void ceduo_form_rest(struct form *form, const char *group)
     const struct object *fields = ceduo_schema_row(group)->object;
     for (const struct field *f = fields->fields; f < fields->fields + fields->n; f++) {
         const char *path = ceduo_arena_format(&form->arena, "%s.%s", group, f->key);
-        bool there = f->type == FIELD_GROUP || f->type == FIELD_LIST;
+        bool exists = f->type == FIELD_GROUP || f->type == FIELD_LIST;
         for (size_t k = 0; k < form->n; k++)
-            there |= form->rows[k].n > 0 && strcmp(form->rows[k].cells[0].path, path) == 0;
-        if (!there)
+            exists |= form->rows[k].n > 0 && strcmp(form->rows[k].cells[0].path, path) == 0;
+        if (!exists)
             ceduo_form_field(form, path, NULL);
     }
 }
 
-/* A line for item i of a list. */
+/* Add a line for item i of a list. */
 static struct form_row *add_item(struct form *form, const char *list, size_t i)
 {
     struct form_row *row = add_row(form, FORM_FIELDS, ceduo_arena_format(&form->arena, "%zu", i + 1));
@@ -136,26 +136,29 @@ static struct form_row *add_item(struct form *form, const char *list, size_t i)
 void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys)
 {
     const struct node *node = ceduo_document_node(form->document, list);
-    const struct field *of = ceduo_schema_row(list);
-    of = group ? ceduo_schema_field(of->object, group) : of;
+    const struct field *object_field = ceduo_schema_row(list);
+    object_field = group ? ceduo_schema_field(object_field->object, group) : object_field;
     struct form_row *head = add_row(form, FORM_COLUMNS_ROW, "");
     list = head->list = ceduo_arena_string(&form->arena, list);
     for (const char *rest = keys, *key; head->n < FORM_COLUMNS && (key = next_key(form, &rest));)
-        head->cells[head->n++] = (struct form_cell){.path = "", .field = ceduo_schema_field(of->object, key)};
+        head->cells[head->n++] = (struct form_cell){.path = "", .field = ceduo_schema_field(object_field->object, key)};
     for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
         const struct node *item = group ? ceduo_node_get(node->items[i], group) : node->items[i];
         if (!item)
             continue;
         struct form_row *row = add_item(form, list, i);
-        row->group = group ? of->key : NULL;
+        row->group = group ? object_field->key : NULL;
         for (const char *rest = keys, *key; row->n < FORM_COLUMNS && (key = next_key(form, &rest));) {
-            const struct field *field = ceduo_schema_field(of->object, key), *other = ceduo_schema_unit(of->object, field);
-            if (!ceduo_node_get(item, key) && other && ceduo_node_get(item, other->key)) /* the file has it in another unit */
-                field = other;
+            const struct field *field = ceduo_schema_field(object_field->object, key),
+                               *other_unit = ceduo_schema_unit(object_field->object, field);
+            if (!ceduo_node_get(item, key) && other_unit &&
+                ceduo_node_get(item, other_unit->key)) /* the file uses another unit */
+                field = other_unit;
             const char *path =
                 ceduo_arena_format(&form->arena, "%s[%zu].%s%s%s", list, i, group ? group : "", group ? "." : "", field->key);
             const char *named = field->type == FIELD_NUMBER ? ceduo_node_text(item, "path") : NULL;
-            const struct field *value = named ? ceduo_schema_at(named) : NULL; /* an end of its range: in its own unit */
+            const struct field *value =
+                named ? ceduo_schema_at(named) : NULL; /* a bound of an uncertain input: in the unit of that input */
             add_cell(form, row, value && value->shown.per != 1 ? value : field, path);
         }
     }
@@ -172,7 +175,7 @@ void ceduo_form_points(struct form *form, const char *list)
 
 /* ---- the cursor ---- */
 
-static bool can_hold(const struct form_row *row)
+static bool has_fields(const struct form_row *row)
 {
     return row->kind == FORM_FIELDS;
 }
@@ -180,9 +183,9 @@ static bool can_hold(const struct form_row *row)
 void ceduo_form_clamp(struct form *form)
 {
     size_t down = form->row < form->n ? form->row : form->n - (form->n > 0), up = down;
-    while (down < form->n && !can_hold(&form->rows[down]))
+    while (down < form->n && !has_fields(&form->rows[down]))
         down++;
-    while (up > 0 && !can_hold(&form->rows[up]))
+    while (up > 0 && !has_fields(&form->rows[up]))
         up--;
     form->row = down < form->n ? down : up;
     size_t n = form->n > 0 ? form->rows[form->row].n : 0;
@@ -191,10 +194,10 @@ void ceduo_form_clamp(struct form *form)
 
 void ceduo_form_move(struct form *form, int lines, int columns)
 {
-    size_t step = lines < 0 ? SIZE_MAX : 1; /* above the first line it is larger than any */
-    for (int left = abs(lines); left > 0; left--) {
+    size_t step = lines < 0 ? SIZE_MAX : 1; /* upwards: wraps around above the first line */
+    for (int remaining = abs(lines); remaining > 0; remaining--) {
         size_t to = form->row + step;
-        while (to < form->n && !can_hold(&form->rows[to]))
+        while (to < form->n && !has_fields(&form->rows[to]))
             to += step;
         if (to >= form->n)
             break;
@@ -207,7 +210,7 @@ void ceduo_form_move(struct form *form, int lines, int columns)
 
 struct form_row *ceduo_form_row(struct form *form)
 {
-    return form->row < form->n && can_hold(&form->rows[form->row]) ? &form->rows[form->row] : NULL;
+    return form->row < form->n && has_fields(&form->rows[form->row]) ? &form->rows[form->row] : NULL;
 }
 
 struct form_cell *ceduo_form_cell(struct form *form)
@@ -216,7 +219,7 @@ struct form_cell *ceduo_form_cell(struct form *form)
     return row && form->column < row->n ? &row->cells[form->column] : NULL;
 }
 
-void ceduo_form_go(struct form *form, const char *list, size_t index)
+void ceduo_form_go_to_item(struct form *form, const char *list, size_t index)
 {
     size_t last = form->row;
     for (size_t i = 0; i < form->n; i++)
@@ -228,16 +231,16 @@ void ceduo_form_go(struct form *form, const char *list, size_t index)
 
 bool ceduo_form_search(struct form *form, const char *word)
 {
-    for (size_t i = 1; word[0] && i <= form->n; i++) {
-        const size_t at = (form->row + i) % form->n;
-        const struct form_row *row = &form->rows[at];
-        size_t k = 0, n = can_hold(row) ? row->n : 0; /* the row's own name is that of its first cell */
-        bool named = can_hold(row) && strcasestr(row->label, word);
+    for (size_t step = 1; word[0] && step <= form->n; step++) {
+        size_t i = (form->row + step) % form->n;
+        const struct form_row *row = &form->rows[i];
+        size_t k = 0, n = has_fields(row) ? row->n : 0; /* the label of the row stands for its first cell */
+        bool named = has_fields(row) && strcasestr(row->label, word);
         while (k < n && !(k == 0 && named) && !strcasestr(row->cells[k].text, word) && !strcasestr(row->cells[k].path, word))
             k++;
         if (k == n && !named)
             continue;
-        form->row = at;
+        form->row = i;
         form->column = k < n ? k : 0;
         ceduo_form_clamp(form);
         return true;
@@ -247,7 +250,7 @@ bool ceduo_form_search(struct form *form, const char *word)
 
 /* ---- drawing ---- */
 
-/* Columns of the labels in a rectangle `width` wide: all of one width, so that no label is cut where there is room. */
+/* Return the columns of the labels in a rectangle `width` wide. All have the same width; if possible no label is cut. */
 static int label_columns(const struct form *form, int width)
 {
     int columns = LABEL_MIN;
@@ -261,21 +264,21 @@ static int label_columns(const struct form *form, int width)
     return columns < max ? columns : max;
 }
 
-/* Columns of cell k of a row in a rectangle `width` wide, whose labels take `label`. */
+/* Compute the columns of cell k of a row in a rectangle `width` wide with labels of `label` columns. */
 static void cell_place(const struct form_row *row, int width, int label, size_t k, int *from, int *span)
 {
     label = row->list[0] ? 4 : label;
-    int room = width - label;
-    int each = row->n > 0 ? room / (int)row->n : room;
+    int space = width - label;
+    int each = row->n > 0 ? space / (int)row->n : space;
     each = row->list[0] && each > COLUMN_MAX ? COLUMN_MAX : each;
     *from = label + (int)k * each;
     *span = each - 1;
 }
 
-#define DIGITS_MAX  5 /* more come from a computer: they are seen as the field is opened */
+#define DIGITS_MAX  5 /* show fewer digits of computed values; the full value appears while editing */
 #define COLUMNS_MAX 63
 
-static size_t digits_of(const char *shown)
+static size_t count_digits(const char *shown)
 {
     size_t n = 0;
     for (const char *c = shown; *c; c++)
@@ -283,28 +286,28 @@ static size_t digits_of(const char *shown)
     return n;
 }
 
-/* `edit`: what is typed into it; NULL: it is not open. */
+/* `edit`: the typed text; NULL: the cell is not being edited. */
 static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, int x, int y, int span, bool cursor,
                       const char *edit)
 {
     char shown[4 * COLUMNS_MAX + 2];
     LOCAL_TEXT(words);
-    if (cell->given && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
+    if (cell->given && strcmp(cell->field->key, "path") == 0) /* show a path of the scene in words */
         ceduo_format_path(cell->text, &words);
     else
         ceduo_text_append(&words, cell->text[0] ? cell->text : "-");
     size_t length = ceduo_utf8_cut(ceduo_text_string(&words), COLUMNS_MAX);
     snprintf(shown, sizeof shown, "%.*s%s", (int)length, ceduo_text_string(&words), cell->assumed ? "*" : "");
     double number;
-    bool fine = digits_of(shown) > DIGITS_MAX || (int)ceduo_utf8_width(shown) > span;
-    if (fine && strpbrk(shown, ".,") && ceduo_input_parse_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
+    bool is_long = count_digits(shown) > DIGITS_MAX || (int)ceduo_utf8_width(shown) > span;
+    if (is_long && strpbrk(shown, ".,") && ceduo_input_parse_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
         snprintf(shown, sizeof shown, fabs(number) < 1e4 || fabs(number) >= 1e9 ? "%.4g%s" : "%.0f%s", number,
                  cell->assumed ? "*" : "");
     if (strspn(shown, "0123456789.+-e *") == strlen(shown))
         ceduo_number_localize(shown);
-    char *more = cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
-    if (more && (int)ceduo_utf8_width(shown) > span) /* the common name of a species has room */
-        *more = '\0';
+    char *suffix = cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
+    if (suffix && (int)ceduo_utf8_width(shown) > span) /* keep only the common name of a species */
+        *suffix = '\0';
     if (cursor)
         for (int i = 0; i < span; i++)
             ceduo_cells_label(cells, x + i, y, CEDUO_ROLE_CURSOR, " ");
@@ -352,15 +355,15 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
         return;
     struct viewport *v = &form->lines;
     size_t above = form->row, below = form->row;
-    while (above > 0 && !can_hold(&form->rows[above - 1])) /* headings belong to what follows */
+    while (above > 0 && !has_fields(&form->rows[above - 1])) /* show headings with the line below */
         above--;
-    while (below + 1 < form->n && !can_hold(&form->rows[below + 1]))
+    while (below + 1 < form->n && !has_fields(&form->rows[below + 1]))
         below++;
-    if (below + 1 < form->n || below - form->row >= (size_t)area.height) /* notes after the last field are shown with it */
+    if (below + 1 < form->n || below - form->row >= (size_t)area.height) /* show notes with the last field above */
         below = form->row;
     viewport_fit(v, area.height, (int)form->n);
     viewport_show(v, (int)above, (int)below);
-    viewport_show(v, (int)form->row, (int)form->row); /* in a low area */
+    viewport_show(v, (int)form->row, (int)form->row); /* the cursor has priority in a low area */
     for (int i = v->first; i < v->first + v->rows && i < v->count; i++)
         draw_row(form, cells, (size_t)i, area.top + i - v->first, edit);
 }
@@ -370,7 +373,7 @@ bool ceduo_form_click(struct form *form, int x, int y)
     const struct ceduo_area *area = &form->area;
     size_t i = (size_t)(form->lines.first + y - area->top);
     if (x < area->left || x >= area->left + area->width || y < area->top || y >= area->top + area->height || i >= form->n ||
-        !can_hold(&form->rows[i]))
+        !has_fields(&form->rows[i]))
         return false;
     form->row = i;
     form->column = 0;
@@ -392,23 +395,23 @@ void ceduo_form_explain(struct form *form, struct text *text)
     const struct field *f = cell->field;
     const char *unit = ceduo_format_unit(f);
     LOCAL_TEXT(range);
-    LOCAL_TEXT(usual);
+    LOCAL_TEXT(default_value);
     ceduo_text_format(text, "%s: %s", _(f->shown.label), _(f->meaning));
     if (unit[0])
         ceduo_text_format(text, "; %s", unit);
     if (ceduo_format_range(f, &range))
         ceduo_text_format(text, ", %s", ceduo_text_string(&range));
     if (f->value) {
-        ceduo_format_value(f, f->value, &usual);
-        ceduo_text_append_joined(text, " ", _("(default %s)"), ceduo_text_string(&usual));
+        ceduo_format_value(f, f->value, &default_value);
+        ceduo_text_append_joined(text, " ", _("(default %s)"), ceduo_text_string(&default_value));
     }
     const struct source_note *note = ceduo_notes_find(form->document->file.notes, cell->path);
     if (note && cell->given)
         ceduo_text_format(text, " [%s: %s]", _(note->kind), ceduo_in_language(note->text, note->text_it));
 }
 
-/* One unit of the second significant digit. */
-static double step_of(double value, const struct field *f)
+/* Return one unit of the second significant digit. */
+static double compute_step(double value, const struct field *f)
 {
     if (value == 0)
         return f->hi <= 1 ? 0.05 : f->hi <= 100 ? 0.1 : 1;
@@ -423,14 +426,14 @@ bool ceduo_form_step(struct form *form, int direction, struct text *value)
     if (!cell)
         return false;
     const struct field *f = cell->field;
-    if (ceduo_schema_is_place(f) && ceduo_schema_place_read(cell->written, &now)) { /* by a metre: more is nearer the end */
+    if (ceduo_schema_is_place(f) && ceduo_schema_place_read(cell->written, &now)) { /* step by 1 m; + goes towards the end */
         ceduo_text_format(value, now - direction > 0 ? "end-%g" : "end", now - direction);
         return true;
     }
     if (f->type == FIELD_CHOICE) {
         const struct choices *c = f->choices;
-        int at = ceduo_choice_find(c, cell->written);
-        ceduo_text_append(value, c->names[at < 0 ? 0 : ((size_t)at + (direction > 0 ? 1 : c->n - 1)) % c->n]);
+        int i = ceduo_choice_find(c, cell->written);
+        ceduo_text_append(value, c->names[i < 0 ? 0 : ((size_t)i + (direction > 0 ? 1 : c->n - 1)) % c->n]);
         return true;
     }
     if (f->type == FIELD_FLAG) {
@@ -442,9 +445,9 @@ bool ceduo_form_step(struct form *form, int direction, struct text *value)
     if (!scalar || (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT) ||
         ceduo_input_parse_number(cell->text, &now) != CEDUO_NUMBER_GOOD)
         return false;
-    double step = step_of(now, f), lo = f->lo * f->shown.per, hi = f->hi * f->shown.per;
-    if (direction < 0 && now != 0 && fabs(now) < 10.5 * step && step_of(now - step, f) < step && now > 0)
-        step /= 10; /* from 1.0 down to 0.99, not to 0.9 */
+    double step = compute_step(now, f), lo = f->lo * f->shown.per, hi = f->hi * f->shown.per;
+    if (direction < 0 && now != 0 && fabs(now) < 10.5 * step && compute_step(now - step, f) < step && now > 0)
+        step /= 10; /* step from 1.0 down to 0.99, not to 0.9 */
     double next = (round(now / step) + direction) * step;
     next = next < lo ? lo : next > hi ? hi : next;
     int decimals = step < 1 ? (int)ceil(-log10(step) - 1e-9) : 0;

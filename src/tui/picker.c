@@ -20,50 +20,50 @@ void ceduo_line_set(struct line *line, const char *text)
 {
     size_t n = strlen(text);
     if (n >= sizeof line->text)
-        n = 0; /* too long to be edited in a line */
+        n = 0; /* too long for a line */
     memcpy(line->text, text, n);
     line->text[n] = '\0';
-    line->at = n;
-    line->fresh = true;
-    line->asked = false;
+    line->cursor = n;
+    line->unedited = true;
+    line->confirmed = false;
 }
 
-static void cut(struct line *line, size_t from, size_t to)
+static void cut_line(struct line *line, size_t from, size_t to)
 {
     memmove(line->text + from, line->text + to, strlen(line->text + to) + 1);
-    line->at = from;
+    line->cursor = from;
 }
 
-bool ceduo_line_key(struct line *line, int key)
+bool ceduo_line_handle_key(struct line *line, int key)
 {
-    bool fresh = line->fresh;
-    line->fresh = line->asked = false;
-    if (fresh && ((key >= ' ' && key < K_SPECIAL) || key == K_BACKSPACE))
-        cut(line, 0, strlen(line->text));
-    char bytes[4], *at = line->text + line->at;
-    size_t before = (size_t)(ceduo_utf8_back(line->text, at) - line->text);
-    size_t after = line->at + (*at ? ceduo_utf8_step(at) : 0);
+    bool was_unedited = line->unedited;
+    line->unedited = line->confirmed = false;
+    if (was_unedited && ((key >= ' ' && key < K_SPECIAL) || key == K_BACKSPACE))
+        cut_line(line, 0, strlen(line->text));
+    char bytes[4], *tail = line->text + line->cursor;
+    size_t before = (size_t)(ceduo_utf8_back(line->text, tail) - line->text);
+    size_t after = line->cursor + (*tail ? ceduo_utf8_step(tail) : 0);
     if (key == K_LEFT)
-        line->at = before;
+        line->cursor = before;
     else if (key == K_RIGHT)
-        line->at = after;
+        line->cursor = after;
     else if (key == K_HOME)
-        line->at = 0;
+        line->cursor = 0;
     else if (key == K_END)
-        line->at = strlen(line->text);
+        line->cursor = strlen(line->text);
     else if (key == K_BACKSPACE)
-        cut(line, before, line->at);
+        cut_line(line, before, line->cursor);
     else if (key == K_DELETE)
-        cut(line, line->at, after);
+        cut_line(line, line->cursor, after);
     else if (key == K_CTRL_U)
-        cut(line, 0, line->at);
+        cut_line(line, 0, line->cursor);
     else if (key < K_SPECIAL && ceduo_utf8_printable((uint32_t)key)) {
-        size_t n = ceduo_utf8_encode((uint32_t)key, bytes), rest = strlen(at) + 1;
-        if (line->at + rest + n > sizeof line->text)
+        size_t n = ceduo_utf8_encode((uint32_t)key, bytes), rest = strlen(tail) + 1;
+        if (line->cursor + rest + n > sizeof line->text)
             return true; /* full */
-        memmove(at + n, at, rest);
-        memcpy(at, bytes, n);
-        line->at += n;
+        memmove(tail + n, tail, rest);
+        memcpy(tail, bytes, n);
+        line->cursor += n;
     } else
         return false;
     return true;
@@ -71,9 +71,9 @@ bool ceduo_line_key(struct line *line, int key)
 
 bool ceduo_line_paste(struct line *line, const char *text)
 {
-    size_t n = strlen(text), kept = line->fresh ? 0 : strlen(line->text);
-    bool begun = false, gap = false;
-    if (kept + n >= sizeof line->text)
+    size_t n = strlen(text), old_length = line->unedited ? 0 : strlen(line->text);
+    bool started = false, gap = false;
+    if (old_length + n >= sizeof line->text)
         return false;
     for (size_t i = 0, step; i < n; i += step) {
         uint32_t code = 0;
@@ -82,10 +82,10 @@ bool ceduo_line_paste(struct line *line, const char *text)
         gap |= code == '\n' || code == '\r' || code == '\t';
         if (!ceduo_utf8_printable(code))
             continue;
-        if (begun && gap)
-            ceduo_line_key(line, ' ');
-        ceduo_line_key(line, (int)code);
-        begun = true;
+        if (started && gap)
+            ceduo_line_handle_key(line, ' ');
+        ceduo_line_handle_key(line, (int)code);
+        started = true;
         gap = false;
     }
     return true;
@@ -96,27 +96,28 @@ bool ceduo_line_paste(struct line *line, const char *text)
 void ceduo_picker_clear(struct picker *p)
 {
     ceduo_arena_free(&p->arena);
-    free(p->picks);
+    free(p->items);
     free(p->order);
     *p = (struct picker){0};
 }
 
-void ceduo_picker_add(struct picker *p, const char *text, const char *name, const char *value, bool now)
+void ceduo_picker_add(struct picker *p, const char *text, const char *name, const char *value, bool is_current)
 {
     LOCAL_TEXT(safe);
-    p->picks = ceduo_grow(p->picks, p->count, &p->room, sizeof *p->picks);
-    p->order = ceduo_grow(p->order, p->count, &p->order_room, sizeof *p->order);
+    p->items = ceduo_grow(p->items, p->count, &p->capacity, sizeof *p->items);
+    p->order = ceduo_grow(p->order, p->count, &p->order_capacity, sizeof *p->order);
     ceduo_text_append_escaped(&safe, text);
-    if (now)
+    if (is_current)
         ceduo_text_append_joined(&safe, "  ", _("(now)"));
-    p->picks[p->count++] = (struct pick){ceduo_arena_string(&p->arena, ceduo_text_string(&safe)),
-                                         ceduo_arena_string(&p->arena, value), ceduo_arena_string(&p->arena, name), now, 0};
+    p->items[p->count++] =
+        (struct picker_item){ceduo_arena_string(&p->arena, ceduo_text_string(&safe)), ceduo_arena_string(&p->arena, value),
+                             ceduo_arena_string(&p->arena, name), is_current, 0};
 }
 
 bool ceduo_picker_has(const struct picker *p, const char *value)
 {
     for (size_t i = 0; i < p->count; i++)
-        if (strcmp(p->picks[i].value, value) == 0)
+        if (strcmp(p->items[i].value, value) == 0)
             return true;
     return false;
 }
@@ -127,32 +128,32 @@ void ceduo_picker_filter(struct picker *p, const char *typed)
 {
     p->matches = 0;
     for (size_t i = 0; i < p->count; i++) {
-        struct pick *pick = &p->picks[i];
-        size_t at = p->matches;
-        pick->match = ceduo_fuzzy_match(typed, pick->name);
-        if (pick->match < 0)
+        struct picker_item *item = &p->items[i];
+        size_t position = p->matches;
+        item->match = ceduo_fuzzy_match(typed, item->name);
+        if (item->match < 0)
             continue;
-        for (; at > 0 && p->picks[p->order[at - 1]].match < pick->match; at--) /* before those that match less well */
-            p->order[at] = p->order[at - 1];
-        p->order[at] = i;
+        for (; position > 0 && p->items[p->order[position - 1]].match < item->match; position--) /* keep better matches first */
+            p->order[position] = p->order[position - 1];
+        p->order[position] = i;
         p->matches++;
     }
     p->lines = (struct viewport){.count = (int)p->matches};
     for (size_t i = 0; !typed[0] && i < p->matches; i++)
-        if (p->picks[p->order[i]].now)
+        if (p->items[p->order[i]].is_current)
             p->lines.selected = (int)i;
 }
 
 void ceduo_picker_go_to(struct picker *p, const char *value)
 {
     for (size_t i = 0; i < p->matches; i++)
-        if (strcmp(p->picks[p->order[i]].value, value) == 0)
+        if (strcmp(p->items[p->order[i]].value, value) == 0)
             p->lines.selected = (int)i;
 }
 
-const struct pick *ceduo_picker_at(const struct picker *p)
+const struct picker_item *ceduo_picker_selected(const struct picker *p)
 {
-    return p->matches > 0 ? &p->picks[p->order[p->lines.selected]] : NULL;
+    return p->matches > 0 ? &p->items[p->order[p->lines.selected]] : NULL;
 }
 
 void ceduo_picker_draw(struct picker *p, struct ceduo_cells *cells, struct ceduo_area area)
@@ -162,17 +163,17 @@ void ceduo_picker_draw(struct picker *p, struct ceduo_cells *cells, struct ceduo
     viewport_show(v, v->selected, v->selected);
     for (int i = v->first; i < v->first + v->rows && i < v->count; i++)
         ceduo_canvas_draw_text(&cells->canvas, area.left, area.top + i - v->first, area.width,
-                               i == v->selected ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->picks[p->order[i]].text);
+                               i == v->selected ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->items[p->order[i]].text);
 }
 
 /* ---- files ---- */
 
-#define FILES_MAX 2000 /* of a folder: more nobody looks through */
+#define FILES_MAX 2000 /* max. files listed of a folder */
 
 bool ceduo_picker_is_file(const char *name, const char *endings)
 {
-    const char *dot = strrchr(name, '.'), *at = dot && dot > name && dot[1] ? strcasestr(endings, dot) : NULL;
-    return at && strchr(" ", at[strlen(dot)]);
+    const char *dot = strrchr(name, '.'), *match = dot && dot > name && dot[1] ? strcasestr(endings, dot) : NULL;
+    return match && strchr(" ", match[strlen(dot)]);
 }
 
 void ceduo_picker_add_files(struct picker *p, const char *typed, const char *endings)
@@ -204,20 +205,20 @@ bool ceduo_picker_complete(const struct picker *p, struct line *line)
     const char *common = NULL;
     size_t n = 0, typed = strlen(line->text);
     for (size_t i = 0; i < p->count; i++) {
-        const char *value = p->picks[i].value;
+        const char *value = p->items[i].value;
         if (strncmp(value, line->text, typed) != 0)
             continue;
-        size_t same = 0;
-        while (common && same < n && common[same] == value[same])
-            same++;
-        n = common ? same : strlen(value);
+        size_t equal = 0;
+        while (common && equal < n && common[equal] == value[equal])
+            equal++;
+        n = common ? equal : strlen(value);
         common = common ? common : value;
     }
     if (!common || n <= typed || n >= sizeof line->text)
         return false;
-    char room[sizeof line->text];
-    snprintf(room, sizeof room, "%.*s", (int)n, common);
-    ceduo_line_set(line, room);
-    line->fresh = false;
+    char buf[sizeof line->text];
+    snprintf(buf, sizeof buf, "%.*s", (int)n, common);
+    ceduo_line_set(line, buf);
+    line->unedited = false;
     return true;
 }

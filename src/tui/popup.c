@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Popups of three kinds: text, list, fields. A popup is closed before its callback runs, because that may open another. */
+/* Popups: text, list, fields. A popup is closed before its callback runs, because the callback may open another. */
 #include "popup.h"
 
 #include <assert.h>
@@ -14,15 +14,15 @@
 #include "base/utf8.h"
 #include "view/typed.h"
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
-static struct popup *open_popup(struct app *app, enum popup_kind kind, const char *title, const char *path)
+static struct popup *create_popup(struct app *app, enum popup_kind kind, const char *title, const char *target)
 {
     ceduo_popup_close(app);
     struct popup *p = ceduo_check_memory(calloc(1, sizeof *p));
     p->kind = kind;
     p->title = ceduo_arena_string(&p->arena, title);
-    p->path = ceduo_arena_string(&p->arena, path);
+    p->target = ceduo_arena_string(&p->arena, target);
     app->popup = p;
     return p;
 }
@@ -42,40 +42,40 @@ void ceduo_popup_close(struct app *app)
     app->popup = NULL;
 }
 
-struct popup *ceduo_popup_list(struct app *app, const char *title, const char *path, popup_call *chosen)
+struct popup *ceduo_popup_list(struct app *app, const char *title, const char *target, popup_call *on_select)
 {
-    struct popup *p = open_popup(app, POPUP_LIST, title, path);
-    p->chosen = chosen;
+    struct popup *p = create_popup(app, POPUP_LIST, title, target);
+    p->on_select = on_select;
     return p;
 }
 
 struct popup *ceduo_popup_text(struct app *app, const char *title)
 {
-    return open_popup(app, POPUP_TEXT, title, "");
+    return create_popup(app, POPUP_TEXT, title, "");
 }
 
-struct popup *ceduo_popup_fields(struct app *app, const char *title, const char *path, popup_check *filled)
+struct popup *ceduo_popup_fields(struct app *app, const char *title, const char *target, popup_check *on_submit)
 {
-    struct popup *p = open_popup(app, POPUP_FIELDS, title, path);
-    p->filled = filled;
+    struct popup *p = create_popup(app, POPUP_FIELDS, title, target);
+    p->on_submit = on_submit;
     return p;
 }
 
-void ceduo_popup_item(struct popup *p, const char *text, const char *value)
+void ceduo_popup_add_item(struct popup *p, const char *text, const char *value)
 {
     ceduo_picker_add(&p->picker, text, text, value, false);
 }
 
-void ceduo_popup_answer(struct popup *p, char key, const char *text, const char *value)
+void ceduo_popup_add_menu_item(struct popup *p, char key, const char *text, const char *value)
 {
     char line[256];
-    assert((key >= '1' && key <= '9') || (key >= 'a' && key <= 'z')); /* no digit follows 9 */
+    assert((key >= '1' && key <= '9') || (key >= 'a' && key <= 'z')); /* only 1 to 9 */
     snprintf(line, sizeof line, "%c  %s", key, text);
-    p->asks = true;
-    ceduo_popup_item(p, line, value);
+    p->is_menu = true;
+    ceduo_popup_add_item(p, line, value);
 }
 
-struct popup_field *ceduo_popup_field(struct popup *p, const char *label, const char *value)
+struct popup_field *ceduo_popup_add_field(struct popup *p, const char *label, const char *value)
 {
     assert(p->fields_count < POPUP_FIELDS_MAX);
     struct popup_field *field = &p->fields[p->fields_count++];
@@ -84,19 +84,19 @@ struct popup_field *ceduo_popup_field(struct popup *p, const char *label, const 
     return field;
 }
 
-struct popup_field *ceduo_popup_choice(struct popup *p, const char *label, const char *value, popup_call *offer)
+struct popup_field *ceduo_popup_add_choice(struct popup *p, const char *label, const char *value, popup_call *complete)
 {
-    struct popup_field *field = ceduo_popup_field(p, label, value);
-    field->offer = offer;
+    struct popup_field *field = ceduo_popup_add_field(p, label, value);
+    field->complete = complete;
     return field;
 }
 
 const struct field ceduo_popup_amount = {
     .key = "", .type = FIELD_NUMBER, .unit = "", .scale = 1, .hi = INFINITY, .shown = {.per = 1, .most = INFINITY}};
 
-struct field *ceduo_popup_value(struct popup *p, const char *label, const char *value, const struct field *kind)
+struct field *ceduo_popup_add_value(struct popup *p, const char *label, const char *value, const struct field *kind)
 {
-    struct popup_field *field = ceduo_popup_field(p, label, value);
+    struct popup_field *field = ceduo_popup_add_field(p, label, value);
     struct field *own = ceduo_check_memory(ceduo_arena_alloc(&p->arena, sizeof *own));
     *own = *kind;
     own->shown.label = field->label;
@@ -104,17 +104,17 @@ struct field *ceduo_popup_value(struct popup *p, const char *label, const char *
     return own;
 }
 
-/* ---- what is typed ---- */
+/* ---- input ---- */
 
 bool ceduo_popup_confirm_unusual(struct app *app, const struct field *field, struct line *line)
 {
     LOCAL_TEXT(why);
     bool good = ceduo_input_is_in_range(field, line->text, &why);
-    bool asks = good && !line->asked && ceduo_input_is_unusual(field, line->text, &why);
-    line->asked |= asks;
+    bool must_confirm = good && !line->confirmed && ceduo_input_is_unusual(field, line->text, &why);
+    line->confirmed |= must_confirm;
     if (why.bytes)
         ceduo_app_warn(app, "%s", why.bytes);
-    return good && !asks;
+    return good && !must_confirm;
 }
 
 bool ceduo_popup_read(struct app *app, const struct field *field, struct line *line, struct text *value)
@@ -126,15 +126,16 @@ bool ceduo_popup_read(struct app *app, const struct field *field, struct line *l
         return false;
     if (line->text[0] == '\0') {
         if (needed)
-            ceduo_app_warn(app, _("%s: it is needed; %s"), label, _(field->meaning));
+            ceduo_app_warn(app, _("%s: required; %s"), label, _(field->meaning));
         return !needed;
     }
     ceduo_input_parse_value(field, line->text, value);
     const char *written = ceduo_text_string(value);
     if (list ? written[0] == '[' : written[0] == '{' || ceduo_number_read(written, &number) == CEDUO_NUMBER_GOOD)
         return true;
-    ceduo_app_warn(app, list ? _("%s: numbers with blanks between them, not '%s'") : _("%s: '%s' is not a number"), label,
-                   line->text);
+    ceduo_app_warn(app,
+                   list ? _("%s: '%s' is not a list of numbers; separate them with blanks") : _("%s: '%s' is not a number"),
+                   label, line->text);
     return false;
 }
 
@@ -147,49 +148,49 @@ bool ceduo_popup_number(struct app *app, struct popup *p, size_t i, double *numb
     return true;
 }
 
-bool ceduo_popup_may_write(struct app *app, struct popup *p)
+bool ceduo_popup_confirm_overwrite(struct app *app, struct popup *p)
 {
     struct line *line = &p->fields[0].line;
-    if (access(line->text, F_OK) != 0 || line->asked)
+    if (access(line->text, F_OK) != 0 || line->confirmed)
         return true;
-    line->asked = true;
-    ceduo_app_warn(app, "%s", _("there is such a file already; Enter once more replaces it"));
+    line->confirmed = true;
+    ceduo_app_warn(app, "%s", _("the file exists; Enter again replaces it"));
     return false;
 }
 
-/* ---- what is offered ---- */
+/* ---- completion ---- */
 
-/* The items for what is typed into the line under the cursor. */
-static void offer(struct app *app, struct popup *p)
+/* List the items for the text in the line under the cursor. */
+static void update_items(struct app *app, struct popup *p)
 {
-    const struct popup_field *field = &p->fields[p->at];
+    const struct popup_field *field = &p->fields[p->current];
     const struct line *line = &field->line;
-    p->ready = true;
-    p->moved = false;
-    if (field->offer || p->kind == POPUP_FIELDS)
+    p->listed = true;
+    p->cursor_moved = false;
+    if (field->complete || p->kind == POPUP_FIELDS)
         ceduo_picker_clear(&p->picker);
-    if (field->offer)
-        field->offer(app, p);
-    ceduo_picker_filter(&p->picker, line->fresh ? "" : line->text);
-    if (line->fresh)
+    if (field->complete)
+        field->complete(app, p);
+    ceduo_picker_filter(&p->picker, line->unedited ? "" : line->text);
+    if (line->unedited)
         ceduo_picker_go_to(&p->picker, line->text);
-    bool named = p->endings && ceduo_picker_is_file(line->text, p->endings);
-    if (!line->fresh && field->offer && !p->typed_wins && named && !ceduo_picker_at(&p->picker) &&
+    bool is_file = p->endings && ceduo_picker_is_file(line->text, p->endings);
+    if (!line->unedited && field->complete && !p->keep_input && is_file && !ceduo_picker_selected(&p->picker) &&
         access(line->text, F_OK) != 0)
         ceduo_app_warn(app, _("there is no file '%.180s'"), line->text); /* not after the last question */
 }
 
 static void go_to_field(struct app *app, struct popup *p, size_t field)
 {
-    p->at = field;
+    p->current = field;
     ceduo_line_set(&p->fields[field].line, p->fields[field].line.text);
-    offer(app, p);
+    update_items(app, p);
 }
 
 /* ---- keys ---- */
 
-/* Returns how many lines a key moves by, letters only where nothing is typed; 0 if it does not move. */
-static int lines_of(int key, bool letters)
+/* Return the number of lines that a key moves by; 0: none. `letters`: letters move, too, because nothing is typed. */
+static int key_lines(int key, bool letters)
 {
     static const int lines[ACTION_COUNT] = {[ACTION_UP] = -1,        [ACTION_DOWN] = 1,         [ACTION_PAGE_UP] = -10,
                                             [ACTION_PAGE_DOWN] = 10, [ACTION_TOP] = -ALL_LINES, [ACTION_BOTTOM] = ALL_LINES};
@@ -197,100 +198,100 @@ static int lines_of(int key, bool letters)
     return action != ACTION_NONE && (letters || ceduo_actions[action].key == key) ? lines[action] : 0;
 }
 
-static void text_key(struct app *app, struct popup *p, int key)
+static void handle_text_key(struct app *app, struct popup *p, int key)
 {
-    int by = lines_of(key, true);
-    viewport_scroll(&p->lines, by);
-    if (by == 0)
+    int step = key_lines(key, true);
+    viewport_scroll(&p->lines, step);
+    if (step == 0)
         ceduo_popup_close(app);
 }
 
-/* Takes the popup off the screen for its callback, which may open another. */
-static void choose(struct app *app, struct popup *p)
+/* Choose the item under the cursor. Detach the popup first: the callback may open another. */
+static void choose_item(struct app *app, struct popup *p)
 {
-    const struct pick *pick = ceduo_picker_at(&p->picker);
-    p->value = pick ? pick->value : p->endings && p->fields[0].line.text[0] ? p->fields[0].line.text : NULL;
+    const struct picker_item *item = ceduo_picker_selected(&p->picker);
+    p->value = item ? item->value : p->endings && p->fields[0].line.text[0] ? p->fields[0].line.text : NULL;
     if (!p->value)
         return;
     app->popup = NULL;
-    p->chosen(app, p);
+    p->on_select(app, p);
     free_popup(p);
 }
 
-static void list_key(struct app *app, struct popup *p, int key)
+static void handle_list_key(struct app *app, struct popup *p, int key)
 {
     struct line *line = &p->fields[0].line;
-    int by = lines_of(key, false);
+    int step = key_lines(key, false);
     app->message[0] = '\0';
     if (key == K_ESCAPE) {
         ceduo_popup_close(app);
     } else if (key == K_ENTER) {
-        choose(app, p);
-    } else if (by != 0) {
-        viewport_move(&p->picker.lines, by);
-    } else if (p->asks) {
+        choose_item(app, p);
+    } else if (step != 0) {
+        viewport_move(&p->picker.lines, step);
+    } else if (p->is_menu) {
         for (size_t i = 0; i < p->picker.matches; i++)
-            if (p->picker.picks[p->picker.order[i]].text[0] == key) {
+            if (p->picker.items[p->picker.order[i]].text[0] == key) {
                 p->picker.lines.selected = (int)i;
-                choose(app, p);
+                choose_item(app, p);
                 return;
             }
-    } else if (key == K_TAB ? ceduo_picker_complete(&p->picker, line) : ceduo_line_key(line, key)) {
-        offer(app, p);
+    } else if (key == K_TAB ? ceduo_picker_complete(&p->picker, line) : ceduo_line_handle_key(line, key)) {
+        update_items(app, p);
     }
 }
 
-static void submit(struct app *app, struct popup *p)
+static void submit_fields(struct app *app, struct popup *p)
 {
     app->popup = NULL;
-    if (p->filled(app, p)) {
+    if (p->on_submit(app, p)) {
         free_popup(p);
         return;
     }
-    ceduo_popup_close(app); /* it may have opened another */
+    ceduo_popup_close(app); /* the callback may have opened another */
     app->popup = p;
 }
 
-static void fields_key(struct app *app, struct popup *p, int key)
+static void handle_fields_key(struct app *app, struct popup *p, int key)
 {
-    struct popup_field *field = &p->fields[p->at];
+    struct popup_field *field = &p->fields[p->current];
     struct line *line = &field->line;
-    bool last = p->at + 1 >= p->fields_count, listed = field->offer && p->picker.matches > 0;
+    bool last = p->current + 1 >= p->fields_count, listed = field->complete && p->picker.matches > 0;
     bool vertical = key == K_UP || key == K_DOWN || key == K_PAGE_UP || key == K_PAGE_DOWN;
     app->message[0] = '\0';
-    ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* that these fields asked for */
-    if (key == K_ESCAPE && p->at == 0) {
+    ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* stop the search of these fields */
+    if (key == K_ESCAPE && p->current == 0) {
         ceduo_popup_close(app);
     } else if (key == K_ESCAPE || key == K_SHIFT_TAB || (key == K_UP && !listed)) {
-        go_to_field(app, p, p->at > 0 ? p->at - 1 : 0);
+        go_to_field(app, p, p->current > 0 ? p->current - 1 : 0);
     } else if (listed && vertical) {
-        viewport_move(&p->picker.lines, lines_of(key, false));
-        p->moved = true;
-    } else if (key == K_TAB && p->endings && field->offer && ceduo_picker_complete(&p->picker, line)) {
-        offer(app, p);
+        viewport_move(&p->picker.lines, key_lines(key, false));
+        p->cursor_moved = true;
+    } else if (key == K_TAB && p->endings && field->complete && ceduo_picker_complete(&p->picker, line)) {
+        update_items(app, p);
     } else if (key == K_TAB || key == K_DOWN || key == K_ENTER) {
-        const struct pick *pick = field->offer ? ceduo_picker_at(&p->picker) : NULL;
+        const struct picker_item *item = field->complete ? ceduo_picker_selected(&p->picker) : NULL;
         LOCAL_TEXT(value);
-        if (pick && (p->moved || !(p->typed_wins || line->fresh)) && strcmp(line->text, pick->value) != 0)
-            ceduo_line_set(line, pick->value); /* what matches takes the place of what was typed */
+        if (item && (p->cursor_moved || !(p->keep_input || line->unedited)) && strcmp(line->text, item->value) != 0)
+            ceduo_line_set(line, item->value); /* the matching item replaces the typed text */
         if (last && key == K_ENTER)
-            submit(app, p);
+            submit_fields(app, p);
         else if (!last && (!field->value || ceduo_popup_read(app, field->value, line, &value)) &&
-                 (!p->check || p->check(app, p)))
-            go_to_field(app, p, p->at + 1);
-    } else if (ceduo_line_key(line, key)) {
-        offer(app, p);
+                 (!p->validate || p->validate(app, p)))
+            go_to_field(app, p, p->current + 1);
+    } else if (ceduo_line_handle_key(line, key)) {
+        update_items(app, p);
     }
 }
 
-/* The field of a form. */
-static void field_key(struct app *app, struct popup *p, int key)
+/* Handle a key in a field of the form. */
+static void handle_field_key(struct app *app, struct popup *p, int key)
 {
-    bool enters = key == K_ENTER || key == K_TAB;
+    bool submits = key == K_ENTER || key == K_TAB;
     app->message[0] = '\0';
-    if (!enters)
-        ceduo_line_key(&p->fields[0].line, key);
-    if (key == K_ESCAPE || (enters && p->filled(app, p)))
+    if (!submits)
+        ceduo_line_handle_key(&p->fields[0].line, key);
+    if (key == K_ESCAPE || (submits && p->on_submit(app, p)))
         ceduo_popup_close(app);
     if (key == K_TAB && !app->popup)
         ceduo_form_move(ceduo_app_form(app), 0, 1);
@@ -309,60 +310,60 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
             if (upright || level)
                 ceduo_cells_label(app->cells, r.left + x, r.top + y, CEDUO_ROLE_AXIS, c);
         }
-    ceduo_app_text(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, 0);
+    ceduo_app_draw_wrapped(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, 0);
 }
 
-/* Marks on the edge of the box that there is more above or below. */
+/* Draw marks on the frame for lines above or below. */
 static void draw_more(struct app *app, const struct popup *p, const struct viewport *lines)
 {
     const struct ceduo_area *r = &p->box;
     const char *words[] = {_("more above"), _("more below")};
     for (int i = 0; i < 2; i++)
         if (i == 0 ? lines->first > 0 : viewport_has_more(lines))
-            ceduo_app_label(app, r->left + r->width - 4 - (int)ceduo_utf8_width(words[i]),
-                            i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, " %s ", words[i]);
+            ceduo_app_draw_label(app, r->left + r->width - 4 - (int)ceduo_utf8_width(words[i]),
+                                 i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, " %s ", words[i]);
 }
 
 #define NOTE_LINES 6
-#define LINES_MIN  6 /* below it, where there are so many */
+#define LINES_MIN  6 /* min. lines below the note, if needed */
 
-/* Draws a box in the middle of the screen, with its note in the first lines. Returns the area below the note. */
+/* Draw a frame in the middle of the screen, with the note in its first lines. Return the area below the note. */
 static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines, int note_lines)
 {
     int width = app->width - 2 < 84 ? app->width - 2 : 84,
-        wanted = ceduo_app_text_lines(app, ceduo_text_string(&p->text), width - 4);
-    if (p->kind == POPUP_FIELDS) /* no more than it takes; over a list it changes with the cursor */
+        wanted = ceduo_app_count_lines(app, ceduo_text_string(&p->text), width - 4);
+    if (p->kind == POPUP_FIELDS) /* as high as the note; over a list the note changes with the cursor */
         note_lines = wanted < note_lines ? wanted : note_lines;
-    note_lines = p->text.bytes || p->preview ? note_lines : 0;
+    note_lines = p->text.bytes || p->update_note ? note_lines : 0;
     int max = app->height - 2, height = lines + note_lines + 2;
     note_lines = height > max && note_lines > max - 2 - LINES_MIN ? max - 2 - LINES_MIN : note_lines;
     height = height > max ? max : height;
     struct ceduo_area r = {(app->width - width) / 2, (app->height - height) / 2, width, height};
-    struct ceduo_area in = {r.left + 2, r.top + 1, r.width - 4, r.height - 2};
+    struct ceduo_area inner = {r.left + 2, r.top + 1, r.width - 4, r.height - 2};
     p->box = r;
     draw_box(app, r, p->title);
     LOCAL_TEXT(note);
     ceduo_text_append(&note, note_lines > 0 ? ceduo_text_string(&p->text) : "");
-    ceduo_app_set_cursor(app, cut_top(&in, note_lines), CEDUO_ROLE_DIM, &note);
-    return in;
+    ceduo_app_draw_text(app, cut_top(&inner, note_lines), CEDUO_ROLE_DIM, &note);
+    return inner;
 }
 
 static void draw_text(struct app *app, struct popup *p)
 {
-    struct ceduo_area in = draw_frame(app, p, app->height, 0);
-    viewport_fit(&p->lines, in.height, ceduo_app_text_lines(app, ceduo_text_string(&p->text), in.width));
-    ceduo_app_text(app, in, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), p->lines.first);
+    struct ceduo_area inner = draw_frame(app, p, app->height, 0);
+    viewport_fit(&p->lines, inner.height, ceduo_app_count_lines(app, ceduo_text_string(&p->text), inner.width));
+    ceduo_app_draw_wrapped(app, inner, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), p->lines.first);
     draw_more(app, p, &p->lines);
 }
 
-static void draw_picks(struct app *app, struct popup *p, struct ceduo_area area)
+static void draw_items(struct app *app, struct popup *p, struct ceduo_area area)
 {
     ceduo_picker_draw(&p->picker, app->cells, area);
     draw_more(app, p, &p->picker.lines);
 }
 
-/* A line that is typed into, its end in sight. */
-static void draw_line(struct app *app, const struct line *line, int x, int y, int width, bool cursor)
+/* Draw an input line, scrolled to its end. */
+static void draw_input(struct app *app, const struct line *line, int x, int y, int width, bool cursor)
 {
     int n = ceduo_cells_label_end(app->cells, x, y, width - 1, cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, line->text);
     if (cursor)
@@ -372,118 +373,119 @@ static void draw_line(struct app *app, const struct line *line, int x, int y, in
 static void draw_list(struct app *app, struct popup *p)
 {
     int lines = p->picker.count > 2 ? (int)p->picker.count : 2;
-    struct ceduo_area in = draw_frame(app, p, lines + !p->asks, NOTE_LINES);
-    if (!p->asks) {
-        ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search:"));
-        int x = in.left + (int)ceduo_utf8_width(_("search:")) + 1;
-        draw_line(app, &p->fields[0].line, x, cut_top(&in, 1).top, in.left + in.width - x, true);
+    struct ceduo_area inner = draw_frame(app, p, lines + !p->is_menu, NOTE_LINES);
+    if (!p->is_menu) {
+        ceduo_app_draw_label(app, inner.left, inner.top, CEDUO_ROLE_DIM, "%s", _("search:"));
+        int x = inner.left + (int)ceduo_utf8_width(_("search:")) + 1;
+        draw_input(app, &p->fields[0].line, x, cut_top(&inner, 1).top, inner.left + inner.width - x, true);
     }
-    if (app->message[0] && !p->asks)
-        ceduo_app_text(app, in, CEDUO_ROLE_WARN, app->message, 0);
-    else if (p->picker.matches == 0 && !p->asks)
-        ceduo_app_text(app, in, CEDUO_ROLE_DIM, _("nothing matches"), 0);
+    if (app->message[0] && !p->is_menu)
+        ceduo_app_draw_wrapped(app, inner, CEDUO_ROLE_WARN, app->message, 0);
+    else if (p->picker.matches == 0 && !p->is_menu)
+        ceduo_app_draw_wrapped(app, inner, CEDUO_ROLE_DIM, _("nothing matches"), 0);
     else
-        draw_picks(app, p, in);
+        draw_items(app, p, inner);
 }
 
-#define FOOT_MIN      2  /* lines below the fields, of a message or of what is offered */
-#define PICKS_SHOWN   6  /* below the fields */
-#define PICTURE_SHOWN 16 /* or a picture instead */
+#define FOOT_MIN      2  /* min. lines below the fields, for a message or items */
+#define ITEMS_SHOWN   6  /* items below the fields */
+#define PICTURE_SHOWN 16 /* lines of a picture in place of items */
 
 static void draw_fields(struct app *app, struct popup *p)
 {
-    int picks = 0;
+    int items = 0;
     for (size_t i = 0; i < p->fields_count; i++)
-        picks = p->fields[i].offer ? PICKS_SHOWN : picks;
-    int below = p->picture ? PICTURE_SHOWN : picks;
-    struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2 + below, app->height);
-    int x = in.left + 32, width = in.width - 32, n = (int)p->fields_count, at = (int)p->at;
-    viewport_fit(&p->lines, n <= in.height - FOOT_MIN ? n : in.height - FOOT_MIN, n);
-    viewport_show(&p->lines, at, at);
+        items = p->fields[i].complete ? ITEMS_SHOWN : items;
+    int below = p->picture ? PICTURE_SHOWN : items;
+    struct ceduo_area inner = draw_frame(app, p, (int)p->fields_count + 2 + below, app->height);
+    int x = inner.left + 32, width = inner.width - 32, n = (int)p->fields_count, current = (int)p->current;
+    viewport_fit(&p->lines, n <= inner.height - FOOT_MIN ? n : inner.height - FOOT_MIN, n);
+    viewport_show(&p->lines, current, current);
     for (int i = p->lines.first; i < p->lines.first + p->lines.rows; i++) {
-        struct ceduo_area line = cut_top(&in, 1);
+        struct ceduo_area line = cut_top(&inner, 1);
         ceduo_canvas_draw_text(&app->cells->canvas, line.left, line.top, 31, CEDUO_ROLE_DIM, p->fields[i].label);
-        draw_line(app, &p->fields[i].line, x, line.top, width, i == at);
+        draw_input(app, &p->fields[i].line, x, line.top, width, i == current);
     }
     draw_more(app, p, &p->lines);
-    struct ceduo_area first = {in.left, in.top, in.width, in.height < 2 ? in.height : 2};
-    ceduo_app_text(app, first, CEDUO_ROLE_WARN, app->message, 0);
-    if (p->picture && (!p->fields[p->at].offer || p->picker.matches == 0) && !app->message[0])
-        p->picture(app, p, (struct ceduo_area){in.left, in.top + 1, in.width, in.height - 1});
+    struct ceduo_area first = {inner.left, inner.top, inner.width, inner.height < 2 ? inner.height : 2};
+    ceduo_app_draw_wrapped(app, first, CEDUO_ROLE_WARN, app->message, 0);
+    if (p->picture && (!p->fields[p->current].complete || p->picker.matches == 0) && !app->message[0])
+        p->picture(app, p, (struct ceduo_area){inner.left, inner.top + 1, inner.width, inner.height - 1});
     else if (!app->message[0])
-        draw_picks(app, p, (struct ceduo_area){in.left + 2, in.top + 1, in.width - 2, in.height - 1});
+        draw_items(app, p, (struct ceduo_area){inner.left + 2, inner.top + 1, inner.width - 2, inner.height - 1});
 }
 
-/* ---- the one that is open ---- */
+/* ---- the open popup ---- */
 
 static const struct {
     void (*key)(struct app *app, struct popup *popup, int key);
     void (*draw)(struct app *app, struct popup *popup);
     const char *bar;
-} kinds[] = {[POPUP_TEXT] = {text_key, draw_text, N_("Up Down PgUp PgDn read on  any other key closes")},
-             [POPUP_FIELD] = {field_key, NULL, N_("Enter takes the value  Esc leaves it as it was  empty: the default")},
-             [POPUP_LIST] = {list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab completes  Up Down move")},
-             [POPUP_FIELDS] = {fields_key, draw_fields, N_("Enter next, at the last one done  Esc one back  Tab completes")}};
+} popup_kinds[] = {
+    [POPUP_TEXT] = {handle_text_key, draw_text, N_("Up Down PgUp PgDn scroll  any other key closes")},
+    [POPUP_FIELD] = {handle_field_key, NULL, N_("Enter accept  Esc cancel  empty: default")},
+    [POPUP_LIST] = {handle_list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab complete  Up Down move")},
+    [POPUP_FIELDS] = {handle_fields_key, draw_fields, N_("Enter next field, on the last one done  Esc back  Tab complete")}};
 
 void ceduo_popup_key(struct app *app, int key)
 {
-    kinds[app->popup->kind].key(app, app->popup, key);
+    popup_kinds[app->popup->kind].key(app, app->popup, key);
 }
 
 bool ceduo_popup_paste(struct app *app, const char *text)
 {
     struct popup *p = app->popup;
-    if (p->kind == POPUP_TEXT || p->asks)
+    if (p->kind == POPUP_TEXT || p->is_menu)
         return false;
     if (p->kind == POPUP_FIELDS)
         ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* as a key does */
-    if (ceduo_line_paste(&p->fields[p->at].line, text))
-        offer(app, p);
+    if (ceduo_line_paste(&p->fields[p->current].line, text))
+        update_items(app, p);
     else
-        ceduo_app_warn(app, "%s", _("what was pasted is too long for this line, which stays as it was"));
+        ceduo_app_warn(app, "%s", _("the pasted text is too long for this line"));
     return true;
 }
 
-const char *ceduo_popup_bar(const struct app *app)
+const char *ceduo_popup_key_help(const struct app *app)
 {
-    return app->popup->asks ? _("a letter, or Up Down and Enter  Esc cancel") : _(kinds[app->popup->kind].bar);
+    return app->popup->is_menu ? _("a letter, or Up Down and Enter  Esc cancel") : _(popup_kinds[app->popup->kind].bar);
 }
 
-/* Write the note again. */
-static void preview(struct app *app, struct popup *p)
+/* Rebuild the note. */
+static void rebuild_note(struct app *app, struct popup *p)
 {
     ceduo_text_free(&p->text);
-    p->preview(app, p);
+    p->update_note(app, p);
 }
 
-void ceduo_popup_browse(struct app *app)
+void ceduo_popup_update_note(struct app *app)
 {
     struct popup *p = app->popup;
-    if (!p->ready)
-        offer(app, p);
-    const struct pick *pick = ceduo_picker_at(&p->picker);
-    if (p->kind == POPUP_TEXT || !p->preview || !pick || p->value == pick->value)
+    if (!p->listed)
+        update_items(app, p);
+    const struct picker_item *item = ceduo_picker_selected(&p->picker);
+    if (p->kind == POPUP_TEXT || !p->update_note || !item || p->value == item->value)
         return;
-    p->value = pick->value;
-    p->ahead_known = false;
-    preview(app, p);
+    p->value = item->value;
+    p->has_preview = false;
+    rebuild_note(app, p);
 }
 
-void ceduo_popup_previewed(struct app *app, const struct preview *ahead)
+void ceduo_popup_on_preview(struct app *app, const struct preview *effect)
 {
     struct popup *p = app->popup;
-    if (!p || p->kind == POPUP_TEXT || !p->preview || !p->value)
+    if (!p || p->kind == POPUP_TEXT || !p->update_note || !p->value)
         return;
-    p->ahead = *ahead;
-    p->ahead_known = true;
-    preview(app, p);
+    p->preview = *effect;
+    p->has_preview = true;
+    rebuild_note(app, p);
 }
 
 void ceduo_popup_draw(struct app *app)
 {
     struct popup *p = app->popup;
-    if (p->kind == POPUP_TEXT && p->preview)
-        preview(app, p);
-    if (kinds[p->kind].draw)
-        kinds[p->kind].draw(app, p);
+    if (p->kind == POPUP_TEXT && p->update_note)
+        rebuild_note(app, p);
+    if (popup_kinds[p->kind].draw)
+        popup_kinds[p->kind].draw(app, p);
 }

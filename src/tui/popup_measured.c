@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A stand that was measured: from what a sample plot counts, or from a survey in a CSV file. */
+/* A measured stand: from counts on a sample plot, or from a survey in a CSV file. */
 #include <math.h>
 #include <string.h>
 
@@ -15,13 +15,14 @@ _Static_assert(COUNTS <= POPUP_FIELDS_MAX, "one popup asks for all counts");
 
 static const struct {
     const char *label;
-    size_t count;     /* that it is the size of; of what was not counted none is read */
-    const char *path; /* of a value of a file, which says what it may be; otherwise: */
-    double most;
+    size_t count;     /* row of the count of these stems; ignored without a count */
+    const char *path; /* path of a value with its range; NULL: the members below */
+    double max;
     unsigned flags;
     const char *meaning;
-} rows[COUNTS] = {
-    [AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE, N_("all was counted on it")},
+} count_rows[COUNTS] = {
+    [AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE,
+              N_("the area on which stems were counted")},
     [ANGLE] = {N_("angle of the slope, degrees"), COUNTS, NULL, 90, FIELD_REQUIRED | FIELD_UNDER, N_("0 on level ground")},
     [STOOLS] = {N_("stools counted"), COUNTS, NULL, 1e6, 0, NULL},
     [SHOOTS] = {N_("shoots counted on them"), COUNTS, NULL, 1e6, 0, NULL},
@@ -31,22 +32,23 @@ static const struct {
     [TREE_DBH] = {N_("their mean diameter, cm"), TREES, "forest[0].stand.trees[0].dbh_m", 0, 0, NULL},
     [TREE_HEIGHT] = {N_("their mean height, m"), TREES, "forest[0].stand.trees[0].height_m", 0, 0, NULL}};
 
-/* The values in the units of files; false where one is not as it should be, which is said. */
+/* Read the values in units of files. Return false and report if one is invalid. */
 static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
 {
     const char *wrong = NULL;
     for (size_t i = 0; i < COUNTS; i++) {
-        bool sized = rows[i].count != COUNTS;
+        bool sized = count_rows[i].count != COUNTS;
         v[i] = 0;
-        if (sized && !(v[rows[i].count] > 0))
+        if (sized && !(v[count_rows[i].count] > 0))
             continue;
         if (!ceduo_popup_number(app, p, i, &v[i]))
             return false;
         if (sized && v[i] == 0)
-            wrong = ceduo_app_format(app, _("%s: it is needed; %s"), _(rows[i].label), _(rows[rows[i].count].label));
+            wrong =
+                ceduo_app_format(app, _("%s: required; %s"), _(count_rows[i].label), _(count_rows[count_rows[i].count].label));
     }
     if (v[SHOOTS] > 0 && v[SHOOTS] < v[STOOLS])
-        wrong = _("fewer shoots than stools: a stool has one shoot at least");
+        wrong = _("fewer shoots than stools: each stool has at least one shoot");
     else if ((v[SHOOTS] > 0) != (v[STOOLS] > 0))
         wrong = _("stools and shoots belong together: count both");
     if (wrong)
@@ -54,42 +56,42 @@ static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
     return !wrong;
 }
 
-#define SPACING 0.35 /* m, where the stand had no stools yet: assumed as in the presets */
+#define SPACING 0.35 /* m; for a stand without stools: assumed as in the presets */
 
-static bool filled_counts(struct app *app, struct popup *p)
+static bool submit_counts(struct app *app, struct popup *p)
 {
     double v[COUNTS];
     struct changes changes = {.document = &app->document}, *c = &changes;
     if (!read_plot(app, p, v))
         return false;
     double area = v[AREA] * cos(v[ANGLE] * M_PI / 180), per = 10000 / area; /* m2, horizontal */
-    const struct ceduo_stand *now = &ceduo_app_belt(app)->stand;
-    const char *stools = ceduo_app_format(app, "%s.stools", p->path);
+    const struct ceduo_stand *current = &ceduo_app_belt(app)->stand;
+    const char *stools = ceduo_app_format(app, "%s.stools", p->target);
     if (v[STOOLS] > 0)
         ceduo_changes_set(c, stools, "{per_ha: %.6g, spacing_m: %.10g}", v[STOOLS] * per,
-                          now->stools_per_ha > 0 ? now->spacing : SPACING);
+                          current->stools_per_ha > 0 ? current->spacing : SPACING);
     else
         ceduo_changes_add(c, CHANGE_DELETE, stools, NULL);
-    for (int i = 0; i < 2; i++) { /* one class of stems in the place of those that stand there, or none */
+    for (int i = 0; i < 2; i++) { /* replace all stems by one class, or remove them */
         const double *stems = &v[i == 0 ? SHOOTS : TREES];
-        const char *list = ceduo_app_format(app, "%s.%s", p->path, i == 0 ? "shoots" : "trees");
+        const char *list = ceduo_app_format(app, "%s.%s", p->target, i == 0 ? "shoots" : "trees");
         if (stems[0] > 0)
             ceduo_changes_set(c, list, "[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", stems[0] * per, stems[1], stems[2]);
         else
             ceduo_changes_add(c, CHANGE_DELETE, list, NULL);
     }
-    if (now->system == CEDUO_BARE)
-        ceduo_changes_add(c, CHANGE_DELETE, ceduo_app_format(app, "%s.system", p->path), NULL);
-    ceduo_changes_set(c, ceduo_app_format(app, "%s.name", p->path), "%s", ceduo_app_scalar(app, _("sample plot")));
-    bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot")));
+    if (current->system == CEDUO_BARE)
+        ceduo_changes_add(c, CHANGE_DELETE, ceduo_app_format(app, "%s.system", p->target), NULL);
+    ceduo_changes_set(c, ceduo_app_format(app, "%s.name", p->target), "%s", ceduo_app_scalar(app, _("sample plot")));
+    bool good = ceduo_app_finish_edit(app, ceduo_changes_apply(c, _("counts of a plot")));
     if (good)
-        ceduo_app_show_message(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
+        ceduo_app_show_message(app, _("plot of %.4g m2 (horizontal): each counted stem is %.4g per ha"), area, per);
     return good;
 }
 
 /* ---- asking ---- */
 
-void ceduo_popup_counts(struct app *app)
+void ceduo_popup_ask_counts(struct app *app)
 {
     const struct ceduo_belt *belt = ceduo_app_belt(app);
     if (!belt) {
@@ -99,11 +101,10 @@ void ceduo_popup_counts(struct app *app)
     const struct ceduo_stand *stand = &belt->stand;
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     double fall = ceduo_slope_height(s, belt->from) - ceduo_slope_height(s, belt->to);
-    struct popup *p = ceduo_popup_fields(app, _("Stand from the counts of a sample plot"), ceduo_app_stand(app), filled_counts);
+    struct popup *p = ceduo_popup_fields(app, _("Stand from a sample plot"), ceduo_app_stand(app), submit_counts);
     ceduo_text_format(&p->text,
-                      _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2, and "
-                        "400 m2 of a map, of 0 degrees, are 400. Nothing counted is nothing there. Species, growth and cuts "
-                        "stay those of %s."),
+                      _("Densities are per horizontal hectare: 400 m2 measured along a slope of 40 degrees are 306 m2. For an "
+                        "area from a map enter 0 degrees. An empty count is 0. Species, growth and cutting of %s are kept."),
                       belt->name);
     const double offered[COUNTS] = {
         [AREA] = 400,
@@ -115,17 +116,17 @@ void ceduo_popup_counts(struct app *app)
     };
     for (size_t i = 0; i < COUNTS; i++) {
         const char *value = offered[i] > 0 ? ceduo_number_localize(ceduo_app_format(app, "%.4g", offered[i])) : "";
-        struct field *own =
-            ceduo_popup_value(p, _(rows[i].label), value, rows[i].path ? ceduo_schema_at(rows[i].path) : &ceduo_popup_amount);
-        own->flags = rows[i].path ? own->flags & ~(unsigned)FIELD_REQUIRED : rows[i].flags;
-        own->hi = rows[i].path ? own->hi : rows[i].most;
-        own->meaning = rows[i].meaning;
+        struct field *own = ceduo_popup_add_value(
+            p, _(count_rows[i].label), value, count_rows[i].path ? ceduo_schema_at(count_rows[i].path) : &ceduo_popup_amount);
+        own->flags = count_rows[i].path ? own->flags & ~(unsigned)FIELD_REQUIRED : count_rows[i].flags;
+        own->hi = count_rows[i].path ? own->hi : count_rows[i].max;
+        own->meaning = count_rows[i].meaning;
     }
 }
 
 /* ==== a survey ==== */
 
-/* Questions of the form, and their answers. */
+/* Questions of the form, with answers. */
 static const struct {
     const char *label, *answers[2];
 } questions[SURVEY_QUESTIONS] = {
@@ -137,7 +138,7 @@ static const struct {
 
 /* ---- reading ---- */
 
-/* Reads a survey: its stand on one line, as a change takes it, and how its table was understood. */
+/* Read a survey: its stand on one line, and how its table was understood. */
 static bool read_survey(const char *path, struct survey_answers *answers, struct text *value, struct text *understood,
                         struct problems *problems)
 {
@@ -155,7 +156,7 @@ static bool read_survey(const char *path, struct survey_answers *answers, struct
     return root != NULL;
 }
 
-static void take_stand(struct app *app, const char *path, const char *value, const char *understood)
+static void set_surveyed_stand(struct app *app, const char *path, const char *value, const char *understood)
 {
     app->message[0] = '\0';
     if (ceduo_popup_replace_stand(app, path, value) && app->message[0])
@@ -163,43 +164,43 @@ static void take_stand(struct app *app, const char *path, const char *value, con
     else if (!app->message[0])
         ceduo_app_show_message(app,
                                ceduo_stand_grows(&ceduo_app_belt(app)->stand)
-                                   ? _("the stand of the survey; its growth and cutting are assumed: check them; %s")
-                                   : _("the stand of the survey; it has no growth and cutting; %s"),
+                                   ? _("stand set from the survey; growth and cutting are assumed: check them; %s")
+                                   : _("stand set from the survey, without growth and cutting; %s"),
                                understood);
 }
 
-static void open_form(struct app *app, const char *path, const char *survey, const struct survey_answers *answers);
+static void ask_survey_units(struct app *app, const char *path, const char *survey, const struct survey_answers *answers);
 
-/* Reads a survey and takes its stand, or asks what its table leaves open, or says why it is refused. */
-static void try_survey(struct app *app, const char *path, const char *survey, struct survey_answers *answers)
+/* Read a survey and set its stand. Ask for missing units, or report why it is refused. */
+static void apply_survey(struct app *app, const char *path, const char *survey, struct survey_answers *answers)
 {
     LOCAL_TEXT(value);
     LOCAL_TEXT(understood);
-    bool asked = false;
+    bool must_ask = false;
     ceduo_problems_free(&app->document.problems);
     if (read_survey(survey, answers, &value, &understood, &app->document.problems)) {
-        take_stand(app, path, ceduo_text_string(&value), ceduo_text_string(&understood));
+        set_surveyed_stand(app, path, ceduo_text_string(&value), ceduo_text_string(&understood));
         return;
     }
     for (int q = 0; q < SURVEY_QUESTIONS; q++)
-        asked |= answers->asked[q];
-    if (asked)
-        open_form(app, path, survey, answers);
+        must_ask |= answers->asked[q];
+    if (must_ask)
+        ask_survey_units(app, path, survey, answers);
     else
-        ceduo_app_edited(app, false);
+        ceduo_app_finish_edit(app, false);
 }
 
 /* ---- the form: the row of a field is its question ---- */
 
-static void offer_answers(struct app *app, struct popup *p)
+static void complete_answers(struct app *app, struct popup *p)
 {
     (void)app;
-    const char *const *answers = questions[p->fields[p->at].row].answers;
+    const char *const *answers = questions[p->fields[p->current].row].answers;
     for (int i = 0; i < 2 && answers[i]; i++)
-        ceduo_popup_item(p, _(answers[i]), _(answers[i]));
+        ceduo_popup_add_item(p, _(answers[i]), _(answers[i]));
 }
 
-static bool filled_form(struct app *app, struct popup *p)
+static bool submit_survey_form(struct app *app, struct popup *p)
 {
     struct survey_answers answers = {0};
     for (const struct popup_field *f = p->fields; f < p->fields + p->fields_count; f++) {
@@ -207,49 +208,49 @@ static bool filled_form(struct app *app, struct popup *p)
             if (strcmp(f->line.text, _(questions[f->row].answers[i])) == 0)
                 answers.given[f->row] = i + 1;
         if (answers.given[f->row] == 0) {
-            ceduo_app_warn(app, _("%s: choose an answer, or Esc and name the column with its unit"), f->label);
+            ceduo_app_warn(app, _("%s: choose an answer, or press Esc and add the unit to the column name"), f->label);
             return false;
         }
     }
-    try_survey(app, p->path, p->kept, &answers);
+    apply_survey(app, p->target, p->context, &answers);
     return true;
 }
 
-static void open_form(struct app *app, const char *path, const char *survey, const struct survey_answers *answers)
+static void ask_survey_units(struct app *app, const char *path, const char *survey, const struct survey_answers *answers)
 {
-    struct popup *p = ceduo_popup_fields(app, _("How is the survey to be read?"), path, filled_form);
-    p->kept = ceduo_arena_string(&p->arena, survey);
+    struct popup *p = ceduo_popup_fields(app, _("How to read the survey"), path, submit_survey_form);
+    p->context = ceduo_arena_string(&p->arena, survey);
     ceduo_problem_line(app->document.problems.wrong.items, &p->text);
     for (int q = 0; q < SURVEY_QUESTIONS; q++)
         if (answers->asked[q] || answers->given[q])
-            ceduo_popup_choice(p, _(questions[q].label),
-                               answers->given[q] ? _(questions[q].answers[answers->given[q] - 1]) : "", offer_answers)
+            ceduo_popup_add_choice(p, _(questions[q].label),
+                                   answers->given[q] ? _(questions[q].answers[answers->given[q] - 1]) : "", complete_answers)
                 ->row = q;
 }
 
 /* ---- the file ---- */
 
-static void offer_surveys(struct app *app, struct popup *p)
+static void complete_surveys(struct app *app, struct popup *p)
 {
     const char *shipped = ceduo_file_find(&p->arena, "surveys/six-plots.csv", NULL, "surveys");
     ceduo_popup_offer_files(app, p);
     if (shipped && !ceduo_picker_has(&p->picker, shipped))
-        ceduo_popup_item(p, _("six-plots.csv: an example, made up"), shipped);
+        ceduo_popup_add_item(p, _("six-plots.csv: an invented example"), shipped);
 }
 
-static void chose_survey(struct app *app, struct popup *p)
+static void select_survey(struct app *app, struct popup *p)
 {
-    try_survey(app, p->path, p->value, &(struct survey_answers){0});
+    apply_survey(app, p->target, p->value, &(struct survey_answers){0});
 }
 
-static void ask_for_survey(struct app *app)
+static void ask_survey_file(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem, or for each class"),
-                                       ceduo_app_stand(app), chose_survey);
+    struct popup *p =
+        ceduo_popup_list(app, _("Survey: a CSV file with one row per stem or class"), ceduo_app_stand(app), select_survey);
     ceduo_text_append(&p->text,
                       _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, status; "
                         "see ceduo-stand(5)."));
-    p->fields[0].offer = offer_surveys;
+    p->fields[0].complete = complete_surveys;
     p->endings = ".csv .txt";
 }
 
@@ -261,6 +262,6 @@ bool ceduo_popup_is_measured(const char *stand)
 bool ceduo_popup_ask_measured(struct app *app, const char *stand)
 {
     if (ceduo_popup_is_measured(stand))
-        (strcmp(stand, STAND_COUNTED) == 0 ? ceduo_popup_counts : ask_for_survey)(app);
+        (strcmp(stand, STAND_COUNTED) == 0 ? ceduo_popup_ask_counts : ask_survey_file)(app);
     return ceduo_popup_is_measured(stand);
 }

@@ -15,24 +15,24 @@
 
 enum { NEW_TITLE, NEW_PROFILE, NEW_RELEASE, NEW_FACE, NEW_MATERIAL, NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED, NEW_STAND };
 
-/* What the fields say, numbers read; where a place is not given, the first or the last x. */
+/* Answers of the fields. An empty place is the first or the last x. */
 struct answers {
-    struct text slope;         /* the profile as YAML: "vertices_m: …", "csv: …" */
-    struct scene_file profile; /* a scene of it alone; turned round where it was drawn upward */
-    const char *understood;    /* of the table of the profile, one line; NULL: typed points */
+    struct text slope;         /* profile as YAML: "vertices_m: …", "csv: …" */
+    struct scene_file profile; /* a scene with the profile only; reversed if it was drawn upward */
+    const char *understood;    /* one line about the table of the profile; NULL: typed points */
     double first, last;        /* x of the profile */
-    double release;            /* where rocks start */
-    double face;               /* where the face ends; the first x without one */
+    double release;            /* x where rocks start */
+    double face;               /* end of the face; the first x without one */
     double rock, control, accepted;
 };
 
-static void release_answers(struct answers *a)
+static void free_answers(struct answers *a)
 {
     ceduo_scene_release(&a->profile);
     ceduo_text_free(&a->slope);
 }
 
-static void append_quoted(struct text *yaml, const char *before, const char *value)
+static void append_scalar(struct text *yaml, const char *before, const char *value)
 {
     ceduo_text_append(yaml, before);
     ceduo_emit_scalar(yaml, value, true);
@@ -40,19 +40,19 @@ static void append_quoted(struct text *yaml, const char *before, const char *val
 
 /* ---- the profile ---- */
 
-/* The profile as a scene of its own; `more`: keys of the slope besides. */
-static bool make_profile(struct answers *a, const char *more)
+/* Build the profile as a separate scene; `extra_keys`: extra keys of the slope. */
+static bool make_profile(struct answers *a, const char *extra_keys)
 {
     LOCAL_TEXT(yaml);
     LOCAL_PROBLEMS(problems);
     ceduo_text_format(
         &yaml, "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [%.17g]\nslope:\n  %s\n  segments: [{rn: 0.3, rt: 0.8}]\n%s",
-        a->last, a->slope.bytes, more);
+        a->last, a->slope.bytes, extra_keys);
     ceduo_scene_release(&a->profile);
     return ceduo_scene_load_text(&a->profile, "", yaml.bytes, &problems);
 }
 
-/* From a CSV file, or points as they are typed; one that was drawn upward is turned round. */
+/* Read a CSV file or typed points. Reverse a profile that was drawn upward. */
 static bool read_profile(struct app *app, struct popup *p, struct answers *a)
 {
     const char *typed = p->fields[NEW_PROFILE].line.text, *wrong = NULL;
@@ -71,48 +71,48 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
         a->understood = points.understood;
         a->first = good ? points.x[0] : 0;
         a->last = good ? points.x[points.n - 1] : 0;
-        append_quoted(&a->slope, "csv: ", path);
+        append_scalar(&a->slope, "csv: ", path);
         if (mark)
-            append_quoted(&a->slope, "\n  layer: ", mark + 1);
+            append_scalar(&a->slope, "\n  layer: ", mark + 1);
     } else {
         ceduo_text_append(&a->slope, "vertices_m: ");
         if (!ceduo_input_parse_points(typed, &a->slope, &a->first, &a->last))
-            wrong = _("the profile: a file that ends in .csv, or points x z, x z, … with x rising");
+            wrong = _("the profile is a .csv file or points x z, x z, … with increasing x");
     }
     if (!wrong && !make_profile(a, "") && !make_profile(a, "  reversed: true\n"))
-        wrong = _("two points of the profile lie too close together for their distance from the first");
+        wrong = _("two points of the profile are too close together");
     if (wrong)
         ceduo_app_warn(app, "%s", wrong);
     return !wrong;
 }
 
-/* A place in few digits. */
-static void put_place(struct popup *p, size_t field, double x)
+/* Set a place, rounded to cm. */
+static void set_place(struct popup *p, size_t field, double x)
 {
-    char room[CEDUO_NUMBER_SIZE];
-    ceduo_line_set(&p->fields[field].line, ceduo_format_number(NULL, round(x * 100) / 100, room));
+    char buf[CEDUO_NUMBER_SIZE];
+    ceduo_line_set(&p->fields[field].line, ceduo_format_number(NULL, round(x * 100) / 100, buf));
 }
 
-/* The edge of the first face and its lower end, unless another is typed already. */
+/* Propose the edge of the first face and its lower end, once for each profile. */
 static void guess_face(struct popup *p, const struct answers *a)
 {
     const struct ceduo_slope *s = &a->profile.scene.slope;
     const char *profile = p->fields[NEW_PROFILE].line.text;
     double edge = ceduo_slope_face(s);
     size_t end = isnan(edge) ? 0 : ceduo_slope_segment(s, edge);
-    if (p->kept && strcmp(p->kept, profile) == 0) /* for this profile that was done */
+    if (p->context && strcmp(p->context, profile) == 0) /* done for this profile */
         return;
-    p->kept = ceduo_arena_string(&p->arena, profile);
+    p->context = ceduo_arena_string(&p->arena, profile);
     while (end + 1 < s->vertices && ceduo_slope_fall(s, s->x[end]) > CEDUO_FACE_FALL)
         end++;
-    put_place(p, NEW_RELEASE, isnan(edge) ? a->first : edge + s->origin_x);
+    set_place(p, NEW_RELEASE, isnan(edge) ? a->first : edge + s->origin_x);
     ceduo_line_set(&p->fields[NEW_FACE].line, "");
     if (!isnan(edge))
-        put_place(p, NEW_FACE, s->x[end] + s->origin_x);
+        set_place(p, NEW_FACE, s->x[end] + s->origin_x);
 }
 
-/* The segment that falls most. */
-static size_t steepest_of(const struct ceduo_slope *s)
+/* Return the steepest segment. */
+static size_t find_steepest(const struct ceduo_slope *s)
 {
     size_t steepest = 0;
     for (size_t j = 1; j + 1 < s->vertices; j++)
@@ -121,33 +121,33 @@ static size_t steepest_of(const struct ceduo_slope *s)
     return steepest;
 }
 
-static double degrees_at(const struct ceduo_slope *s, double x)
+static double slope_degrees(const struct ceduo_slope *s, double x)
 {
     return atan(ceduo_slope_fall(s, x)) * 180 / M_PI;
 }
 
-/* What is known of the profile, over the fields. */
-static void describe(struct popup *p, const struct answers *a)
+/* Describe the profile in the note over the fields. */
+static void describe_profile(struct popup *p, const struct answers *a)
 {
     const struct ceduo_slope *s = &a->profile.scene.slope;
-    double at = s->x[steepest_of(s)];
+    double x = s->x[find_steepest(s)];
     ceduo_text_free(&p->text);
     if (a->understood)
         ceduo_text_format(&p->text, "%s.", a->understood);
     else
         ceduo_text_format(&p->text, _("The profile is %.4g m long and falls by %.4g m."), s->x[s->vertices - 1],
                           -s->z[s->vertices - 1]);
-    ceduo_text_append_joined(&p->text, " ", _("Steepest at %.4g m, %.0f\xc2\xb0."), at + s->origin_x, degrees_at(s, at));
+    ceduo_text_append_joined(&p->text, " ", _("Steepest at %.4g m, %.0f\xc2\xb0."), x + s->origin_x, slope_degrees(s, x));
     if (s->reversed)
-        ceduo_text_append_joined(&p->text, " ", "%s", _("Turned round."));
+        ceduo_text_append_joined(&p->text, " ", "%s", _("Reversed."));
     if (a->release >= a->first && a->release < a->last)
         ceduo_text_append_joined(&p->text, " ", _("Rocks start at %.4g m, on %.0f\xc2\xb0."), a->release,
-                                 degrees_at(s, a->release - s->origin_x));
+                                 slope_degrees(s, a->release - s->origin_x));
 }
 
 /* ---- reading ---- */
 
-/* One field, of which it is said what is wrong; those before it are read. */
+/* Read one field, or report an error. The fields before it are read. */
 static bool read_field(struct app *app, struct popup *p, size_t field, struct answers *a)
 {
     const char *typed = p->fields[field].line.text;
@@ -163,7 +163,7 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
             p->fields[NEW_CONTROL].value->lo = fmax(a->release, a->face);
         return good;
     }
-    static const size_t places[] = {NEW_RELEASE, NEW_FACE, NEW_CONTROL}; /* they lie within the profile */
+    static const size_t places[] = {NEW_RELEASE, NEW_FACE, NEW_CONTROL}; /* limited to the profile */
     if (field == NEW_PROFILE && !read_profile(app, p, a))
         return false;
     for (size_t i = 0; i < 3 && field == NEW_PROFILE; i++) {
@@ -176,43 +176,43 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
     if (!ground || !stand)
         ceduo_app_warn(app,
                        stand ? _("no ground '%s' in the library")
-                             : _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"),
+                             : _("no stand '%s'; enter a file, a name such as simple-coppice, or nothing"),
                        typed);
     return ground && stand;
 }
 
-/* All fields up to one. */
-static bool read_answers(struct app *app, struct popup *p, size_t upto, struct answers *a)
+/* Read all fields up to `last`. */
+static bool read_answers(struct app *app, struct popup *p, size_t last, struct answers *a)
 {
     bool good = true;
-    for (size_t i = NEW_TITLE; good && i <= upto; i++)
+    for (size_t i = NEW_TITLE; good && i <= last; i++)
         good = read_field(app, p, i, a);
     return good;
 }
 
-/* What is wrong is said at its question, not after the last one. */
-static bool check_new(struct app *app, struct popup *p)
+/* Check a field when leaving it, not after the last one. */
+static bool validate_new(struct app *app, struct popup *p)
 {
     struct answers a = {.release = NAN};
-    bool good = read_answers(app, p, p->at, &a);
-    if (good && p->at == NEW_PROFILE) {
+    bool good = read_answers(app, p, p->current, &a);
+    if (good && p->current == NEW_PROFILE) {
         guess_face(p, &a);
         good = read_field(app, p, NEW_RELEASE, &a);
     }
-    if (good && (p->at == NEW_PROFILE || p->at == NEW_RELEASE))
-        describe(p, &a);
-    release_answers(&a);
+    if (good && (p->current == NEW_PROFILE || p->current == NEW_RELEASE))
+        describe_profile(p, &a);
+    free_answers(&a);
     return good;
 }
 
 /* ---- the scene ---- */
 
-/* A stretch of ground, given as it lies; a profile that is turned round has it as it was drawn. */
+/* Append a stretch of ground; for a reversed profile in the coordinates of its file. */
 static void append_material(struct text *yaml, const struct ceduo_slope *s, double from, double to, const char *material)
 {
     double a = ceduo_slope_mirrored(s, from), b = ceduo_slope_mirrored(s, to);
     ceduo_text_format(yaml, "    - {from_m: %.10g, to_m: %.10g", fmin(a, b), fmax(a, b));
-    append_quoted(yaml, ", material: ", material);
+    append_scalar(yaml, ", material: ", material);
     ceduo_text_append(yaml, "}\n");
 }
 
@@ -221,7 +221,7 @@ static void append_scene(struct popup *p, const struct answers *a, struct text *
     const struct ceduo_slope *s = &a->profile.scene.slope;
     const char *stand = p->fields[NEW_STAND].line.text;
     bool face = a->face > a->first;
-    append_quoted(yaml, "ceduo: scene/1\ntitle: ", p->fields[NEW_TITLE].line.text);
+    append_scalar(yaml, "ceduo: scene/1\ntitle: ", p->fields[NEW_TITLE].line.text);
     ceduo_text_format(yaml, "\nrock: {diameter_m: %.10g}\nrelease: {x_m: %.10g}\nslope:\n  %s\n%s  materials:\n", a->rock,
                       a->release, a->slope.bytes, s->reversed ? "  reversed: true\n" : "");
     if (face && !s->reversed)
@@ -236,12 +236,12 @@ static void append_scene(struct popup *p, const struct answers *a, struct text *
     ceduo_text_append(yaml, "}\n");
     if (stand[0]) {
         ceduo_text_format(yaml, "forest:\n  - {from_m: %.10g, to_m: %.10g", a->face, a->control);
-        append_quoted(yaml, ", stand: ", ceduo_popup_is_measured(stand) ? "simple-coppice" : stand);
+        append_scalar(yaml, ", stand: ", ceduo_popup_is_measured(stand) ? "simple-coppice" : stand);
         ceduo_text_append(yaml, "}\n");
     }
 }
 
-static bool filled_new(struct app *app, struct popup *p)
+static bool submit_new(struct app *app, struct popup *p)
 {
     struct answers a = {.release = NAN};
     LOCAL_TEXT(yaml);
@@ -250,13 +250,13 @@ static bool filled_new(struct app *app, struct popup *p)
         append_scene(p, &a, &yaml);
         good = ceduo_app_open(app, NULL, yaml.bytes);
     }
-    release_answers(&a);
+    free_answers(&a);
     if (good)
         ceduo_popup_ask_measured(app, p->fields[NEW_STAND].line.text);
     return good;
 }
 
-/* Ends of a stretch of the slope in the lowest line of its picture, its name between or behind them. */
+/* Mark a stretch of the slope in the lowest line of its picture, with its name. */
 static void draw_stretch(struct app *app, const struct ceduo_area *area, const struct ceduo_span *span, double from, double to,
                          const char *name)
 {
@@ -265,29 +265,32 @@ static void draw_stretch(struct app *app, const struct ceduo_area *area, const s
     int b = span->left + (int)((to - span->x0) / (span->x1 - span->x0) * (span->width - 1));
     ceduo_cells_clear_area(app->cells, (struct ceduo_area){area->left, y, area->width, 1});
     for (int x = a; x <= b; x++)
-        ceduo_app_label(app, x, y, CEDUO_ROLE_AXIS, "%s", x == a ? "\xe2\x94\x9c" : x == b ? "\xe2\x94\xa4" : "\xe2\x94\x80");
-    int n = ceduo_cells_label_width(app->charset, name), at = b + 2 + n <= right ? b + 2 : a - 1 - n;
-    ceduo_app_label(app, at > area->left ? at : area->left, y, CEDUO_ROLE_AXIS, "%s", name);
+        ceduo_app_draw_label(app, x, y, CEDUO_ROLE_AXIS, "%s",
+                             x == a   ? "\xe2\x94\x9c"
+                             : x == b ? "\xe2\x94\xa4"
+                                      : "\xe2\x94\x80");
+    int n = ceduo_cells_label_width(app->charset, name), x = b + 2 + n <= right ? b + 2 : a - 1 - n;
+    ceduo_app_draw_label(app, x > area->left ? x : area->left, y, CEDUO_ROLE_AXIS, "%s", name);
 }
 
 #define PROFILE_MIN 6 /* lines */
 
-/* The profile as far as it is known: the release, the lower end of the face ruled, the control, the steepest stretch below. */
+/* Draw the profile as read: release, end of the face, control, and the steepest stretch below. */
 static void draw_profile(struct app *app, struct popup *p, struct ceduo_area area)
 {
     struct answers a = {.release = NAN};
-    bool good = area.height >= PROFILE_MIN && p->at >= NEW_PROFILE &&
-                read_answers(app, p, p->at == NEW_PROFILE ? NEW_PROFILE : NEW_RELEASE, &a);
-    bool later = good && p->at > NEW_PROFILE;
-    double face = later && read_field(app, p, NEW_FACE, &a) ? a.face - a.first : NAN;
-    if (later && read_field(app, p, NEW_CONTROL, &a)) {
+    bool good = area.height >= PROFILE_MIN && p->current >= NEW_PROFILE &&
+                read_answers(app, p, p->current == NEW_PROFILE ? NEW_PROFILE : NEW_RELEASE, &a);
+    bool release_read = good && p->current > NEW_PROFILE;
+    double face = release_read && read_field(app, p, NEW_FACE, &a) ? a.face - a.first : NAN;
+    if (release_read && read_field(app, p, NEW_CONTROL, &a)) {
         a.profile.scene.controls[0].x = a.control - a.first;
         a.profile.scene.controls[0].x_given = a.control;
     }
     app->message[0] = '\0';
     if (good) {
         const struct ceduo_slope *s = &a.profile.scene.slope;
-        size_t j = steepest_of(s);
+        size_t j = find_steepest(s);
         struct ceduo_span span = {0};
         if (!isnan(a.release))
             a.profile.scene.release.x.mean = a.release - a.first;
@@ -295,32 +298,32 @@ static void draw_profile(struct app *app, struct popup *p, struct ceduo_area are
                         &(struct ceduo_picture){.scene = &a.profile.scene, .mark = face > 0 ? &face : NULL, .span = &span});
         if (span.width > 0)
             draw_stretch(app, &area, &span, s->x[j], s->x[j + 1],
-                         ceduo_app_format(app, _("steepest, %.0f\xc2\xb0"), degrees_at(s, s->x[j])));
+                         ceduo_app_format(app, _("steepest, %.0f\xc2\xb0"), slope_degrees(s, s->x[j])));
     }
-    release_answers(&a);
+    free_answers(&a);
 }
 
-static void ask(struct app *app)
+static void ask_new_scene(struct app *app)
 {
-    char room[CEDUO_NUMBER_SIZE];
-    struct popup *p = ceduo_popup_fields(app, _("New scene"), "", filled_new);
-    ceduo_text_append(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is "
-                                  "left empty is not there; rocks are then counted at the end. All can be changed later."));
+    char buf[CEDUO_NUMBER_SIZE];
+    struct popup *p = ceduo_popup_fields(app, _("New scene"), "", submit_new);
+    ceduo_text_append(&p->text, _("Profile: a CSV file (distance, elevation) or points x z, x z, … Empty fields are omitted; "
+                                  "without a control rocks are counted at the end. Everything can be changed later."));
     p->endings = ".csv .txt";
-    p->check = check_new;
+    p->validate = validate_new;
     p->picture = draw_profile;
-    ceduo_popup_field(p, _("title"), _("My slope"));
-    ceduo_popup_choice(p, _("profile (CSV file or points)"), "0 90, 10 65, 60 30, 120 0", ceduo_popup_offer_files);
-    ceduo_popup_value(p, _("rocks start at x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
-    ceduo_popup_value(p, _("face from the top to x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
-    ceduo_popup_choice(p, _("ground below it"), _(ceduo_material_talus()->name), ceduo_popup_offer_grounds);
-    ceduo_popup_value(p, _("rock: diameter, m"), ceduo_format_number(NULL, 0.6, room), ceduo_schema_at("rock.diameter_m"));
-    ceduo_popup_value(p, _("counted at x, m"), "", ceduo_schema_at("controls[0].x_m"))->flags = FIELD_ABOVE;
-    ceduo_popup_value(p, _("the place withstands, kJ"), "50", ceduo_schema_at("controls[0].accepted_kJ"));
-    ceduo_popup_choice(p, _("stand on the way"), "simple-coppice", ceduo_popup_offer_stands);
+    ceduo_popup_add_field(p, _("title"), _("My slope"));
+    ceduo_popup_add_choice(p, _("profile (CSV file or points)"), "0 90, 10 65, 60 30, 120 0", ceduo_popup_offer_files);
+    ceduo_popup_add_value(p, _("rocks start at x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
+    ceduo_popup_add_value(p, _("face from the top to x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
+    ceduo_popup_add_choice(p, _("ground below it"), _(ceduo_material_talus()->name), ceduo_popup_offer_grounds);
+    ceduo_popup_add_value(p, _("rock: diameter, m"), ceduo_format_number(NULL, 0.6, buf), ceduo_schema_at("rock.diameter_m"));
+    ceduo_popup_add_value(p, _("control at x, m"), "", ceduo_schema_at("controls[0].x_m"))->flags = FIELD_ABOVE;
+    ceduo_popup_add_value(p, _("accepted energy, kJ"), "50", ceduo_schema_at("controls[0].accepted_kJ"));
+    ceduo_popup_add_choice(p, _("stand"), "simple-coppice", ceduo_popup_offer_stands);
 }
 
 void ceduo_popup_new(struct app *app)
 {
-    ceduo_popup_confirm_unsaved(app, ask);
+    ceduo_popup_confirm_unsaved(app, ask_new_scene);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists to choose from: the words of a field, the program's and the user's files; and what each would do to the lights. */
+/* Lists to choose from: words of a field, shipped and own files; with the effect of each choice on the lights. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 #include "view/typed.h"
 #include "view/words.h"
 
-/* ---- a stand by itself ---- */
+/* ---- one stand ---- */
 
 bool ceduo_popup_read_stand(const struct app *app, const char *value, struct scene_file *file)
 {
@@ -29,11 +29,11 @@ bool ceduo_popup_read_stand(const struct app *app, const char *value, struct sce
     return good;
 }
 
-/* Stems, mean diameter, age of the oldest shoots, basal area, owner. `*said`: in Italian the name of a stand of the program. */
-static const char *describe_stand(struct app *app, const char *value, const char *whose, const char **said)
+/* Describe stems, mean diameter, age, basal area and owner. In Italian, set `*label` to the name of a shipped stand. */
+static const char *describe_stand(struct app *app, const char *value, const char *owner, const char **label)
 {
     struct scene_file file;
-    const char *words = whose;
+    const char *words = owner;
     if (ceduo_popup_read_stand(app, value, &file)) {
         const struct ceduo_belt *b = &file.scene.options[0].belts[0];
         struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
@@ -43,9 +43,9 @@ static const char *describe_stand(struct app *app, const char *value, const char
         const char *years = isnan(age) ? "  -" : ceduo_app_format(app, "%3.0f", age);
         words = ceduo_app_format(app, _("%5.0f/ha %4.1f cm %s y %4.1f m2/ha"), r.stems_per_ha, r.bare ? 0 : dbh * 100, years,
                                  r.basal_area);
-        if (!whose[0] && ceduo_in_language("", "it")[0])
-            *said = ceduo_app_format(app, "%s", b->name);
-        words = whose[0] ? ceduo_app_format(app, "%s %s", words, whose) : words;
+        if (!owner[0] && ceduo_in_language("", "it")[0])
+            *label = ceduo_app_format(app, "%s", b->name);
+        words = owner[0] ? ceduo_app_format(app, "%s %s", words, owner) : words;
     }
     ceduo_scene_release(&file);
     return words;
@@ -53,98 +53,99 @@ static const char *describe_stand(struct app *app, const char *value, const char
 
 /* ---- files ---- */
 
-#define HEAD_BYTES 4096 /* where a file says what it is */
-#define FILES_MAX  500  /* beside a scene: more are not looked into */
+#define HEADER_BYTES 4096 /* bytes that contain the header of a file */
+#define FILES_MAX    500  /* max. files read in the scene's folder */
 
-static bool has_head(const char *path, const char *tag)
+static bool has_header(const char *path, const char *tag)
 {
-    char head[HEAD_BYTES + 1];
+    char head[HEADER_BYTES + 1];
     FILE *file = fopen(path, "re");
-    head[file ? fread(head, 1, HEAD_BYTES, file) : 0] = '\0';
+    head[file ? fread(head, 1, HEADER_BYTES, file) : 0] = '\0';
     if (file)
         fclose(file);
     return strstr(head, tag) != NULL;
 }
 
-/* Add files of a kind ("stands", …), the program's or the user's, those beside the scene first, with its folder if `whole`. */
-static void add_files(struct app *app, struct popup *p, const char *kind, bool shipped, bool whole, const char *now)
+/* Add files of a kind ("stands", …), shipped or the user's. Those in the scene's folder come first; `full_path`: with path. */
+static void add_files(struct app *app, struct popup *p, const char *kind, bool shipped, bool full_path, const char *current)
 {
     const char *scene = app->document.path && !app->document.shipped ? app->document.path : "", *slash = strrchr(scene, '/');
-    const char *here = ceduo_app_format(app, "%.*s", slash ? (int)(slash - scene) + 1 : 0, scene); /* "": the current folder */
+    const char *own_folder = ceduo_app_format(app, "%.*s", slash ? (int)(slash - scene) + 1 : 0, scene); /* "": current */
     const char *tag = ceduo_app_format(app, "ceduo: %.*s", (int)strlen(kind) - 1, kind);
     const char *const *folders = ceduo_file_folders(&p->arena);
     for (size_t i = shipped; i == 0 || (folders && folders[i - 1]); i++) {
-        bool beside = i == 0, stands = strcmp(kind, "stands") == 0;
-        const char *folder = !beside ? folders[i - 1] : here[0] ? here : ".", *whose = shipped ? "" : _("yours");
+        bool local = i == 0, stands = strcmp(kind, "stands") == 0;
+        const char *folder = !local ? folders[i - 1] : own_folder[0] ? own_folder : ".", *owner = shipped ? "" : _("yours");
         size_t n;
-        const char *const *names = ceduo_file_list(&p->arena, folder, beside ? "." : kind, &n);
-        for (size_t k = 0; k < n && !(beside && k == FILES_MAX); k++) {
-            const char *path = beside ? ceduo_app_format(app, "%s%s.yaml", here, names[k])
-                                      : ceduo_app_format(app, "%s/%s/%s.yaml", folder, kind, names[k]);
-            const char *name = beside ? ceduo_app_format(app, "%s.yaml", names[k]) : names[k];
-            const char *value = beside && whole ? path : name;
-            if (beside ? !has_head(path, tag) : ceduo_document_is_shipped(path) != shipped)
+        const char *const *names = ceduo_file_list(&p->arena, folder, local ? "." : kind, &n);
+        for (size_t k = 0; k < n && !(local && k == FILES_MAX); k++) {
+            const char *path = local ? ceduo_app_format(app, "%s%s.yaml", own_folder, names[k])
+                                     : ceduo_app_format(app, "%s/%s/%s.yaml", folder, kind, names[k]);
+            const char *name = local ? ceduo_app_format(app, "%s.yaml", names[k]) : names[k];
+            const char *value = local && full_path ? path : name;
+            if (local ? !has_header(path, tag) : ceduo_document_is_shipped(path) != shipped)
                 continue;
             if (ceduo_picker_has(&p->picker, value))
                 continue;
-            const char *said = name;
-            const char *about = stands   ? describe_stand(app, beside ? path : name, whose, &said)
-                                : beside ? _("yours, beside the scene")
-                                         : whose;
-            const char *text = about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(said, 33), said, about) : said;
-            const char *both = said == name ? name : ceduo_app_format(app, "%s %s", said, name);
-            ceduo_picker_add(&p->picker, text, both, value, now && strcmp(now, value) == 0);
+            const char *label = name;
+            const char *about = stands  ? describe_stand(app, local ? path : name, owner, &label)
+                                : local ? _("yours, in this folder")
+                                        : owner;
+            const char *text = about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(label, 33), label, about) : label;
+            const char *searched = label == name ? name : ceduo_app_format(app, "%s %s", label, name);
+            ceduo_picker_add(&p->picker, text, searched, value, current && strcmp(current, value) == 0);
         }
     }
 }
 
-/* ---- what a choice would do ---- */
+/* ---- effect of a choice ---- */
 
-static popup_call chose_new_option;
+static popup_call select_new_option;
 
-static void append_light(struct text *text, const char *gap, const char *name, enum ceduo_light light, enum ceduo_light now)
+static void append_light(struct text *text, const char *gap, const char *name, enum ceduo_light light, enum ceduo_light current)
 {
     ceduo_text_append_joined(text, gap, _("%s %s"), name, ceduo_words_verdict(light));
-    if (light != now)
-        ceduo_text_append_joined(text, " ", _("(now %s)"), ceduo_words_verdict(now));
+    if (light != current)
+        ceduo_text_append_joined(text, " ", _("(now %s)"), ceduo_words_verdict(current));
 }
 
 static void append_lights(struct app *app, struct text *text, const struct preview *f)
 {
     const struct ceduo_result *r = app->live.result;
-    const struct ceduo_index *now = r ? ceduo_result_last_index(r, app->option) : &f->index;
-    append_light(text, "", _("Contact"), f->index.contact, now->contact);
+    const struct ceduo_index *current = r ? ceduo_result_last_index(r, app->option) : &f->index;
+    append_light(text, "", _("Contact"), f->index.contact, current->contact);
     if (isfinite(f->index.worst_adc))
         ceduo_text_format(text, _(", %.3g m"), f->index.worst_adc);
-    append_light(text, "; ", _("free run"), f->index.free_run, now->free_run);
-    append_light(text, "; ", _("energy"), f->index.energy, now->energy);
+    append_light(text, "; ", _("free run"), f->index.free_run, current->free_run);
+    append_light(text, "; ", _("energy"), f->index.energy, current->energy);
     if (!isnan(f->exceed))
-        ceduo_text_append_joined(text, ", ", _("about %.0f of 1000 with too much"), 1000 * f->exceed);
+        ceduo_text_append_joined(text, ", ", _("about %.0f per 1000 above the accepted energy"), 1000 * f->exceed);
     else if (!isnan(f->reach))
-        ceduo_text_append_joined(text, ", ", _("about %.0f of 1000 arrive"), 1000 * f->reach);
+        ceduo_text_append_joined(text, ", ", _("about %.0f per 1000 arrive"), 1000 * f->reach);
     ceduo_text_append(text, "\n");
 }
 
-/* What the lights would be with a value at the popup's path; it is asked for, and put once it is known. */
-static void append_change(struct app *app, struct popup *p)
+/* Append the lights for the value under the cursor at the popup's path. Request them first if unknown. */
+static void append_effect(struct app *app, struct popup *p)
 {
     LOCAL_TEXT(value);
-    if (p->ahead_known) {
-        if (p->ahead.known)
-            append_lights(app, &p->text, &p->ahead);
+    if (p->has_preview) {
+        if (p->preview.known)
+            append_lights(app, &p->text, &p->preview);
         return;
     }
     ceduo_text_append(&p->text, _("the lights: computing …\n"));
-    bool all = p->chosen == chose_new_option; /* the stand in every belt */
-    if (all)
-        ceduo_document_belts(&app->document, p->value, &value);
-    const char *path = all ? ceduo_app_forest(app) : p->path, *yaml = all ? value.bytes : ceduo_app_scalar(app, p->value);
+    bool every_belt = p->on_select == select_new_option; /* the stand in every belt */
+    if (every_belt)
+        ceduo_document_append_belts(&app->document, p->value, &value);
+    const char *path = every_belt ? ceduo_app_forest(app) : p->target,
+               *yaml = every_belt ? value.bytes : ceduo_app_scalar(app, p->value);
     if (strlen(yaml) < JOB_TEXT)
-        ceduo_jobs_ask(app->live.jobs,
-                       &(struct job_request){JOB_PREVIEW, &app->document.file, app->option, 1, path, yaml, NULL, NULL});
+        ceduo_jobs_request(app->live.jobs,
+                           &(struct job_request){JOB_PREVIEW, &app->document.file, app->option, 1, path, yaml, NULL, NULL});
 }
 
-/* A ground of the library, if the words of a field are such; NULL: it is none. */
+/* Return the ground of the library for a word of a field of grounds; otherwise NULL. */
 static const struct ceduo_material *find_material(const struct field *f, const char *word)
 {
     size_t n;
@@ -152,17 +153,17 @@ static const struct ceduo_material *find_material(const struct field *f, const c
     return i < 0 ? NULL : &ceduo_materials(&n)[i];
 }
 
-static void preview_word(struct app *app, struct popup *p)
+static void note_word(struct app *app, struct popup *p)
 {
-    const struct ceduo_material *m = find_material(ceduo_schema_at(p->path), p->value);
+    const struct ceduo_material *m = find_material(ceduo_schema_at(p->target), p->value);
     if (m)
         ceduo_text_format(&p->text, _("Rn %.3g, Rt %.3g (%s), roughness %.3g m, friction %.3g\n"), m->rn, m->rt, m->source,
                           m->roughness, m->friction);
-    append_change(app, p);
+    append_effect(app, p);
 }
 
-/* What a stand of the list has, over the list. */
-static void preview_stand(struct app *app, struct popup *p)
+/* Describe a stand in the note over the list. */
+static void note_stand(struct app *app, struct popup *p)
 {
     struct scene_file file = {0};
     if (!ceduo_popup_preview_treatment(app, p) && !ceduo_popup_is_measured(p->value) &&
@@ -177,15 +178,15 @@ static void preview_stand(struct app *app, struct popup *p)
         if (!r.bare)
             ceduo_text_append_joined(&p->text, ", ", _("%.3g kJ/100 m"), r.dissipated * J_TO_KJ);
         ceduo_text_append_char(&p->text, '\n');
-        append_change(app, p);
+        append_effect(app, p);
     }
     ceduo_scene_release(&file);
 }
 
-/* ---- what goes with the stand that another one replaces ---- */
+/* ---- growth and cutting of a replaced stand ---- */
 
-/* The entry of a stand, if the file that the stand is read from has not the same; otherwise NULL. */
-static const struct node *own_entry(const struct node *stand, const char *key)
+/* Return the entry of a stand, or NULL if its file has an equal one. */
+static const struct node *changed_entry(const struct node *stand, const char *key)
 {
     const struct node *entry = ceduo_node_get(stand, key);
     bool reference = stand && stand->written && stand->written->kind == NODE_SCALAR;
@@ -203,54 +204,54 @@ bool ceduo_popup_replace_stand(struct app *app, const char *path, const char *va
     path = ceduo_app_format(app, "%s", path);
     if (!ceduo_app_set(app, path, value))
         return false;
-    const struct node *now = ceduo_document_node(&app->document, path);
+    const struct node *current = ceduo_document_node(&app->document, path);
     belt = ceduo_app_belt(app);
     for (int i = 0; i < 2; i++) {
-        const struct node *before = own_entry(old, keys[i]), *after = ceduo_node_get(now, keys[i]);
+        const struct node *before = changed_entry(old, keys[i]), *after = ceduo_node_get(current, keys[i]);
         dropped[i] = before && !after;
         changed[i] = before && after && !ceduo_node_equal(before, after);
     }
-    LOCAL_TEXT(said);
+    LOCAL_TEXT(notes);
     if (changed[0] || changed[1])
-        ceduo_text_format(&said,
+        ceduo_text_format(&notes,
                           changed[0] && changed[1] ? _("growth and cutting of '%s' are now those of '%s'")
                           : changed[0]             ? _("the growth of '%s' is now that of '%s'")
                                                    : _("the cutting of '%s' is now that of '%s'"),
                           name, belt->name);
     if (dropped[0] || dropped[1])
-        ceduo_text_append_joined(&said, said.length > 0 ? "; " : "",
+        ceduo_text_append_joined(&notes, notes.length > 0 ? "; " : "",
                                  dropped[0] && dropped[1] ? _("growth and cutting of '%s' are dropped: '%s' has none")
                                  : dropped[0]             ? _("the growth of '%s' is dropped: '%s' has none")
                                                           : _("the cutting of '%s' is dropped: '%s' has none"),
                                  name, belt->name);
-    if (!isnan(belt->cut_year) && ceduo_node_get(now, "cutting"))
-        ceduo_text_append_joined(&said, said.length > 0 ? "; " : "", _("it is cut in year %g as before"), belt->cut_year);
-    if (said.length > 0)
-        ceduo_app_show_message(app, "%s", said.bytes);
+    if (!isnan(belt->cut_year) && ceduo_node_get(current, "cutting"))
+        ceduo_text_append_joined(&notes, notes.length > 0 ? "; " : "", _("it is still cut in year %g"), belt->cut_year);
+    if (notes.length > 0)
+        ceduo_app_show_message(app, "%s", notes.bytes);
     return true;
 }
 
 /* ---- choosing ---- */
 
-static void chose_word(struct app *app, struct popup *p)
+static void select_word(struct app *app, struct popup *p)
 {
-    ceduo_app_set(app, p->path, p->value);
+    ceduo_app_set(app, p->target, p->value);
 }
 
-/* A new option with another stand in every belt. */
-static void chose_new_option(struct app *app, struct popup *p)
+/* Add an option with this stand in every belt. */
+static void select_new_option(struct app *app, struct popup *p)
 {
     const char *name = p->value;
-    if (ceduo_popup_on_treatment(app, p->value))
+    if (ceduo_popup_choose_treatment(app, p->value))
         return;
     describe_stand(app, p->value, "", &name);
-    if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, p->value, name))) {
+    if (ceduo_app_finish_edit(app, ceduo_document_add_option(&app->document, p->value, name))) {
         ceduo_app_show_option(app, app->document.file.scene.options_count - 1);
         ceduo_app_show_message(app, _("added '%s'; Enter renames it, 2 changes its stand"), ceduo_app_option(app)->name);
     }
 }
 
-/* The file that a node was read from, by its bare name, as the list has it; "": it is no reference. */
+/* Return the base name of the file of a node, as listed; "": the node is not a reference. */
 static const char *listed_name(const struct app *app, const char *path)
 {
     const struct node *node = ceduo_document_node(&app->document, path);
@@ -260,30 +261,30 @@ static const char *listed_name(const struct app *app, const char *path)
     return ceduo_app_format(app, "%.*s", (int)(n - ending), name);
 }
 
-static void chose_stand(struct app *app, struct popup *p)
+static void select_stand(struct app *app, struct popup *p)
 {
     if (!ceduo_popup_ask_measured(app, p->value))
-        ceduo_popup_replace_stand(app, p->path, ceduo_app_scalar(app, p->value));
+        ceduo_popup_replace_stand(app, p->target, ceduo_app_scalar(app, p->value));
 }
 
 static void offer_measured(struct popup *p)
 {
-    ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
-    ceduo_popup_item(p, _("from a survey: a CSV file of plots and stems"), STAND_SURVEY);
+    ceduo_popup_add_item(p, _("from a sample plot: counts and measurements"), STAND_COUNTED);
+    ceduo_popup_add_item(p, _("from a survey: a CSV file of plots and stems"), STAND_SURVEY);
 }
 
 static void list_stands(struct app *app, const char *title, popup_call *chosen)
 {
     struct popup *p = ceduo_popup_list(app, title, ceduo_app_stand(app), chosen);
-    p->preview = preview_stand;
-    bool replaces = chosen == chose_stand;
-    const char *now = replaces ? listed_name(app, p->path) : NULL;
+    p->update_note = note_stand;
+    bool replaces = chosen == select_stand;
+    const char *current = replaces ? listed_name(app, p->target) : NULL;
     if (!replaces)
         ceduo_popup_offer_treatments(app, p);
-    add_files(app, p, "stands", false, false, now);
+    add_files(app, p, "stands", false, false, current);
     if (replaces)
         offer_measured(p);
-    add_files(app, p, "stands", true, false, now);
+    add_files(app, p, "stands", true, false, current);
 }
 
 void ceduo_popup_offer_stands(struct app *app, struct popup *p)
@@ -293,8 +294,8 @@ void ceduo_popup_offer_stands(struct app *app, struct popup *p)
     add_files(app, p, "stands", true, true, NULL);
 }
 
-/* `now`: what the file has, where a word of files is wanted; NULL: what is shown is taken. */
-static void add_word(struct popup *p, const struct field *f, const char *word, const char *now)
+/* Add a word of a field. `current`: its value in the file; NULL: choose the displayed text, not the word. */
+static void add_word(struct popup *p, const struct field *f, const char *word, const char *current)
 {
     LOCAL_TEXT(shown);
     const struct ceduo_material *ground = find_material(f, word);
@@ -302,7 +303,7 @@ static void add_word(struct popup *p, const struct field *f, const char *word, c
     const char *name = ceduo_arena_string(&p->arena, ceduo_text_string(&shown));
     if (ground)
         ceduo_text_format(&shown, ": %s", _(ground->what));
-    ceduo_picker_add(&p->picker, ceduo_text_string(&shown), name, now ? word : name, now && strcmp(word, now) == 0);
+    ceduo_picker_add(&p->picker, ceduo_text_string(&shown), name, current ? word : name, current && strcmp(word, current) == 0);
 }
 
 void ceduo_popup_offer_grounds(struct app *app, struct popup *p)
@@ -313,37 +314,37 @@ void ceduo_popup_offer_grounds(struct app *app, struct popup *p)
         add_word(p, f, f->choices->names[i], NULL);
 }
 
-void ceduo_popup_presets(struct app *app)
+void ceduo_popup_list_stands(struct app *app)
 {
     const struct ceduo_belt *belt = ceduo_app_belt(app);
     if (belt)
-        list_stands(app, ceduo_app_format(app, _("Stand of belt %zu, now '%s'"), app->belt + 1, belt->name), chose_stand);
+        list_stands(app, ceduo_app_format(app, _("Stand of belt %zu, now '%s'"), app->belt + 1, belt->name), select_stand);
     else
         ceduo_app_show_message(app, "%s", _("there is no belt yet: a adds one in view 1"));
 }
 
 void ceduo_popup_new_option(struct app *app)
 {
-    list_stands(app, _("A new option: the present one treated, or another stand"), chose_new_option);
+    list_stands(app, _("New option: a treatment of this one, or another stand"), select_new_option);
 }
 
-void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
+void ceduo_popup_list_choices(struct app *app, const struct form_cell *cell)
 {
     const struct field *f = cell->field;
     if (f->object == ceduo_schema_stand()) {
-        ceduo_popup_presets(app);
+        ceduo_popup_list_stands(app);
         return;
     }
-    struct popup *p = ceduo_popup_list(app, ceduo_app_path(app, cell->path), cell->path, chose_word);
+    struct popup *p = ceduo_popup_list(app, ceduo_app_path(app, cell->path), cell->path, select_word);
     if (f->type == FIELD_CHOICE) {
         for (size_t i = 0; i < f->choices->n; i++)
             add_word(p, f, f->choices->names[i], cell->written);
-        p->preview = preview_word;
+        p->update_note = note_word;
         return;
     }
-    const char *now = listed_name(app, p->path);
-    add_files(app, p, f->object->folder, false, false, now);
-    add_files(app, p, f->object->folder, true, false, now);
+    const char *current = listed_name(app, p->target);
+    add_files(app, p, f->object->folder, false, false, current);
+    add_files(app, p, f->object->folder, true, false, current);
 }
 
 /* ---- a scene to open ---- */
@@ -359,7 +360,7 @@ static void offer_scenes(struct app *app, struct popup *p)
     ceduo_popup_offer_files(app, p);
 }
 
-static void chose_scene(struct app *app, struct popup *p)
+static void select_scene(struct app *app, struct popup *p)
 {
     if (!ceduo_popup_open_recovery(app, p->value))
         ceduo_app_open(app, p->value, NULL);
@@ -367,8 +368,8 @@ static void chose_scene(struct app *app, struct popup *p)
 
 static void list_scenes(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("Open a scene: a name, or the path of a file"), "", chose_scene);
-    p->fields[0].offer = offer_scenes;
+    struct popup *p = ceduo_popup_list(app, _("Open a scene: name or path"), "", select_scene);
+    p->fields[0].complete = offer_scenes;
     p->endings = ".yaml";
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Saving, and all questions about unsaved work, that of this program and what others left behind. */
+/* Saving, and questions about unsaved work of this and earlier processes. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,36 +14,36 @@
 
 /* ---- saving ---- */
 
-/* False with errno set, and said. */
+/* Save, and report. Return false with errno set. */
 static bool save_to(struct app *app, const char *path)
 {
-    bool anew;
-    const char *old = app->document.path; /* the file of before, if it is another */
+    bool reformatted;
+    const char *old = app->document.path; /* name of the old file if it is another */
     old = old && strcmp(old, path) != 0 ? ceduo_app_format(app, "%s", ceduo_file_name(old)) : NULL;
     if (ceduo_document_is_shipped(path)) {
-        ceduo_app_warn(app, "%s", _("This scene belongs to the program and is never written over; save your own copy."));
+        ceduo_app_warn(app, "%s", _("This scene is part of the program and cannot be changed; save your own copy."));
         return false;
     }
-    if (!ceduo_document_save(&app->document, path, &anew)) {
-        int why = errno;
-        ceduo_app_warn(app, "%s: %s", path, strerror(why));
-        errno = why;
+    if (!ceduo_document_save(&app->document, path, &reformatted)) {
+        int reason = errno;
+        ceduo_app_warn(app, "%s: %s", path, strerror(reason));
+        errno = reason;
         return false;
     }
-    if (anew)
+    if (reformatted)
         ceduo_app_show_message(app,
-                               old ? _("saved %s; laid out anew, without the comments of %s")
-                                   : _("saved %s; laid out anew, the old file is %s.bak"),
+                               old ? _("saved %s; reformatted, without the comments of %s")
+                                   : _("saved %s; reformatted, the old file is %s.bak"),
                                path, old ? old : path);
     else
         ceduo_app_show_message(app, _("saved %s"), path);
-    if (app->once_saved)
-        app->once_saved(app);
-    app->once_saved = NULL;
+    if (app->after_save)
+        app->after_save(app);
+    app->after_save = NULL;
     return true;
 }
 
-/* Append .yaml to a name without an ending. The name of an existing file stays as it is. */
+/* Append .yaml to a name without an ending, unless the file exists. */
 static void append_ending(struct line *line)
 {
     const char *name = ceduo_file_name(line->text);
@@ -51,10 +51,10 @@ static void append_ending(struct line *line)
     if (name[0] == '\0' || strchr(name + 1, '.') || access(line->text, F_OK) == 0 || n + sizeof ENDING > sizeof line->text)
         return;
     memcpy(line->text + n, ENDING, sizeof ENDING);
-    line->at = strlen(line->text);
+    line->cursor = strlen(line->text);
 }
 
-static bool filled_save(struct app *app, struct popup *p)
+static bool submit_save(struct app *app, struct popup *p)
 {
     append_ending(&p->fields[0].line);
     const char *path = p->fields[0].line.text;
@@ -63,30 +63,31 @@ static bool filled_save(struct app *app, struct popup *p)
         ceduo_app_warn(app, "%s", _("a name is needed"));
         return false;
     }
-    return (own || ceduo_popup_may_write(app, p)) && save_to(app, path);
+    return (own || ceduo_popup_confirm_overwrite(app, p)) && save_to(app, path);
 }
 
 void ceduo_popup_offer_files(struct app *app, struct popup *p)
 {
     (void)app;
-    ceduo_picker_add_files(&p->picker, p->fields[p->at].line.text, p->endings);
+    ceduo_picker_add_files(&p->picker, p->fields[p->current].line.text, p->endings);
 }
 
-/* ---- a name for a stand that is no longer what it was ---- */
+/* ---- a name for a changed stand ---- */
 
-static bool filled_stand(struct app *app, struct popup *p)
+static bool submit_stand_name(struct app *app, struct popup *p)
 {
     const char *name = p->fields[0].line.text;
     if (name[0] == '\0')
         ceduo_app_warn(app, "%s", _("a name is needed"));
-    if (name[0] == '\0' || !ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, ceduo_app_scalar(app, name))))
+    if (name[0] == '\0' ||
+        !ceduo_app_finish_edit(app, ceduo_document_set(&app->document, p->target, ceduo_app_scalar(app, name))))
         return false;
-    p->then(app);
+    p->on_done(app);
     return true;
 }
 
-/* Asks for the name of the first such stand, and then goes on. False where there is none. */
-static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
+/* Ask for the name of the first changed stand, then call `next`. Return false if there is none. */
+static bool ask_stand_name(struct app *app, void (*next)(struct app *app))
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     bool options = ceduo_node_get(app->document.file.root, "options");
@@ -97,103 +98,104 @@ static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
                 continue;
             const char *option = options ? ceduo_app_format(app, "options[%zu].", o) : "";
             const char *path = ceduo_app_format(app, "%sforest[%zu].stand.name", option, b);
-            struct popup *p = ceduo_popup_fields(app, _("A stand was changed: its name"), path, filled_stand);
-            ceduo_text_format(&p->text, _("It stands from %g to %g m in '%s' and is no longer what its name said."),
-                              belt->from_given, belt->to_given, scene->options[o].name);
-            p->then = then;
-            ceduo_popup_field(p, _("name"), belt->name);
+            struct popup *p = ceduo_popup_fields(app, _("Name of the changed stand"), path, submit_stand_name);
+            ceduo_text_format(&p->text, _("The stand from %g to %g m in '%s' no longer matches its name."), belt->from_given,
+                              belt->to_given, scene->options[o].name);
+            p->on_done = next;
+            ceduo_popup_add_field(p, _("name"), belt->name);
             return true;
         }
     return false;
 }
 
-/* ---- where to ---- */
+/* ---- the file ---- */
 
-/* `why` the last attempt failed; NULL: none did. */
-static void ask_for_name(struct app *app, const char *why)
+/* Ask for a file name. `reason`: the last attempt failed; may be NULL. */
+static void ask_file_name(struct app *app, const char *reason)
 {
-    struct popup *p = ceduo_popup_fields(app, _("Save as"), "", filled_save);
+    struct popup *p = ceduo_popup_fields(app, _("Save as"), "", submit_save);
     const struct document *d = &app->document;
-    if (why)
-        ceduo_text_format(&p->text, _("It could not be saved: %s. Give another name, or one in another folder."), why);
+    if (reason)
+        ceduo_text_format(&p->text, _("Saving failed: %s. Choose another name or folder."), reason);
     else if (d->shipped)
-        ceduo_text_append(&p->text, _("This scene belongs to the program and is never written over; save your own copy."));
+        ceduo_text_append(&p->text, _("This scene is part of the program and cannot be changed; save your own copy."));
     p->endings = ENDING;
-    p->typed_wins = true;
-    ceduo_popup_choice(p, _("file"),
-                       !d->path     ? "scene.yaml"
-                       : d->shipped ? ceduo_file_name(d->path)
-                                    : d->path,
-                       ceduo_popup_offer_files);
+    p->keep_input = true;
+    ceduo_popup_add_choice(p, _("file"),
+                           !d->path     ? "scene.yaml"
+                           : d->shipped ? ceduo_file_name(d->path)
+                                        : d->path,
+                           ceduo_popup_offer_files);
 }
 
 void ceduo_popup_save_as(struct app *app)
 {
-    if (!asks_for_stand(app, ceduo_popup_save_as))
-        ask_for_name(app, NULL);
+    if (!ask_stand_name(app, ceduo_popup_save_as))
+        ask_file_name(app, NULL);
 }
 
-/* Writes where the scene came from. */
-static void write_back(struct app *app)
+/* Save to the file of the scene. */
+static void save_to_own_file(struct app *app)
 {
-    const char *path = ceduo_app_format(app, "%s", app->document.path); /* saving makes the document's own anew */
+    const char *path = ceduo_app_format(app, "%s", app->document.path); /* copy: saving frees the document's path */
     if (!save_to(app, path))
-        ask_for_name(app, strerror(errno));
+        ask_file_name(app, strerror(errno));
 }
 
-static void chose_disk(struct app *app, struct popup *p)
+static void select_disk_action(struct app *app, struct popup *p)
 {
     if (strcmp(p->value, "write") == 0)
-        write_back(app);
+        save_to_own_file(app);
     else if (strcmp(p->value, "as") == 0)
-        ask_for_name(app, NULL);
+        ask_file_name(app, NULL);
 }
 
 void ceduo_popup_save(struct app *app)
 {
     const struct document *d = &app->document;
-    if (asks_for_stand(app, ceduo_popup_save))
+    if (ask_stand_name(app, ceduo_popup_save))
         return;
     if (!d->path || d->shipped) {
-        ask_for_name(app, NULL);
+        ask_file_name(app, NULL);
     } else if (!ceduo_document_changed_on_disk(d)) {
-        write_back(app);
+        save_to_own_file(app);
     } else {
-        bool gone = access(d->path, F_OK) != 0;
+        bool missing = access(d->path, F_OK) != 0;
         struct popup *p = ceduo_popup_list(
-            app, gone ? _("The file is no longer there") : _("The file has changed on disk since it was read"), "", chose_disk);
-        ceduo_popup_answer(p, 'n', _("never mind: do not save now"), "");
-        ceduo_popup_answer(p, 'a', _("save under another name"), "as");
-        ceduo_popup_answer(p, 'w', gone ? _("write it again") : _("write over what is there"), "write");
+            app, missing ? _("The file no longer exists") : _("The file has changed on disk since it was read"), "",
+            select_disk_action);
+        ceduo_popup_add_menu_item(p, 'n', _("no: do not save now"), "");
+        ceduo_popup_add_menu_item(p, 'a', _("save under another name"), "as");
+        ceduo_popup_add_menu_item(p, 'w', missing ? _("write it again") : _("overwrite it"), "write");
     }
 }
 
 /* ---- unsaved work ---- */
 
-static void chose_unsaved(struct app *app, struct popup *p)
+static void select_unsaved_action(struct app *app, struct popup *p)
 {
     if (strcmp(p->value, "save") == 0) {
-        app->once_saved = p->then; /* once a name is given, where one is asked for */
+        app->after_save = p->on_done; /* after a name is given, if needed */
         ceduo_popup_save(app);
     } else if (strcmp(p->value, "discard") == 0) {
-        p->then(app);
+        p->on_done(app);
     }
 }
 
-void ceduo_popup_confirm_unsaved(struct app *app, void (*then)(struct app *app))
+void ceduo_popup_confirm_unsaved(struct app *app, void (*next)(struct app *app))
 {
     if (!ceduo_document_unsaved(&app->document)) {
-        then(app);
+        next(app);
         return;
     }
-    struct popup *p = ceduo_popup_list(app, _("There is unsaved work"), "", chose_unsaved);
-    p->then = then;
-    ceduo_popup_answer(p, 'n', _("stay"), "");
-    ceduo_popup_answer(p, 's', _("save it, then go on"), "save");
-    ceduo_popup_answer(p, 'd', _("discard it"), "discard");
+    struct popup *p = ceduo_popup_list(app, _("There are unsaved changes"), "", select_unsaved_action);
+    p->on_done = next;
+    ceduo_popup_add_menu_item(p, 'n', _("no: stay here"), "");
+    ceduo_popup_add_menu_item(p, 's', _("save them"), "save");
+    ceduo_popup_add_menu_item(p, 'd', _("discard them"), "discard");
 }
 
-static void quit(struct app *app)
+static void quit_program(struct app *app)
 {
     ceduo_recovery_delete(&app->document.recovery);
     app->quit = true;
@@ -201,27 +203,27 @@ static void quit(struct app *app)
 
 void ceduo_popup_quit(struct app *app)
 {
-    ceduo_popup_confirm_unsaved(app, quit);
+    ceduo_popup_confirm_unsaved(app, quit_program);
 }
 
-/* ---- work that was left behind ---- */
+/* ---- abandoned work ---- */
 
-#define RECOVERY "recover:" /* before the path of the copy */
+#define RECOVERY "recover:" /* prefix of the path of a copy */
 
-/* `key`: what chooses it; 0: it is searched for. */
+/* Add a copy to the list. `key`: chooses it; 0: found by typing. */
 static void add_recovery(const struct app *app, struct popup *p, const struct recovery *r, char key)
 {
     char date[32] = "";
     struct tm tm;
     if (localtime_r(&r->when, &tm))
         strftime(date, sizeof date, "%Y-%m-%d %H:%M", &tm);
-    const char *words = ceduo_app_format(app, _("unsaved work of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
+    const char *words = ceduo_app_format(app, _("unsaved changes of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
                                          r->scene ? ceduo_file_name(r->scene) : _("never saved"));
     const char *value = ceduo_app_format(app, RECOVERY "%s", r->file);
     if (key)
-        ceduo_popup_answer(p, key, words, value);
+        ceduo_popup_add_menu_item(p, key, words, value);
     else
-        ceduo_popup_item(p, words, value);
+        ceduo_popup_add_item(p, words, value);
 }
 
 void ceduo_popup_offer_recoveries(const struct app *app, struct popup *p)
@@ -232,13 +234,13 @@ void ceduo_popup_offer_recoveries(const struct app *app, struct popup *p)
         add_recovery(app, p, &list[i], 0);
 }
 
-/* Whether a copy is of this scene, or of one that has no other place. */
-static bool is_due(const struct app *app, const struct recovery *r)
+/* True if a copy is of this scene, or of a scene without a file. */
+static bool is_of_this_document(const struct app *app, const struct recovery *r)
 {
-    char *here = app->document.path ? realpath(app->document.path, NULL) : NULL;
-    bool due = !r->scene || (here && strcmp(here, r->scene) == 0);
-    free(here);
-    return due;
+    char *own_path = app->document.path ? realpath(app->document.path, NULL) : NULL;
+    bool matches = !r->scene || (own_path && strcmp(own_path, r->scene) == 0);
+    free(own_path);
+    return matches;
 }
 
 bool ceduo_popup_open_recovery(struct app *app, const char *value)
@@ -252,19 +254,19 @@ bool ceduo_popup_open_recovery(struct app *app, const char *value)
         if (strcmp(list[i].file, value + strlen(RECOVERY)) != 0)
             continue;
         char *text = ceduo_recovery_text(list[i].file);
-        if (text && (list[i].scene ? (is_due(app, &list[i]) || ceduo_app_open(app, list[i].scene, NULL)) &&
-                                         ceduo_app_edited(app, ceduo_document_recover(&app->document, text))
+        if (text && (list[i].scene ? (is_of_this_document(app, &list[i]) || ceduo_app_open(app, list[i].scene, NULL)) &&
+                                         ceduo_app_finish_edit(app, ceduo_document_recover(&app->document, text))
                                    : ceduo_app_open(app, NULL, text))) {
-            unlink(list[i].file); /* this program keeps a copy of its own now */
-            app->opened = false;
-            ceduo_app_show_message(app, "%s", _("your work is back; s saves it, u shows what was before"));
+            unlink(list[i].file); /* this process keeps its own copy now */
+            app->just_opened = false;
+            ceduo_app_show_message(app, "%s", _("changes recovered; s saves, u undoes"));
         }
         free(text);
     }
     return true;
 }
 
-static void chose_recover(struct app *app, struct popup *p)
+static void select_recovery(struct app *app, struct popup *p)
 {
     size_t n;
     const struct recovery *list = strcmp(p->value, "forget") == 0 ? ceduo_recovery_list(&p->arena, &n) : NULL;
@@ -276,18 +278,18 @@ static void chose_recover(struct app *app, struct popup *p)
 void ceduo_popup_recover(struct app *app)
 {
     LOCAL_ARENA(arena);
-    size_t n, due = 0;
+    size_t n, count = 0;
     const struct recovery *list = ceduo_recovery_list(&arena, &n);
     for (size_t i = 0; i < n; i++)
-        due += is_due(app, &list[i]);
-    if (due > 0) {
-        struct popup *p = ceduo_popup_list(app, _("Unsaved work was left behind"), "", chose_recover);
+        count += is_of_this_document(app, &list[i]);
+    if (count > 0) {
+        struct popup *p = ceduo_popup_list(app, _("Unsaved changes were found"), "", select_recovery);
         char key = '1';
-        for (int other = 0; other < 2; other++)
+        for (int pass = 0; pass < 2; pass++)
             for (size_t i = 0; i < n && key <= '9'; i++)
-                if (is_due(app, &list[i]) == !other)
+                if (is_of_this_document(app, &list[i]) == !pass)
                     add_recovery(app, p, &list[i], key++);
-        ceduo_popup_answer(p, 'n', _("leave it for later: o lists it, too"), "");
-        ceduo_popup_answer(p, 'f', n > 1 ? _("forget all of it") : _("forget it"), "forget");
+        ceduo_popup_add_menu_item(p, 'n', _("not now: o lists them, too"), "");
+        ceduo_popup_add_menu_item(p, 'f', n > 1 ? _("forget all") : _("forget them"), "forget");
     }
 }

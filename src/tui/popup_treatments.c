@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* New options that treat the stands of the option under the cursor: cut now, selection coppice, not cut. */
+/* New options that treat the stands of the option shown: cut now, selection coppice, not cut. */
 #include <math.h>
 #include <string.h>
 
@@ -8,13 +8,13 @@
 #include "io/file.h"
 #include "popup.h"
 
-#define FIRST_YEAR   1  /* the next year: year 0 is the stand as filed */
-#define KEPT_USUALLY 60 /* standards per ha, offered if the stands do not say how many stay */
+#define FIRST_YEAR   1  /* year 0 is the stand as filed */
+#define KEPT_USUALLY 60 /* standards per ha, proposed if the stands do not specify how many are retained */
 
 enum treatment { CUT_NOW, SELECTION, NO_CUT, TREATMENTS };
 
 static const struct {
-    const char *value, *item, *about;
+    const char *value, *item, *description;
 } treatments[TREATMENTS] = {
     [CUT_NOW] = {":cut", N_("this stand, cut now, leaving N standards per ha"),
                  N_("A copy of the option shown that is cut in year 1 and then once in each rotation. Enter asks how many "
@@ -33,12 +33,12 @@ static enum treatment find_treatment(const char *value)
     return t;
 }
 
-/* ---- growth and cutting that a stand has not ---- */
+/* ---- growth and cutting for stands without them ---- */
 
 /* A shipped stand that lends its growth or its cutting. */
 struct lender {
     struct scene_file file;
-    int fit; /* 0: none was found */
+    int fit; /* 0: none found */
 };
 
 static const struct ceduo_belt *lent_belt(const struct lender *l)
@@ -46,7 +46,7 @@ static const struct ceduo_belt *lent_belt(const struct lender *l)
     return &l->file.scene.options[0].belts[0];
 }
 
-/* Find the shipped stand that grows and is cut, of a species or hop hornbeam and of a system. The caller releases l->file. */
+/* Find the best shipped stand with growth and cutting: by species, hop hornbeam, system. Caller releases l->file. */
 static void find_lender(struct app *app, int species, enum ceduo_system system, struct lender *l)
 {
     const char *const *folders = ceduo_file_folders(app->scratch);
@@ -72,20 +72,20 @@ static void find_lender(struct app *app, int species, enum ceduo_system system, 
     }
 }
 
-/* ---- what is changed ---- */
+/* ---- changes ---- */
 
 struct plan {
     struct app *app;
     enum treatment kind;
     double number;         /* standards per ha, or years without a cut; NaN: none */
-    struct changes edits;  /* paths begin at the option */
-    struct text borrowed;  /* what comes from shipped stands */
-    struct text untreated; /* belts that stay as they are, and why */
-    size_t treated;        /* belts */
+    struct changes edits;  /* paths are relative to the option */
+    struct text borrowed;  /* sentences about borrowed growth and cutting */
+    struct text untreated; /* sentences about unchanged belts */
+    size_t treated;        /* number of treated belts */
 };
 
-/* Put a mapping of the lender's stand in place of the belt's, marked as assumed. */
-static void lend(struct plan *p, size_t belt, const struct lender *l, const char *key)
+/* Replace a mapping of the belt's stand by the lender's, marked as assumed. */
+static void set_lent(struct plan *p, size_t belt, const struct lender *l, const char *key)
 {
     const struct node *map = ceduo_resolve_at(l->file.root, ceduo_app_format(p->app, "forest[0].stand.%s", key));
     LOCAL_TEXT(value);
@@ -102,38 +102,37 @@ static void lend(struct plan *p, size_t belt, const struct lender *l, const char
     ceduo_changes_add(&p->edits, CHANGE_SET, ceduo_app_format(p->app, "forest[%zu].stand.%s", belt, key), value.bytes);
 }
 
-static void tell_lent(struct plan *p, const char *stand, const struct lender *l, bool growth, bool cutting)
+static void report_lent(struct plan *p, const char *stand, const struct lender *l, bool growth, bool cutting)
 {
-    const char *told = ceduo_app_format(p->app,
-                                        growth && cutting ? _("Growth and cutting of '%s' are those of '%s' (assumed).")
-                                        : growth          ? _("The growth of '%s' is that of '%s' (assumed).")
-                                                          : _("The cutting of '%s' is that of '%s' (assumed)."),
-                                        stand, lent_belt(l)->name);
-    if (!strstr(ceduo_text_string(&p->borrowed), told))
-        ceduo_text_append_joined(&p->borrowed, p->borrowed.length > 0 ? " " : "", "%s", told);
+    const char *sentence = ceduo_app_format(p->app,
+                                            growth && cutting ? _("Growth and cutting of '%s' are those of '%s' (assumed).")
+                                            : growth          ? _("The growth of '%s' is that of '%s' (assumed).")
+                                                              : _("The cutting of '%s' is that of '%s' (assumed)."),
+                                            stand, lent_belt(l)->name);
+    if (!strstr(ceduo_text_string(&p->borrowed), sentence))
+        ceduo_text_append_joined(&p->borrowed, p->borrowed.length > 0 ? " " : "", "%s", sentence);
 }
 
-/* The ages of the standards that stay are those of `model`, in proportion. Without such ages all are one rotation old. */
+/* Set the retained standards, with the ages of `model` in proportion. Without ages all are one rotation old. */
 static void keep_standards(struct plan *p, size_t belt, const struct ceduo_stand *model)
 {
-    double all = 0, left = p->number;
+    double total = 0, remaining = p->number;
     LOCAL_TEXT(list);
     for (size_t i = 0; i < model->cutting.retained_count; i++)
-        all += model->cutting.stay_per_ha[i];
-    for (size_t i = 0; all > 0 && i < model->cutting.retained_count; i++) {
-        double share = model->cutting.stay_per_ha[i] / all, own = fmin(left, ceil(share * p->number - 1e-9));
+        total += model->cutting.stay_per_ha[i];
+    for (size_t i = 0; total > 0 && i < model->cutting.retained_count; i++) {
+        double share = model->cutting.stay_per_ha[i] / total, own = fmin(remaining, ceil(share * p->number - 1e-9));
         ceduo_text_format(&list, "%s%g", i > 0 ? ", " : "", own);
-        left -= own;
+        remaining -= own;
     }
-    if (all == 0)
-        ceduo_text_format(&list, "%g", left);
+    if (total == 0)
+        ceduo_text_format(&list, "%g", remaining);
     ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "forest[%zu].stand.cutting.stay_per_ha", belt), "[%s]", list.bytes);
 }
 
 static void leave_belt(struct plan *p, size_t belt, const char *why)
 {
-    ceduo_text_append_joined(&p->untreated, p->untreated.length > 0 ? " " : "", _("Belt %zu stays as it is: %s."), belt + 1,
-                             why);
+    ceduo_text_append_joined(&p->untreated, p->untreated.length > 0 ? " " : "", _("Belt %zu is unchanged: %s."), belt + 1, why);
 }
 
 static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
@@ -141,7 +140,7 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
     const struct ceduo_stand *s = &belt->stand;
     bool stools = s->stools_per_ha > 0, grows = ceduo_stand_grows(s), cut = s->cutting.rotation > 0;
     bool never = p->kind == NO_CUT && isnan(p->number), selection = p->kind == SELECTION;
-    bool borrows = selection || (!cut && !never); /* cutting */
+    bool borrows = selection || (!cut && !never); /* borrows the cutting */
     const char *stand = ceduo_app_format(p->app, "forest[%zu].stand", i);
     struct lender l = {.fit = 0};
     if (ceduo_stand_is_bare(s) && !stools)
@@ -152,17 +151,17 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
     }
     if (!grows || borrows)
         find_lender(p->app, s->species, selection ? CEDUO_SELECTION_COPPICE : s->system, &l);
-    if (l.fit == 0 && (!grows || borrows)) { /* the program came without its stands */
+    if (l.fit == 0 && (!grows || borrows)) { /* the shipped stands are missing */
         leave_belt(p, i, ceduo_app_format(p->app, _("no shipped stand has growth and cutting for '%s'"), belt->name));
         return;
     }
     p->treated++;
     if (!grows)
-        lend(p, i, &l, "growth");
+        set_lent(p, i, &l, "growth");
     if (borrows)
-        lend(p, i, &l, "cutting");
+        set_lent(p, i, &l, "cutting");
     if (l.fit > 0)
-        tell_lent(p, belt->name, &l, !grows, borrows);
+        report_lent(p, belt->name, &l, !grows, borrows);
     if (selection && grows && s->growth.shoots_old < lent_belt(&l)->stand.growth.shoots_old)
         ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.growth.shoots_old", stand), "%g",
                           lent_belt(&l)->stand.growth.shoots_old);
@@ -183,7 +182,7 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
     ceduo_scene_release(&l.file);
 }
 
-/* Make the plan of a treatment for each belt of the option shown. The caller frees its texts. */
+/* Plan a treatment for each belt of the option shown. The caller frees its texts. */
 static struct plan make_plan(struct app *app, enum treatment kind, double number)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
@@ -193,8 +192,8 @@ static struct plan make_plan(struct app *app, enum treatment kind, double number
     return p;
 }
 
-/* Append what is borrowed and what stays untreated, and free the texts. */
-static void end_plan(struct plan *p, struct text *text)
+/* Append the texts of the plan, and free them. */
+static void append_plan(struct plan *p, struct text *text)
 {
     for (int i = 0; i < 2; i++) {
         struct text *part = i == 0 ? &p->borrowed : &p->untreated;
@@ -211,7 +210,7 @@ static const char *name_option(const struct plan *p)
     const struct app *app = p->app;
     const struct ceduo_scene *scene = &app->document.file.scene;
     const char *name = _("selection coppice");
-    bool taken = false;
+    bool in_use = false;
     if (p->kind == CUT_NOW)
         name = ceduo_app_format(app, _("cut now, keep %g"), p->number);
     else if (p->kind == NO_CUT)
@@ -220,33 +219,33 @@ static const char *name_option(const struct plan *p)
                    : ceduo_app_format(app, ngettext("no cut for %g year", "no cut for %g years", p->number == 1 ? 1 : 2),
                                       p->number);
     for (size_t i = 0; i < scene->options_count; i++)
-        taken |= strcmp(scene->options[i].name, name) == 0;
-    return taken ? ceduo_app_format(app, "%s (%s)", name, ceduo_app_option(app)->name) : name;
+        in_use |= strcmp(scene->options[i].name, name) == 0;
+    return in_use ? ceduo_app_format(app, "%s (%s)", name, ceduo_app_option(app)->name) : name;
 }
 
-/* The cursor stays on the option that was copied: it can be treated in several ways. */
-static bool add_option(struct app *app, enum treatment kind, double number)
+/* The cursor stays on the copied option, which can be treated again. */
+static bool add_treated_option(struct app *app, enum treatment kind, double number)
 {
     struct plan p = make_plan(app, kind, number);
-    LOCAL_TEXT(said);
+    LOCAL_TEXT(text);
     bool good = p.treated > 0 &&
-                ceduo_app_edited(app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), &p.edits));
+                ceduo_app_finish_edit(app, ceduo_document_vary_option(&app->document, app->option, name_option(&p), &p.edits));
     const struct ceduo_scene *scene = &app->document.file.scene;
     if (good)
-        ceduo_text_format(&said, _("added '%s'."), scene->options[scene->options_count - 1].name);
-    end_plan(&p, &said);
+        ceduo_text_format(&text, _("added '%s'."), scene->options[scene->options_count - 1].name);
+    append_plan(&p, &text);
     if (good || p.treated == 0)
-        ceduo_app_show_problem(app, !good, "%s", said.bytes ? said.bytes : _("There is no forest here to treat."));
+        ceduo_app_show_problem(app, !good, "%s", text.bytes ? text.bytes : _("There is no forest here to treat."));
     return good;
 }
 
-static bool filled_number(struct app *app, struct popup *p)
+static bool submit_number(struct app *app, struct popup *p)
 {
     double number = NAN;
-    return ceduo_popup_number(app, p, 0, &number) && add_option(app, find_treatment(p->path), number);
+    return ceduo_popup_number(app, p, 0, &number) && add_treated_option(app, find_treatment(p->target), number);
 }
 
-/* Ask for the number that a treatment needs. */
+/* Ask for the number of a treatment. */
 static void ask_number(struct app *app, enum treatment kind)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
@@ -255,24 +254,25 @@ static void ask_number(struct app *app, enum treatment kind)
         stay = fmax(stay, ceduo_stand_retained_per_ha(&o->belts[i].stand));
     bool cut = kind == CUT_NOW;
     const char *offered = ceduo_app_format(app, "%g", stay > 0 ? round(stay) : KEPT_USUALLY);
-    struct popup *p = ceduo_popup_fields(app, _(treatments[kind].item), treatments[kind].value, filled_number);
-    struct field *own = ceduo_popup_value(p, cut ? _("standards kept per ha") : _("years without a cut"), cut ? offered : "",
-                                          ceduo_schema_at(cut ? "forest[0].stand.trees[0].per_ha" : "forest[0].cut_year"));
-    ceduo_text_append(&p->text, cut ? _("Of all ages together, in the proportion that the stand says. 0: all stems are cut.")
-                                    : _("In the year after them it is cut. Empty: it is never cut."));
+    struct popup *p = ceduo_popup_fields(app, _(treatments[kind].item), treatments[kind].value, submit_number);
+    struct field *own =
+        ceduo_popup_add_value(p, cut ? _("standards kept per ha") : _("years without a cut"), cut ? offered : "",
+                              ceduo_schema_at(cut ? "forest[0].stand.trees[0].per_ha" : "forest[0].cut_year"));
+    ceduo_text_append(&p->text, cut ? _("Total of all ages, in the proportions of the stand. 0: all stems are cut.")
+                                    : _("Cut in the following year. Empty: never cut."));
     own->flags = cut ? FIELD_REQUIRED : 0;
     own->meaning = cut ? N_("0: all stems are cut") : "";
     own->lo = cut ? 0 : 1;
     own->hi = cut ? own->hi : own->hi - FIRST_YEAR;
 }
 
-/* ---- as items of a list ---- */
+/* ---- items of a list ---- */
 
 void ceduo_popup_offer_treatments(struct app *app, struct popup *p)
 {
     if (ceduo_app_option(app)->belts_count > 0)
         for (int t = 0; t < TREATMENTS; t++)
-            ceduo_popup_item(p, _(treatments[t].item), treatments[t].value);
+            ceduo_popup_add_item(p, _(treatments[t].item), treatments[t].value);
 }
 
 bool ceduo_popup_preview_treatment(struct app *app, struct popup *p)
@@ -281,16 +281,16 @@ bool ceduo_popup_preview_treatment(struct app *app, struct popup *p)
     if (kind == TREATMENTS)
         return false;
     struct plan plan = make_plan(app, kind, NAN);
-    ceduo_text_append(&p->text, _(treatments[kind].about));
-    end_plan(&plan, &p->text);
+    ceduo_text_append(&p->text, _(treatments[kind].description));
+    append_plan(&plan, &p->text);
     return true;
 }
 
-bool ceduo_popup_on_treatment(struct app *app, const char *value)
+bool ceduo_popup_choose_treatment(struct app *app, const char *value)
 {
     enum treatment kind = find_treatment(value);
     if (kind == SELECTION)
-        add_option(app, kind, NAN);
+        add_treated_option(app, kind, NAN);
     else if (kind != TREATMENTS)
         ask_number(app, kind);
     return kind != TREATMENTS;

@@ -7,29 +7,30 @@
 #include "base/language.h"
 #include "popup.h"
 
-static void undo_or_redo(struct app *app, int by)
+static void undo_or_redo(struct app *app, int step)
 {
     struct document *d = &app->document;
-    bool redo = by > 0;
-    if (!ceduo_document_undo_or_redo(d, by)) {
+    bool redo = step > 0;
+    if (!ceduo_document_undo_or_redo(d, step)) {
         ceduo_app_show_message(app, "%s", redo ? _("nothing to redo") : _("nothing to undo"));
         return;
     }
     ceduo_app_refresh(app);
-    ceduo_app_show_message(app, redo ? _("again: %s") : _("undone: %s"), ceduo_app_path(app, d->states[d->at + !redo].what));
+    ceduo_app_show_message(app, redo ? _("redone: %s") : _("undone: %s"),
+                           ceduo_app_path(app, d->states[d->current + !redo].what));
 }
 
-static void next_option(struct app *app, int by)
+static void show_option(struct app *app, int step)
 {
     size_t n = app->document.file.scene.options_count;
-    ceduo_app_show_option(app, (app->option + (by > 0 ? 1 : n - 1)) % n);
+    ceduo_app_show_option(app, (app->option + (step > 0 ? 1 : n - 1)) % n);
     ceduo_app_show_message(app, _("option %zu of %zu: %s"), app->option + 1, n, ceduo_app_option(app)->name);
 }
 
-static void next_pane(struct app *app, int by)
+static void show_pane(struct app *app, int step)
 {
     int panes = ceduo_views[app->view]->panes;
-    ceduo_app_state(app)->pane = (ceduo_app_state(app)->pane + panes + by) % panes;
+    ceduo_app_state(app)->pane = (ceduo_app_state(app)->pane + panes + step) % panes;
 }
 
 static void move_lines(struct app *app, int lines)
@@ -37,42 +38,42 @@ static void move_lines(struct app *app, int lines)
     if (ceduo_app_state(app)->pane == 0 && ceduo_app_form(app)->n > 0)
         ceduo_form_move(ceduo_app_form(app), lines, 0);
     else
-        ceduo_app_continue_form(app, lines);
+        ceduo_app_scroll_text(app, lines);
 }
 
-static void move_page(struct app *app, int by)
+static void move_page(struct app *app, int step)
 {
-    move_lines(app, by * (app->height > 12 ? app->height / 2 : 5));
+    move_lines(app, step * (app->height > 12 ? app->height / 2 : 5));
 }
 
-static void move_column(struct app *app, int by)
+static void move_column(struct app *app, int step)
 {
     if (ceduo_app_state(app)->pane == 0)
-        ceduo_form_move(ceduo_app_form(app), 0, by);
+        ceduo_form_move(ceduo_app_form(app), 0, step);
 }
 
-/* Moves the cursor of the form to the next line that holds what is searched for. */
-static void search_again(struct app *app)
+/* Move the cursor to the next line that contains the search text. */
+static void search_next(struct app *app)
 {
     bool found = ceduo_form_search(ceduo_app_form(app), app->search);
     ceduo_app_state(app)->pane *= !found;
     if (!found)
-        ceduo_app_show_message(app, _("'%s' is not found in this view"), app->search);
+        ceduo_app_show_message(app, _("'%s' not found in this view"), app->search);
 }
 
-static bool filled_search(struct app *app, struct popup *p)
+static bool submit_search_text(struct app *app, struct popup *p)
 {
     snprintf(app->search, sizeof app->search, "%.*s", (int)sizeof app->search - 1, p->fields[0].line.text);
-    search_again(app);
+    search_next(app);
     return true;
 }
 
-static void ask_for_word(struct app *app)
+static void ask_search_text(struct app *app)
 {
-    ceduo_popup_field(ceduo_popup_fields(app, _("Search in this view"), "", filled_search), _("word"), app->search);
+    ceduo_popup_add_field(ceduo_popup_fields(app, _("Search in this view"), "", submit_search_text), _("word"), app->search);
 }
 
-static void next_charset(struct app *app)
+static void change_charset(struct app *app)
 {
     app->charset = (enum ceduo_charset)((app->charset + 1) % 3);
     ceduo_app_resize(app, app->width, app->height);
@@ -80,41 +81,40 @@ static void next_charset(struct app *app)
 
 /* ---- commands by name ---- */
 
-static void chose_command(struct app *app, struct popup *p)
+static void select_command(struct app *app, struct popup *p)
 {
     ceduo_program_key(app, ceduo_actions[atoi(p->value)].key);
 }
 
 static void list_commands(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("Commands"), "", chose_command);
+    struct popup *p = ceduo_popup_list(app, _("Commands"), "", select_command);
     for (int i = 0; i < ACTION_COUNT; i++)
         if (i != ACTION_COMMANDS)
-            ceduo_popup_item(
+            ceduo_popup_add_item(
                 p, ceduo_app_format(app, "%-10s %s", ceduo_actions[i].word, ceduo_translate_in(ceduo_actions[i].help)),
                 ceduo_app_format(app, "%d", i));
 }
 
 /* ---- help: all keys, and the field under the cursor ---- */
 
-/* The first action of each group, in the order of the table, and its heading. */
+/* Headings of the help, each with its first action. */
 static const struct {
     enum action first;
     const char *heading;
-} groups[] = {{ACTION_UP, N_("Moving")},        {ACTION_EDIT, N_("Changing")},
-              {ACTION_VIEW_SLOPE, N_("Views")}, {ACTION_FIND, N_("Looking further")},
-              {ACTION_NEW, N_("Files")},        {ACTION_CHARSET, N_("Screen")}};
+} help_groups[] = {{ACTION_UP, N_("Moving")},      {ACTION_EDIT, N_("Changing")}, {ACTION_VIEW_SLOPE, N_("Views")},
+                   {ACTION_FIND, N_("Exploring")}, {ACTION_NEW, N_("Files")},     {ACTION_CHARSET, N_("Screen")}};
 
-/* What words of the column on the right mean; those of fields are explained at the field. */
+/* Terms of the right column. Fields are explained at the cursor. */
 static const struct {
     const char *word, *meaning;
 } glossary[] = {
     {N_("ADC"), N_("mean distance between stem hits along the fall line; less than 30 m passes")},
-    {N_("free run"), N_("chance that a rock meets no stem over 30 m of forest")},
-    {N_("two signs"), N_("of a test: today, and in the worst of the years ahead")},
-    {N_("index"), N_("the paper's way: so many contacts, each takes one mean stem's energy")},
-    {N_("p95"), N_("of 100 rocks 95 stay below it")},
-    {N_("uncertainty"), N_("what is not known of the inputs, such as the ground; more rocks do not reduce it")},
+    {N_("free run"), N_("probability that a rock meets no stem over 30 m of forest")},
+    {N_("two signs"), N_("of a light: today, and in the worst year ahead")},
+    {N_("index"), N_("method of the paper: each contact takes the energy of one mean stem")},
+    {N_("p95"), N_("95 of 100 rocks stay below it")},
+    {N_("uncertainty"), N_("effect of uncertain inputs, such as the ground; more rocks do not reduce it")},
 };
 
 static void show_help(struct app *app)
@@ -127,26 +127,23 @@ static void show_help(struct app *app)
         ceduo_text_append_escaped(&p->text, field.bytes);
         ceduo_text_append(&p->text, "\n \n");
     }
-    ceduo_text_append(&p->text, _("Every edit is live: figures and pictures follow at once.\n \n"));
+    ceduo_text_append(&p->text, _("Figures and pictures follow every edit at once.\n \n"));
     for (int i = 0; i < ACTION_COUNT; i++) {
         const struct action_info *a = &ceduo_actions[i];
-        for (size_t k = 0; k < sizeof groups / sizeof groups[0]; k++)
-            if ((int)groups[k].first == i)
-                ceduo_text_format(&p->text, "%s%s\n", k > 0 ? " \n" : "", _(groups[k].heading));
+        for (size_t k = 0; k < sizeof help_groups / sizeof help_groups[0]; k++)
+            if ((int)help_groups[k].first == i)
+                ceduo_text_format(&p->text, "%s%s\n", k > 0 ? " \n" : "", _(help_groups[k].heading));
         const char *keys = ceduo_app_format(app, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
         ceduo_text_format(&p->text, "  %-16s%s\n", keys, ceduo_translate_in(a->help));
     }
     ceduo_text_append(&p->text, " \n");
-    ceduo_text_append(&p->text, _("A star marks what is assumed and not measured. Dim values are defaults.\n"
-                                  "A number is typed with a comma or a dot, a diameter in cm; one with a spread as "
-                                  "0.6 +- 0.1, with a u behind it where all between is alike. A point is x z with a blank "
-                                  "between.\n"
-                                  "In a list, type to search: the best match stands first. a and y split a ground, a belt "
-                                  "or a point of the profile; its neighbours follow where a border is moved.\n"
-                                  "The column on the right: of 1000 rocks released, without forest; the three lights; what "
-                                  "the index (Eq. 4 and 5 of Ciabocco et al. 2009) takes and leaves; how sure it is.\n"
-                                  "With the mouse: click a field or a view's name; the wheel moves; with Shift held the "
-                                  "terminal itself selects text.\n"));
+    ceduo_text_append(
+        &p->text, _("A star marks an assumed value. Dim values are defaults.\nType numbers with a comma or a dot, diameters in "
+                    "cm, a spread as 0.6 +- 0.1 (u after it: uniform), a point as x z.\nIn a list, type to search: the best "
+                    "match is first. a and y split a ground, a belt or a segment of the profile. Neighbours follow a moved "
+                    "border.\nThe right column: arrivals per 1000 rocks released, without and with forest; the three lights; "
+                    "energy absorbed and remaining by the index (Eq. 4 and 5 of Ciabocco et al. 2009); uncertainty.\nMouse: "
+                    "click a field or the name of a view; the wheel scrolls; hold Shift to select text in the terminal.\n"));
     ceduo_text_format(&p->text, " \n%s\n", _("Words"));
     for (size_t i = 0; i < sizeof glossary / sizeof glossary[0]; i++)
         ceduo_text_format(&p->text, "  %s: %s\n", _(glossary[i].word), _(glossary[i].meaning));
@@ -155,7 +152,7 @@ static void show_help(struct app *app)
 /* ---- actions of all views ---- */
 
 const struct action_info ceduo_actions[ACTION_COUNT] = {
-#define X(NAME, key, word, key2, word2, bar, help, act) {key, key2, word, word2, bar, help},
+#define X(NAME, key, word, key2, word2, bar, help, binding) {key, key2, word, word2, bar, help},
     ACTIONS(X)
 #undef X
 };
@@ -168,12 +165,12 @@ enum action ceduo_action_find(int key)
     return ACTION_NONE;
 }
 
-static void show_view(struct app *app, int view)
+static void open_view(struct app *app, int view)
 {
     ceduo_app_show(app, (enum view_number)view);
 }
 
-static void next_theme(struct app *app)
+static void change_theme(struct app *app)
 {
     app->theme = (app->theme + 1) % 3;
 }
@@ -183,48 +180,48 @@ static void redraw(struct app *app)
     app->redraw = true;
 }
 
-/* What the actions of all views do. */
-#define BY(f, n)                                        .function = f, .by = n
-#define DO(f)                                           .plain = f
-#define X(NAME, key, word, key2, word2, bar, help, act) [ACTION_##NAME] = {act},
-static const struct act acts[ACTION_COUNT] = {ACTIONS(X)};
+/* Handlers of all views. */
+#define RUN(f, n)                                           .handler = f, .step = n
+#define DO(f)                                               .plain = f
+#define X(NAME, key, word, key2, word2, bar, help, binding) [ACTION_##NAME] = {binding},
+static const struct key_binding common_bindings[ACTION_COUNT] = {ACTIONS(X)};
 #undef X
 
-/* The view's own, or that of all views. */
-static void act(struct app *app, enum action action)
+/* Call the handler of the view, or the common one. */
+static void run_action(struct app *app, enum action action)
 {
-    const struct act *a = ceduo_views[app->view]->acts[ceduo_app_state(app)->pane];
-    while (a && (a->function || a->plain) && a->action != action)
+    const struct key_binding *a = ceduo_views[app->view]->bindings[ceduo_app_state(app)->pane];
+    while (a && (a->handler || a->plain) && a->action != action)
         a++;
-    a = a && (a->function || a->plain) ? a : &acts[action];
-    if (a->function)
-        a->function(app, a->by);
+    a = a && (a->handler || a->plain) ? a : &common_bindings[action];
+    if (a->handler)
+        a->handler(app, a->step);
     else if (a->plain)
         a->plain(app);
 }
 
 /* ---- inputs ---- */
 
-/* Begins every input: it ends the message of the input before. */
+/* Begin an input: clear the message of the last one. */
 static void begin_input(struct app *app)
 {
     ceduo_arena_free(app->scratch);
     if (!app->popup) {
         app->message[0] = '\0';
-        app->once_saved = NULL;
+        app->after_save = NULL;
     }
 }
 
-/* Ends every input: updates offers of unsaved work, the popup's preview and the belt under the cursor. */
+/* End an input: offer unsaved work, update the popup's preview and the belt under the cursor. */
 static void end_input(struct app *app)
 {
-    if (app->opened && !app->no_recovery)
+    if (app->just_opened && !app->no_recovery)
         ceduo_popup_recover(app);
-    app->opened = false;
+    app->just_opened = false;
     if (app->popup)
-        ceduo_popup_browse(app);
-    if (!app->quit && ceduo_views[app->view]->follow)
-        ceduo_views[app->view]->follow(app);
+        ceduo_popup_update_note(app);
+    if (!app->quit && ceduo_views[app->view]->after_key)
+        ceduo_views[app->view]->after_key(app);
 }
 
 void ceduo_program_key(struct app *app, int key)
@@ -234,29 +231,29 @@ void ceduo_program_key(struct app *app, int key)
     if (app->popup)
         ceduo_popup_key(app, key);
     else if (action != ACTION_NONE)
-        act(app, action);
+        run_action(app, action);
     end_input(app);
 }
 
 void ceduo_program_paste(struct app *app, const char *text)
 {
     begin_input(app);
-    app->message[0] = '\0'; /* that of a popup, too */
+    app->message[0] = '\0'; /* also the message of a popup */
     if (!app->popup || !ceduo_popup_paste(app, text))
-        ceduo_app_show_message(app, "%s", _("what was pasted goes nowhere: no field is open"));
+        ceduo_app_show_message(app, "%s", _("nothing pasted: no field is open"));
     end_input(app);
 }
 
-/* Shows the view whose title is clicked, or moves the cursor to a field; edits the field if the cursor is there already. */
+/* Open the view of the clicked title, or move the cursor to a field. A second click edits the field. */
 void ceduo_program_click(struct app *app, int x, int y)
 {
     struct view_state *state = ceduo_app_state(app);
     size_t row = state->form.row, column = state->form.column;
-    if (app->popup) /* a question stays */
+    if (app->popup) /* a popup stays */
         return;
     begin_input(app);
     if (y == 0) {
-        enum view_number view = ceduo_screen_view_at(app, x);
+        enum view_number view = ceduo_screen_find_view(app, x);
         if (view < VIEW_COUNT)
             ceduo_app_show(app, view);
     } else if (ceduo_form_click(&state->form, x, y)) {
@@ -297,10 +294,10 @@ bool ceduo_program_poll(struct app *app)
     if (years && app->year >= years->count)
         app->year = 0;
     if (results->preview)
-        ceduo_popup_previewed(app, results->preview);
+        ceduo_popup_on_preview(app, results->preview);
     if (results->search)
-        ceduo_popup_found(app, results->search);
-    ceduo_result_list_drop(results, JOB_PREVIEW);
-    ceduo_result_list_drop(results, JOB_SEARCH);
+        ceduo_popup_on_found(app, results->search);
+    ceduo_job_results_drop(results, JOB_PREVIEW);
+    ceduo_job_results_drop(results, JOB_SEARCH);
     return changed;
 }

@@ -17,28 +17,28 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 #define WIDTH_MIN  60
 #define HEIGHT_MIN 16
 
-#define MARKS_MORE  2   /* columns that signs of the verdict take more in ASCII */
-#define WIDE        100 /* columns with room for a blank more between the names of the views */
-#define NAME_MIN    3   /* columns of the name of a view that is not open, */
-#define NAME_WANTED 20  /* and with room */
+#define MARKS_MORE  2   /* extra columns of the verdict's signs in ASCII */
+#define WIDE        100 /* columns for an extra blank between the titles of views */
+#define NAME_MIN    3   /* min. columns of the title of a closed view */
+#define NAME_WANTED 20  /* wanted columns of it */
 
-/* Columns of the title of a view: its number, blanks, and so many columns of its name that all have room. */
+/* Return the columns of the title of a view: number, blanks, and a name shortened so that all titles fit. */
 static int title_columns(const struct app *app, int view)
 {
     int own = 0;
-    for (int most = NAME_WANTED, all = INT_MAX; all > app->width && most >= NAME_MIN; most--) {
-        all = 0;
+    for (int max = NAME_WANTED, total = INT_MAX; total > app->width && max >= NAME_MIN; max--) {
+        total = 0;
         for (int v = 0; v < VIEW_COUNT; v++) {
             int name = (int)ceduo_utf8_width(ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help));
-            int columns = (v == (int)app->view || name < most ? name : most) + (app->width < WIDE ? 3 : 4);
-            all += columns;
+            int columns = (v == (int)app->view || name < max ? name : max) + (app->width < WIDE ? 3 : 4);
+            total += columns;
             own = v == view ? columns : own;
         }
     }
     return own;
 }
 
-enum view_number ceduo_screen_view_at(const struct app *app, int column)
+enum view_number ceduo_screen_find_view(const struct app *app, int column)
 {
     int v = 0;
     for (int end = 0; v < VIEW_COUNT; v++)
@@ -47,8 +47,8 @@ enum view_number ceduo_screen_view_at(const struct app *app, int column)
     return (enum view_number)v;
 }
 
-/* "* " before it: unsaved. */
-static const char *title_of(struct app *app)
+/* Return the scene's title, with "* " if it is unsaved. */
+static const char *scene_title(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     LOCAL_TEXT(safe);
@@ -57,7 +57,7 @@ static const char *title_of(struct app *app)
     return ceduo_arena_string(app->scratch, ceduo_text_string(&safe));
 }
 
-/* The names of the views, and the scene's title where they leave room for all of it. */
+/* Draw the titles of the views, and the scene's title if all of it fits. Return true if it does. */
 static bool draw_title(struct app *app)
 {
     int x = 0;
@@ -66,14 +66,14 @@ static bool draw_title(struct app *app)
                                v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
                                ceduo_app_format(app, app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
                                                 ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help)));
-    const char *title = title_of(app);
+    const char *title = scene_title(app);
     bool fits = ceduo_cells_label_width(app->charset, title) + 4 <= app->width - x;
     if (fits)
         ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 0, CEDUO_ROLE_TITLE, title);
     return fits;
 }
 
-/* The answer for the option shown: "✔ YES so far: … uncertainty 40 %" while the uncertainty may change it. */
+/* Draw the answer for the option shown, with the progress of the uncertainty while that may change the answer. */
 static void draw_verdict(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
@@ -83,7 +83,7 @@ static void draw_verdict(struct app *app)
     struct ceduo_subject subject = ceduo_subject_find(ceduo_app_report(app), app->option, r->last_control);
     enum ceduo_judgement judgement = subject.outcome.answer;
     bool open = judgement != CEDUO_CANNOT_JUDGE && judgement != CEDUO_UNANSWERED;
-    double share = open ? ceduo_live_awaits_uncertainty(&app->live, &app->document.file, app->option) : NAN;
+    double share = open ? ceduo_live_uncertainty_progress(&app->live, &app->document.file, app->option) : NAN;
     const char *progress = isnan(share) ? "" : ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
     subject.preliminary = !isnan(share);
     ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE - ceduo_utf8_width(progress));
@@ -96,10 +96,10 @@ static void draw_verdict(struct app *app)
     ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 1, CEDUO_ROLE_DIM, progress);
 }
 
-/* ---- figures of an earlier scene ---- */
+/* ---- stale figures ---- */
 
-/* Dims what is drawn in an area, or what `from` has there instead. */
-static void dim(struct app *app, struct ceduo_area area, const struct ceduo_cells *from)
+/* Dim an area, or replace it by the dimmed cells of `from`. */
+static void dim_area(struct app *app, struct ceduo_area area, const struct ceduo_cells *from)
 {
     for (int y = area.top; y < area.top + area.height; y++)
         for (int x = area.left; x < area.left + area.width; x++) {
@@ -111,31 +111,32 @@ static void dim(struct app *app, struct ceduo_area area, const struct ceduo_cell
         }
 }
 
-/* Dim the figures of an earlier scene, or those of the last screen if none are known; the answer is that of the last screen. */
+/* Dim stale figures; without figures, show those of the last screen. The answer is that of the last screen. */
 static void dim_figures(struct app *app, struct ceduo_area column)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     const struct ceduo_result *r = app->live.result;
-    struct kept *kept = &app->kept;
+    struct last_screen *last_screen = &app->last_screen;
     if (!ceduo_live_is_stale(&app->live, scene, app->option)) {
-        if (!kept->cells)
-            kept->cells = ceduo_check_memory(ceduo_cells_create(app->width, app->height, app->charset));
-        memcpy(kept->cells->cell, app->cells->cell, (size_t)app->width * (size_t)app->height * sizeof *app->cells->cell);
-        *kept = (struct kept){kept->cells, app->view, app->option, app->year};
+        if (!last_screen->cells)
+            last_screen->cells = ceduo_check_memory(ceduo_cells_create(app->width, app->height, app->charset));
+        memcpy(last_screen->cells->cell, app->cells->cell, (size_t)app->width * (size_t)app->height * sizeof *app->cells->cell);
+        *last_screen = (struct last_screen){last_screen->cells, app->view, app->option, app->year};
         return;
     }
-    bool same = kept->cells && kept->option == app->option && (kept->year == app->year || kept->view != VIEW_ROTATION);
+    bool same = last_screen->cells && last_screen->option == app->option &&
+                (last_screen->year == app->year || last_screen->view != VIEW_ROTATION);
     bool known = r && (!r->wooded || ceduo_result_wooded(r, app->option, r->last_control));
-    const struct ceduo_cells *before = same && !known ? kept->cells : NULL;
-    dim(app, (struct ceduo_area){0, 1, app->width, 1}, same ? kept->cells : NULL);
-    dim(app, column, before);
+    const struct ceduo_cells *old = same && !known ? last_screen->cells : NULL;
+    dim_area(app, (struct ceduo_area){0, 1, app->width, 1}, same ? last_screen->cells : NULL);
+    dim_area(app, column, old);
     for (size_t i = 0; i < app->pictures_count; i++)
-        dim(app, app->pictures[i], kept->view == app->view ? before : NULL);
+        dim_area(app, app->pictures[i], last_screen->view == app->view ? old : NULL);
     if (r || same)
         ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 1, CEDUO_ROLE_TEXT, _(" computing \xe2\x80\xa6"));
 }
 
-void ceduo_app_hint(struct app *app, const char *text)
+void ceduo_app_show_hint(struct app *app, const char *text)
 {
     if (!app->message[0] && (!app->popup || app->popup->kind == POPUP_FIELD))
         ceduo_app_show_message(app, "%s", text);
@@ -147,9 +148,9 @@ static void draw_explanation(struct app *app)
     LOCAL_TEXT(safe);
     enum ceduo_role role = CEDUO_ROLE_TEXT;
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
-    if (app->message[0] && !(app->popup && app->popup->kind >= POPUP_LIST && !app->popup->asks)) { /* which shows it */
+    if (app->message[0] && !(app->popup && app->popup->kind >= POPUP_LIST && !app->popup->is_menu)) { /* the popup shows it */
         ceduo_text_append(&text, app->message);
-        role = app->message_bad ? CEDUO_ROLE_WARN : CEDUO_ROLE_GOOD;
+        role = app->message_is_warning ? CEDUO_ROLE_WARN : CEDUO_ROLE_GOOD;
     } else if (ceduo_app_state(app)->pane == 0) {
         ceduo_form_explain(ceduo_app_form(app), &text);
     }
@@ -157,7 +158,7 @@ static void draw_explanation(struct app *app)
     ceduo_app_shorten(app, &safe, lines.width, lines.height);
     const char *shown = ceduo_text_string(&safe);
     if ((int)ceduo_utf8_width(shown) > app->width)
-        ceduo_app_text(app, lines, role, shown, 0);
+        ceduo_app_draw_wrapped(app, lines, role, shown, 0);
     else
         ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 2, app->width, role, shown);
 }
@@ -167,32 +168,32 @@ static int bar_width(enum action action, const char *word)
     return (int)ceduo_utf8_width(ceduo_actions[action].word) + (int)ceduo_utf8_width(_(word)) + 3;
 }
 
-/* Puts a key where there is room. False where there is none. */
-static bool draw_key(struct app *app, int *x, enum action action, const char *word, int *room)
+/* Draw a key in the bar. Return false if it does not fit. */
+static bool draw_key(struct app *app, int *x, enum action action, const char *word, int *space)
 {
     const char *key = ceduo_actions[action].word;
     int width = bar_width(action, word);
-    if (width > *room)
+    if (width > *space)
         return false;
-    ceduo_app_label(app, *x, app->height - 1, CEDUO_ROLE_TITLE, "%s", key);
-    ceduo_app_label(app, *x + (int)ceduo_utf8_width(key) + 1, app->height - 1, CEDUO_ROLE_DIM, "%s", _(word));
+    ceduo_app_draw_label(app, *x, app->height - 1, CEDUO_ROLE_TITLE, "%s", key);
+    ceduo_app_draw_label(app, *x + (int)ceduo_utf8_width(key) + 1, app->height - 1, CEDUO_ROLE_DIM, "%s", _(word));
     *x += width;
-    *room -= width;
+    *space -= width;
     return true;
 }
 
-/* The view's own keys, then those of every view, of which the last ones always have room. */
+/* Draw the view's own keys, then the common ones. The most important keys always fit. */
 static void draw_bar(struct app *app)
 {
     const struct view *view = ceduo_views[app->view];
-    int x = 0, room = app->width + 2;
+    int x = 0, space = app->width + 2;
     if (app->popup) {
-        ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM, ceduo_popup_bar(app));
+        ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM, ceduo_popup_key_help(app));
         return;
     }
     for (int i = 0; i < ACTION_COUNT; i++)
-        room -= ceduo_actions[i].bar == 2 ? bar_width((enum action)i, ceduo_actions[i].help) : 0;
-    for (int k = 0; view->bar[k].word && draw_key(app, &x, view->bar[k].action, view->bar[k].word, &room);)
+        space -= ceduo_actions[i].bar == 2 ? bar_width((enum action)i, ceduo_actions[i].help) : 0;
+    for (int k = 0; view->bar[k].word && draw_key(app, &x, view->bar[k].action, view->bar[k].word, &space);)
         k++;
     for (int rank = 1; rank <= 2; rank++) {
         for (int i = 0; i < ACTION_COUNT; i++) {
@@ -200,9 +201,9 @@ static void draw_bar(struct app *app)
             for (int k = 0; view->bar[k].word; k++)
                 own |= view->bar[k].action == (enum action)i;
             if (!own)
-                draw_key(app, &x, (enum action)i, ceduo_actions[i].help, &room);
+                draw_key(app, &x, (enum action)i, ceduo_actions[i].help, &space);
         }
-        room = app->width;
+        space = app->width;
     }
 }
 
@@ -212,7 +213,7 @@ void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
     ceduo_form_draw(ceduo_app_form(app), app->cells, area, p ? p->fields[0].line.text : NULL);
 }
 
-/* The newest figures. Warnings without room are only counted: view 4 has them. `titled`: the scene's title stands above. */
+/* Draw the newest figures. Warnings that do not fit are only counted. `titled`: with the scene's title. */
 static void draw_column(struct app *app, struct ceduo_area area, bool titled)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;
@@ -221,16 +222,17 @@ static void draw_column(struct app *app, struct ceduo_area area, bool titled)
     if (titled) {
         static const struct ceduo_page_column columns[] = {{"", 8, 0, COL_GROW}};
         CEDUO_PAGE_TABLE_OF(&page, columns);
-        ceduo_page_cell_role(&page, CEDUO_ROLE_TITLE, title_of(app));
+        ceduo_page_cell_role(&page, CEDUO_ROLE_TITLE, scene_title(app));
     }
-    size_t warnings = ceduo_pane_column(&page, &pane), left = 0;
-    for (; left < warnings; left++) {
-        if (ceduo_page_draw(&page, canvas, (struct ceduo_area){0}, 0) + (left > 0) <= area.height)
+    size_t warnings = ceduo_pane_column(&page, &pane), hidden = 0;
+    for (; hidden < warnings; hidden++) {
+        if (ceduo_page_draw(&page, canvas, (struct ceduo_area){0}, 0) + (hidden > 0) <= area.height)
             break;
         ceduo_page_drop(&page);
     }
-    if (left > 0)
-        ceduo_page_para(&page, CEDUO_PAGE_WARNING, ngettext("%zu remark more: view 4", "%zu remarks more: view 4", left), left);
+    if (hidden > 0)
+        ceduo_page_para(&page, CEDUO_PAGE_WARNING, ngettext("%zu more remark: view 4", "%zu more remarks: view 4", hidden),
+                        hidden);
     if (ceduo_page_draw(&page, canvas, area, 0) > area.height)
         ceduo_canvas_label_right(canvas, app->width - 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, " \xe2\x80\xa6");
     ceduo_page_free(&page);
@@ -241,27 +243,26 @@ void ceduo_screen_draw(struct app *app)
     ceduo_cells_clear(app->cells);
     app->pictures_count = 0;
     if (app->width < WIDTH_MIN || app->height < HEIGHT_MIN) {
-        struct ceduo_area all = {0, 0, app->width, app->height};
-        const char *text =
-            ceduo_app_format(app, _("ceduo needs a window of %d x %d; this one is %d x %d. Make it larger; q quits."),
-                             WIDTH_MIN, HEIGHT_MIN, app->width, app->height);
-        ceduo_app_text(app, all, CEDUO_ROLE_WARN, text, 0);
+        struct ceduo_area whole = {0, 0, app->width, app->height};
+        const char *text = ceduo_app_format(app, _("The window (%d x %d) is too small: at least %d x %d is needed. q quits."),
+                                            app->width, app->height, WIDTH_MIN, HEIGHT_MIN);
+        ceduo_app_draw_wrapped(app, whole, CEDUO_ROLE_WARN, text, 0);
         return;
     }
     int side = app->width >= 140 ? 44 : app->width >= 100 ? 36 : 28;
-    struct ceduo_area now = {app->width - side + 1, 2, side - 1, app->height - 5};
+    struct ceduo_area column = {app->width - side + 1, 2, side - 1, app->height - 5};
     struct ceduo_area body = {0, 2, app->width - side - 2, app->height - 5};
     bool titled = draw_title(app);
     draw_verdict(app);
-    for (int y = now.top; y < now.top + now.height; y++)
-        ceduo_cells_label(app->cells, now.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
-    draw_column(app, now, !titled);
+    for (int y = column.top; y < column.top + column.height; y++)
+        ceduo_cells_label(app->cells, column.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
+    draw_column(app, column, !titled);
     if (ceduo_views[app->view]->result && !app->live.result) {
-        ceduo_app_text(app, body, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), 0);
+        ceduo_app_draw_wrapped(app, body, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), 0);
         app->pictures[app->pictures_count++] = body;
     } else
         ceduo_views[app->view]->draw(app, body);
-    dim_figures(app, now);
+    dim_figures(app, column);
     draw_explanation(app);
     draw_bar(app);
     if (app->popup)

@@ -12,25 +12,25 @@
 #include "io/file.h"
 #include "view/svg.h"
 
-/* Of the word its first `most` bytes: it may be no script. */
-static enum script_end fail(const char *path, size_t line, const char *what, const char *word, size_t most)
+/* Report an error. Print at most `max` bytes of the word, because the file may not be a script. */
+static enum script_end report_error(const char *path, size_t line, const char *what, const char *word, size_t max)
 {
     LOCAL_TEXT(message);
     ceduo_text_append_escaped(&message, path);
     ceduo_text_format(&message, ":%zu: %s: ", line, what);
-    ceduo_text_append_escaped_n(&message, word, ceduo_utf8_cut(word, most));
+    ceduo_text_append_escaped_n(&message, word, ceduo_utf8_cut(word, max));
     fprintf(stderr, "%s\n", message.bytes);
     return SCRIPT_WRONG;
 }
 
-/* A key from its name: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; K_NONE. */
+/* Return a key by name: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; otherwise K_NONE. */
 static int find_key(const char *name)
 {
     static const struct {
         const char *name;
         int key;
-    } others[] = {{"Esc", K_ESCAPE}, {"Space", ' '}, {"Backspace", K_BACKSPACE},
-                  {"F8", K_F(8)},    {"F9", K_F(9)}, {"Ctrl-U", K_CTRL_U}};
+    } extra_keys[] = {{"Esc", K_ESCAPE}, {"Space", ' '}, {"Backspace", K_BACKSPACE},
+                      {"F8", K_F(8)},    {"F9", K_F(9)}, {"Ctrl-U", K_CTRL_U}};
     uint32_t code;
     size_t n = strlen(name);
     if (n > 0 && ceduo_utf8_decode(name, n, &code) == n)
@@ -41,13 +41,13 @@ static int find_key(const char *name)
         if (strcmp(ceduo_actions[i].word2, name) == 0)
             return ceduo_actions[i].key2;
     }
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (strcmp(others[i].name, name) == 0)
-            return others[i].key;
+    for (size_t i = 0; i < sizeof extra_keys / sizeof extra_keys[0]; i++)
+        if (strcmp(extra_keys[i].name, name) == 0)
+            return extra_keys[i].key;
     return K_NONE;
 }
 
-/* A script sees what a search found before its next key. */
+/* Press a key. A search or preview ends before the next key. */
 static void press_key(struct app *app, int key)
 {
     ceduo_program_key(app, key);
@@ -55,8 +55,8 @@ static void press_key(struct app *app, int key)
         ceduo_program_poll(app);
 }
 
-/* Puts the screen as text, as letters of its roles, or as a drawing. */
-static enum script_end dump(struct app *app, const char *what, const char *name, const char *path, size_t line)
+/* Write the screen as text, as letters of its roles, or as a drawing. */
+static enum script_end dump_screen(struct app *app, const char *what, const char *name, const char *path, size_t line)
 {
     LOCAL_TEXT(drawing);
     ceduo_program_poll(app);
@@ -72,11 +72,11 @@ static enum script_end dump(struct app *app, const char *what, const char *name,
     bool good = strcmp(name, "-") == 0 ? fputs(drawing.bytes, stdout) >= 0 && fflush(stdout) == 0
                                        : ceduo_file_write(name, drawing.bytes, drawing.length);
     if (!good)
-        fail(path, line, strerror(errno), name, SIZE_MAX);
+        report_error(path, line, strerror(errno), name, SIZE_MAX);
     return good ? SCRIPT_DONE : SCRIPT_UNWRITTEN;
 }
 
-static enum script_end obey(struct app *app, char *command, const char *path, size_t line)
+static enum script_end run_command(struct app *app, char *command, const char *path, size_t line)
 {
     command += strspn(command, " \t");
     if (command[0] == '\0' || command[0] == '#')
@@ -88,7 +88,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
         for (char *name = strtok_r(rest, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
             int key = find_key(name);
             if (key == K_NONE)
-                return fail(path, line, _("no such key"), name, CEDUO_FOREIGN_MAX);
+                return report_error(path, line, _("no such key"), name, CEDUO_FOREIGN_MAX);
             press_key(app, key);
         }
     } else if (strcmp(command, "type") == 0) {
@@ -99,18 +99,19 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
                 press_key(app, (int)code);
         }
     } else if (strcmp(command, "dump") == 0 || strcmp(command, "roles") == 0 || strcmp(command, "draw") == 0) {
-        return dump(app, command, rest, path, line);
+        return dump_screen(app, command, rest, path, line);
     } else if (strcmp(command, "resize") == 0) {
         int width, height, used = 0;
         if (sscanf(rest, "%d %d%n", &width, &height, &used) != 2 || rest[used] || width < 1 || height < 1 ||
             width > CEDUO_CANVAS_MAX_WIDTH || height > CEDUO_CANVAS_MAX_HEIGHT)
-            return fail(path, line, _("a width and a height are wanted"), rest, CEDUO_FOREIGN_MAX);
+            return report_error(path, line, _("width and height expected"), rest, CEDUO_FOREIGN_MAX);
         ceduo_app_resize(app, width, height);
     } else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0) {
         ceduo_jobs_wait(app->live.jobs, true);
         ceduo_program_poll(app);
     } else {
-        return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command, CEDUO_FOREIGN_MAX);
+        return report_error(path, line, _("key, type, resize, wait idle, dump, roles or draw expected"), command,
+                            CEDUO_FOREIGN_MAX);
     }
     return SCRIPT_DONE;
 }
@@ -123,15 +124,15 @@ enum script_end ceduo_script_run(struct app *app, const char *path)
     fputs(ceduo_problems_print(&problems), stderr);
     char *text = source ? ceduo_arena_copy(&arena, source->bytes, source->length) : NULL;
     ceduo_app_resize(app, 80, 24);
-    enum script_end end_of_it = text ? SCRIPT_DONE : SCRIPT_UNREADABLE;
-    for (size_t line = 1; end_of_it == SCRIPT_DONE && *text && !app->quit; line++) {
+    enum script_end result = text ? SCRIPT_DONE : SCRIPT_UNREADABLE;
+    for (size_t line = 1; result == SCRIPT_DONE && *text && !app->quit; line++) {
         char *end = text + strcspn(text, "\n");
-        bool more = *end;
+        bool has_more = *end;
         *end = '\0';
         if (end > text && end[-1] == '\r')
             end[-1] = '\0';
-        end_of_it = obey(app, text, path, line);
-        text = more ? end + 1 : end;
+        result = run_command(app, text, path, line);
+        text = has_more ? end + 1 : end;
     }
-    return end_of_it;
+    return result;
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The only file that knows curses, colours and the signals of a terminal. */
+/* The only file that uses curses, colours and terminal signals. */
 #define NCURSES_WIDECHAR 1
 #include "program.h"
 
-#include "base/utf8.h" /* before curses, which takes the word columns */
+#include "base/utf8.h" /* before curses, which defines `columns` */
 
 #include <curses.h>
 #include <errno.h>
@@ -22,11 +22,11 @@
 
 /* ---- colours ---- */
 
-/* By role. Meaning is never in colour alone: words and signs stand beside it. */
-static const struct look {
-    short dark, light; /* colours of curses by theme, -1: the terminal's own */
+/* Style of each role. Colour is never the only sign: words and symbols repeat the meaning. */
+static const struct role_style {
+    short dark, light; /* curses colours of each theme, -1: default of the terminal */
     attr_t attributes;
-} looks[CEDUO_ROLE_COUNT] = {
+} role_styles[CEDUO_ROLE_COUNT] = {
     [CEDUO_ROLE_BLANK] = {-1, -1, A_NORMAL},
     [CEDUO_ROLE_TEXT] = {-1, -1, A_NORMAL},
     [CEDUO_ROLE_DIM] = {-1, -1, A_DIM},
@@ -57,47 +57,47 @@ static bool colours_wanted(void)
 
 /* ---- bracketed paste ---- */
 
-static bool pastes; /* the terminal reports where a paste begins and ends, and takes a copy; the Linux console does not */
+static bool has_paste; /* the terminal reports begin and end of a paste, and accepts a copy; the Linux console does not */
 #define PASTES_OFF "\033[?2004l"
 
-static void ask_for_pastes(bool on)
+static void set_bracketed_paste(bool on)
 {
-    ssize_t unused = pastes ? write(STDOUT_FILENO, on ? "\033[?2004h" : PASTES_OFF, sizeof PASTES_OFF - 1) : 0;
+    ssize_t unused = has_paste ? write(STDOUT_FILENO, on ? "\033[?2004h" : PASTES_OFF, sizeof PASTES_OFF - 1) : 0;
     (void)unused;
 }
 
 /* ---- the clipboard ---- */
 
-#define COPY_MAX 56000 /* bytes: what xterm takes is 75 000 characters of base64 */
+#define COPY_MAX 56000 /* bytes; xterm accepts 75 000 characters of base64 */
 
 static void append_base64(struct text *to, const char *bytes, size_t n)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < n; i += 3) {
-        uint32_t three = 0;
+        uint32_t triple = 0;
         for (size_t k = 0; k < 3; k++)
-            three = three << 8 | (i + k < n ? (uint8_t)bytes[i + k] : 0);
+            triple = triple << 8 | (i + k < n ? (uint8_t)bytes[i + k] : 0);
         for (size_t k = 0; k < 4; k++)
-            ceduo_text_append_char(to, i + k > n ? '=' : digits[three >> (18 - 6 * k) & 63]);
+            ceduo_text_append_char(to, i + k > n ? '=' : digits[triple >> (18 - 6 * k) & 63]);
     }
 }
 
-/* OSC 52. Within tmux twice: as tmux itself takes it, and for the terminal around it. */
-static bool copy(const char *string)
+/* Copy with OSC 52. Under tmux, send it twice: for tmux, and for the outer terminal. */
+static bool copy_to_clipboard(const char *string)
 {
     size_t n = strlen(string);
     const char *tmux = getenv("TMUX");
     LOCAL_TEXT(copied);
-    LOCAL_TEXT(all);
+    LOCAL_TEXT(sequence);
     if (n > COPY_MAX)
         return false;
     ceduo_text_append(&copied, "\033]52;c;");
     append_base64(&copied, string, n);
-    ceduo_text_format(&all, "%s\a", copied.bytes);
+    ceduo_text_format(&sequence, "%s\a", copied.bytes);
     if (tmux && tmux[0])
-        ceduo_text_format(&all, "\033Ptmux;\033%s\a\033\\", copied.bytes);
-    for (size_t done = 0; done < all.length;) {
-        ssize_t written = write(STDOUT_FILENO, all.bytes + done, all.length - done);
+        ceduo_text_format(&sequence, "\033Ptmux;\033%s\a\033\\", copied.bytes);
+    for (size_t done = 0; done < sequence.length;) {
+        ssize_t written = write(STDOUT_FILENO, sequence.bytes + done, sequence.length - done);
         if (written <= 0 && errno != EINTR)
             break;
         done += written > 0 ? (size_t)written : 0;
@@ -114,17 +114,17 @@ static volatile sig_atomic_t is_open;     /* curses shows the program */
 static volatile sig_atomic_t ending;      /* SIGTERM or SIGHUP, or Ctrl-\ */
 static volatile sig_atomic_t interrupted; /* SIGINT, or Ctrl-C */
 static volatile sig_atomic_t suspended;   /* SIGTSTP, or Ctrl-Z */
-static volatile sig_atomic_t continued;   /* after it, or after what stopped the program unasked */
-static bool may_suspend;                  /* a shell without jobs has switched it off */
+static volatile sig_atomic_t continued;   /* after Ctrl-Z, or after another stop */
+static bool can_suspend;                  /* false: a shell without job control ignores SIGTSTP */
 static int wake[2] = {-1, -1};
 
-/* What brings the terminal back, made before it is needed: a handler may only write it. */
+/* Build the string that restores the terminal in advance: a signal handler may only write it. */
 static void prepare_restore(void)
 {
     static const char *const names[] = {"sgr0", "cnorm", "rmkx", "rmcup"};
     restore_length = 0;
     for (size_t i = 0; i < 5; i++) {
-        const char *s = i < 4 ? tigetstr(names[i]) : pastes ? PASTES_OFF : NULL;
+        const char *s = i < 4 ? tigetstr(names[i]) : has_paste ? PASTES_OFF : NULL;
         size_t n = s && s != (char *)-1 ? strlen(s) : 0;
         if (restore_length + n < sizeof restore_string) {
             memcpy(restore_string + restore_length, s ? s : "", n);
@@ -154,7 +154,7 @@ static void on_crash(int number)
 
 static void on_signal(int number)
 {
-    int kept = errno;
+    int saved_errno = errno;
     if (number == SIGINT)
         interrupted = 1;
     else if (number == SIGTSTP)
@@ -165,7 +165,7 @@ static void on_signal(int number)
         ending = number;
     ssize_t unused = write(wake[1], "", 1);
     (void)unused;
-    errno = kept;
+    errno = saved_errno;
 }
 
 static void catch_signal(int number)
@@ -173,24 +173,24 @@ static void catch_signal(int number)
     sigaction(number, &(struct sigaction){.sa_handler = on_signal}, NULL);
 }
 
-/* Call before curses opens the terminal, so that curses leaves SIGTSTP alone: it would ignore it while it draws. */
+/* Install before newterm(): otherwise curses blocks SIGTSTP while drawing. */
 static void set_handlers(void)
 {
-    static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, others[] = {SIGTERM, SIGHUP, SIGINT, SIGCONT};
+    static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, caught[] = {SIGTERM, SIGHUP, SIGINT, SIGCONT};
     for (size_t i = 0; i < 5; i++)
         sigaction(crashes[i], &(struct sigaction){.sa_handler = on_crash, .sa_flags = (int)(SA_RESETHAND | SA_NODEFER)}, NULL);
     for (size_t i = 0; i < 4; i++)
-        catch_signal(others[i]);
-    struct sigaction now;
-    may_suspend = sigaction(SIGTSTP, NULL, &now) == 0 && now.sa_handler != SIG_IGN;
-    if (may_suspend)
+        catch_signal(caught[i]);
+    struct sigaction old_action;
+    can_suspend = sigaction(SIGTSTP, NULL, &old_action) == 0 && old_action.sa_handler != SIG_IGN;
+    if (can_suspend)
         catch_signal(SIGTSTP);
     signal(SIGPIPE, SIG_IGN);
 }
 
 /* ---- drawing ---- */
 
-static void show(struct app *app, bool colours)
+static void show_screen(struct app *app, bool colours)
 {
     if (app->width != COLS || app->height != LINES || !app->cells)
         ceduo_app_resize(app, COLS, LINES);
@@ -201,11 +201,11 @@ static void show(struct app *app, bool colours)
     for (int y = 0; y < app->height; y++)
         for (int x = 0; x < app->width; x++) {
             uint32_t code = ceduo_cells_glyph(app->cells, x, y);
-            const struct look *look = &looks[ceduo_cells_role(app->cells, x, y)];
-            short colour = app->theme == 0 ? look->dark : app->theme == 1 ? look->light : -1;
+            const struct role_style *role_style = &role_styles[ceduo_cells_role(app->cells, x, y)];
+            short colour = app->theme == 0 ? role_style->dark : app->theme == 1 ? role_style->light : -1;
             wchar_t text[2] = {(wchar_t)(code ? code : ' '), 0};
             cchar_t cell;
-            if (setcchar(&cell, text, look->attributes, colours && colour >= 0 ? (short)(colour + 1) : 0, NULL) == OK)
+            if (setcchar(&cell, text, role_style->attributes, colours && colour >= 0 ? (short)(colour + 1) : 0, NULL) == OK)
                 mvadd_wch(y, x, &cell);
         }
     wnoutrefresh(stdscr);
@@ -214,34 +214,34 @@ static void show(struct app *app, bool colours)
 
 /* ---- keys ---- */
 
-/* Curses makes a key of each sequence that it knows, and hands on the characters of any other: these are swallowed whole, also
- * in pieces. What stands between the two sequences of a paste is gathered. */
+/* State of the input. Curses translates known sequences and passes on the characters of others; these are swallowed, also in
+ * pieces. Text between the two sequences of a paste is collected. */
 static struct {
     enum { PLAIN, ESCAPED, CONTROL, STRING, STRING_ESCAPED, CHARACTERS } state;
-    int number;     /* the one parameter of CSI; -1: none, 9999: more or other than that */
-    int characters; /* still to be swallowed */
-    double last;    /* when the last character came */
+    int number;     /* parameter of CSI; -1: none, 9999: several or invalid */
+    int characters; /* characters left to swallow */
+    double last;    /* time of the last character */
     bool pasting;
-    char pasted[sizeof((struct line *)NULL)->text + 8]; /* whatever fills it is too long for a line */
+    char pasted[sizeof((struct line *)NULL)->text + 8]; /* text that fills it is too long for a line */
     size_t length;
 } input;
 
-/* What waits longer for its end was no sequence, but Alt with '[', 'O' or ']'. */
+/* An incomplete sequence is dropped after this time: it was Alt with '[', 'O' or ']'. */
 #define SEQUENCE_SECONDS 1
 #define C1_FIRST         0x80
 #define C1_LAST          0x9f
-#define STRINGS          "]PX^_" /* OSC, DCS, SOS, PM and APC begin a string that ST ends */
+#define STRINGS          "]PX^_" /* OSC, DCS, SOS, PM and APC begin a string; ST ends it */
 
 static bool is_quiet(void)
 {
     return ceduo_clock() - input.last > SEQUENCE_SECONDS;
 }
 
-/* The terminal itself makes no signals of keys, because those in a paste are its text. */
-static void press(struct app *app, wint_t c)
+/* Handle a character. The terminal sends no signals for keys, because a paste may contain them. */
+static void handle_typed(struct app *app, wint_t c)
 {
     int number = c == CTRL('C') ? SIGINT : c == CTRL('Z') ? SIGTSTP : c == CTRL('\\') ? SIGQUIT : 0;
-    if (!input.pasting && number != 0 && (number != SIGTSTP || may_suspend))
+    if (!input.pasting && number != 0 && (number != SIGTSTP || can_suspend))
         on_signal(number);
     else if (!input.pasting && number == 0)
         ceduo_program_key(app, c == '\n' || c == '\r' ? K_ENTER : c == 127 || c == 8 ? K_BACKSPACE : (int)c);
@@ -261,30 +261,30 @@ static void end_control(struct app *app, wint_t last)
     } else if (last == '~' && input.number == 200) {
         input.pasting = true;
         input.length = 0;
-    } else if (input.number < 0 && (last == '[' || last == 'M')) { /* a function key of Linux; a click, in pieces */
+    } else if (input.number < 0 && (last == '[' || last == 'M')) { /* function key of Linux; click, in pieces */
         input.state = CHARACTERS;
         input.characters = last == '[' ? 1 : 3;
     }
 }
 
-static void take_character(struct app *app, wint_t c)
+static void handle_character(struct app *app, wint_t c)
 {
-    bool lost = input.pasting && c == CTRL('C') && is_quiet(); /* the end of the paste */
+    bool lost = input.pasting && c == CTRL('C') && is_quiet(); /* a lost end of a paste */
     input.last = ceduo_clock();
-    if (!input.pasting && c >= C1_FIRST && c <= C1_LAST) { /* the same as Esc and a character; a paste cannot end so */
-        take_character(app, K_ESCAPE);
-        take_character(app, c - C1_FIRST + '@');
+    if (!input.pasting && c >= C1_FIRST && c <= C1_LAST) { /* equal to Esc and a character; a paste cannot end in it */
+        handle_character(app, K_ESCAPE);
+        handle_character(app, c - C1_FIRST + '@');
     } else if (lost) {
         input.pasting = false;
         input.state = PLAIN;
     } else if (input.state == PLAIN && c != K_ESCAPE) {
-        press(app, c);
+        handle_typed(app, c);
     } else if (input.state == STRING || input.state == STRING_ESCAPED) {
         bool ends = input.state == STRING ? c == '\a' : c == '\\';
-        bool other = input.state == STRING_ESCAPED && !ends; /* another sequence has begun */
-        input.state = ends ? PLAIN : other ? ESCAPED : c == K_ESCAPE ? STRING_ESCAPED : STRING;
-        if (other)
-            take_character(app, c);
+        bool new_sequence = input.state == STRING_ESCAPED && !ends; /* a new sequence begins */
+        input.state = ends ? PLAIN : new_sequence ? ESCAPED : c == K_ESCAPE ? STRING_ESCAPED : STRING;
+        if (new_sequence)
+            handle_character(app, c);
     } else if (input.state == ESCAPED && c == '[') {
         input.state = CONTROL;
         input.number = -1;
@@ -294,11 +294,11 @@ static void take_character(struct app *app, wint_t c)
     } else if (input.state == ESCAPED && !input.pasting && c < 128 && c > ' ' && strchr(STRINGS, (int)c)) {
         input.state = STRING;
     } else if (input.state == ESCAPED && !input.pasting && c >= ' ' && c != 127) {
-        input.state = PLAIN; /* Alt with a character: no key of this program */
+        input.state = PLAIN; /* Alt with a character: ignored */
     } else if (input.state == ESCAPED) {
         input.state = PLAIN;
-        press(app, K_ESCAPE);
-        take_character(app, c);
+        handle_typed(app, K_ESCAPE);
+        handle_character(app, c);
     } else if (c == K_ESCAPE) {
         input.state = ESCAPED;
     } else if (input.state == CHARACTERS) {
@@ -310,20 +310,20 @@ static void take_character(struct app *app, wint_t c)
         end_control(app, c);
     } else {
         input.state = PLAIN;
-        press(app, c);
+        handle_typed(app, c);
     }
 }
 
-/* Ends what was no sequence: Esc alone, of which curses has waited for the rest. */
-static void take_escape(struct app *app)
+/* Deliver a lone Esc after ESCDELAY. */
+static void flush_escape(struct app *app)
 {
     if (input.state == ESCAPED && !input.pasting) {
         input.state = PLAIN;
-        press(app, K_ESCAPE);
+        handle_typed(app, K_ESCAPE);
     }
 }
 
-static void take_mouse(struct app *app)
+static void handle_mouse(struct app *app)
 {
     MEVENT event;
     if (getmouse(&event) != OK || input.pasting)
@@ -336,27 +336,27 @@ static void take_mouse(struct app *app)
         ceduo_program_click(app, event.x, event.y);
 }
 
-/* All keys that wait. True where there was one. */
-static bool take_keys(struct app *app)
+/* Handle all waiting keys. Return true if there was one. */
+static bool handle_keys(struct app *app)
 {
     static const struct {
         int from, to;
     } keys[] = {{KEY_UP, K_UP},     {KEY_DOWN, K_DOWN},      {KEY_LEFT, K_LEFT},     {KEY_RIGHT, K_RIGHT},
                 {KEY_HOME, K_HOME}, {KEY_END, K_END},        {KEY_PPAGE, K_PAGE_UP}, {KEY_NPAGE, K_PAGE_DOWN},
                 {KEY_DC, K_DELETE}, {KEY_BTAB, K_SHIFT_TAB}, {KEY_ENTER, K_ENTER}};
-    bool any = false;
+    bool found = false;
     wint_t code;
-    for (int kind; !app->quit && !interrupted && !suspended && !ending && (kind = get_wch(&code)) != ERR; any = true) {
+    for (int kind; !app->quit && !interrupted && !suspended && !ending && (kind = get_wch(&code)) != ERR; found = true) {
         int key = K_NONE;
         if (kind == KEY_CODE_YES && code == KEY_RESIZE)
             continue;
         if (kind != KEY_CODE_YES || code == KEY_BACKSPACE) {
-            take_character(app, kind == KEY_CODE_YES ? 127 : code);
+            handle_character(app, kind == KEY_CODE_YES ? 127 : code);
             continue;
         }
-        take_escape(app);
+        flush_escape(app);
         if (code == KEY_MOUSE) {
-            take_mouse(app);
+            handle_mouse(app);
             continue;
         }
         for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
@@ -367,31 +367,31 @@ static bool take_keys(struct app *app)
         if (key != K_NONE && !input.pasting)
             ceduo_program_key(app, key);
     }
-    take_escape(app);
+    flush_escape(app);
     if (!input.pasting && is_quiet())
         input.state = PLAIN;
-    return any;
+    return found;
 }
 
 /* ---- the loop ---- */
 
-/* Gives the terminal back and stops, until the shell lets the program go on. */
-static void suspend(void)
+/* Restore the terminal and stop until the shell continues the program. */
+static void suspend_program(void)
 {
     suspended = 0;
-    ask_for_pastes(false);
+    set_bracketed_paste(false);
     endwin();
     signal(SIGTSTP, SIG_IGN);
-    kill(0, SIGTSTP); /* the others of this job, as the terminal does */
+    kill(0, SIGTSTP); /* stop the whole job, as the terminal does */
     signal(SIGTSTP, SIG_DFL);
     raise(SIGTSTP);
     catch_signal(SIGTSTP);
-    continued = 1; /* that signal may come to another thread, a moment later */
+    continued = 1; /* SIGCONT may reach another thread later */
 }
 
-static void loop(struct app *app, bool colours)
+static void run_loop(struct app *app, bool colours)
 {
-    show(app, colours);
+    show_screen(app, colours);
     while (!app->quit && !ending) {
         struct pollfd fds[3] = {{.fd = STDIN_FILENO, .events = POLLIN},
                                 {.fd = ceduo_jobs_fd(app->live.jobs), .events = POLLIN},
@@ -402,23 +402,23 @@ static void loop(struct app *app, bool colours)
         for (char bytes[32]; read(wake[0], bytes, sizeof bytes) > 0;)
             ;
         if (n > 0 && fds[0].revents & (POLLHUP | POLLERR) && !(fds[0].revents & POLLIN))
-            break; /* the window is gone */
+            break; /* the window was closed */
         if (interrupted) {
             interrupted = 0;
             ceduo_program_key(app, app->popup ? K_ESCAPE : 'q');
         }
         if (suspended)
-            suspend();
+            suspend_program();
         if (continued) {
             continued = 0;
             reset_prog_mode();
-            ask_for_pastes(true);
+            set_bracketed_paste(true);
             app->redraw = true;
         }
-        bool changed = take_keys(app); /* also where a signal told of a new size */
+        bool changed = handle_keys(app); /* also after a signal of a new size */
         changed |= ceduo_program_poll(app);
         if (changed || app->redraw || n < 0 || app->width != COLS || app->height != LINES)
-            show(app, colours);
+            show_screen(app, colours);
     }
 }
 
@@ -427,12 +427,12 @@ const char *ceduo_terminal_missing(void)
     int error;
     bool in = isatty(STDIN_FILENO), out = isatty(STDOUT_FILENO);
     if (!in || !out)
-        return in    ? _("standard output is no terminal")
-               : out ? _("standard input is no terminal")
-                     : _("standard input and output are no terminal");
+        return in    ? _("standard output is not a terminal")
+               : out ? _("standard input is not a terminal")
+                     : _("standard input and output are not a terminal");
     const char *name = getenv("TERM");
     if (!name || !name[0] || setupterm(NULL, STDOUT_FILENO, &error) != OK)
-        return _("TERM names a terminal that is not known here; try 'TERM=xterm-256color ceduo'");
+        return _("unknown terminal in TERM; try 'TERM=xterm-256color ceduo'");
     const char *move = tigetstr("cup");
     bool moves = move && move != (char *)-1;
     del_curterm(cur_term); /* curses opens it again */
@@ -444,17 +444,17 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     static const struct {
         const char *sequence;
         int key;
-    } sent[] = {{"\033[1~", KEY_HOME}, {"\033[7~", KEY_HOME}, {"\033[H", KEY_HOME}, {"\033OH", KEY_HOME}, {"\033[4~", KEY_END},
-                {"\033[8~", KEY_END},  {"\033[F", KEY_END},   {"\033OF", KEY_END}}; /* whatever TERM says */
+    } extra_sequences[] = {{"\033[1~", KEY_HOME}, {"\033[7~", KEY_HOME}, {"\033[H", KEY_HOME},
+                           {"\033OH", KEY_HOME},  {"\033[4~", KEY_END},  {"\033[8~", KEY_END},
+                           {"\033[F", KEY_END},   {"\033OF", KEY_END}}; /* independent of TERM */
     if (pipe2(wake, O_NONBLOCK | O_CLOEXEC) != 0)
         return TERMINAL_FAILED;
     if (!getenv("ESCDELAY"))
         set_escdelay(25);
-    tcgetattr(STDIN_FILENO, &saved_mode); /* as it was before curses */
+    tcgetattr(STDIN_FILENO, &saved_mode); /* before curses changes it */
     set_handlers();
-    /* The terminal is opened once more for its keys, so that a read never waits: after an unwanted mouse event, such as the
-     * release of a button, curses reads on and ignores nodelay(), and the program would hang until the next key. Standard input
-     * itself stays as it is, because the shell uses it too. */
+    /* The terminal is opened again for its keys, so that a read never waits. After an unwanted mouse event, such as the
+     * release of a button, curses ignores nodelay() and would wait for the next key. The shell shares standard input. */
     const char *name = ttyname(STDIN_FILENO);
     int fd = name ? open(name, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC) : -1;
     FILE *keys = fd >= 0 ? fdopen(fd, "r") : NULL;
@@ -466,9 +466,9 @@ enum terminal_end ceduo_terminal_run(struct app *app)
             fclose(keys);
         return TERMINAL_NONE;
     }
-    pastes = strncmp(tigetstr("cup"), "\033[", 2) == 0 && strncmp(termname(), "linux", 5) != 0;
-    app->copy = pastes ? copy : NULL;
-    ask_for_pastes(true);
+    has_paste = strncmp(tigetstr("cup"), "\033[", 2) == 0 && strncmp(termname(), "linux", 5) != 0;
+    app->copy = has_paste ? copy_to_clipboard : NULL;
+    set_bracketed_paste(true);
     prepare_restore();
     if (colours_wanted()) {
         start_color();
@@ -480,14 +480,14 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     noecho();
     nonl();
     keypad(stdscr, TRUE);
-    for (size_t i = 0; i < sizeof sent / sizeof sent[0]; i++)
-        define_key(sent[i].sequence, sent[i].key);
+    for (size_t i = 0; i < sizeof extra_sequences / sizeof extra_sequences[0]; i++)
+        define_key(extra_sequences[i].sequence, extra_sequences[i].key);
     nodelay(stdscr, TRUE);
     curs_set(0);
     mouseinterval(0);
     mousemask(BUTTON1_PRESSED | BUTTON4_PRESSED | BUTTON5_PRESSED, NULL);
-    loop(app, colours_wanted());
-    ask_for_pastes(false);
+    run_loop(app, colours_wanted());
+    set_bracketed_paste(false);
     endwin();
     is_open = false;
     delscreen(screen);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 8: what was observed beside what is simulated, and a fit to it, which goes on in the background. */
+/* View 8: observed and simulated values, and a fit that runs in the background. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@
 #define PICTURE_MIN 8
 #define RANGE       "\xe2\x80\x93"
 
-/* ---- rows: observed, simulated with its band ---- */
+/* ---- rows: observed, simulated with its interval ---- */
 
 static void append_number(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, double value)
 {
@@ -26,7 +26,7 @@ static void append_number(struct text *text, const struct scene_file *file, cons
 static void add_rows(struct ceduo_page *page, const struct scene_file *file, const struct ceduo_predicted *predicted)
 {
     static const struct ceduo_page_column columns[] = {{N_("mean or count"), 13, 0, COL_GROW | COL_WRAP},
-                                                       {N_("seen"), -8, 1, COL_SHRINK},
+                                                       {N_("observed"), -8, 1, COL_SHRINK},
                                                        {N_("sim., 95 %"), -11, 1, COL_SHRINK},
                                                        {"", 10, 1, COL_SHRINK}};
     CEDUO_PAGE_TABLE_OF(page, columns);
@@ -38,9 +38,9 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
         ceduo_text_append_escaped(name, o->name);
         if (o->use == CEDUO_OBSERVED_CHECK)
             ceduo_text_format(name, " %s", _("(check)"));
-        struct text *seen = ceduo_page_text(page);
-        append_number(seen, file, p, p->observed);
-        ceduo_text_append_joined(seen, " ", "%s", unit);
+        struct text *observed = ceduo_page_text(page);
+        append_number(observed, file, p, p->observed);
+        ceduo_text_append_joined(observed, " ", "%s", unit);
         struct text *band = ceduo_page_text(page);
         if (isnan(p->lo)) {
             ceduo_text_append_char(band, '-');
@@ -52,7 +52,7 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
         ceduo_page_cell_format(page, "%s",
                                !p->inside ? _("OUTSIDE")
                                : p->p_value < CEDUO_MISFIT
-                                   ? _("mean only") /* what is refuted below is how the values are spread */
+                                   ? _("mean only") /* the distribution is rejected below, not the mean */
                                    : _("inside"));
     }
     ceduo_page_add(page, CEDUO_PAGE_GAP);
@@ -60,12 +60,12 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
 
 /* ---- words ---- */
 
-/* Of each list and count by its probability, which sees the form of a list, too. */
-static void say_as_it_is(struct app *app, struct ceduo_page *page)
+/* Describe how the current scene fits. The p-value of a list tests its distribution, too. */
+static void append_comparison(struct app *app, struct ceduo_page *page)
 {
     const struct scene_file *file = &app->document.file;
     const struct comparison *s = ceduo_live_comparison(&app->live, file);
-    LOCAL_TEXT(bad);
+    LOCAL_TEXT(misfits);
     if (!s) {
         ceduo_page_note(page, _("not computed yet"));
         return;
@@ -75,24 +75,24 @@ static void say_as_it_is(struct app *app, struct ceduo_page *page)
         const struct ceduo_predicted *p = &s->predicted[i];
         if (p->p_value >= CEDUO_MISFIT && p->inside)
             continue;
-        ceduo_text_append(&bad, bad.length > 0 ? "; " : "");
-        ceduo_text_append_escaped(&bad, file->observations[i].name);
+        ceduo_text_append(&misfits, misfits.length > 0 ? "; " : "");
+        ceduo_text_append_escaped(&misfits, file->observations[i].name);
         const char *chance = p->p_value < 0.001 ? "<.001" : SIG(p->p_value, 2);
         if (isnan(p->p_value))
-            ceduo_text_format(&bad, " (%s)", _("no simulated rock does that"));
+            ceduo_text_format(&misfits, " (%s)", _("no simulated rock does this"));
         else
-            ceduo_text_format(&bad,
-                              p->inside                    ? _(" (the mean fits, how the values are spread does not: p %s)")
-                              : p->p_value >= CEDUO_MISFIT ? _(" (the mean lies outside: p %s)")
+            ceduo_text_format(&misfits,
+                              p->inside                    ? _(" (mean fits, distribution does not: p %s)")
+                              : p->p_value >= CEDUO_MISFIT ? _(" (mean outside: p %s)")
                                                            : " (p %s)",
                               chance);
     }
-    if (bad.length > 0)
-        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("The scene as it is does not give what was seen: %s."), bad.bytes);
+    if (misfits.length > 0)
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("The scene does not reproduce: %s."), misfits.bytes);
     else
-        ceduo_page_note(page, _("The scene as it is can give all that was seen."));
+        ceduo_page_note(page, _("The scene reproduces all observations."));
     if (ceduo_fit_has_observations(file))
-        ceduo_page_note(page, _("c fits the ground to what was seen; only a fit says what of it is determined."));
+        ceduo_page_note(page, _("c fits the ground to the observations. Only a fit shows which values they determine."));
     ceduo_page_para(page, CEDUO_PAGE_NOTE, _("Simulated: %llu rocks."), (unsigned long long)s->rocks);
 }
 
@@ -103,69 +103,67 @@ static void append_best(struct text *text, const char *path, double best)
     ceduo_calibration_number(text, path, best);
 }
 
-static void say_fitting(const struct live *live, struct ceduo_page *page)
+static void append_progress(const struct live *live, struct ceduo_page *page)
 {
-    const struct fit *f = live->results.fit; /* NULL: nothing is known yet */
+    const struct fit *f = live->results.fit; /* NULL: no progress yet */
     const struct ceduo_calibration_state *s = f ? &f->state : NULL;
-    LOCAL_TEXT(loose);
-    ceduo_page_note(page, _("A fit is under way. Esc stops it, and nothing of it is kept."));
+    LOCAL_TEXT(undetermined);
+    ceduo_page_note(page, _("Fitting. Esc cancels and discards the fit."));
     if (!s || s->evaluations == 0)
         return;
     if (s->stage == CEDUO_CHAINS && isfinite(s->rhat))
         ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                        _("%llu scenes; R-hat %.3f (at most 1.05 is wanted), effective size %.0f (200)."),
+                        _("%llu scenes; R-hat %.3f (target: at most 1.05), effective size %.0f (target: 200)."),
                         (unsigned long long)s->evaluations, s->rhat, s->effective_size);
     else
         ceduo_page_para(page, CEDUO_PAGE_NOTE, _("%llu scenes; log-likelihood %.2f."), (unsigned long long)s->evaluations,
                         s->log_likelihood);
-    for (size_t i = 0; f->loose.n > 0 && i < f->request.n;
-         i++) /* a short first fit tells what cannot be known from what was seen */
-        if (f->loose.loose[i]) {
-            ceduo_text_append(&loose, loose.length > 0 ? ", " : "");
-            ceduo_calibration_name(&loose, f->request.values[i].path);
+    for (size_t i = 0; f->undetermined.n > 0 && i < f->request.n; i++) /* found by a short first fit */
+        if (f->undetermined.values[i]) {
+            ceduo_text_append(&undetermined, undetermined.length > 0 ? ", " : "");
+            ceduo_calibration_name(&undetermined, f->request.values[i].path);
         }
-    if (f->loose.n > 0)
+    if (f->undetermined.n > 0)
         ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                        _("What was seen does not hold %zu values: fix %s. c fits without it; to go on takes long."),
-                        f->request.n, ceduo_text_string(&loose));
-    ceduo_page_note(page, _("The best values so far:"));
+                        _("The observations do not determine all %zu values: fix %s. c fits without it, which is faster."),
+                        f->request.n, ceduo_text_string(&undetermined));
+    ceduo_page_note(page, _("Best values now:"));
     for (size_t i = 0; i < f->request.n; i++)
         append_best(ceduo_page_add(page, CEDUO_PAGE_ITEM), f->request.values[i].path, s->best[i]);
 }
 
-static struct ceduo_calibration_report report_of(const struct fit *f)
+static struct ceduo_calibration_report make_report(const struct fit *f)
 {
     return (struct ceduo_calibration_report){
         .scenes_count = 1, .files = &f->file, .inputs = f->inputs, .rocks = f->request.rocks, .answer = &f->answer};
 }
 
-static void say_fit(const struct fit *f, struct ceduo_page *page)
+static void append_fit(const struct fit *f, struct ceduo_page *page)
 {
-    const struct ceduo_calibration_report r = report_of(f);
+    const struct ceduo_calibration_report r = make_report(f);
     ceduo_page_note(page,
-                    _("Fitted. Enter takes these values into the scene, Esc leaves it as it is, as the picture shows it."));
+                    _("Fitted. Enter applies these values, Esc discards them. The picture shows the scene without them."));
     for (size_t i = 0; i < f->request.n; i++) {
-        const struct ceduo_fitted *one = &f->answer.parameters[i];
+        const struct ceduo_fitted *fitted = &f->answer.parameters[i];
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
         const char *path = f->inputs[i].path;
-        append_best(text, path, one->best);
+        append_best(text, path, fitted->best);
         ceduo_text_append(text, " (");
-        ceduo_calibration_number(text, path, one->p2_5);
+        ceduo_calibration_number(text, path, fitted->p2_5);
         ceduo_text_append(text, RANGE);
-        ceduo_calibration_number(text, path, one->p97_5);
+        ceduo_calibration_number(text, path, fitted->p97_5);
         ceduo_text_append(text, ")");
-        if (!one->identified)
+        if (!fitted->identified)
             ceduo_text_format(text, ", %s", _("not determined"));
     }
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     add_rows(page, &f->file, f->answer.predicted);
     ceduo_calibration_words(page, &r);
     ceduo_page_add(page, CEDUO_PAGE_GAP);
-    /* what Enter does not keep, and the command that writes it */
-    ceduo_page_note(page,
-                    _("Enter keeps the best values and, as their source, these ranges. It does not keep all that fits as well, "
-                      "the draws. Once the scene is saved, as SCENE.yaml, this writes them to FITTED.draws.csv, and "
-                      "FITTED.yaml, which reads them:"));
+    /* the draws are not kept; print the command that writes them */
+    ceduo_page_note(page, _("Enter writes the best values into the scene, with these ranges as their source. It does not write "
+                            "the draws, all plausible values. After saving the scene as SCENE.yaml, this command writes them "
+                            "to FITTED.draws.csv, and a scene FITTED.yaml that uses them:"));
     struct text *command = ceduo_page_add(page, CEDUO_PAGE_NOTE);
     ceduo_text_append(command, "ceduo");
     for (size_t i = 0; i < f->request.n; i++) {
@@ -177,9 +175,9 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
     ceduo_text_format(command, " -n %llu -o FITTED.yaml SCENE.yaml", (unsigned long long)f->request.rocks);
 }
 
-/* ---- what was observed, to edit ---- */
+/* ---- observations, to edit ---- */
 
-/* The next kind of observation after a field of the schema (NULL: the first): a group with numbers. NULL after the last. */
+/* Return the next kind of observation after a field of the schema (NULL: the first): a group with numbers. NULL at the end. */
 static const struct field *next_kind(const struct field *f)
 {
     const struct object *o = ceduo_schema_row("observed")->object;
@@ -190,7 +188,7 @@ static const struct field *next_kind(const struct field *f)
     return NULL;
 }
 
-/* The first item of the list that has the group, and in it the key (NULL: any); NULL: none has. */
+/* Return the group of the first item that has it, with the key (NULL: any); NULL: none. */
 static const struct node *first_with(const struct node *rows, const char *group, const char *key)
 {
     const struct node *found = NULL;
@@ -199,52 +197,53 @@ static const struct node *first_with(const struct node *rows, const char *group,
     return found && (!key || ceduo_node_get(found, key)) ? found : NULL;
 }
 
-static void build(struct app *app, struct form *form)
+static void build_observed(struct app *app, struct form *form)
 {
     const struct node *rows = ceduo_document_node(&app->document, "observed");
     if (!rows || rows->kind != NODE_LIST || rows->n == 0)
         return;
     for (const struct field *kind = next_kind(NULL); kind; kind = next_kind(kind)) {
-        const struct object *of = kind->object;
-        LOCAL_TEXT(keys); /* all but those of a table of values, where there is none */
+        const struct object *object = kind->object;
+        LOCAL_TEXT(keys); /* hide keys of a table of values if no item has one */
         if (!first_with(rows, kind->key, NULL))
             continue;
-        for (size_t k = 0; k < of->n; k++)
-            if (of->fields[k].type > FIELD_FILE || first_with(rows, kind->key, of->fields[k].key))
-                ceduo_text_append_joined(&keys, keys.length > 0 ? " " : "", "%s", of->fields[k].key);
+        for (size_t k = 0; k < object->n; k++)
+            if (object->fields[k].type > FIELD_FILE || first_with(rows, kind->key, object->fields[k].key))
+                ceduo_text_append_joined(&keys, keys.length > 0 ? " " : "", "%s", object->fields[k].key);
         ceduo_form_heading(form, _(kind->meaning));
         ceduo_form_table(form, "observed", kind->key, ceduo_text_string(&keys));
     }
-    ceduo_form_heading(form, _("All that was seen"));
+    ceduo_form_heading(form, _("All observations"));
     ceduo_form_table(form, "observed", NULL, "name use option");
 }
 
-static void chose_group(struct app *app, struct popup *p)
+static void select_kind(struct app *app, struct popup *p)
 {
-    ceduo_popup_item_find(app, "observed", p->value, NULL, 0);
+    ceduo_popup_new_item(app, "observed", p->value, NULL, 0);
 }
 
-static void add(struct app *app)
+static void ask_observation(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("What was seen?"), "", chose_group);
+    struct popup *p = ceduo_popup_list(app, _("New observation"), "", select_kind);
     char key = '1';
     for (const struct field *kind = next_kind(NULL); kind; kind = next_kind(kind))
-        ceduo_popup_answer(p, key++, _(kind->meaning), kind->key);
+        ceduo_popup_add_menu_item(p, key++, _(kind->meaning), kind->key);
 }
 
 /* ---- drawing ---- */
 
 enum { PANE_FORM, PANE_TEXT, PANES };
 
-static void draw(struct app *app, struct ceduo_area area)
+static void draw_observed(struct app *app, struct ceduo_area area)
 {
     const struct scene_file *file = &app->document.file;
     const struct live *f = &app->live;
     const struct comparison *c = ceduo_live_comparison(f, file);
-    const struct ceduo_observed_stops *stops = NULL; /* of the option that is shown, otherwise the first there are */
-    const struct ceduo_observation *seen = c ? c->file.observations : NULL;
+    const struct ceduo_observed_stops *stops = NULL; /* stops of the option shown, otherwise the first */
+    const struct ceduo_observation *observed = c ? c->file.observations : NULL;
     for (size_t i = 0; c && i < c->file.observations_count; i++)
-        if (c->stops[i].known && (!stops || (seen[i].option == app->option && seen[stops - c->stops].option != app->option)))
+        if (c->stops[i].known &&
+            (!stops || (observed[i].option == app->option && observed[stops - c->stops].option != app->option)))
             stops = &c->stops[i];
     struct view_state *state = ceduo_app_state(app);
     bool fit = f->fitting || ceduo_live_fitted(f);
@@ -253,23 +252,21 @@ static void draw(struct app *app, struct ceduo_area area)
     int lines = state->pane == PANE_TEXT ? 0 : (int)state->form.n, form = area.height / 3 < lines ? area.height / 3 : lines;
     ceduo_app_draw_form(app, cut_bottom(&area, form));
     cut_bottom(&area, form > 0);
-    area.width -= 2; /* the mark of more below stands beside the text */
+    area.width -= 2; /* columns for the mark that the text continues */
     struct ceduo_page page = {.width = (size_t)area.width};
     if (file->observations_count == 0) {
-        ceduo_page_note(&page, _("This scene does not say what was seen on its slope."));
+        ceduo_page_note(&page, _("This scene has no observations."));
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
-        ceduo_page_note(
-            &page,
-            _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: a asks "
-              "for what of it is known. A table of values is named in the scene's file, see man ceduo-scene."));
+        ceduo_page_note(&page, _("a adds observations: stop positions, numbers of passages, speeds, heights, scars on stems. A "
+                                 "table of values is named in the scene's file, see man ceduo-scene."));
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
-        ceduo_page_note(&page, _("Here it is then compared with simulated rocks, and c fits the ground to it."));
+        ceduo_page_note(&page, _("They are compared with simulated rocks here, and c fits the ground to them."));
     } else if (f->fitting)
-        say_fitting(f, &page);
+        append_progress(f, &page);
     else if (fit)
-        say_fit(ceduo_live_fitted(f), &page);
+        append_fit(ceduo_live_fitted(f), &page);
     else
-        say_as_it_is(app, &page);
+        append_comparison(app, &page);
     int max = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0) - 1;
     int height = max > area.height / 2 ? max : area.height / 2;
     if (stops && height >= PICTURE_MIN) {
@@ -277,12 +274,12 @@ static void draw(struct app *app, struct ceduo_area area)
         ceduo_plot_observed(&app->cells->canvas, &top, stops, file->scene.slope.origin_x);
         cut_top(&area, 1);
     }
-    ceduo_app_page(app, area, &page);
+    ceduo_app_draw_page(app, area, &page);
 }
 
-/* ---- which values are fitted, and between which bounds ---- */
+/* ---- values to fit, with bounds ---- */
 
-#define FILLED 4 /* values that are offered with their range; to fit more at once takes long, and is for who wants it */
+#define FILLED 4 /* values offered with bounds; more take long */
 
 static void append_bounds(struct text *text, const struct fit_value *value)
 {
@@ -291,7 +288,7 @@ static void append_bounds(struct text *text, const struct fit_value *value)
     ceduo_text_format(text, "%s:%s", ceduo_format_number(field, value->lo, lo), ceduo_format_number(field, value->hi, hi));
 }
 
-/* Both ends in the unit that is shown; false where they are none, which is said. */
+/* Read both bounds in the displayed unit. Return false and report if they are invalid. */
 static bool read_bounds(struct app *app, const char *typed, struct fit_value *value)
 {
     const char *colon = strchr(typed, ':');
@@ -301,42 +298,42 @@ static bool read_bounds(struct app *app, const char *typed, struct fit_value *va
         double *to = i == 0 ? &value->lo : &value->hi;
         *to = NAN;
         ceduo_line_set(&line, i == 0 ? ceduo_app_format(app, "%.*s", (int)strcspn(typed, ":"), typed) : colon ? colon + 1 : "");
-        line.asked = true; /* no bound is unusual */
+        line.confirmed = true; /* no bound is unusual */
         if (!ceduo_popup_read(app, ceduo_schema_fitted(value->path), &line, &end))
             return false;
         ceduo_number_read(ceduo_text_string(&end), to);
     }
     if (!(value->lo < value->hi))
-        ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
+        ceduo_app_warn(app, "%s", _("two bounds are needed, the smaller first"));
     return value->lo < value->hi;
 }
 
-/* Values that follow are moved into the place of those that are not fitted. */
-static bool filled_fit(struct app *app, struct popup *p)
+/* Move the values to fit to the front. */
+static bool submit_fit(struct app *app, struct popup *p)
 {
-    struct fit_request all;
-    ceduo_fit_offer(&app->document.file, &all);
-    struct fit_request w = {.rocks = all.rocks};
-    for (size_t i = 0; i < all.n; i++) {
+    struct fit_request request;
+    ceduo_fit_offer(&app->document.file, &request);
+    struct fit_request selected = {.rocks = request.rocks};
+    for (size_t i = 0; i < request.n; i++) {
         if (p->fields[i].line.text[0] == '\0')
             continue;
-        if (!read_bounds(app, p->fields[i].line.text, &all.values[i]))
+        if (!read_bounds(app, p->fields[i].line.text, &request.values[i]))
             return false;
-        w.values[w.n++] = all.values[i];
+        selected.values[selected.n++] = request.values[i];
     }
-    if (w.n == 0)
-        ceduo_app_warn(app, "%s", _("nothing is to be fitted: give one value its bounds, as 0.3:0.4"));
+    if (selected.n == 0)
+        ceduo_app_warn(app, "%s", _("no value to fit: give at least one its bounds, such as 0.3:0.4"));
     else
-        ceduo_live_fit(&app->live, &app->document.file, &w);
-    return w.n > 0;
+        ceduo_live_fit(&app->live, &app->document.file, &selected);
+    return selected.n > 0;
 }
 
-/* Whether a value is among those that are fitted at present, and what was seen holds it; its bounds are those. */
-static bool is_held(const struct fit *now, struct fit_value *value)
+/* True if the running fit determines the value; set its bounds from the fit. */
+static bool is_determined(const struct fit *running, struct fit_value *value)
 {
-    for (size_t i = 0; i < now->request.n; i++)
-        if (strcmp(now->request.values[i].path, value->path) == 0 && !now->loose.loose[i]) {
-            *value = now->request.values[i];
+    for (size_t i = 0; i < running->request.n; i++)
+        if (strcmp(running->request.values[i].path, value->path) == 0 && !running->undetermined.values[i]) {
+            *value = running->request.values[i];
             return true;
         }
     return false;
@@ -344,18 +341,18 @@ static bool is_held(const struct fit *now, struct fit_value *value)
 
 _Static_assert(CEDUO_CALIBRATION_MAX <= POPUP_FIELDS_MAX, "one popup asks for the bounds of all values that can be fitted");
 
-static void ask_for_fit(struct app *app)
+static void ask_fit_values(struct app *app)
 {
     struct fit_request request;
-    const struct fit *now = app->live.fitting ? app->live.results.fit : NULL;
+    const struct fit *running = app->live.fitting ? app->live.results.fit : NULL;
     ceduo_fit_offer(&app->document.file, &request);
-    struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), "", filled_fit);
-    ceduo_text_format(
-        &p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
-        (unsigned long long)request.rocks);
+    struct popup *p = ceduo_popup_fields(app, _("Values to fit to the observations"), "", submit_fit);
+    ceduo_text_format(&p->text,
+                      _("Each value is fitted within its bounds; an empty field is not fitted. Each trial has %llu rocks."),
+                      (unsigned long long)request.rocks);
     for (size_t i = FILLED; i < request.n; i++) {
         if (i == FILLED)
-            ceduo_text_format(&p->text, " %s ", _("Usual bounds of the others:"));
+            ceduo_text_format(&p->text, " %s ", _("Usual bounds of other values:"));
         ceduo_text_append(&p->text, i == FILLED ? "" : "; ");
         ceduo_calibration_name(&p->text, request.values[i].path);
         ceduo_text_append_char(&p->text, ' ');
@@ -365,59 +362,62 @@ static void ask_for_fit(struct app *app)
         LOCAL_TEXT(label);
         LOCAL_TEXT(bounds);
         ceduo_calibration_name(&label, request.values[i].path);
-        if (now && now->loose.n > 0 ? is_held(now, &request.values[i]) : i < FILLED)
+        if (running && running->undetermined.n > 0 ? is_determined(running, &request.values[i]) : i < FILLED)
             append_bounds(&bounds, &request.values[i]);
-        ceduo_popup_field(p, label.bytes, ceduo_text_string(&bounds));
+        ceduo_popup_add_field(p, label.bytes, ceduo_text_string(&bounds));
     }
 }
 
 /* ---- keys ---- */
 
-static void start(struct app *app)
+static void start_fit(struct app *app)
 {
     if (app->document.file.observations_count == 0)
-        ceduo_app_warn(app, "%s", _("nothing was seen here that could be fitted: a asks for it"));
+        ceduo_app_warn(app, "%s", _("no observations; a adds one"));
     else if (!ceduo_fit_has_observations(&app->document.file))
-        ceduo_app_warn(app, "%s", _("all that was seen is to check a fit: mark what is to be fitted 'use: fit'"));
+        ceduo_app_warn(app, "%s", _("all observations are for checking; mark those to fit with 'use: fit'"));
     else
-        ask_for_fit(app);
+        ask_fit_values(app);
 }
 
-/* The best values into the scene, as one edit. */
-static void take(struct app *app)
+/* Write the best values into the scene, as one edit. */
+static void apply_fit(struct app *app)
 {
     const struct fit *f = ceduo_live_fitted(&app->live);
     if (!f && !app->live.fitting && ceduo_app_state(app)->pane == PANE_FORM && ceduo_app_form(app)->n > 0)
         ceduo_edit_start(app);
     else if (!f)
         ceduo_app_show_message(app, "%s",
-                               app->live.fitting ? _("the fit is not done yet; Esc stops it")
-                                                 : _("c fits the ground to what was seen"));
+                               app->live.fitting ? _("the fit is still running; Esc cancels it")
+                                                 : _("c fits the ground to the observations"));
     if (!f)
         return;
-    const struct ceduo_calibration_report r = report_of(f);
+    const struct ceduo_calibration_report r = make_report(f);
     LOCAL_TEXT(source);
     ceduo_calibration_sources(&source, &r);
     const struct fit_values values = {&f->answer, f->inputs, ceduo_text_string(&source), NULL};
-    if (ceduo_app_edited(app, ceduo_apply_fit(&app->document, &values)))
-        ceduo_app_show_message(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
+    if (ceduo_app_finish_edit(app, ceduo_apply_fit(&app->document, &values)))
+        ceduo_app_show_message(app, "%s", _("values and ranges written to the scene, without the draws; u undoes"));
 }
 
-static void stop(struct app *app)
+static void stop_fit(struct app *app)
 {
     if (app->live.fitting || ceduo_live_fitted(&app->live))
-        ceduo_app_show_message(app, "%s", _("the scene is as it was"));
+        ceduo_app_show_message(app, "%s", _("fit discarded; the scene is unchanged"));
     ceduo_live_drop_fit(&app->live);
 }
 
-static const struct act acts[] = {
-    KEY(COUNTS, .plain = start), KEY(EDIT, .plain = take), KEY(ADD, .plain = add), KEY(STOP, .plain = stop), {0}};
+static const struct key_binding observed_bindings[] = {KEY(COUNTS, .plain = start_fit),
+                                                       KEY(EDIT, .plain = apply_fit),
+                                                       KEY(ADD, .plain = ask_observation),
+                                                       KEY(STOP, .plain = stop_fit),
+                                                       {0}};
 
 const struct view ceduo_view_observed = {.panes = PANES,
                                          .observed = true,
-                                         .build = build,
-                                         .draw = draw,
-                                         .acts = {acts, acts},
-                                         .bar = {KEY(ADD, N_("add")), KEY(COUNTS, N_("fit")), KEY(EDIT, N_("take the fit")),
-                                                 KEY(STOP, N_("leave it")), KEY(NEXT_PANE, N_("read on")),
+                                         .build = build_observed,
+                                         .draw = draw_observed,
+                                         .bindings = {observed_bindings, observed_bindings},
+                                         .bar = {KEY(ADD, N_("add")), KEY(COUNTS, N_("fit")), KEY(EDIT, N_("apply")),
+                                                 KEY(STOP, N_("discard")), KEY(NEXT_PANE, N_("scroll")),
                                                  KEY(NEXT_OPTION, N_("next option"))}};

@@ -1,30 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 3: the rock, how it starts, and how it is computed. */
+/* View 3: the rock, its release and the simulation. */
 #include <math.h>
 #include <string.h>
 
 #include "app.h"
 #include "base/language.h"
 
-/* A power law, or a list of classes. */
+/* Add a power law or a list of classes. */
 static void build_blocks(struct form *form, const struct node *blocks)
 {
     static const char columns[] = "per_year volume_m3 exponent";
-    ceduo_form_heading(form, _("Blocks that come down"));
+    ceduo_form_heading(form, _("Falling blocks"));
     if (blocks && blocks->kind == NODE_MAP)
         ceduo_form_fields(form, "blocks.", columns);
     else
         ceduo_form_table(form, "blocks", NULL, columns);
 }
 
-static void build(struct app *app, struct form *form)
+static void build_rock(struct app *app, struct form *form)
 {
     static const char *const sizes[] = {[CEDUO_SPHERE] = "shape diameter_m volume_m3",
                                         [CEDUO_CYLINDER] = "shape diameter_m height_m",
                                         [CEDUO_ELLIPSOID] = "shape axes_m",
                                         [CEDUO_BLOCK] = "shape axes_m"};
     const struct node *blocks = ceduo_document_node(&app->document, "blocks");
-    ceduo_form_heading(form, blocks ? _("Rock: shape and density; blocks need no size here") : _("Rock"));
+    ceduo_form_heading(form, blocks ? _("Rock: shape and density; sizes come from the blocks") : _("Rock"));
     ceduo_form_fields(form, "rock.", sizes[app->document.file.scene.rock.shape]);
     ceduo_form_fields(form, "rock.", "mass_kg density_kg_m3");
     if (blocks)
@@ -45,9 +45,9 @@ static void build(struct app *app, struct form *form)
     ceduo_form_rest(form, "page");
 }
 
-#define WIDE 70 /* columns that leave room for a remark */
+#define WIDE 70 /* columns for a remark */
 
-static void draw(struct app *app, struct ceduo_area area)
+static void draw_rock(struct app *app, struct ceduo_area area)
 {
     struct ceduo_rock rock = ceduo_rock_mean(&app->document.file.scene.rock);
     struct text text = {0};
@@ -56,38 +56,37 @@ static void draw(struct app *app, struct ceduo_area area)
         return;
     }
     if (app->document.file.scene.blocks_count > 0)
-        ceduo_text_format(&text,
-                          _("Blocks say how large rocks are; ADC and index are of one rock: %.4g kg, mean diameter B %.3g m."),
+        ceduo_text_format(&text, _("Sizes come from the blocks. ADC and index use one rock: %.4g kg, mean diameter B %.3g m."),
                           rock.mass, rock.mean_diameter);
     else
         ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2."), rock.mass, rock.volume,
                           rock.mean_diameter, rock.moment);
     if (area.width >= WIDE && app->document.file.scene.simulation.law == CEDUO_LAW_LUMPED)
         ceduo_text_append_joined(&text, " ", "%s",
-                                 _("The lumped law knows neither mass nor shape: on the ground they scale the "
-                                   "energy alone."));
-    int lines = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
-    ceduo_app_set_cursor(app, cut_bottom(&area, lines), CEDUO_ROLE_DIM, &text);
+                                 _("The lumped law ignores mass and shape: on the ground they only scale the energy."));
+    int lines = ceduo_app_count_lines(app, ceduo_text_string(&text), area.width);
+    ceduo_app_draw_text(app, cut_bottom(&area, lines), CEDUO_ROLE_DIM, &text);
     cut_bottom(&area, 1);
     ceduo_app_draw_form(app, area);
 }
 
-/* Deletes the class under the cursor, or the power law that is all blocks. */
+/* Delete the class under the cursor, or the power law of all blocks. */
 static void delete_blocks(struct app *app)
 {
     const struct node *blocks = ceduo_document_node(&app->document, "blocks");
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     if (!blocks || blocks->kind != NODE_MAP || !cell || strncmp(cell->path, "blocks.", 7) != 0)
         ceduo_items_delete(app);
-    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, "blocks")))
-        ceduo_app_show_message(app, "%s", _("blocks deleted: every rock is the one above; u brings them back"));
+    else if (ceduo_app_finish_edit(app, ceduo_document_delete(&app->document, "blocks")))
+        ceduo_app_show_message(app, "%s", _("blocks deleted: all rocks are equal to the one above; u undoes"));
 }
 
-static const struct act acts[] = {KEY(ADD, .plain = ceduo_items_add_blocks), KEY(DELETE, .plain = delete_blocks), {0}};
+static const struct key_binding rock_view_bindings[] = {
+    KEY(ADD, .plain = ceduo_items_add_blocks), KEY(DELETE, .plain = delete_blocks), {0}};
 
 const struct view ceduo_view_rock = {
     .panes = 1,
-    .build = build,
-    .draw = draw,
-    .acts = {acts},
-    .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("blocks")), KEY(MORE, N_("more")), KEY(LESS, N_("less"))}};
+    .build = build_rock,
+    .draw = draw_rock,
+    .bindings = {rock_view_bindings},
+    .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("blocks")), KEY(INCREASE, N_("increase")), KEY(DECREASE, N_("decrease"))}};

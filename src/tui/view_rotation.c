@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 6: the years between two cuts: what protects when, and how the stands grow and are cut. */
+/* View 6: the years of a rotation: protection in each year, growth and cutting of the stands. */
 #include <math.h>
 
 #include "app.h"
 #include "base/language.h"
 
-static void build(struct app *app, struct form *form)
+static void build_rotation(struct app *app, struct form *form)
 {
     ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m cut_year stand");
     if (ceduo_app_belt(app)) {
@@ -22,13 +22,13 @@ static void build(struct app *app, struct form *form)
     }
     ceduo_form_heading(form, _("Years shown (empty: the years ahead)"));
     ceduo_form_fields(form, "years.", "first last");
-    ceduo_form_heading(form, _("What comes down, what must stay"));
+    ceduo_form_heading(form, _("Rockfall frequency and standards"));
     ceduo_form_fields(form, "", "rocks_per_year minimum.reserves_per_ha rules");
     ceduo_form_rest(form, "minimum");
 }
 
-/* What is felled in a year, and its stands; the column on the right has its figures. */
-static void say_year(struct app *app, const struct ceduo_years *years, struct text *text)
+/* Append the fellings and stands of a year. The right column has its figures. */
+static void append_year(struct app *app, const struct ceduo_years *years, struct text *text)
 {
     const struct ceduo_year *y = &years->years[app->year < years->count ? app->year : 0];
     const struct ceduo_verdict *v = &app->live.verdict;
@@ -56,7 +56,7 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
     }
 }
 
-static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
+static void append_summary(struct app *app, const struct ceduo_years *years, struct text *text)
 {
     const struct ceduo_verdict *v = &app->live.verdict;
     ceduo_words_window(text, ceduo_app_option(app));
@@ -69,54 +69,54 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     ceduo_words_year_numbering(text, years->rocks);
 }
 
-#define PICTURE_MIN     7 /* lines of the picture beside the form: of the curve alone */
-#define PICTURE_ALONE   9 /* with the lights below it */
-#define FORM_MIN        3 /* of the form, and where there is room: */
+#define PICTURE_MIN     7 /* min. lines of the picture with the form: only the curve */
+#define PICTURE_ALONE   9 /* min. lines with the lights */
+#define FORM_MIN        3 /* min. lines of the form; wanted lines: */
 #define FORM_WANTED     8
 #define HEIGHT_FOR_FORM 18
 
-static void draw(struct app *app, struct ceduo_area area)
+static void draw_rotation(struct app *app, struct ceduo_area area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app);
-    bool alone = ceduo_app_state(app)->pane == 1;
+    bool picture_only = ceduo_app_state(app)->pane == 1;
     struct text text = {0};
     if (picture.years && app->live.result && picture.years->count > 0) {
-        say_all(app, picture.years, &text);
+        append_summary(app, picture.years, &text);
         ceduo_text_append_char(&text, '\n');
-        say_year(app, picture.years, &text);
+        append_year(app, picture.years, &text);
     }
-    int form_min = alone ? 0 : area.height >= HEIGHT_FOR_FORM ? FORM_WANTED : FORM_MIN;
-    int max = area.height - form_min - (alone ? PICTURE_ALONE : PICTURE_MIN);
+    int form_min = picture_only ? 0 : area.height >= HEIGHT_FOR_FORM ? FORM_WANTED : FORM_MIN;
+    int max = area.height - form_min - (picture_only ? PICTURE_ALONE : PICTURE_MIN);
     ceduo_app_shorten(app, &text, area.width, max);
-    int words = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
+    int words = ceduo_app_count_lines(app, ceduo_text_string(&text), area.width);
     words = words > max ? max : words;
-    int form = alone ? 0 : (area.height - words) / 3;
+    int form = picture_only ? 0 : (area.height - words) / 3;
     form = form > form_min ? form : form_min;
-    if (alone)
-        ceduo_app_hint(app, _("left, right: another year; Tab: back to the form"));
+    if (picture_only)
+        ceduo_app_show_hint(app, _("left, right: another year; Tab: back to the form"));
     ceduo_app_draw_form(app, cut_bottom(&area, form));
-    ceduo_app_set_cursor(app, cut_bottom(&area, words), CEDUO_ROLE_TEXT, &text);
+    ceduo_app_draw_text(app, cut_bottom(&area, words), CEDUO_ROLE_TEXT, &text);
     ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &area, &picture);
 }
 
-static void next_year(struct app *app, int by)
+static void step_year(struct app *app, int step)
 {
     const struct ceduo_years *years = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
     struct viewport v = {.selected = (int)app->year, .count = years ? (int)years->count : 0};
-    viewport_move(&v, by);
+    viewport_move(&v, step);
     app->year = v.count > 0 ? (size_t)v.selected : app->year;
 }
 
-static const struct act acts[] = {KEY(RIGHT, .function = next_year, .by = 1),
-                                  KEY(LEFT, .function = next_year, .by = -1),
-                                  KEY(TOP, .function = next_year, .by = -ALL_LINES),
-                                  KEY(BOTTOM, .function = next_year, .by = ALL_LINES),
-                                  {0}};
+static const struct key_binding rotation_bindings[] = {KEY(RIGHT, .handler = step_year, .step = 1),
+                                                       KEY(LEFT, .handler = step_year, .step = -1),
+                                                       KEY(TOP, .handler = step_year, .step = -ALL_LINES),
+                                                       KEY(BOTTOM, .handler = step_year, .step = ALL_LINES),
+                                                       {0}};
 
 const struct view ceduo_view_rotation = {
     .panes = 2,
-    .build = build,
-    .draw = draw,
-    .acts = {NULL, acts},
-    .follow = ceduo_app_follow_belt,
+    .build = build_rotation,
+    .draw = draw_rotation,
+    .bindings = {NULL, rotation_bindings},
+    .after_key = ceduo_app_sync_belt,
     .bar = {KEY(EDIT, N_("edit")), KEY(NEXT_PANE, N_("years")), KEY(NEXT_OPTION, N_("next option"))}};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 1: the slope, trajectories over it, height and energy along it; its ground, belts and controls to edit. */
+/* View 1: the slope with trajectories, height and energy; its ground, belts and controls to edit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,9 +10,9 @@
 
 /* ---- the form ---- */
 
-#define LISTED_MAX 200 /* points that are edited by hand */
+#define LISTED_MAX 200 /* max. points to edit */
 
-static void build(struct app *app, struct form *form)
+static void build_slope(struct app *app, struct form *form)
 {
     const struct document *d = &app->document;
     const struct node *segments = ceduo_document_node(d, "slope.segments");
@@ -29,12 +29,12 @@ static void build(struct app *app, struct form *form)
     ceduo_form_heading(form, _("Ground"));
     ceduo_form_field(form, "slope.facets", NULL);
     if (d->file.scene.slope.reversed)
-        ceduo_form_note(form, _("the profile is drawn upward: below, x of ground and points counts from its lower end"));
+        ceduo_form_note(form, _("the profile is drawn upward: below, x of ground and points starts at its lower end"));
     if (!segments && !ceduo_document_node(d, "slope.materials"))
         ceduo_form_note(form, _("talus is assumed everywhere"));
     if (segments) {
         bool by_height = segments->n > 0 && ceduo_node_get(segments->items[0], "roughness_m");
-        bool arm = d->file.scene.simulation.law == CEDUO_LAW_ARM; /* which knows mu, the others Rt */
+        bool arm = d->file.scene.simulation.law == CEDUO_LAW_ARM; /* the arm law uses mu, the others Rt */
         ceduo_form_table(
             form, "slope.segments", NULL,
             ceduo_app_format(app, "rn %s %s friction", arm ? "mu" : "rt", by_height ? "roughness_m" : "roughness_rad"));
@@ -56,84 +56,84 @@ static void build(struct app *app, struct form *form)
     }
 }
 
-#define ZOOM_MAX 7
-#define STEPS    100   /* of the cursor, over what is shown */
-#define NEAR     0.015 /* of what is shown: so near a point or a control is where the cursor is */
+#define ZOOM_MAX   7
+#define STEPS      100   /* steps of the cursor over the part shown */
+#define NEAR_SHARE 0.015 /* a point or control this close is at the cursor, as a share of the part shown */
 
-/* ---- the cursor along the slope: where it is ---- */
+/* ---- the cursor along the slope ---- */
 
-struct place {
-    double x; /* m, relative */
-    int zoom; /* 2^zoom times as near as the whole slope */
-    bool put; /* it was moved: x holds */
+struct slope_cursor {
+    double x;    /* m, relative */
+    int zoom;    /* magnification 2^zoom */
+    bool is_set; /* x was set by a move */
 };
 
-static double length_of(const struct app *app)
+static double slope_length(const struct app *app)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     return s->x[s->vertices - 1];
 }
 
-/* m, relative: in the middle of the slope until it is moved. */
-static double place_x(const struct app *app)
+/* Return x, m relative: the middle of the slope until the cursor is moved. */
+static double cursor_x(const struct app *app)
 {
-    const struct place *p = ceduo_app_own(app);
-    return p->put ? fmin(p->x, length_of(app)) : length_of(app) / 2;
+    const struct slope_cursor *p = ceduo_app_private_state(app);
+    return p->is_set ? fmin(p->x, slope_length(app)) : slope_length(app) / 2;
 }
 
-static void put_place(struct app *app, double x)
+static void set_cursor(struct app *app, double x)
 {
-    struct place *p = ceduo_app_own(app);
-    p->x = fmin(fmax(0, x), length_of(app));
-    p->put = true;
+    struct slope_cursor *p = ceduo_app_private_state(app);
+    p->x = fmin(fmax(0, x), slope_length(app));
+    p->is_set = true;
 }
 
-/* m that are shown. */
+/* Return the length of the part shown, m. */
 static double shown_length(const struct app *app)
 {
-    return ldexp(length_of(app), -((const struct place *)ceduo_app_own(app))->zoom);
+    return ldexp(slope_length(app), -((const struct slope_cursor *)ceduo_app_private_state(app))->zoom);
 }
 
-/* By a hundredth of what is shown, onto a round number. */
-static void move_place(struct app *app, int by)
+/* Move by a hundredth of the part shown, to a round number. */
+static void move_cursor(struct app *app, int step)
 {
     double origin = app->document.file.scene.slope.origin_x;
-    double step = ceduo_plot_round(shown_length(app) / STEPS * 2, false);
-    double at = (place_x(app) + origin) / step;
-    put_place(app, (by > 0 ? floor(at + 1e-9) + by : ceil(at - 1e-9) + by) * step - origin);
+    double grid = ceduo_plot_round(shown_length(app) / STEPS * 2, false);
+    double steps = (cursor_x(app) + origin) / grid;
+    set_cursor(app, (step > 0 ? floor(steps + 1e-9) + step : ceil(steps - 1e-9) + step) * grid - origin);
 }
 
-/* Takes in a place if it lies on that side of the cursor and nearer than the best so far. */
-static void nearer(double here, int side, double x, double *best)
+/* Set `*best` to x if x is on this side of `from` and nearer than `*best`. */
+static void keep_nearest(double from, int side, double x, double *best)
 {
-    bool beyond = side > 0 ? x > here + 1e-9 : x < here - 1e-9;
-    if (beyond && (isnan(*best) || fabs(x - here) < fabs(*best - here)))
+    bool beyond = side > 0 ? x > from + 1e-9 : x < from - 1e-9;
+    if (beyond && (isnan(*best) || fabs(x - from) < fabs(*best - from)))
         *best = x;
 }
 
-/* To the next of all points, borders and controls. */
-static void jump(struct app *app, int by)
+/* Move to the next point, border or control. */
+static void jump_to_next(struct app *app, int step)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     const struct ceduo_option *option = ceduo_app_option(app);
-    double here = place_x(app), best = NAN;
-    nearer(here, by, scene->release.x.mean, &best);
+    double from = cursor_x(app), best = NAN;
+    keep_nearest(from, step, scene->release.x.mean, &best);
     for (size_t i = 0; i < scene->slope.vertices; i++)
-        nearer(here, by, scene->slope.x[i], &best);
+        keep_nearest(from, step, scene->slope.x[i], &best);
     for (size_t i = 0; i < scene->controls_count; i++)
-        nearer(here, by, scene->controls[i].x, &best);
+        keep_nearest(from, step, scene->controls[i].x, &best);
     for (size_t i = 0; i < option->belts_count; i++) {
-        nearer(here, by, option->belts[i].from, &best);
-        nearer(here, by, option->belts[i].to, &best);
+        keep_nearest(from, step, option->belts[i].from, &best);
+        keep_nearest(from, step, option->belts[i].to, &best);
     }
     if (!isnan(best))
-        put_place(app, best);
+        set_cursor(app, best);
 }
 
-/* ---- what is there ---- */
+/* ---- text at the cursor ---- */
 
-/* The belt that it stands in; belts_count where it stands in none. */
-static size_t belt_at(const struct app *app, double x)
+/* Return the belt at x; belts_count: none. */
+static size_t find_belt(const struct app *app, double x)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
     size_t i = 0;
@@ -142,43 +142,43 @@ static size_t belt_at(const struct app *app, double x)
     return i;
 }
 
-static void say_place(struct app *app)
+static void hint_cursor(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     const struct ceduo_snapshot *o = ceduo_live_snapshot(&app->live, scene);
     const struct ceduo_run_snapshot *run = ceduo_snapshot_find(o, scene, app->option);
-    double x = place_x(app);
-    size_t belt = belt_at(app, x), cell = 0;
+    double x = cursor_x(app);
+    size_t belt = find_belt(app, x), cell = 0;
     LOCAL_TEXT(text);
     ceduo_text_format(&text, _("%.1f m: %.0f\xc2\xb0 steep, %s"), x + scene->slope.origin_x,
                       atan(ceduo_slope_fall(&scene->slope, x)) * 180 / M_PI,
                       belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[belt].name : _("no forest"));
-    for (size_t i = 1; o && i < o->cells; i++) /* the nearest */
+    for (size_t i = 1; o && i < o->cells; i++) /* nearest cell */
         cell = fabs(o->cell_x[i] - x) < fabs(o->cell_x[cell] - x) ? i : cell;
-    bool near = o && o->cells > 1 && fabs(o->cell_x[cell] - x) <= fabs(o->cell_x[1] - o->cell_x[0]);
-    const struct ceduo_envelope *e = near && run && run->envelopes ? &run->envelopes[cell] : NULL;
+    bool is_near = o && o->cells > 1 && fabs(o->cell_x[cell] - x) <= fabs(o->cell_x[1] - o->cell_x[0]);
+    const struct ceduo_envelope *e = is_near && run && run->envelopes ? &run->envelopes[cell] : NULL;
     if (e && e->passed > 0)
-        ceduo_text_append_joined(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
-                                 SIG(e->height.p95, 2), SIG(e->mean_energy * J_TO_KJ, 3));
-    ceduo_app_hint(app, text.bytes);
+        ceduo_text_append_joined(&text, "; ", _("underside p95 %s m, mean energy %s kJ"), SIG(e->height.p95, 2),
+                                 SIG(e->mean_energy * J_TO_KJ, 3));
+    ceduo_app_show_hint(app, text.bytes);
 }
 
-/* ---- what can be done there ---- */
+/* ---- actions at the cursor ---- */
 
-/* x as the file of the slope has it. */
-static double written(const struct app *app, double x)
+/* Return x as in the file of the slope. */
+static double x_in_file(const struct app *app, double x)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     return ceduo_slope_mirrored(s, x + s->origin_x);
 }
 
-/* "list#index": to edit; "+list#index": to add at the cursor. */
-static void offer_place(struct app *app, const char *line, const char *sign, const char *list, size_t index)
+/* Add an item. "list#index": edit; "+list#index": add at the cursor. */
+static void add_place_item(struct app *app, const char *line, const char *sign, const char *list, size_t index)
 {
-    ceduo_popup_item(app->popup, line, ceduo_app_format(app, "%s%s#%zu", sign, list, index));
+    ceduo_popup_add_item(app->popup, line, ceduo_app_format(app, "%s%s#%zu", sign, list, index));
 }
 
-static void chose_place(struct app *app, struct popup *p)
+static void select_place(struct app *app, struct popup *p)
 {
     bool add = p->value[0] == '+';
     char *list = ceduo_app_format(app, "%s", p->value + add), *mark = strrchr(list, '#');
@@ -187,149 +187,150 @@ static void chose_place(struct app *app, struct popup *p)
     ceduo_app_state(app)->pane = 0;
     if (add)
         ceduo_items_add_at(app, list, index,
-                           strncmp(list, "slope.", 6) == 0 ? written(app, place_x(app))
-                                                           : place_x(app) + app->document.file.scene.slope.origin_x);
+                           strncmp(list, "slope.", 6) == 0 ? x_in_file(app, cursor_x(app))
+                                                           : cursor_x(app) + app->document.file.scene.slope.origin_x);
     else
-        ceduo_form_go(ceduo_app_form(app), list, index);
+        ceduo_form_go_to_item(ceduo_app_form(app), list, index);
 }
 
-static void offer_ground(struct app *app, double x)
+static void add_ground_items(struct app *app, double x)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
-    double there = written(app, x);
+    double file_x = x_in_file(app, x);
     const struct node *materials = ceduo_document_node(&app->document, "slope.materials");
-    size_t j = ceduo_items_stretch_of(app, there), n = materials ? materials->n : 0, material = 0;
+    size_t j = ceduo_items_find_segment(app, file_x), n = materials ? materials->n : 0, material = 0;
     while (material < n &&
-           !(there >= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "from_m")) &&
-             there <= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "to_m"))))
+           !(file_x >= ceduo_document_read_place(&app->document, ceduo_node_text(materials->items[material], "from_m")) &&
+             file_x <= ceduo_document_read_place(&app->document, ceduo_node_text(materials->items[material], "to_m"))))
         material++;
     bool by_segment = segments && segments->n > 0;
     size_t i = !by_segment ? material : segments->n == 1 ? 0 : j;
     const char *list = by_segment ? "slope.segments" : "slope.materials";
     if (by_segment || material < n)
-        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), i + 1), "", list, i);
+        add_place_item(app, ceduo_app_format(app, _("edit the ground here: number %zu"), i + 1), "", list, i);
     if (by_segment ? vertices != NULL : material < n)
-        offer_place(app, _("another ground from here on"), "+", list, i);
+        add_place_item(app, _("new ground from here on"), "+", list, i);
     if (vertices && vertices->n <= LISTED_MAX) {
         double a = ceduo_node_item_number(vertices->items[j], 0), b = ceduo_node_item_number(vertices->items[j + 1], 0);
-        bool first = there - a < b - there;
-        offer_place(app,
-                    ceduo_app_format(app, _("edit the nearest point of the profile: number %zu, at %.4g m"),
-                                     j + (first ? 1 : 2), ceduo_slope_mirrored(s, first ? a : b)),
-                    "", "slope.vertices_m", j + (first ? 0 : 1));
-        offer_place(app, _("a new point of the profile here"), "+", "slope.vertices_m", j);
+        bool first = file_x - a < b - file_x;
+        add_place_item(app,
+                       ceduo_app_format(app, _("edit the nearest point of the profile: number %zu, at %.4g m"),
+                                        j + (first ? 1 : 2), ceduo_slope_mirrored(s, first ? a : b)),
+                       "", "slope.vertices_m", j + (first ? 0 : 1));
+        add_place_item(app, _("new point of the profile here"), "+", "slope.vertices_m", j);
     }
 }
 
-/* Lists what it stands on, to be edited, and what can be put there. */
-static void choose_at_place(struct app *app)
+/* List the items at the cursor to edit, and those that can be added. */
+static void list_at_cursor(struct app *app)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(app);
     const char *forest = ceduo_app_forest(app);
     const char *controls = ceduo_document_node(&app->document, "controls_m") ? "controls_m" : "controls";
-    double x = place_x(app), near = NEAR * shown_length(app);
-    size_t belt = belt_at(app, x);
-    ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->slope.origin_x), "", chose_place);
+    double x = cursor_x(app), tolerance = NEAR_SHARE * shown_length(app);
+    size_t belt = find_belt(app, x);
+    ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->slope.origin_x), "", select_place);
     if (belt < o->belts_count) {
-        offer_place(app, ceduo_app_format(app, _("edit the belt here: %.100s"), o->belts[belt].name), "", forest, belt);
-        offer_place(app, _("two belts: end this one here and begin another"), "+", forest, belt);
+        add_place_item(app, ceduo_app_format(app, _("edit the belt here: %.100s"), o->belts[belt].name), "", forest, belt);
+        add_place_item(app, _("split the belt here"), "+", forest, belt);
     }
-    offer_ground(app, x);
+    add_ground_items(app, x);
     for (size_t i = 0; i < s->controls_count; i++)
-        if (fabs(s->controls[i].x - x) <= near)
-            offer_place(app, ceduo_app_format(app, _("edit the control at %.4g m"), s->controls[i].x_given), "", controls, i);
-    offer_place(app, _("count rocks here too: a new control"), "+", controls, s->controls_count);
+        if (fabs(s->controls[i].x - x) <= tolerance)
+            add_place_item(app, ceduo_app_format(app, _("edit the control at %.4g m"), s->controls[i].x_given), "", controls,
+                           i);
+    add_place_item(app, _("new control here"), "+", controls, s->controls_count);
 }
 
 /* ---- the pictures ---- */
 
 enum { PANE_FORM, PANE_ROCKS, PANE_PLACE, PANES };
 
-/* Shows the belt under the cursor: that of the form, or along the slope. Elsewhere the belt stays that was shown. */
-static void follow(struct app *app)
+/* Show the belt under the cursor of the form or of the slope. Without a belt there, keep the one shown. */
+static void sync_shown_belt(struct app *app)
 {
-    size_t belt = belt_at(app, place_x(app));
+    size_t belt = find_belt(app, cursor_x(app));
     if (ceduo_app_state(app)->pane == PANE_PLACE && belt < ceduo_app_option(app)->belts_count)
         ceduo_app_show_belt(app, belt);
     else if (ceduo_app_state(app)->pane == PANE_FORM)
-        ceduo_app_follow_belt(app);
+        ceduo_app_sync_belt(app);
 }
 
-/* The picture alone where it has the focus, otherwise with the form below it. */
-static void draw(struct app *app, struct ceduo_area area)
+/* Draw the picture, with the form below it if the form has the focus. */
+static void draw_slope(struct app *app, struct ceduo_area area)
 {
-    ceduo_app_follow_rock(app);
+    ceduo_app_trace_rock(app);
     struct ceduo_span span;
     struct ceduo_picture picture = ceduo_app_picture(app);
-    double mark = place_x(app);
+    double mark = cursor_x(app);
     picture.span = &span;
-    bool alone = ceduo_app_state(app)->pane != PANE_FORM;
+    bool picture_only = ceduo_app_state(app)->pane != PANE_FORM;
     double shown = shown_length(app);
-    if (shown < length_of(app)) { /* the stretch around the cursor */
-        picture.from = fmin(fmax(0, mark - shown / 2), length_of(app) - shown);
+    if (shown < slope_length(app)) { /* stretch around the cursor */
+        picture.from = fmin(fmax(0, mark - shown / 2), slope_length(app) - shown);
         picture.to = picture.from + shown;
     }
-    ceduo_app_draw_form(app, cut_bottom(&area, alone ? 0 : area.height / 3));
-    bool place = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: all rows for the slope at true scale */
-    int room = area.height, strips = place ? 0 : room >= 24 ? 2 : room >= 13 ? 1 : 0, strip = room >= 24 ? room / 4 : 5;
-    if (place)
+    ceduo_app_draw_form(app, cut_bottom(&area, picture_only ? 0 : area.height / 3));
+    bool has_cursor = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: use all rows for the slope at true scale */
+    int rows = area.height, strips = has_cursor ? 0 : rows >= 24 ? 2 : rows >= 13 ? 1 : 0, strip = rows >= 24 ? rows / 4 : 5;
+    if (has_cursor)
         picture.mark = &mark;
-    if (place)
-        say_place(app);
-    else if (alone)
-        ceduo_app_hint(app, _("left, right: another rock; down, up: along its way; Tab: along the slope"));
-    ceduo_app_plot(app, CEDUO_PLOT_PROFILE, cut_top(&area, room - strip * strips - !alone), &picture);
+    if (has_cursor)
+        hint_cursor(app);
+    else if (picture_only)
+        ceduo_app_show_hint(app, _("left, right: another rock; down, up: along its trajectory; Tab: along the slope"));
+    ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, cut_top(&area, rows - strip * strips - !picture_only), &picture);
     picture.no_x_axis = true;
     if (strips > 1)
-        ceduo_app_plot(app, CEDUO_PLOT_HEIGHT, cut_top(&area, strip), &picture);
+        ceduo_app_draw_plot(app, CEDUO_PLOT_HEIGHT, cut_top(&area, strip), &picture);
     picture.no_x_axis = strips < 2;
     if (strips > 0)
-        ceduo_app_plot(app, CEDUO_PLOT_ENERGY, cut_top(&area, strip), &picture);
+        ceduo_app_draw_plot(app, CEDUO_PLOT_ENERGY, cut_top(&area, strip), &picture);
 }
 
-static void zoom(struct app *app, int by)
+static void change_zoom(struct app *app, int step)
 {
     struct view_state *state = ceduo_app_state(app);
     state->pane = state->pane == PANE_FORM ? PANE_PLACE : state->pane;
-    struct place *p = ceduo_app_own(app);
-    by += p->zoom;
-    if (by < 0 || by > ZOOM_MAX)
-        ceduo_app_show_message(app, "%s", by < 0 ? _("this is the whole slope") : _("this is as near as it gets"));
+    struct slope_cursor *p = ceduo_app_private_state(app);
+    step += p->zoom;
+    if (step < 0 || step > ZOOM_MAX)
+        ceduo_app_show_message(app, "%s", step < 0 ? _("this is the whole slope") : _("maximum zoom"));
     else
-        p->zoom = by;
+        p->zoom = step;
 }
 
-#define ZOOM_ACTS KEY(ZOOM, .function = zoom, .by = 1), KEY(UNZOOM, .function = zoom, .by = -1)
+#define ZOOM_BINDINGS KEY(ZOOM, .handler = change_zoom, .step = 1), KEY(UNZOOM, .handler = change_zoom, .step = -1)
 
-static const struct act form_acts[] = {ZOOM_ACTS, {0}};
+static const struct key_binding form_bindings[] = {ZOOM_BINDINGS, {0}};
 
-/* In the picture left and right go from rock to rock, up and down along its trajectory. */
-static const struct act rock_acts[] = {KEY(RIGHT, .function = ceduo_app_next_rock, .by = 1),
-                                       KEY(LEFT, .function = ceduo_app_next_rock, .by = -1),
-                                       KEY(DOWN, .function = ceduo_app_step_rock, .by = 1),
-                                       KEY(UP, .function = ceduo_app_step_rock, .by = -1),
-                                       ZOOM_ACTS,
-                                       {0}};
+/* Bindings of the picture: left and right change the rock, up and down move along its trajectory. */
+static const struct key_binding picture_bindings[] = {KEY(RIGHT, .handler = ceduo_app_next_rock, .step = 1),
+                                                      KEY(LEFT, .handler = ceduo_app_next_rock, .step = -1),
+                                                      KEY(DOWN, .handler = ceduo_app_step_rock, .step = 1),
+                                                      KEY(UP, .handler = ceduo_app_step_rock, .step = -1),
+                                                      ZOOM_BINDINGS,
+                                                      {0}};
 
-/* Along the slope: left and right by steps, up and down from one point, border or control to the next. */
-static const struct act place_acts[] = {KEY(RIGHT, .function = move_place, .by = 1),
-                                        KEY(LEFT, .function = move_place, .by = -1),
-                                        KEY(DOWN, .function = jump, .by = 1),
-                                        KEY(UP, .function = jump, .by = -1),
-                                        KEY(EDIT, .plain = choose_at_place),
-                                        KEY(ADD, .plain = choose_at_place),
-                                        ZOOM_ACTS,
-                                        {0}};
+/* Bindings along the slope: left and right move by steps, up and down to the next point, border or control. */
+static const struct key_binding cursor_bindings[] = {KEY(RIGHT, .handler = move_cursor, .step = 1),
+                                                     KEY(LEFT, .handler = move_cursor, .step = -1),
+                                                     KEY(DOWN, .handler = jump_to_next, .step = 1),
+                                                     KEY(UP, .handler = jump_to_next, .step = -1),
+                                                     KEY(EDIT, .plain = list_at_cursor),
+                                                     KEY(ADD, .plain = list_at_cursor),
+                                                     ZOOM_BINDINGS,
+                                                     {0}};
 
 const struct view ceduo_view_slope = {.panes = PANES,
-                                      .own = sizeof(struct place),
-                                      .build = build,
-                                      .draw = draw,
-                                      .acts = {form_acts, rock_acts, place_acts},
-                                      .follow = follow,
+                                      .private_size = sizeof(struct slope_cursor),
+                                      .build = build_slope,
+                                      .draw = draw_slope,
+                                      .bindings = {form_bindings, picture_bindings, cursor_bindings},
+                                      .after_key = sync_shown_belt,
                                       .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("add")), KEY(DELETE, N_("delete")),
-                                              KEY(NEXT_PANE, N_("picture")), KEY(ZOOM, N_("nearer")),
-                                              KEY(NEXT_ROCK, N_("a rock"))}};
+                                              KEY(NEXT_PANE, N_("picture")), KEY(ZOOM, N_("zoom in")),
+                                              KEY(NEXT_ROCK, N_("next rock"))}};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 2: the stand of one belt: stools, cohorts of shoots, classes of trees; a plan to scale. */
+/* View 2: the stand of one belt: stools, cohorts of shoots, classes of trees, and a plan to scale. */
 #include <math.h>
 
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 #define FIGURES 3 /* lines */
 
-/* How many there are comes last: then nothing of them may be missing. */
+/* Add the fields of a group, with the number last: once it is set, the others are required. */
 static void build_low(struct app *app, struct form *form, const char *group)
 {
     const struct object *fields = ceduo_schema_row(group)->object;
@@ -21,49 +21,49 @@ static void build_low(struct app *app, struct form *form, const char *group)
 
 #define STEMS "dbh_m height_m volume_m3 dbh_sd_m"
 
-static void build(struct app *app, struct form *form)
+static void build_stand(struct app *app, struct form *form)
 {
     ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m stand");
     const struct ceduo_belt *belt = ceduo_app_belt(app);
     if (!belt)
         return;
     const struct ceduo_stand *s = &belt->stand;
-    const char *path = ceduo_app_stand(app), *in = ceduo_app_format(app, "%s.", path);
+    const char *path = ceduo_app_stand(app), *prefix = ceduo_app_format(app, "%s.", path);
     ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, belt->name));
-    ceduo_form_fields(form, in, "system species stools.per_ha");
-    if (ceduo_stand_has_shoots(s) && (s->shoots_count > 1 || !(s->shoots[0].per_stool > 0))) /* no one value says it */
+    ceduo_form_fields(form, prefix, "system species stools.per_ha");
+    if (ceduo_stand_has_shoots(s) && (s->shoots_count > 1 || !(s->shoots[0].per_stool > 0))) /* no single field has it */
         ceduo_form_note(form, ceduo_app_format(app, _("%.4g shoots per stool"), ceduo_stand_shoots(s) / s->stools_per_ha));
-    ceduo_form_fields(form, in, "stools.spacing_m");
+    ceduo_form_fields(form, prefix, "stools.spacing_m");
     ceduo_form_rest(form, ceduo_app_format(app, "%s.stools", path));
     ceduo_form_heading(form, _("Shoots on the stools"));
-    size_t each = 0; /* cohorts by what the stand gives of them: shoots per stool, per hectare, or the one and the other */
+    size_t per_stool_count = 0; /* cohorts with shoots per stool, per hectare, or both */
     for (size_t i = 0; i < s->shoots_count; i++)
-        each += s->shoots[i].per_stool > 0;
+        per_stool_count += s->shoots[i].per_stool > 0;
     ceduo_form_table(form, ceduo_app_format(app, "%s.shoots", path), NULL,
-                     ceduo_app_format(app, "%s%s" STEMS, each > 0 ? "per_stool " : "",
-                                      each == 0 || each < s->shoots_count ? "per_ha " : ""));
+                     ceduo_app_format(app, "%s%s" STEMS, per_stool_count > 0 ? "per_stool " : "",
+                                      per_stool_count == 0 || per_stool_count < s->shoots_count ? "per_ha " : ""));
     ceduo_form_heading(form, _("Single trees: standards, reserves"));
     ceduo_form_table(form, ceduo_app_format(app, "%s.trees", path), NULL, "per_ha " STEMS);
     double today = ceduo_stand_trees(s), stay = ceduo_stand_retained_per_ha(s);
-    if (s->cutting.rotation > 0) /* beside the trees of today: to change one does not change the other */
-        ceduo_form_fields(form, in, "cutting.stay_per_ha");
+    if (s->cutting.rotation > 0) /* apart from the trees of today: independent values */
+        ceduo_form_fields(form, prefix, "cutting.stay_per_ha");
     if (s->cutting.rotation > 0 && fabs(today - stay) > 0.5)
-        ceduo_form_note(form, ceduo_app_format(app, _("! today %g, after a cut %g: two things"), today, stay));
-    for (size_t i = 0; i < s->trees_count; i++) { /* the radius first: a group must have one */
+        ceduo_form_note(form, ceduo_app_format(app, _("! today %g, after a cut %g"), today, stay));
+    for (size_t i = 0; i < s->trees_count; i++) { /* radius first: a group requires it */
         const char *item = ceduo_app_format(app, "%s.trees[%zu].groups", path, i);
         ceduo_form_field(form, ceduo_app_format(app, "%s.radius_m", item),
-                         ceduo_app_format(app, _("trees %zu: a group, m"), i + 1));
+                         ceduo_app_format(app, _("trees %zu: radius of a group, m"), i + 1));
         ceduo_form_field(form, ceduo_app_format(app, "%s.stems", item),
-                         ceduo_app_format(app, _("trees %zu: in a group"), i + 1));
+                         ceduo_app_format(app, _("trees %zu: stems per group"), i + 1));
     }
     ceduo_form_heading(form, _("Energy of a contact"));
-    ceduo_form_fields(form, in, "energy.model energy.u_J_m3 energy.fracture_ratio energy.offset energy.hit_below_m");
+    ceduo_form_fields(form, prefix, "energy.model energy.u_J_m3 energy.fracture_ratio energy.offset energy.hit_below_m");
     ceduo_form_rest(form, ceduo_app_format(app, "%s.energy", path));
     ceduo_form_heading(form, _("Stumps"));
     build_low(app, form, ceduo_app_format(app, "%s.stumps", path));
     ceduo_form_heading(form, _("Lying logs"));
     build_low(app, form, ceduo_app_format(app, "%s.logs", path));
-    ceduo_form_fields(form, in, "name");
+    ceduo_form_fields(form, prefix, "name");
 }
 
 static void add_warning(void *text, const char *sentence)
@@ -71,7 +71,7 @@ static void add_warning(void *text, const char *sentence)
     ceduo_text_format(text, "! %s\n", sentence);
 }
 
-/* The figures of the stand below the form, and above them what is unlikely about it. Returns how many lines that takes. */
+/* Draw the figures of the stand below the form, with warnings above. Return the lines of the warnings. */
 static int draw_figures(struct app *app, struct ceduo_area area)
 {
     const struct ceduo_belt *belt = ceduo_app_belt(app);
@@ -81,10 +81,10 @@ static int draw_figures(struct app *app, struct ceduo_area area)
     struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, belt);
     ceduo_words_implausible(belt, &r, add_warning, &unlikely);
     ceduo_words_thick_stems(belt, add_warning, &unlikely);
-    int lines = unlikely.length > 0 ? ceduo_app_text_lines(app, unlikely.bytes, area.width) : 0;
+    int lines = unlikely.length > 0 ? ceduo_app_count_lines(app, unlikely.bytes, area.width) : 0;
     lines = lines > area.height / 3 ? area.height / 3 : lines;
     struct ceduo_area figures = cut_bottom(&area, FIGURES);
-    ceduo_app_set_cursor(app, cut_bottom(&area, lines), CEDUO_ROLE_WARN, &unlikely);
+    ceduo_app_draw_text(app, cut_bottom(&area, lines), CEDUO_ROLE_WARN, &unlikely);
     ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha."), r.stems_per_ha, r.basal_area);
     ceduo_text_append_char(&text, ' ');
     if (!r.bare)
@@ -93,13 +93,13 @@ static int draw_figures(struct app *app, struct ceduo_area area)
                           r.adc.interception, r.adc.crofton);
     if (!r.bare && !isnan(r.per_100m))
         ceduo_text_append_joined(&text, "; ", _("%.3g kJ per 100 m"), r.per_100m * J_TO_KJ);
-    ceduo_app_set_cursor(app, figures, CEDUO_ROLE_DIM, &text);
+    ceduo_app_draw_text(app, figures, CEDUO_ROLE_DIM, &text);
     return lines;
 }
 
-#define BOTH_MIN 18 /* lines that hold the plan and the way of a rock through it */
+#define BOTH_MIN 18 /* lines for both the plan and the path of the rock */
 
-/* The stand from above, to scale; below it the stems that the rock came to, where there is room for both. */
+/* Draw the stand from above, to scale. Below it, draw the stems that the rock met if there is space for both. */
 static void draw_plan(struct app *app, struct ceduo_area area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app), pattern = picture;
@@ -115,13 +115,13 @@ static void draw_plan(struct app *app, struct ceduo_area area)
     ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &area, &picture);
 }
 
-#define WIDE     80 /* columns that hold form and plan side by side */
+#define WIDE     80 /* columns for form and plan side by side */
 #define WIDER    110
 #define PLAN_MIN 32
 
-static void draw(struct app *app, struct ceduo_area area)
+static void draw_stand(struct app *app, struct ceduo_area area)
 {
-    ceduo_app_follow_rock(app);
+    ceduo_app_trace_rock(app);
     area.height -= draw_figures(app, area);
     bool wide = area.width >= WIDE;
     int plan = !wide ? 0 : area.width < WIDER ? PLAN_MIN : area.width / 2 - 1;
@@ -137,8 +137,8 @@ static void draw(struct app *app, struct ceduo_area area)
 }
 
 const struct view ceduo_view_stand = {.panes = 1,
-                                      .build = build,
-                                      .draw = draw,
-                                      .follow = ceduo_app_follow_belt,
+                                      .build = build_stand,
+                                      .draw = draw_stand,
+                                      .after_key = ceduo_app_sync_belt,
                                       .bar = {KEY(EDIT, N_("edit")), KEY(PRESETS, N_("stands")), KEY(COUNTS, N_("sample plot")),
                                               KEY(ADD, N_("add")), KEY(DELETE, N_("delete"))}};

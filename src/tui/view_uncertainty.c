@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 7: how sure the answer is, what it depends on, whether the options separate, and the ranges that the scene names. */
+/* View 7: uncertainty of the answer, its causes, the ranking of the options, and the ranges in the scene. */
 
 #include "app.h"
 #include "base/language.h"
 
-static void build(struct app *app, struct form *form)
+static void build_ranges(struct app *app, struct form *form)
 {
     const struct node *rows = ceduo_node_get(app->document.file.root, "uncertainty");
     size_t n = rows && rows->kind == NODE_LIST ? rows->n : 0;
@@ -14,15 +14,15 @@ static void build(struct app *app, struct form *form)
     if (n > 0)
         ceduo_form_table(form, "uncertainty", NULL, means ? "path lo hi mean sd" : "path lo hi");
     else
-        ceduo_form_note(form, _("a: name a range in the scene, to edit it"));
+        ceduo_form_note(form, _("a adds a range to the scene"));
 }
 
 /* ---- drawing ---- */
 
-#define WORDS_MIN 4 /* lines that the words keep below the picture, if there are so many */
+#define WORDS_MIN 4 /* min. lines of the text below the picture */
 
-/* The picture, what it means in words, and the ranges of the scene; picture and words scroll together. */
-static void draw(struct app *app, struct ceduo_area area)
+/* Draw the picture and its text, which scroll together, and the ranges of the scene. */
+static void draw_uncertainty(struct app *app, struct ceduo_area area)
 {
     ceduo_app_draw_form(app, cut_bottom(&area, ceduo_app_form(app)->n > 1 ? area.height / 4 : 1));
     cut_bottom(&area, 1);
@@ -31,30 +31,30 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     const struct ceduo_uncertainty_report *r = pane.report->uncertainty;
-    bool waits = app->over && r && r->answer && !r->rotation_mean;
-    picture.uncertainty = waits ? NULL : r;
-    const char *never = waits ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;
-    if (never)
-        ceduo_page_para(&page, CEDUO_PAGE_NOTE, "%s", _(never));
+    bool pending = app->rotation_mean && r && r->answer && !r->rotation_mean;
+    picture.uncertainty = pending ? NULL : r;
+    const char *reason = pending ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;
+    if (reason)
+        ceduo_page_para(&page, CEDUO_PAGE_NOTE, "%s", _(reason));
     else if (ceduo_plot_add(CEDUO_PLOT_UNCERTAINTY, &page, &picture, pane.height - WORDS_MIN - 1))
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
-    if (!waits)
+    if (!pending)
         ceduo_pane_uncertainty(&page, &pane);
-    if (r && r->answer && !waits)
+    if (r && r->answer && !pending)
         ceduo_page_para(&page, CEDUO_PAGE_NOTE,
                         r->rotation_mean ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
                         (unsigned long long)r->answer->evaluations,
                         (unsigned long long)(r->rotation_mean ? CEDUO_UNCERTAINTY_YEAR_ROCKS : r->rocks));
-    ceduo_app_page(app, area, &page);
+    ceduo_app_draw_page(app, area, &page);
 }
 
-static void turn(struct app *app)
+static void toggle_rotation(struct app *app)
 {
-    app->over = !app->over;
+    app->rotation_mean = !app->rotation_mean;
     ceduo_app_state(app)->text.first = 0;
 }
 
-/* ---- a range of one's own ---- */
+/* ---- a range in the scene ---- */
 
 static bool is_named(const struct node *rows, const char *path)
 {
@@ -64,14 +64,14 @@ static bool is_named(const struct node *rows, const char *path)
     return own && strcmp(own, path) == 0;
 }
 
-/* Names the most important input that the scene does not name yet, with the range that it has now. */
-static void add(struct app *app)
+/* Write the most important input without a range in the scene, with its current range. */
+static void add_range(struct app *app)
 {
     const struct node *rows = ceduo_node_get(app->document.file.root, "uncertainty");
     struct ceduo_uncertainty_report r;
     bool known = ceduo_app_uncertainty(app, &r) && (!r.answer || !isnan(ceduo_uncertainty_main(&r, app->option)->fit.p5));
     if (!known || !r.answer || (rows && rows->kind != NODE_LIST)) {
-        ceduo_app_show_message(app, "%s", known ? _("nothing here has a range") : _("not computed yet"));
+        ceduo_app_show_message(app, "%s", known ? _("no input has a range") : _("not computed yet"));
         return;
     }
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_main(&r, app->option);
@@ -88,25 +88,25 @@ static void add(struct app *app)
         ceduo_uncertainty_input_end(&row, &r, f->order[i], 1);
         ceduo_text_append_char(&row, '}');
         size_t n = rows ? rows->n : 0;
-        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "uncertainty", n, row.bytes)))
-            ceduo_form_go(ceduo_app_form(app), "uncertainty", n);
+        if (ceduo_app_finish_edit(app, ceduo_document_insert(&app->document, "uncertainty", n, row.bytes)))
+            ceduo_form_go_to_item(ceduo_app_form(app), "uncertainty", n);
         return;
     }
-    ceduo_app_show_message(app, "%s", _("every uncertain value has a range of the scene already"));
+    ceduo_app_show_message(app, "%s", _("all uncertain inputs already have a range in the scene"));
 }
 
-static const struct act acts[] = {KEY(ADD, .plain = add),
-                                  KEY(NEXT_PANE, .plain = turn),
-                                  KEY(LAST_PANE, .plain = turn),
-                                  KEY(PAGE_UP, .function = ceduo_app_continue_form, .by = -4),
-                                  KEY(PAGE_DOWN, .function = ceduo_app_continue_form, .by = 4),
-                                  {0}};
+static const struct key_binding uncertainty_bindings[] = {KEY(ADD, .plain = add_range),
+                                                          KEY(NEXT_PANE, .plain = toggle_rotation),
+                                                          KEY(PREV_PANE, .plain = toggle_rotation),
+                                                          KEY(PAGE_UP, .handler = ceduo_app_scroll_text, .step = -4),
+                                                          KEY(PAGE_DOWN, .handler = ceduo_app_scroll_text, .step = 4),
+                                                          {0}};
 
 const struct view ceduo_view_uncertainty = {.panes = 1,
                                             .uncertainty = true,
-                                            .build = build,
-                                            .draw = draw,
-                                            .acts = {acts},
+                                            .build = build_ranges,
+                                            .draw = draw_uncertainty,
+                                            .bindings = {uncertainty_bindings},
                                             .bar = {KEY(EDIT, N_("edit")), KEY(ADD, N_("a range")), KEY(DELETE, N_("delete")),
                                                     KEY(NEXT_PANE, N_("today or years")), KEY(NEXT_OPTION, N_("next option")),
-                                                    KEY(PAGE_DOWN, N_("read on"))}};
+                                                    KEY(PAGE_DOWN, N_("scroll"))}};

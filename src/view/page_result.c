@@ -161,7 +161,8 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
 {
     const struct ceduo_index *index = s->index;
     const struct ceduo_scene *scene = s->report->result->scene;
-    const struct ceduo_choice none = {0}, *c = s->choice ? s->choice : &none;
+    const struct ceduo_years_summary no_years = {0};
+    const struct ceduo_choice none = {.last_summary = &no_years}, *c = s->choice ? s->choice : &none;
     const struct ceduo_page_column columns[] = {{"", 11, 2, COL_GROW},
                                                 {"", page->width < CEDUO_PAGE_WIDTH ? -6 : -18, 0, 0},
                                                 {"", -7, 0, 0},

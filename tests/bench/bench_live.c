@@ -28,7 +28,7 @@ static void wait_for(struct app *app, uint64_t rocks)
         poll(&fd, 1, 1000);
         ceduo_program_poll(app);
     } while (!app->live.result || app->live.results.snapshot->snapshot->bare->simulated.rocks < rocks ||
-             app->live.asked != app->live.results.snapshot->key);
+             app->live.requested_key != app->live.results.snapshot->key);
     ceduo_screen_draw(app);
 }
 

@@ -444,10 +444,10 @@ CASES = {
         "--batch", "-s", "forest[0].to_m=50", "four-systems", start="--set:1:1: "),
     "the scene is valid without this change, but not with it:": Set("forest[0].to_m=@@50"),
     # Usage
-    "standard input and output are no terminal; use 'ceduo --batch SCENE.yaml', ...": Words("@"),
-    "standard input is no terminal; ...": lambda row: on_terminal(row, "xterm", stdin=subprocess.DEVNULL),
-    "standard output is no terminal; ...": lambda row: on_terminal(row, "xterm", stdout=subprocess.DEVNULL),
-    "TERM names a terminal that is not known here; try 'TERM=xterm-256color ceduo'; ...": lambda row: on_terminal(row, "no-such-terminal"),
+    "standard input and output are not a terminal; use 'ceduo --batch SCENE.yaml', ...": Words("@"),
+    "standard input is not a terminal; ...": lambda row: on_terminal(row, "xterm", stdin=subprocess.DEVNULL),
+    "standard output is not a terminal; ...": lambda row: on_terminal(row, "xterm", stdout=subprocess.DEVNULL),
+    "unknown terminal in TERM; try 'TERM=xterm-256color ceduo'; ...": lambda row: on_terminal(row, "no-such-terminal"),
     "this terminal cannot place the cursor; ...": lambda row: on_terminal(row, "dumb"),
     "this terminal cannot be used; ...": impossible,
     "no scene given; name a file, ...": Words("--batch"),
@@ -501,9 +501,9 @@ CASES = {
     # Surveys
     "750 cm is more than 300 cm; ...": Elsewhere("tests/cli/test_survey.py", "def test_thick"),
     # Scripts
-    "key, type, resize, wait idle, dump, roles or draw is wanted: x": Script("# first\nx\n", 2),
+    "key, type, resize, wait idle, dump, roles or draw expected: x": Script("# first\nx\n", 2),
     "no such key: x": Script("key Enter\nkey j x!\n".replace("x!", "xx"), 2),
-    "a width and a height are wanted: 80": Script("resize 80\n"),
+    "width and height expected: 80": Script("resize 80\n"),
     "No such file or directory: out/x.txt (status 4)": Script("dump out/x.txt\n", status=OUTPUT),
     # Running and writing
     "out of memory (status 1, in a file 3)": Elsewhere("tests/cli/test_faults.py", "out of memory"),

@@ -416,7 +416,7 @@ def test_read_only_folder():
             saved, quit_asks = (Screen("\n".join(lines[i:i + 24]) + "\n", 80, 24) for i in (0, 24))
             saved.has("Save as", "scene.yaml: Permission denied", "Permission denied. Give another name")
             expect(" * fast" in saved.title, saved)
-            quit_asks.has("There is unsaved work")
+            quit_asks.has("There are unsaved changes")
             expect_equal((f.path / "theirs/scene.yaml").read_text(), FAST)
         done = run(*BATCH[:-1], "-o", "out.csv", "scene.yaml")
         expect(done.returncode == OUTPUT and b"out.csv: Permission denied" in done.stderr, told(done, 0))

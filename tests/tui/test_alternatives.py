@@ -60,7 +60,7 @@ def test_every_shape():
             if {old, new} == {"ellipsoid", "block"}:
                 continue  # the same sizes serve both
             expect_near(mass_of(after), mass_of(before), 0.02 * mass_of(before), f"{old} to {new}: mass")
-            expect_in("filled in for the same volume: ", said, f"{old} to {new}")
+            expect_in("set for the same volume: ", said, f"{old} to {new}")
             for name in wanted[new]:
                 expect_in(name.split("_")[0], said, f"{old} to {new}")
 
@@ -69,10 +69,10 @@ def test_shape_figures():
     """The sphere of a cylinder's volume to three digits; a cylinder as wide as high from a sphere."""
     screen = said_by("{shape: cylinder, diameter_m: 0.56, height_m: 0.80}", choose("sphere"))
     diameter = (6 / pi * pi / 4 * 0.56**2 * 0.8) ** (1 / 3)
-    expect_equal(screen.note, f"filled in for the same volume: diameter {diameter:.3g} m; removed: height")
+    expect_equal(screen.note, f"set for the same volume: diameter {diameter:.3g} m; removed: height")
     screen = said_by("{diameter_m: 0.8}", choose("cylinder"))
     side = (4 / pi * pi / 6 * 0.8**3) ** (1 / 3)
-    expect_equal(screen.note, f"filled in for the same volume: diameter {side:.3g} m, height {side:.3g} m")
+    expect_equal(screen.note, f"set for the same volume: diameter {side:.3g} m, height {side:.3g} m")
 
 
 def test_shape_steps():

@@ -263,7 +263,7 @@ def wrong(view, word, value, *parts):
     before, refused, after = screens
     for part in parts:
         expect_in(part, refused.note, f"what is said to {value!r}")
-    expect_in("Esc leaves it as it was", refused.bar, "still in the field")
+    expect_in("Esc cancel", refused.bar, "still in the field")
     expect_in(value, refused.body, "what was typed is still there")
     expect_equal(refused.now, before.now, "the figures")
     expect_equal(after.text, before.text, "after Esc")
@@ -384,7 +384,7 @@ def test_steps():
     expect_equal(screens[3].row("^spacing")[-1], "0.39", "spacing after -")
     expect_equal([s.row("^Rn by speed")[-1] for s in screens[4:6]], ["true", "false"], "Rn by speed")
     expect_equal([s.row("^law of impact")[-1] for s in screens[6:8]], ["lumped", "crsp"], "law, after - and +")
-    expect_in("the limit of its range", screens[8].note)
+    expect_in("limit of the range reached", screens[8].note)
     expect_equal(screens[8].row(r"^1 +1(\.0*)? +0.98")[0], "1", "rn at its limit")
 
 
@@ -497,7 +497,7 @@ def test_blocks():
         expect_in("none; a adds one", none.body, "no blocks")
         refused.has("blocks per year: 'viel' is not a number")
         expect(re.search(r"blocks per year +0\.1_? +volumes, m³ +1 10\b", asked.popup), "what is offered", asked)
-        found = [re.findall(r"^\d +(\S+) +(\S+ \S+) +(\S+)$", s.body.split("Blocks that come down")[1], re.M) for s in (one, two)]
+        found = [re.findall(r"^\d +(\S+) +(\S+ \S+) +(\S+)$", s.body.split("Falling blocks")[1], re.M) for s in (one, two)]
         expect_equal(found, [[("1", "0.05 1", "1")], [("1", "0.05 1", "1"), ("0.1", "1 10", "-")]], "blocks")
         expect_in("none; a adds one", gone.body, "after d d")
         check_good(place.path, "fast.yaml")
@@ -528,14 +528,14 @@ def test_blocks_without_size():
             set 0.6
             dump""", "sizes.yaml")
         mean = 0.1 * math.log(10) / (1 - 0.1)  # of v^-1 from 0.1 to 1
-        expect_in("ADC and index are of one rock: 170.2 kg, mean diameter B 0.5 m", " ".join(sized.body.split()))
-        expect_in(f"ADC and index are of one rock: {mean * 2600:.1f} kg", " ".join(none.body.split()))
+        expect_in("ADC and index use one rock: 170.2 kg, mean diameter B 0.5 m", " ".join(sized.body.split()))
+        expect_in(f"ADC and index use one rock: {mean * 2600:.1f} kg", " ".join(none.body.split()))
         expect_in("'diameter_m' is missing; the shape 'cylinder' needs it", refused.note)
-        expect("filled in" not in block.note, block)
+        expect("set for the same volume" not in block.note, block)
         check_good(place.path, "sizes.yaml")
         expect_in("rock: {shape: cylinder}", place.text("sizes.yaml"))
         wide, high = 0.6, 0.7
-        expect_in(f"of one rock: {2600 * math.pi / 4 * wide ** 2 * high:.1f} kg, mean diameter B 0.65 m", " ".join(typed.body.split()))
+        expect_in(f"use one rock: {2600 * math.pi / 4 * wide ** 2 * high:.1f} kg, mean diameter B 0.65 m", " ".join(typed.body.split()))
 
 
 def test_blocks_from_anywhere():
@@ -547,15 +547,15 @@ def test_blocks_from_anywhere():
         place.write("counted.yaml", place.text("fast.yaml") + "rocks_per_year: 3\n")
         asked, two, gone = place.play("resize 120 60\nkey 3 a\ndump\nkey Enter Enter Enter\ndump\nkey s u\nfind blocks.exponent\nkey d\ndump", "law.yaml")
         expect(re.search(r"blocks per year +0\.2_? +volumes, m³ +5 50\b", asked.popup), "what is offered", asked)
-        expect_in("A class of blocks that come down", asked.text)
-        two.has("Rock: shape and density; blocks need no size here")
+        expect_in("New class of blocks", asked.text)
+        two.has("Rock: shape and density; sizes come from the blocks")
         check_good(place.path, "law.yaml")
         for words in ("{per_year: 2, volume_m3: [0.02, 5], exponent: 1.2}", "{per_year: 0.2, volume_m3: [5, 50]}"):
             expect_in(words, place.text("law.yaml"))
         expect_in("blocks deleted", gone.note)
-        gone.has("none; a adds one").lacks("blocks need no size")
+        gone.has("none; a adds one").lacks("sizes come from the blocks")
         said, = place.play("key 3 a\ntype 0.5\nkey Enter\ntype 0,02 5\nkey Enter Enter\ndump\nkey s", "counted.yaml")
-        expect_in("rocks_per_year is removed", said.note)
+        expect_in("rocks_per_year, which is removed", said.note)
         check_good(place.path, "counted.yaml")
         expect("rocks_per_year" not in place.text("counted.yaml"), place.text("counted.yaml"))
 

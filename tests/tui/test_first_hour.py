@@ -106,7 +106,7 @@ QUESTIONS = (
     ("my own slope", "", "key n Enter\ntype line\nkey " + "Enter " * 8, "body", r"1 +15 +99 "),
     ("my own stand", "", "key 2 c\n" + PLOT.replace("\n    key 6", ""), "body", r"Stand of belt 1: sample plot"),
     ("a larger rock", "", "key 3 Down Enter\ntype .8\nkey Enter", "now", r"Rock 0\.8 m, 1046 kg"),
-    ("a page to hand in", "", "wait idle\nkey w\ntype hand\nkey " + "Enter " * 8, "note", r"written: ceduo\.html"),
+    ("a report, as HTML", "", "wait idle\nkey w\ntype hand\nkey " + "Enter " * 8, "note", r"written: ceduo\.html"),
 )
 
 
@@ -118,7 +118,7 @@ def test_ten_questions():
             f.write("line.csv", "distance,elevation\n0,60\n15,30\n99,0\n")
             screen = play(f.path, f"{script}\nwait idle\ndump", *([scene] if scene else []))[0].whole()
             expect(re.search(answer, " ".join(getattr(screen, where).split())), f"{asked}:", screen)
-            expect(asked != "a page to hand in" or "</html>" in (f.path / "ceduo.html").read_text(encoding="utf-8"), "the page")
+            expect(asked != "a report, as HTML" or "</html>" in (f.path / "ceduo.html").read_text(encoding="utf-8"), "the page")
 
 
 if __name__ == "__main__":

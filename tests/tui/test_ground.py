@@ -104,7 +104,7 @@ def test_split_belt():
         expect_equal(stretches(split, BELTS)[1:], [(45, 62.5, "large reserves"), (62.5, 80, "large reserves")], key)
     behind, again = land("find forest[1]\nkey Right a\ndump\nkey a\ndump")
     expect_equal(stretches(behind, BELTS)[2], (80, 90, "large reserves"), "behind the last, to the control, as its neighbour")
-    expect_in("c takes it from a sample plot", behind.note)
+    expect_in("c enters a sample plot", behind.note)
     expect_equal(len(table(again, BELTS)), 4, "no room behind: split")
     none, all_ = land("find forest\nkey d d\ndump\nkey a\ndump")
     none.has("none; a adds one")
@@ -135,14 +135,14 @@ def test_belt_under_the_cursor():
         stands = [s[2] for s in stretches(after, BELTS)]
         expect_equal([i for i, name in enumerate(stands) if name == "bare"], [belt], f"{keys}: the bare belt among {stands}")
     counted = land("key 2\nfind forest[1]\nkey 1\nfind forest[0]\nkey c\ndump")[0]
-    expect_in("Species, growth and cuts stay those of simple coppice, 25 years", counted.popup)
+    expect_in("Species, growth and cutting of simple coppice, 25 years are kept", counted.popup)
 
 
 def test_neighbours_follow():
     """Where a border moves its neighbour moves with it, and that is said; u takes both back."""
     moved, over, back = land("find forest[0].to_m\nset 50\ndump\nkey Down Left\nset 30\ndump\nkey u u\ndump")
     expect_equal([s[:2] for s in stretches(moved, BELTS)], [(10, 50), (50, 80)], "to_m")
-    expect_in("what comes next begins at 50 m now", moved.note)
+    expect_in("the next item now begins at 50 m", moved.note)
     expect_equal([s[:2] for s in stretches(over, BELTS)], [(10, 30), (30, 80)], "from_m")
     expect_equal([s[:2] for s in stretches(back, BELTS)], [(10, 45), (45, 80)], "after u u")
     gap, into = land("find forest[1]\nset 60\ndump\nkey u\nfind forest[0]\nkey Right\nset 40\ndump",
@@ -152,8 +152,8 @@ def test_neighbours_follow():
     into = land("find forest[0]\nkey Right\nset 60\ndump", LAND.replace("from_m: 45, to_m: 80", "from_m: 55, to_m: 80"))[0]
     expect_equal([s[:2] for s in stretches(into, BELTS)], [(10, 60), (60, 80)], "over the gap and into the next: it gives way")
     refused = land("wait idle\nfind forest[0]\nkey Right\nset 85\ndump")[0]
-    expect_in("Esc leaves it as it was", refused.bar, "a belt is not swallowed")
-    expect_in("what comes next ends at 80 m already", refused.note)
+    expect_in("Esc cancel", refused.bar, "a belt is not swallowed")
+    expect_in("the next item ends at 80 m; delete it first", refused.note)
     longer = land("find vertices_m[2]\nset 120 0\ndump\nset 110,5 -5\ndump")
     expect_equal(stretches(longer[0], GROUNDS), [(0, 120, "talus")], "the ground goes with the profile")
     expect_equal(stretches(longer[1], GROUNDS), [(0, 110.5, "talus")], "and back")

@@ -120,13 +120,13 @@ def test_known():
         with Place() as place, Tmux(place, **changes) as t:
             t.start("fast.yaml")
             t.text("\x1b[[A" if linux else "\x1bOP")
-            t.sees("Every edit is live")
+            t.sees("Figures and pictures follow every edit at once")
             t.text("\x1b[6~")
-            t.sees("redo", lacks=("Every edit is live",))
+            t.sees("redo", lacks=("Figures and pictures follow every edit at once",))
             t.text("\x1b[5~")
-            t.sees("Every edit is live")
+            t.sees("Figures and pictures follow every edit at once")
             t.keys("Escape")
-            t.sees("Belts of forest", lacks=("Every edit is live",))
+            t.sees("Belts of forest", lacks=("Figures and pictures follow every edit at once",))
             arrow = "\x1b[" if linux else "\x1bO"
             t.text(f"{arrow}B{arrow}C")
             t.sees("to, m: where the belt ends")
@@ -158,7 +158,7 @@ def test_paste_nowhere():
         changed(t)
         for text in ("s", "\x1b[<0;12;1M\x1b[M ,!", "qsno\nwdd\r\n", "\x1b[99s", "2\x1bOs", "s" * 5000):
             paste(t, text)
-            t.sees("what was pasted goes nowhere: no field is open")
+            t.sees("nothing pasted: no field is open")
             unharmed(t, place, repr(text[:20]))
 
 
@@ -171,14 +171,14 @@ def test_paste_field():
         t.keys("Enter")
         t.sees("title  ")
         t.keys("Enter")
-        t.sees("Esc leaves it as it was")
+        t.sees("Esc cancel")
         paste(t, "\n  Über\tdem\r\n\x15 Weg\x01!\n")
-        t.sees("Esc leaves it as it was", "Über dem  Weg!")
+        t.sees("Esc cancel", "Über dem  Weg!")
         t.keys("BSpace")
         paste(t, " x" * 600)
-        t.sees("too long for this line", "Esc leaves it as it was")
+        t.sees("too long for this line", "Esc cancel")
         t.keys("Enter")
-        t.sees("*   Über dem  Weg", lacks=("Esc leaves it as it was",))
+        t.sees("*   Über dem  Weg", lacks=("Esc cancel",))
 
 
 def test_paste_in_pieces():
@@ -188,7 +188,7 @@ def test_paste_in_pieces():
         for piece in ("\x1b[20", "0~sq", "s\x1b", "[20", "1~"):
             t.text(piece)
             time.sleep(PAUSE)
-        t.sees("goes nowhere")
+        t.sees("nothing pasted")
         unharmed(t, place, "a paste in pieces")
 
 
@@ -211,12 +211,12 @@ def test_paste_list():
         t.keys("Escape")
         t.sees("Belts of forest", lacks=("Search in this view",))
         t.keys("?")
-        t.sees("Every edit is live")
+        t.sees("Figures and pictures follow every edit at once")
         paste(t, "q")
         time.sleep(PAUSE)
-        t.sees("Every edit is live")
+        t.sees("Figures and pictures follow every edit at once")
         t.keys("Escape")
-        t.sees("goes nowhere")
+        t.sees("nothing pasted")
 
 
 def test_paste_without_end():
@@ -360,7 +360,7 @@ def test_asked_again():
         t.keys("Enter")
         t.sees("1 slope", "* fast")
         paste(t, "s")
-        t.sees("goes nowhere")
+        t.sees("nothing pasted")
         unharmed(t, place, "Ctrl-Z and fg")
 
 

@@ -34,9 +34,9 @@ def test_smallest_window():
     columns, lines = map(int, re.search(r"Below (\d+) columns or (\d+) lines", PAGE).groups())
     for width, height in ((columns - 1, lines), (columns, lines - 1)):
         (small,) = fast(f"resize {width} {height}\ndump")
-        small.has(f"needs a window of {columns} x {lines}; this one is {width} x {height}")
+        small.has(f"The window ({width} x {height}) is too small: at least {columns} x {lines} is needed")
     (whole,) = fast(f"resize {columns} {lines}\ndump")
-    whole.lacks("needs a window").has("1 slope", "q quit")
+    whole.lacks("is too small").has("1 slope", "q quit")
 
 
 def test_heads():

@@ -49,7 +49,7 @@ def test_new_from_profiles():
     figures = []
     for points, release, face, words in (
             (LINE, "4", "14", "line.csv: 6 points, 160 m long, falls 126.4 m; columns distance, elevation. Steepest at 4 m, 74"),
-            (upward(LINE), "4", "14", "Turned round. Rocks start at 4 m, on 74"),
+            (upward(LINE), "4", "14", "Reversed. Rocks start at 4 m, on 74"),
             (FINE, "30", "45", "Steepest at 30 m, 63"),
             (LINE[3:], "40", "", "Rocks start at 40 m, on 32")):
         for size in ("80 24", "200 50"):
@@ -61,7 +61,7 @@ def test_new_from_profiles():
                 if size == "80 24": # beside a wider screen's popup stands the view below it
                     expect_in(words, " ".join(asked.popup.split()))
                 asked.has("release")
-                expect(any(0x2800 < ord(c) < 0x2900 for c in asked.text.split("stand on the way")[1]), "no picture", asked)
+                expect(any(0x2800 < ord(c) < 0x2900 for c in asked.text.split("│ stand ")[1]), "no picture", asked)
                 control = run["options"][0]["controls"][0]
                 expect(control["bare"]["rocks_reached"] > 500, control["bare"]["rocks_reached"])
                 expect(control["verdict"]["answer"] in ("yes", "no", "not-decided"), control["verdict"])

@@ -47,10 +47,10 @@ def test_options():
     expect_equal(names[3], ["thick", "thin", "thick (2)", "none left"], "after <")
     expect_equal(names[4], ["thick", "thin", "Più rado", "none left"], "after renaming")
     expect_equal(names[5], ["thick", "thin", "none left"], "after d")
-    expect_in("deleted: Più rado; u brings it back", screens[5].note)
+    expect_in("deleted: Più rado; u undoes", screens[5].note)
     expect_equal(names[6], names[4], "after u")
     expect_equal(len(names[7]), 1, "after many d")
-    expect_in("the only option stays", screens[7].note)
+    expect_in("the only option cannot be deleted", screens[7].note)
 
 
 def test_names_of_copies():
@@ -259,7 +259,7 @@ def test_compare_one():
         clear
         dump""")
     expect_equal([cells["best"] for _, cells in compared(one)], [""], "one alone")
-    expect_in("One way to treat this forest so far", " ".join(one.body.split()))
+    expect_in("Only one option", " ".join(one.body.split()))
     expect_equal(len(compared(two)), 2, "options")
     expect_in("Without forest every option sees the same rocks", " ".join(two.body.split()))
 

@@ -481,8 +481,8 @@ def test_find():
         text = (place.path / "reserves.yaml").read_text()
         check_good(place.path, "reserves.yaml")
     popup, found, undone, _ = screens
-    for part in ("per hectare, trees 1, belt 1", "mean distance between hits below … m (ADC)", "chance of a free run at most … %",
-                 "at most … of 1000 arrive with too much", "at most … of 1000 arrive", "mean energy of arrivals", "u takes it back"):
+    for part in ("per hectare, trees 1, belt 1", "mean distance between hits below … m (ADC)", "probability of a free run at most … %",
+                 "at most … per 1000 exceed accepted_kJ", "at most … per 1000 arrive", "mean energy of arrivals", "u undoes"):
         expect_in(part, popup.popup, "the question")
     expect_equal(re.findall(r"(?:from|to) +(\d+)", popup.popup), ["6", "600"], "the range that is offered")
     expect_equal(found.row(r"^1 +379")[:2], ["1", "379"])
@@ -524,9 +524,9 @@ def test_find_in_list():
             steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", "", lo, hi))
             asked, popup, screen = place.play("key 6\n" + ("" if which else "key ]\n") + "find stay_per_ha\nkey f\ndump\n" + keys + "dump\n" +
                                               steps + "wait idle\ndump", f"{scene}.yaml")
-            asked.has(*(("Which of its numbers", "1 30", "2 30") if which else ("Which value reaches a goal?",)))
+            asked.has(*(("Which number of the list", "1 30", "2 30") if which else ("Which value reaches a goal?",)))
             if which:
-                for words in ("rules of Marche ask for 60 standards per ha at least (Ministry Decree", "60 are left.", "asks for 70 per ha"):
+                for words in ("rules of Marche require at least 60 standards per ha (Ministry Decree", "60 are left.", "requires at least 70 per ha"):
                     expect_in(words, popup.popup, "the law")
             expect(wanted["found"] and wanted["over"] == "rotation", scene, wanted)
             values = screen.row("^trees kept")[-2 if which else -1:]
@@ -538,7 +538,7 @@ def test_find_sure():
     """f asked for how many of 100 cases says the sure value beside the plain one, which the field has, as --sure does: with
     stems of 15 to 25 cm those of 16 cm, 10000 / 30 m / (0.68 + 0.16) m; 0, 101 and words are refused, nothing is no question"""
     uncertainty = "uncertainty:\n  - {path: 'options[0].forest[0].stand.trees[0].dbh_m', lo: 0.15, hi: 0.25}\n"
-    for sure, words in (("90", "to be sure in 90 % of what may be true: 397"), ("0", "0 itself is outside"), ("101", "101 is above 100"),
+    for sure, words in (("90", "in 90 % of plausible cases: 397"), ("0", "0 itself is outside"), ("101", "101 is above 100"),
                         ("most", "'most' is not a number"), ("", "")):
         steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in ("adc", "", sure, 6, 600)[:5 if sure in ("90", "") else 3])
         with Place() as place:
@@ -574,7 +574,7 @@ def test_find_refused():
     for goal, lo, hi, words in (("quick", 6, 600, "adc, free-run, energy=KJ, exceed"), ("energy", 6, 600, "how many kJ"),
                                 ("adc=x", 6, 600, "adc, free-run, energy=KJ, exceed"), ("adc=-3", 6, 600, "the goal is"),
                                 ("adc", "x", 600, "'x' is not a number"), ("adc", 600, 6, "the smaller first"),
-                                ("adc", 6, "", "to: it is needed"), ("exceed", 6, 600, "index"), ("exceed=5", 6, 600, "0.05 for 5 %"),
+                                ("adc", 6, "", "to: required"), ("exceed", 6, 600, "index"), ("exceed=5", 6, 600, "0.05 for 5 %"),
                                 ("free-run=2", 6, 600, "0.05 for 5 %")):
         steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", "", lo, hi)[:4 if lo == "x" else 5])
         with Place() as place:

@@ -47,10 +47,10 @@ def test_ending():
             expect_equal(place.text(name), stools(1234), name)
         expect(not (place.path / "bosco").exists(), "a file without an ending was written")
         (asked,) = place.play("key S Ctrl-U\ntype bosco\nkey Enter\ndump")
-        asked.has("bosco.yaml", "there is such a file already")
+        asked.has("bosco.yaml", "the file exists")
         place.write("taken", "")
         (asked,) = place.play("key S Ctrl-U\ntype taken\nkey Enter\ndump")
-        asked.has("there is such a file already").lacks("taken.yaml")
+        asked.has("the file exists").lacks("taken.yaml")
 
 
 def test_save_as_same():
@@ -59,7 +59,7 @@ def test_save_as_same():
         place.play(EDIT + "key S Enter")
         expect_equal(place.text("fast.yaml"), stools(1234), "the file")
         asked = place.play(EDIT + "dump fast.yaml\nkey S Enter\ndump")[0]
-        asked.has("Enter once more replaces it")
+        asked.has("Enter again replaces it")
         expect(place.text("fast.yaml").startswith(" 1 slope"), "written over at once")
 
 
@@ -118,7 +118,7 @@ def test_fifo_name():
         os.mkfifo(place.path / "fifo")
         asked = place.play(EDIT + "key S Ctrl-U\ntype fifo\nkey Enter\ndump\nkey Esc w Enter Ctrl-U\ntype fifo\nkey Enter\ndump")
         for screen in asked:
-            screen.has("there is such a file already")
+            screen.has("the file exists")
 
 
 def test_failed_quit():
@@ -140,10 +140,10 @@ def test_anew():
         saved = place.play("key 1\nfind stand\nkey a\nkey s Ctrl-U\ntype my.yaml\nkey Enter\ndump", "paper-site")[0]
         expect("# Test site" not in place.text("my.yaml"), "this test's own scene keeps its comments")
         expect("my.yaml.bak" not in place.names() and ".bak" not in saved.note, saved.note)
-        expect_equal(saved.note, "saved my.yaml; laid out anew, without the comments of paper-site.yaml")
+        expect_equal(saved.note, "saved my.yaml; reformatted, without the comments of paper-site.yaml")
         check_good(place.path, "my.yaml")
         saved = place.play("key 1\nfind stand\nkey d\nkey s\ndump\nclear\nkey u s\ndump", "fast.yaml")
-        expect_equal(saved[0].note, "saved fast.yaml; laid out anew, the old file is fast.yaml.bak")
+        expect_equal(saved[0].note, "saved fast.yaml; reformatted, the old file is fast.yaml.bak")
         expect_equal(saved[1].note, "saved fast.yaml", "what the program laid out itself is no loss")
         expect_equal(place.text("fast.yaml.bak"), FAST, "the old file, with its comments, still")
 
@@ -214,8 +214,8 @@ def test_save_shipped():
             set 1500
             key s
             dump""", "paper-site")
-        named.has("A stand was changed: its name", "ADS 1 (changed)", "from 0 to 67.5 m in 'current'")
-        asked.has("Save as", "never written over", "paper-site.yaml")
+        named.has("Name of the changed stand", "ADS 1 (changed)", "from 0 to 67.5 m in 'current'")
+        asked.has("Save as", "cannot be changed", "paper-site.yaml")
         expect_in("saved paper-site.yaml", saved.note)
         expect_in("saved paper-site.yaml", later.note)
         check_good(place.path, "paper-site.yaml")
@@ -251,7 +251,7 @@ def test_save_as_exists():
             dump""", "paper-site")
         screens[0].has("a name is needed")
         screens[1].has("No such file or directory")
-        screens[2].has("Enter once more replaces it")
+        screens[2].has("Enter again replaces it")
         expect("* Test" in screens[3].title, screens[3].title)
         expect_equal(place.text("there.yaml"), "mine\n", "the other file")
         place.play("key 2\nfind stools.per_ha\nset 2000\nkey s Enter Ctrl-U\ntype there.yaml\nkey Enter Enter", "paper-site")
@@ -297,10 +297,10 @@ def test_quit():
         expect("late.txt" not in place.names(), "still there after q")
         edit = "key 2\nkey /\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
         asked = place.play(edit + "key q\ndump\nkey Enter\ndump\nkey q Esc\ndump\nkey F10\ndump")
-        asked[0].has("There is unsaved work", "stay", "save it", "discard it")
-        asked[1].has("* fast").lacks("There is unsaved work")
-        asked[2].has("* fast").lacks("There is unsaved work")
-        asked[3].has("There is unsaved work")
+        asked[0].has("There are unsaved changes", "stay here", "save them", "discard them")
+        asked[1].has("* fast").lacks("There are unsaved changes")
+        asked[2].has("* fast").lacks("There are unsaved changes")
+        asked[3].has("There are unsaved changes")
         expect_equal(place.text("fast.yaml"), FAST, "the file after staying")
         run_script(place.path, edit + "key q End Enter\ndump late.txt\n", "fast.yaml")
         expect("late.txt" not in place.names(), "still there after 'quit and lose it'")
@@ -309,7 +309,7 @@ def test_quit():
         expect("late.txt" not in place.names(), "still there after 'save and quit'")
         expect_in("per_ha: 1234", place.text("fast.yaml"), "the file after saving")
         named, shipped = place.play(edit + "key q Down Enter\ndump\nkey Enter\ndump", "paper-site")
-        named.has("A stand was changed: its name")
+        named.has("Name of the changed stand")
         shipped.has("Save as")
 
 
@@ -354,7 +354,7 @@ def test_export():
         screens[1].has("the page, as text", "the whole page", "this screen, with its picture", "CSV", "JSON", "the batch command")
         screens[2].has("the page, as text", "ceduo.txt")
         expect_in("written: ceduo.txt", screens[3].note)
-        screens[4].has("Enter once more replaces it")
+        screens[4].has("Enter again replaces it")
         screens[5].has("No such file or directory")
         page, whole = place.text("ceduo.txt"), place.text("ceduo-details.txt")
         for part in ("thick", "thin", "none left"):
@@ -401,17 +401,17 @@ def test_report_head():
             key Ctrl-R
             type s
             dump""", "options.yaml")
-        screens[0].has("Head of the report", "place", "owner", "parcel", "author", "date", "note", "Each line may stay empty")
+        screens[0].has("Head of the report", "place", "owner", "parcel", "author", "date", "note", "All lines are optional")
         days.append(time.strftime("%Y-%m-%d"))
         expect(any(re.search(f"date +{day}", screens[0].text) for day in days), "the date is today's:", screens[0])
-        screens[1].has("a page to hand in, as HTML", "ceduo.html")
-        screens[2].has("a page to hand in, as HTML", "ceduo.html")
+        screens[1].has("a report, as HTML", "ceduo.html")
+        screens[2].has("a report, as HTML", "ceduo.html")
         screens[3].has("Head of the report")
         report, kept = place.text("ceduo.html"), place.text("options.yaml")
         expect_in("<dt>Place</dt>\n<dd>Serra &#39;de\u2019 Conti&#39;: &lt;b&gt;</dd>\n<dt>Date</dt>\n<dd>2026-11-24</dd>", report, "the head")
         expect("<dt>Owner</dt>" not in report, "an empty line is left out")
         for line in ("place: \"Serra 'de\u2019 Conti': <b>\"", 'date: "2026-11-24"'):
-            expect_in(line, kept, "kept in the scene")
+            expect_in(line, kept, "stored in the scene")
 
 
 NOTHING = """\
@@ -452,15 +452,15 @@ def test_export_command():
 def test_export_rocks():
     """w: the command follows the figures on the screen: none yet, then as many rocks as they have."""
     none, last, screen = fast("key w End Enter\ndump\nwait idle\ndump\nkey Esc\ndump", "wood.yaml")
-    none.has("ceduo --batch -n 1000 ", "no figures yet", "what the scene says")
+    none.has("ceduo --batch -n 1000 ", "no figures yet", "number of rocks in the scene")
     rocks = int(screen.figure("finished,"))
-    last.has(f"ceduo --batch -n {rocks} ", f"The figures on the screen are of {rocks} rocks").lacks("no figures yet")
+    last.has(f"ceduo --batch -n {rocks} ", f"The figures on the screen are from {rocks} rocks").lacks("no figures yet")
 
 
 def test_export_unsaved():
     """w: with unsaved work the command says that the file must be saved first."""
     screen = fast("key 2\nfind stools.per_ha\nset 9\nwait idle\nkey w End Enter\ndump")[0]
-    screen.has("ceduo --batch", "unsaved work")
+    screen.has("ceduo --batch", "unsaved changes")
 
 
 if __name__ == "__main__":

@@ -357,8 +357,8 @@ def test_too_small():
         resize 80 24
         dump""")
     for screen in screens[:3]:
-        screen.whole().has(f"ceduo needs a window of 60 x 16; this one is {screen.width} x {screen.height}.", "q quits")
-    screens[3].whole().has("ceduo needs a")
+        screen.whole().has(f"The window ({screen.width} x {screen.height}) is too small: at least 60 x 16 is needed.", "q quits")
+    screens[3].whole().has("The window")
     screens[4].whole()
     screens[5].whole().has("Belts of forest")
 

@@ -58,9 +58,9 @@ def test_nothing_seen():
     with Place() as place:
         for size in ("80 24", "200 50"):
             view, key = place.play(f"resize {size}\nwait idle\nkey 8\ndump\nkey c\ndump")
-            says(view, "This scene does not say what was seen on its slope.", "a asks for what of it is known", "c fits the ground to it.")
+            says(view, "This scene has no observations.", "a adds observations", "c fits the ground to them.")
             view.lacks("not computed yet", "fallin")
-            key.whole().has("a asks for it").lacks("What is fitted")
+            key.whole().has("a adds one").lacks("Values to fit")
 
 
 def test_typed():
@@ -118,8 +118,8 @@ def test_typed():
             dump""", "flight.yaml")
         text = place.text("flight.yaml")
         check_good(place.path, "flight.yaml")
-    kinds.has("What was seen?", "1 where rocks stopped", "2 how many passed", "4 height of their", "6 scars on stems").lacks("search:")
-    stops.has("taken over; u takes it back")
+    kinds.has("New observation", "1 where rocks stopped", "2 how many passed", "4 height of their", "6 scars on stems").lacks("search:")
+    stops.has("added; u undoes")
     expect(re.search(r"^1 +41 44\.5 52 61 +6 +-$", stops.body, re.M), stops)
     refused.has("'sixty' is not a number")
     wrong.has("how many passed a place")
@@ -162,8 +162,8 @@ def test_rows():
                 expect(abs(float(found) - wanted) < 0.09, f"{found}, {wanted:.2f} wanted", screen)
         expect(re.search(r"^all pass +10 +10–10 inside$", screen.body, re.M), screen)
         expect(re.search(r"^(few pass and nobody knows why \(check\))?\s+6 +10–10 OUTSIDE$", screen.body, re.M), screen)
-        says(screen, "few pass and nobody knows why (check)", "does not give what was seen: too slow (p <.001); few pass and nobody",
-                   "only a fit says what of it is determined.", "Simulated: 2000 rocks.")
+        says(screen, "few pass and nobody knows why (check)", "does not reproduce: too slow (p <.001); few pass and nobody",
+                   "Only a fit shows which values they determine.", "Simulated: 2000 rocks.")
 
 
 def test_unknown():
@@ -173,16 +173,16 @@ def test_unknown():
                     "  - {name: at the end, speed: {x_m: 59, n: 5, mean: 3, sd: 1}}\n"
                     "  - {name: at the gate, speed: {x_m: 20, n: 5, mean: 22, sd: 1}}\nsimulation: {rocks: 100}\n")
         screen = place.play("resize 120 40\nkey 8\nwait idle\ndump", "flight.yaml")[0]
-    says(screen, "does not give what was seen: at the end (no simulated rock does that).")
+    says(screen, "does not reproduce: at the end (no simulated rock does this).")
     expect(re.search(r"^at the end +3.00 m/s +- OUTSIDE$", screen.body, re.M), screen)
 
 
 def test_spread():
-    """What 'does not give what was seen' names is not called inside in the row above it: of block 1 the mean alone fits"""
+    """What 'does not reproduce' names is not called inside in the row above it: of block 1 the mean alone fits"""
     with Place() as place:
         screen = place.play("resize 150 40\nkey 8\nwait idle\ndump", "tschamut-arm")[0].whole()
     words = " ".join(screen.body.split())
-    expect_in("does not give what was seen: block 1 (the mean fits, how the values are spread does not: p", words)
+    expect_in("does not reproduce: block 1 (mean fits, distribution does not: p", words)
     rows = dict(re.findall(r"^(block \d).* m +\S+–\S+ (inside|OUTSIDE|mean only)$", screen.body, re.M))
     expect_equal(rows["block 1"], "mean only", screen)
 
@@ -206,10 +206,10 @@ def test_fit_taken():
     for screen in (fitted, large):
         best, lo, hi = map(float, re.search(r"speed along, m/s ([\d.]+) \(([\d.]+)–([\d.]+)\)", screen.body).groups())
         expect(abs(speed_at_gate(best) - 22) < 0.15 and abs(lo - 10.02 + slope) < 0.1 and abs(hi - 10.02 - slope) < 0.1, screen)
-        says(screen, "Fitted. Enter takes these values", "The fit does not hold for what was to check it: too slow.")
-    says(large, "The model reproduces all fitted observations.", "a hundred metres beside it may be another.")
-    says(large, "It does not keep all that fits as well, the draws.", "-n 100 -o FITTED.yaml SCENE.yaml")
-    expect_in("the scene has the values and their ranges, not the draws; u takes them back", taken.note)
+        says(screen, "Fitted. Enter applies these values", "The fit does not hold for what was to check it: too slow.")
+    says(large, "The model reproduces all fitted observations.", "A neighbouring profile may need another ground.")
+    says(large, "It does not write the draws, all plausible values.", "-n 100 -o FITTED.yaml SCENE.yaml")
+    expect_in("values and ranges written to the scene, without the draws; u undoes", taken.note)
     expect("*" in taken.title and "*" not in saved.title, "a star while it is unsaved", taken, saved)
     value = re.search(r"vx_m_s: *([\d.]+)", text)
     expect(value and abs(speed_at_gate(float(value.group(1))) - 22) < 0.05, "the value in the file", text)
@@ -262,8 +262,8 @@ def test_fit_left():
     done.has("Fitted.")
     for screen in (stopped, left):
         expect("*" not in screen.title and "Fitted." not in screen.body, screen)
-    expect_in("the scene is as it was", left.note)
-    edited.lacks("Fitted.", "under way").has("Simulated: 2000 rocks.")
+    expect_in("fit discarded; the scene is unchanged", left.note)
+    edited.lacks("Fitted.", "Fitting.").has("Simulated: 2000 rocks.")
 
 
 def test_bounds():
@@ -271,7 +271,7 @@ def test_bounds():
     with Place() as place:
         place.write("flight.yaml", FLIGHT + SEEN)
         for typed, said in (("ten", "'ten' is not a number"), ("5", "the smaller first"), ("9:5", "the smaller first"),
-                            ("5:5000", "5000"), ("", "nothing is to be fitted")):
+                            ("5:5000", "5000"), ("", "no value to fit")):
             wrong, = place.play(f"key 8\nwait idle\nkey c Ctrl-U\n{'type ' + typed if typed else ''}\nkey Enter\nwait idle\ndump",
                                 "flight.yaml")
             expect_in(said, wrong.popup)
@@ -304,7 +304,7 @@ def test_grounds():
     for screen in (look, wide):
         screen.whole().has("farther:", "1.0┤", "0.0┤")
         expect(re.search(r"^stops +101 m .*(inside|OUTSIDE)$", screen.body, re.M), screen)
-    popup.has("bounce Rn, cliff", "Usual bounds of the others: bounce Rn, talus")
+    popup.has("bounce Rn, cliff", "Usual bounds of other values: bounce Rn, talus")
     # A half to one and a half times the scene's own; a length also all that the library has, from 0 m of pavement on.
     expect(re.search(r"roughness, m +0:0\.6 ", length.popup), length)
     expect(re.search(r"roughness, rad +0\.05:0\.15 ", angle.popup), angle)
@@ -312,7 +312,7 @@ def test_grounds():
     usual = dict(re.findall(r"(bounce Rn|slide Rt), talus ([\d.:]+)", popup.popup))
     for name in ("bounce Rn", "slide Rt"):
         expect(re.search(rf"{name} +{usual[name]}", unsaid.popup), f"{name} of talus, {usual[name]}, where nothing is said", unsaid)
-    check.has("all that was seen is to check a fit").lacks("What is fitted")
+    check.has("all observations are for checking").lacks("Values to fit")
 
 
 def test_too_many_values():
@@ -321,18 +321,18 @@ def test_too_many_values():
     with Place() as place, Tmux(place) as t:
         t.start("quarry")
         t.keys("8", "c")
-        t.sees("What is fitted")
+        t.sees("Values to fit")
         t.keys("Enter", "Enter", "Enter", "Enter")
         told = " ".join(line[:50].strip() for line in t.sees("does not hold 4").split("\n"))
-        named = re.search(r"does not hold 4 values: fix (.*?)\. c fits without it", told)
+        named = re.search(r"do not determine all 4 values: fix (.*?)\. c fits without it", told)
         expect(named and re.search("bounce Rn|slide Rt", named.group(1)), told)
         t.keys("c")
-        asked = t.sees("What is fitted")
+        asked = t.sees("Values to fit")
         for name in ("bounce Rn", "slide Rt", "roughness, m", "friction"):
             empty = not re.search(rf"{name} +[\d.]+:[\d.]+", asked)
             expect_equal(empty, name in named.group(1), f"{name}, where {named.group(1)} is to be fixed:\n{asked}")
         t.keys("Escape", "Escape")
-        t.sees("the scene is as it was")
+        t.sees("fit discarded; the scene is unchanged")
 
 
 def test_quarry():
@@ -343,10 +343,10 @@ def test_quarry():
             "key 8 Tab\nwait idle\ndump\nresize 200 50\ndump\nkey c Ctrl-U Backspace Enter Ctrl-U Backspace Enter Enter Enter\n"
             "wait idle\ndump\nkey Enter\nwait idle\ndump", "quarry")
     for screen in (small, large):
-        says(screen, "farther:", "does not give what was seen: stops")
+        says(screen, "farther:", "does not reproduce: stops")
         expect(re.search(rf"^stops +{mean:.0f} m .* OUTSIDE$", screen.body, re.M), screen)
     says(fitted, "roughness, m", "friction", "The model reproduces all fitted observations.")
-    says(taken, "The scene as it is can give all that was seen.")
+    says(taken, "The scene reproduces all observations.")
     expect(re.search(rf"^stops +{mean:.0f} m .* inside$", taken.body, re.M), taken)
 
 

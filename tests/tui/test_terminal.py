@@ -125,11 +125,11 @@ class Tmux:
         self.keys("Enter")
         self.sees("stools per horizontal hectare")
         self.keys("Enter")
-        self.sees("Esc leaves it as it was")
+        self.sees("Esc cancel")
         self.keys("C-u")
         self.text(stools)
         self.keys("Enter")
-        self.sees(stools, "* ", lacks=("Esc leaves it as it was",))
+        self.sees(stools, "* ", lacks=("Esc cancel",))
 
 
 def gone(pid):
@@ -185,18 +185,18 @@ def test_function_keys():
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         t.keys("F1")
-        t.sees("Every edit is live")
+        t.sees("Figures and pictures follow every edit at once")
         t.keys("NPage")
-        t.sees("redo", lacks=("Every edit is live",))
+        t.sees("redo", lacks=("Figures and pictures follow every edit at once",))
         t.keys("Escape")
         t.sees("Belts of forest", lacks=("redo",))
         took = []
         for _ in range(5):
             t.keys("F1", "End")
-            t.sees("terminal itself")
+            t.sees("select text in")
             start = time.monotonic()
             t.keys("Escape")
-            t.sees("Belts of forest", lacks=("terminal itself",))
+            t.sees("Belts of forest", lacks=("select text in",))
             took.append(time.monotonic() - start)
         expect(min(took) < 0.5, f"Esc took {min(took):.2f} s at least")  # curses waits for a whole second unless it is told not to
         t.keys("Down", "Right")
@@ -206,9 +206,9 @@ def test_function_keys():
         t.keys("BTab")
         for key in ("F4", "F7"):
             t.keys(key)
-            t.sees("There is unsaved work")
+            t.sees("There are unsaved changes")
             t.keys("Escape")
-            t.sees("1 slope", lacks=("There is unsaved work",))
+            t.sees("1 slope", lacks=("There are unsaved changes",))
         t.keys("F3")
         t.sees("Search in this view")
         t.keys("Escape")
@@ -253,13 +253,13 @@ def test_resizes():
                 t.keys(str(1 + i // 20 % 5))
         expect(not gone(pid), "the program ended on a resize")
         t.tmux("resize-window", "-x", "59", "-y", "15")
-        t.sees("ceduo needs a window of 60 x 16; this one is 59 x 15")
+        t.sees("The window (59 x 15) is too small: at least 60 x 16 is needed")
         t.keys("1")
         t.tmux("resize-window", "-x", "120", "-y", "40")
         screen = t.sees("Belts of forest", "underside above the ground", "w export")
         lines = screen.split("\n")
         expect_equal(len(lines), 41, "lines")
-        expect_in("? help", lines[39], "the last line")
+        expect_in("? help", lines[39], "last line")
         expect(all(line[83] == "│" for line in lines[2:37]), screen)
         t.keys("q")
         t.sees("READY>")
@@ -307,9 +307,9 @@ def test_interrupt():
         t.start("fast.yaml")
         t.edit("1111")
         t.keys("C-c")
-        t.sees("There is unsaved work", "discard it")
+        t.sees("There are unsaved changes", "discard them")
         t.keys("Enter")
-        t.sees("* fast", lacks=("There is unsaved work",))
+        t.sees("* fast", lacks=("There are unsaved changes",))
         t.keys("u")
         t.sees("undone: ")
         t.keys("C-c")
@@ -348,9 +348,9 @@ def end_by(number, name, restores):
         else:
             sane(t)
         expect_equal(place.text("fast.yaml"), FAST, "the scene on disk")
-        t.start("fast.yaml", sees=("Unsaved work was left behind", "unsaved work of 20", ": fast, fast.yaml", "leave it for later", "forget it"))
+        t.start("fast.yaml", sees=("Unsaved changes were found", "unsaved changes of 20", ": fast, fast.yaml", "not now", "forget them"))
         t.keys("Enter")
-        t.sees("your work is back")
+        t.sees("changes recovered")
         t.keys("2")
         t.sees("stools per ha         1234", "* fast")
         t.keys("s")
@@ -360,7 +360,7 @@ def end_by(number, name, restores):
         t.sees("READY>")
         until("no copy is kept of what is saved", lambda: not left_behind(place))
         t.start("fast.yaml")
-        expect("left behind" not in t.screen(), "offered again")
+        expect("Unsaved changes were found" not in t.screen(), "offered again")
         t.keys("q")
         t.sees("READY>")
 
@@ -437,9 +437,9 @@ def test_no_memory():
             kept += len(copies)
             if copies:
                 expect(re.search(r"- from_m: (5\.[1-9]|[6-9])", place.text(f"state/ceduo/{copies[0]}")), place.text(f"state/ceduo/{copies[0]}"))
-                t.start("fast.yaml", sees=("Unsaved work was left behind",))
+                t.start("fast.yaml", sees=("Unsaved changes were found",))
                 t.keys("Enter")
-                t.sees("your work is back", "* fast")
+                t.sees("changes recovered", "* fast")
     expect(kept > 0, "no edit was kept")
 
 
@@ -451,9 +451,9 @@ def test_forget():
         until("a copy of the unsaved work", lambda: left_behind(place))
         os.kill(pid, signal.SIGTERM)
         t.sees("READY>", lacks=("1 slope",))
-        t.start("fast.yaml", sees=("left behind", "forget it"))
+        t.start("fast.yaml", sees=("Unsaved changes were found", "forget them"))
         t.keys("f")
-        t.sees("Belts of forest", lacks=("left behind",))
+        t.sees("Belts of forest", lacks=("Unsaved changes were found",))
         expect("* fast" not in t.screen(), "the forgotten work is there")
         t.keys("q")
         t.sees("READY>", lacks=("1 slope",))
@@ -478,8 +478,8 @@ def test_recover_twice():
     """Killed again before anything is chosen: the work is still offered at the next start."""
     with Place() as place, Tmux(place) as t:
         leave_work(t, place)
-        kill(t, t.start("fast.yaml", sees=("left behind", "forget it")))
-        kill(t, t.start("fast.yaml", sees=("left behind", "forget it")))
+        kill(t, t.start("fast.yaml", sees=("Unsaved changes were found", "forget them")))
+        kill(t, t.start("fast.yaml", sees=("Unsaved changes were found", "forget them")))
 
 
 def test_recover_list():
@@ -492,26 +492,26 @@ def test_recover_list():
         until("a copy of the other work", lambda: len(left_behind(place)) == 2)
         kill(t, pid)
         today = time.strftime("%Y-%m-%d")
-        screen = t.start("fast.yaml", sees=("Unsaved work was left behind", "forget all of it")) and t.screen()
-        rows = re.findall(rf"unsaved work of {today} \d\d:\d\d: ([^│]+?) *│", screen)
+        screen = t.start("fast.yaml", sees=("Unsaved changes were found", "forget all")) and t.screen()
+        rows = re.findall(rf"unsaved changes of {today} \d\d:\d\d: ([^│]+?) *│", screen)
         expect_equal(rows, ["fast, fast.yaml", "the mill, other.yaml"], "this scene's first")
         t.keys("2")
-        t.sees("your work is back", "* the mill")
+        t.sees("changes recovered", "* the mill")
         t.keys("2")
         t.sees("stools per ha         1234")
         expect_equal(len(left_behind(place)), 2, "the other copy, and that of the work that was taken up")
 
 
 def test_recover_escape():
-    """Esc at the offer of left work does not destroy it: only 'forget it' does."""
+    """Esc at the offer of left work does not destroy it: only 'forget them' does."""
     with Place() as place, Tmux(place) as t:
         leave_work(t, place)
-        t.start("fast.yaml", sees=("left behind", "forget it"))
+        t.start("fast.yaml", sees=("Unsaved changes were found", "forget them"))
         t.keys("Escape")
-        t.sees("Belts of forest", lacks=("left behind",))
+        t.sees("Belts of forest", lacks=("Unsaved changes were found",))
         t.keys("q")
         t.sees("READY>", lacks=("1 slope",))
-        t.start("fast.yaml", sees=("left behind", "forget it"))
+        t.start("fast.yaml", sees=("Unsaved changes were found", "forget them"))
 
 
 def test_two_at_once():
@@ -524,7 +524,7 @@ def test_two_at_once():
                *[f"{k}={v}" for k, v in t.env.items()], CEDUO, "fast.yaml")
         screen = until("the second program's screen", lambda: (lambda s: "Belts of forest" in s and s)(
             t.screen("-t", "second:")))
-        expect("left behind" not in screen and "* fast" not in screen, screen)
+        expect("Unsaved changes were found" not in screen and "* fast" not in screen, screen)
 
 
 def test_closed_window():
@@ -676,7 +676,7 @@ def test_ascii_locale():
         t.start("fast.yaml")
         for view in "12345?":
             t.keys(view)
-            screen = t.sees("? help" if view != "?" else "Every edit is live")
+            screen = t.sees("? help" if view != "?" else "Figures and pictures follow every edit at once")
             expect(screen.isascii(), screen)
         t.keys("Escape")
 
@@ -760,7 +760,7 @@ def test_mouse():
         press(0, 30, 9)
         t.sees("stools per horizontal hectare")
         press(0, 30, 9)
-        t.sees("Esc leaves it as it was")
+        t.sees("Esc cancel")
         t.keys("Escape")
         press(0, 4, 1)
         t.sees("Belts of forest")

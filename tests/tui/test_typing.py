@@ -45,7 +45,7 @@ def test_asks_back():
     start = "key 2\nwait idle\nfind shoots[0].dbh_m\nclear\n"
     before, asked, taken = fast(start + "dump\nset 900\ndump\nkey Enter\ndump")
     expect_in("diameter, cm: 900 cm? Usual is 1 to 200", asked.note)
-    expect_in("Esc leaves it as it was", asked.bar, "still in the field")
+    expect_in("Esc cancel", asked.bar, "still in the field")
     expect_equal(asked.now, before.now, "nothing has changed")
     expect_equal(taken.row("^1 +9000")[2], "900", "once more")
     other, left = fast(start + "set 900\nkey Backspace Backspace Backspace\ntype 0,09\nkey Enter\ndump\nkey Esc\nclear\ndump")

@@ -101,7 +101,7 @@ def test_ranges():
         assumed = WOOD.replace("{per_ha: 60, dbh_m: 0.2", "{source: {kind: assumed, text: a guess}, per_ha: 60, dbh_m: 0.2")
         place.write("assumed.yaml", assumed)
         none, named = place.play("key 7\nwait idle\ndump\nkey a\nwait idle\ndump\nkey s", "assumed.yaml")
-        expect_in("a: name a range in the scene", none.body)
+        expect_in("a adds a range to the scene", none.body)
         expect(re.search(r"^1 +\S+", named.body, re.M), "a row in", named)
         expect(re.search(r"uncertainty:", place.text("assumed.yaml")), place.text("assumed.yaml"))
 

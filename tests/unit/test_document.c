@@ -254,10 +254,10 @@ static bool step(const char *const at[TABLE_COLUMNS])
     else if (IS("set"))
         set(a, b);
     else if (IS("refuse")) {
-        size_t before = d.at;
-        good = !ceduo_document_set(&d, a, b) && strstr(ceduo_problems_print(&d.problems), at[3]) && d.at == before;
+        size_t before = d.current;
+        good = !ceduo_document_set(&d, a, b) && strstr(ceduo_problems_print(&d.problems), at[3]) && d.current == before;
     } else if (IS("set-all"))
-        good = ceduo_changes_make(changes_of(a, b), at[3]);
+        good = ceduo_changes_apply(changes_of(a, b), at[3]);
     else if (IS("duplicate"))
         good = ceduo_document_duplicate(&d, a, k, *at[3] ? changes_of(at[3], at[4]) : NULL);
     else if (IS("add"))

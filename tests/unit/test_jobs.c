@@ -25,7 +25,7 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     (void)state;
-    ceduo_result_list_free(&results);
+    ceduo_job_results_free(&results);
     ceduo_jobs_free(jobs);
     ceduo_scene_release(&file);
     return 0;
@@ -33,13 +33,13 @@ static int tear_down(void **state)
 
 static bool show(void)
 {
-    return ceduo_jobs_show(jobs, &file, 0);
+    return ceduo_jobs_request_figures(jobs, &file, 0);
 }
 
 static struct jobs_state take(void)
 {
-    ceduo_result_list_free(&results);
-    return ceduo_jobs_take(jobs, &results);
+    ceduo_job_results_free(&results);
+    return ceduo_jobs_collect(jobs, &results);
 }
 
 static struct ceduo_search search_of(uint64_t rocks)
@@ -109,7 +109,7 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
     struct ceduo_search search = search_of(500);
     double diameter = file.scene.rock.diameter.mean;
     show();
-    ceduo_jobs_ask(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
+    ceduo_jobs_request(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
     assert_true(ceduo_jobs_wait(jobs, false));
     take();
     assert_non_null(results.search);
@@ -130,7 +130,7 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
 /* A preview is waited for as a search is. */
 TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
 {
-    ceduo_jobs_ask(jobs, &(struct job_request){JOB_PREVIEW, &file, 0, 1, "rock.diameter_m", "0.6", NULL, NULL});
+    ceduo_jobs_request(jobs, &(struct job_request){JOB_PREVIEW, &file, 0, 1, "rock.diameter_m", "0.6", NULL, NULL});
     assert_true(ceduo_jobs_wait(jobs, false));
     take();
     assert_non_null(results.preview);
@@ -142,31 +142,31 @@ TEST_WITH(the_other_law_comes_along, set_up, tear_down)
     show();
     ceduo_jobs_wait(jobs, true);
     take();
-    assert_non_null(results.others);
-    assert_int_equal(results.others->options, 1);
-    assert_int_equal(results.others->controls, file.scene.controls_count);
-    assert_true(results.others->items[0].known && results.others->items[0].stems);
-    assert_int_equal(results.others->items[0].model, CEDUO_DORREN);
-    double before = results.others->items[0].arrivals.reach.mean;
+    assert_non_null(results.alternatives);
+    assert_int_equal(results.alternatives->options, 1);
+    assert_int_equal(results.alternatives->controls, file.scene.controls_count);
+    assert_true(results.alternatives->items[0].known && results.alternatives->items[0].stems);
+    assert_int_equal(results.alternatives->items[0].model, CEDUO_DORREN);
+    double before = results.alternatives->items[0].arrivals.reach.mean;
     for (size_t i = 0; i < 2; i++)
         file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* the scene's own law does not know it */
     assert_true(show());
     ceduo_jobs_wait(jobs, true);
     take();
-    assert_non_null(results.others);
-    EXPECT(results.others->items[0].arrivals.reach.mean, <, before);
+    assert_non_null(results.alternatives);
+    EXPECT(results.alternatives->items[0].arrivals.reach.mean, <, before);
     assert_null(results.snapshot);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     show();
     ceduo_jobs_wait(jobs, true);
     take();
-    assert_null(results.others);
+    assert_null(results.alternatives);
 }
 
 static const struct uncertainty *uncertainty(size_t shown, size_t levels)
 {
-    assert_true(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
-    assert_false(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
+    assert_true(ceduo_jobs_request(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
+    assert_false(ceduo_jobs_request(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
     ceduo_jobs_wait(jobs, true);
     take();
     assert_non_null(results.uncertainty);
@@ -183,7 +183,7 @@ TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
                      12 + 12); /* of today, and of growth: two curves of four constants, two numbers of shoots, two densities */
     assert_int_equal(u->answer.points, CEDUO_UNCERTAINTY_POINTS);
     EXPECT(u->answer.figures[CEDUO_UNCERTAINTY_EXCEED].fit.p5, <, u->answer.figures[CEDUO_UNCERTAINTY_EXCEED].fit.p95);
-    assert_false(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, 0, .levels = UNCERTAINTY_LEVELS}));
+    assert_false(ceduo_jobs_request(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, 0, .levels = UNCERTAINTY_LEVELS}));
     assert_true(u->answer.rotation);
     ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
     file.scene.controls_count = 0;
@@ -232,7 +232,7 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
 TEST_WITH(a_search_is_stopped, set_up, tear_down)
 {
     struct ceduo_search search = search_of(CEDUO_ROCKS_MAX);
-    ceduo_jobs_ask(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
+    ceduo_jobs_request(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
     struct timespec moment = {.tv_nsec = 200000000};
     nanosleep(&moment, NULL);
     assert_true(take().busy);

@@ -73,7 +73,7 @@ TEST(what_is_clear_stays)
     struct watch today = {.best = SIZE_MAX}, rotation = {.best = SIZE_MAX};
     size_t looks = 0, shares = 0;
     open_scene("profiles/scenes/rotation.yaml");
-    ceduo_live_follow(&live, &file, 1, 0, 0);
+    ceduo_live_update(&live, &file, 1, 0, 0);
     while (live.busy) {
         struct pollfd fd = {.fd = ceduo_jobs_fd(live.jobs), .events = POLLIN};
         poll(&fd, 1, 1000);
@@ -104,14 +104,14 @@ TEST(an_edit_asks_for_its_years_alone)
 {
     open_scene("profiles/scenes/rotation.yaml");
     file.scene.options_count = 2;
-    ceduo_live_follow(&live, &file, 0, 0, 0);
+    ceduo_live_update(&live, &file, 0, 0, 0);
     ceduo_jobs_wait(live.jobs, true);
     ceduo_live_poll(&live, &file.scene);
     assert_true(live.verdict.rotation.known);
     struct ceduo_belt *belt = &file.scene.options[1].belts[0];
     double before = live.verdict.choices[1].mean.mean;
     belt->stand.cutting.stay_per_ha[1] *= 4;
-    ceduo_live_follow(&live, &file, 0, 0, 0);
+    ceduo_live_update(&live, &file, 0, 0, 0);
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
     assert_true(isnan(live.verdict.choices[1].mean.mean)); /* not that of the stand before */
     assert_false(live.verdict.rotation.known);
@@ -124,7 +124,7 @@ TEST(an_edit_asks_for_its_years_alone)
 
 static void follow_to_the_end(void)
 {
-    ceduo_live_follow(&live, &file, 0, 0, 0);
+    ceduo_live_update(&live, &file, 0, 0, 0);
     ceduo_jobs_wait(live.jobs, true);
     ceduo_live_poll(&live, &file.scene);
 }
@@ -139,7 +139,7 @@ TEST(an_edit_of_the_law_leaves_no_figures_of_the_other)
     EXPECT(other->model, ==, CEDUO_DORREN);
     for (size_t i = 0; i < file.scene.options[0].belts_count; i++)
         file.scene.options[0].belts[i].stand.energy = CEDUO_DORREN;
-    ceduo_live_follow(&live, &file, 0, 0, 0);
+    ceduo_live_update(&live, &file, 0, 0, 0);
     assert_false(live.result->options[0].others[0].known);
     follow_to_the_end();
     other = &live.result->options[0].others[0];
@@ -155,8 +155,8 @@ TEST(an_edit_of_the_contact_model_leaves_no_years)
     follow_to_the_end();
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
     file.scene.simulation.contact_model = CEDUO_INDEX;
-    ceduo_live_follow(&live, &file, 0, 0, 0);
-    EXPECT(live.verdict.choices[0].last_summary->years, ==, 0);
+    ceduo_live_update(&live, &file, 0, 0, 0);
+    EXPECT(live.verdict.choices[0].over->years, ==, 0);
     follow_to_the_end();
     EXPECT(live.verdict.choices[0].last_summary->years, >, 0);
     EXPECT(live.verdict.choices[0].last_summary->simulated, ==, 0);
