@@ -98,7 +98,7 @@ def test_not_told_apart():
         more = quarry({"stops": {"x_m": FIFTY, "of": 50}}, rock={"shape": "block", "axes_m": [0.9, 0.7, 0.6], "density_kg_m3": 2600},
                       slope={"vertices_m": [[0, 62], [12, 44], [25, 33], [40, 22], [60, 9], [85, 3], [200, 1]],
                              "segments": [{"rn": 0.35, "rt": 0.85, "roughness_rad": 0.25, "friction": 0.5}]})
-        stops = ceduo("-f", "json", "-n", 1000, "-j", 2, *four, f.write("m.yaml", more)).json()[0]
+        stops = ceduo("-f", "json", *few, "-n", 1000, *four, f.write("m.yaml", more)).json()[0]
     expect(stops["settled"] and stops["effective_size"] >= 200, stops["effective_size"])
 
 
