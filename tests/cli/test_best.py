@@ -74,10 +74,10 @@ def test_table_options_index():
     names = [o["name"] for o in result(FOUR, "-n", 1)["options"]]
     expect_order(text, *[re.escape(n) for n in names], "(?i)side by side")
     head, rows, words = side_by_side(text, names)
-    expect_in("what arrives does not separate them", words)
+    expect_in("arrivals do not separate the options", words)
     for name, word in (("simple coppice, just cut", "✘"), ("simple coppice, 25 years", "✔"), ("large reserves, just cut", "✘")):
         expect(re.search(rf"[\d.]+ {word} ", rows[name]), f"no {word} of contact", rows[name])
-    expect_in("The index says what stems could take, not what a rock loses", words)
+    expect_in("The index is the energy that stems could absorb, not the loss of a rock", words)
     answer = words.replace("treatments is best for", "")  # which is the question
     expect(not re.search(r"(?i)\b(winner|best|recommended|worst option|rank)\b", answer), "a winner is named:", text)
     expect(re.search(r"kJ/100 m +left kJ", head), "heads run into one another:", head)
@@ -97,13 +97,13 @@ def test_table_best():
             words = best_sentence(f, treated(**order))
             expect_in("Today 'few thick' lets the fewest dangerous rocks through: ", words)
             expect("rotation" not in words and "Over " not in words, "a rotation of stands that do not grow", words)
-            expect_in("The answer for 'few thick' is that of today: the file of 'thick' has no growth", words)
+            expect_in("'few thick' does not change: stand 'thick' has no growth and cutting data", words)
         options = [{"name": name, "forest": [{"from_m": 10, "to_m": 95, "stand": st}]} for name, st in (("cut", "simple-coppice"), ("grows", "ads-1"))]
         words = best_sentence(f, wooded_scene(forest=None, options=options), "-n", 50)
         expect(re.search(r"option mean rotation worst .* cut \d+±\d+ \d+±\d+ ", words), words)
         words = best_sentence(f, treated(none=None, many_thin=THIN))  # which hardly take anything
         expect_in("Today no option is clearly better than the others.", words)
-        expect_in("All years of 'none' are alike: no stem stands in it.", words)
+        expect_in("'none' does not change: no stem stands in it.", words)
         words = best_sentence(f, treated(many_thin=THIN, few_thick=THICK), *through("index"))
         expect("the fewest" not in words and "best" not in words.replace("treatments is best for", ""), words)
         hardly = {**THICK, "trees": [{"per_ha": 301, "dbh_m": 0.4, "height_m": 18, "volume_m3": 1}]}

@@ -28,7 +28,7 @@ def test_too_many_stems():
         expect(option["controls"][0]["wooded"]["reach_hi"] == 1, "any of them may arrive", option["controls"][0])
         expect_equal(option["controls"][0]["bare"]["rocks_reached"], 3, "that arrive without stems")
         warnings = " ".join(found["warnings"])
-        expect_in("3 rocks had more than 1000000 contacts or stems on their way through the wood", warnings)
+        expect_in("3 rocks had more than 1000000 contacts or stems in the forest and count as unfinished", warnings)
         # a million stems drawn, and at most one pause's more, for each
         drawn = found["work"]["stems_drawn"] / 3  # under the other energy law they are stopped soon
         expect(1e6 <= drawn < 1.02e6, f"{drawn} stems for each rock")
@@ -56,7 +56,7 @@ def test_spread():
             r = ceduo("--batch", path)
             expect_equal(r.status, INPUT, r)
             expect_in(f"{where}.dbh_sd_m: ", r.err)
-            expect_in("more than the diameter itself", r.err)
+            expect_in("exceeds the diameter", r.err)
     for least in (5e-324, 1e-200, 1e-12):  # as none at all: a gamma law of it is beyond what doubles hold
         with Folder() as f:
             trees = [{"per_ha": 800, "dbh_m": 0.2, "height_m": 9, "dbh_sd_m": least}]

@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (DONE, FULL, INPUT, Folder, ceduo, expect, expect_equal, expect_in, expect_near, good,  # noqa: E402
                      run_all, scene, stand)
-from pages import WHOLE
+from pages import WHOLE, expect_width
 
 DENSITY = 2600
 CLIFF = {"vertices_m": [[0, 100], [1, 0], [60, 0]], "segments": [{"rn": 0, "rt": 0}]}
@@ -335,7 +335,7 @@ def test_page():
         expect(re.search(rf"return period of such a rock, years {re.escape(years[1])} ", page), years, page)
         expect_in("Rock sphere; rocks are the blocks below, the index is of ", page)
         left = " ".join(shown(100 * m["rate_left"]) for m in wooded["matrix"])
-        expect_in(f"coppice {years[1]} {left} without forest {years[0]} 100 100 100 Energy that is reached", page)
+        expect_in(f"coppice {years[1]} {left} without forest {years[0]} 100 100 100 Energy reached or exceeded", page)
         square = page.split("Intensity by return period")[2]
         marks = {word: [[] for _ in range(3)] for word in ("none", "weak", "medium", "strong")}
         for number, h in enumerate((bare, hazard_of(result, "wooded", -1, 0), wooded)):
@@ -382,8 +382,9 @@ def test_wide_figures():
                 wanted = back[key] / 10 ** int(power)
                 expect_near(float(shown), wanted, 0.05 * (1 + 1e-9) if wanted < 10 else 0.5, key)
         text = good(*WHOLE, f.write("t.yaml", slope_site(forest=None, options=options, blocks=rare, controls=[{"x_m": 140}]))).out
-        rows = re.findall(r"\n  (?:without forest|half|third) +(\d\.\d) \([\d.]+\u2013[\d.]+\)e(\d) ", text)
-        expect_equal(len(rows), 3, text)
+        rows = re.findall(r"\n  (?:without forest|half|whole|third) +\d{8} \(\d{8}\u2013\d{8}\) +none +\d+ +\d+(?=\n)", text)
+        expect_equal(len(rows), 4, text)
+        expect_width(text)
 
 
 def test_unknown_lower_end():
@@ -427,7 +428,7 @@ def test_many():
 
 def test_means():
     """Where the mean of the few that arrive is higher through the wood, the page says why; where it is lower it says nothing"""
-    said = "Fewer arrive through the forest, but larger or faster ones, as stems stop the others first"
+    said = "The mean energy is higher with forest because stems stop the slower and smaller rocks first."
     with Folder() as f:
         for what in (slope_site(), slope_site(blocks=None)):
             path = f.write("s.yaml", what)
