@@ -160,7 +160,8 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
 {
     const struct ceduo_index *index = s->index;
     const struct ceduo_scene *scene = s->report->result->scene;
-    const struct ceduo_choice none = {0}, *c = s->choice ? s->choice : &none;
+    static const struct ceduo_years_summary unknown;
+    const struct ceduo_choice none = {.over = &unknown}, *c = s->choice ? s->choice : &none;
     const struct ceduo_page_column columns[] = {{"", 11, 2, CEDUO_FILLS},
                                                 {"", page->width < CEDUO_PAGE_WIDTH ? -6 : -18, 0, 0},
                                                 {"", -7, 0, 0},
