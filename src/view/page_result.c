@@ -163,7 +163,7 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     static const struct ceduo_years_summary unknown;
     const struct ceduo_choice none = {.over = &unknown}, *c = s->choice ? s->choice : &none;
     const struct ceduo_page_column columns[] = {{"", 11, 2, CEDUO_FILLS},
-                                                {"", page->width < CEDUO_PAGE_WIDTH ? -6 : -18, 0, 0},
+                                                {"", page->width < CEDUO_PAGE_WIDTH ? -6 : -18, 0, CEDUO_FITS},
                                                 {"", -7, 0, 0},
                                                 {"", 1, 1, 0},
                                                 {"", 1, 0, 0}};
@@ -184,7 +184,10 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     ceduo_page_cell_format(page, "%s", PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MAX));
     add_test(page, s, most.bytes, index->free_run, c->over->unprotected_free_run, true);
     add_name(page, _("energy: too much, % of the rocks"), _("energy %"));
-    ceduo_page_cell_format(page, "%s", judged ? PERCENT(share, limit) : s->report->busy && !s->wooded ? "\xe2\x80\xa6" : "-");
+    ceduo_page_cell_format(page, "%s",
+                           judged                                                       ? PERCENT(share, limit)
+                           : s->report->busy && s->report->result->wooded && !s->wooded ? "\xe2\x80\xa6"
+                                                                                        : "-");
     add_test(page, s, ceduo_text_string(&accepted), index->energy, c->over->unprotected_energy, c->energy_known);
     if (isnan(index->residual)) /* no rock arrives without forest */
         return;
