@@ -19,7 +19,7 @@ TOO_MANY = [
     ("src/scene/fields_observed.c", ("src/scene/schema.h", r"(ASKED_KINDS_MAX +)\d+", r"\g<1>5"), "more kinds than there are digits"),
     ("src/tui/edit.c", ("src/scene/schema.h", r"(ASKED_FIELDS_MAX +)\d+", r"\g<1>17"), "all fields of a mapping"),
     ("src/tui/view_observed.c", ("src/scene/schema.h", r"(ASKED_KINDS_MAX +)\d+", r"\g<1>10"), "a digit chooses a kind"),
-    ("src/tui/view_observed.c", ("include/ceduo/calibrate.h", r"(CALIBRATION_MOST +)\d+", r"\g<1>17"), "all values that can be fitted"),
+    ("src/tui/view_observed.c", ("include/ceduo/calibrate.h", r"(CALIBRATION_MAX +)\d+", r"\g<1>17"), "all values that can be fitted"),
     ("src/tui/popup_measured.c", ("src/tui/popup_measured.c", r", COUNTS }", ", MORE, COUNTS = MORE + 8 }"), "all counts"),
 ]
 

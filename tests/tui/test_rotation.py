@@ -437,7 +437,7 @@ def test_no_forest():
     for screen in screens:
         screen.whole()
     expect_equal([c for _, c in marks(screens[2], "C")], ["✘"], "contact")
-    expect_in("All years of 'current' are alike: no stem stands in it.", flat(screens[2]))
+    expect_in("'current' does not change: no stem stands in it.", flat(screens[2]))
 
 
 def test_index_view():
@@ -538,7 +538,7 @@ def test_find_sure():
     """f asked for how many of 100 cases says the sure value beside the plain one, which the field has, as --sure does: with
     stems of 15 to 25 cm those of 16 cm, 10000 / 30 m / (0.68 + 0.16) m; 0, 101 and words are refused, nothing is no question"""
     uncertainty = "uncertainty:\n  - {path: 'options[0].forest[0].stand.trees[0].dbh_m', lo: 0.15, hi: 0.25}\n"
-    for sure, words in (("90", "to be sure in 90 % of what may be true: 397"), ("0", "0 itself is outside"), ("101", "101 is above 100"),
+    for sure, words in (("90", "in 90 % of plausible cases: 397"), ("0", "0 itself is outside"), ("101", "101 is above 100"),
                         ("most", "'most' is not a number"), ("", "")):
         steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in ("adc", "", sure, 6, 600)[:5 if sure in ("90", "") else 3])
         with Place() as place:
