@@ -116,7 +116,7 @@ def test_error_on_the_page():
     asked = (what, "exceed=0.2", 0.8, "-n", 50)
     answer, page = find(*asked)["sure"], find(*asked, form="table")
     expect(answer["probability_se"] > 0.02, "so few rocks leave an error", answer)
-    expect_in(f"reaches it in {100 * answer['probability']:.0f} %, ±{196 * answer['probability_se']:.0f};", page)
+    expect_in(f"reaches the goal in {100 * answer['probability']:.0f} %, ±{196 * answer['probability_se']:.0f};", page)
 
 
 def test_error_of_the_value():

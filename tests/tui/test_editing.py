@@ -335,8 +335,8 @@ def test_editing_line():
         key Enter Ctrl-U Enter
         dump""")
     expect_in("uber dem We_", screens[0].body)
-    expect_equal(screens[1].now.split("\n")[0], "* uber dem We")
-    expect_equal(screens[2].now.split("\n")[0], "* Àuer dem We")
+    screens[1].has("│ * uber dem We")
+    screens[2].has("│ * Àuer dem We")
     screens[3].whole()
 
 
