@@ -2,6 +2,7 @@
 /* The page of a result: what was simulated, then each option at each control, then the options side by side; below, warnings of
  * the whole run, and each assumption with the first place that makes it. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -83,11 +84,22 @@ static void add_row(struct ceduo_page *page, const char *const texts[3][2])
     }
 }
 
+/* A figure without room for its interval. */
+static const char *with_half(const struct ceduo_page *page, struct ceduo_measure m, char room[CEDUO_WORDS_ROOM])
+{
+    if (page->width < CEDUO_PAGE_WIDTH || isnan(m.half))
+        return ceduo_measure_error(m, "", room);
+    snprintf(room, CEDUO_WORDS_ROOM, "%s\xc2\xb1%s", VALUE_OF(m), WRITTEN(m.half, 2));
+    return room;
+}
+
 static void add_figure(struct ceduo_page *page, struct ceduo_measure wood, struct ceduo_measure bare)
 {
+    bool pane = page->width < CEDUO_PAGE_WIDTH;
+    char through[CEDUO_WORDS_ROOM], without[CEDUO_WORDS_ROOM];
     add_row(page, (const char *const[3][2]){{NAMED(bare, CEDUO_PHRASE), NAMED(bare, CEDUO_ROW)},
-                                            {INTERVAL(wood), WITH_ERROR(wood, "")},
-                                            {INTERVAL(bare), VALUE_OF(bare)}});
+                                            {INTERVAL(wood), with_half(page, wood, through)},
+                                            {INTERVAL(bare), pane ? VALUE_OF(bare) : with_half(page, bare, without)}});
 }
 
 #define PANE_WIDE 34 /* columns that hold an interval */
