@@ -129,13 +129,13 @@ int __wrap_fsync(int fd)
 }
 
 /* What stands in an arena comes from few pages: here each piece of it can fail. */
-void *__real_ceduo_arena_take(struct arena *arena, size_t size);
-void *__real_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
+void *__real_ceduo_arena_alloc(struct arena *arena, size_t size);
+void *__real_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
 char *__real_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__real_ceduo_arena_string(struct arena *arena, const char *string);
 char *__real_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
-void *__wrap_ceduo_arena_take(struct arena *arena, size_t size);
-void *__wrap_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
+void *__wrap_ceduo_arena_alloc(struct arena *arena, size_t size);
+void *__wrap_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__wrap_ceduo_arena_string(struct arena *arena, const char *string);
 __attribute__((format(printf, 2, 0))) char *__wrap_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
@@ -149,14 +149,14 @@ static bool arena_fails(struct arena *arena)
     return failed;
 }
 
-void *__wrap_ceduo_arena_take(struct arena *arena, size_t size)
+void *__wrap_ceduo_arena_alloc(struct arena *arena, size_t size)
 {
-    return arena_fails(arena) ? NULL : __real_ceduo_arena_take(arena, size);
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_alloc(arena, size);
 }
 
-void *__wrap_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
+void *__wrap_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
 {
-    return arena_fails(arena) ? NULL : __real_ceduo_arena_more(arena, items, n, more, room, size);
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_grow(arena, items, n, more, room, size);
 }
 
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)

@@ -207,7 +207,7 @@ def test_fit_taken():
         best, lo, hi = map(float, re.search(r"speed along, m/s ([\d.]+) \(([\d.]+)–([\d.]+)\)", screen.body).groups())
         expect(abs(speed_at_gate(best) - 22) < 0.15 and abs(lo - 10.02 + slope) < 0.1 and abs(hi - 10.02 - slope) < 0.1, screen)
         says(screen, "Fitted. Enter takes these values", "The fit does not hold for what was to check it: too slow.")
-    says(large, "The model reproduces all fitted observations.", "a hundred metres beside it may be another.")
+    says(large, "The model reproduces all fitted observations.", "A neighbouring profile may need another ground.")
     says(large, "It does not keep all that fits as well, the draws.", "-n 100 -o FITTED.yaml SCENE.yaml")
     expect_in("the scene has the values and their ranges, not the draws; u takes them back", taken.note)
     expect("*" in taken.title and "*" not in saved.title, "a star while it is unsaved", taken, saved)
