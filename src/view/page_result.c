@@ -2,6 +2,7 @@
 /* Page of a result: input, each option at each control, all options together; then warnings of the run, and each assumption
  * with its first place. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -83,11 +84,23 @@ static void add_texts_row(struct ceduo_page *page, const char *const texts[3][2]
     }
 }
 
+/* Return a figure with its error, for a column that is too narrow for the interval. */
+static const char *format_half_width(const struct ceduo_page *page, struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE])
+{
+    if (page->width < CEDUO_PAGE_WIDTH || isnan(m.half_width))
+        return ceduo_measure_error(m, "", buffer);
+    snprintf(buffer, CEDUO_WORDS_SIZE, "%s\xc2\xb1%s", MEASURE_VALUE(m), SIG(m.half_width, 2));
+    return buffer;
+}
+
 static void add_figure(struct ceduo_page *page, struct ceduo_measure wooded, struct ceduo_measure bare)
 {
-    add_texts_row(page, (const char *const[3][2]){{MEASURE_NAME(bare, CEDUO_PHRASE), MEASURE_NAME(bare, CEDUO_ROW)},
-                                                  {INTERVAL(wooded), WITH_ERROR(wooded, "")},
-                                                  {INTERVAL(bare), MEASURE_VALUE(bare)}});
+    bool pane = page->width < CEDUO_PAGE_WIDTH;
+    char with[CEDUO_WORDS_SIZE], without[CEDUO_WORDS_SIZE];
+    add_texts_row(
+        page, (const char *const[3][2]){{MEASURE_NAME(bare, CEDUO_PHRASE), MEASURE_NAME(bare, CEDUO_ROW)},
+                                        {INTERVAL(wooded), format_half_width(page, wooded, with)},
+                                        {INTERVAL(bare), pane ? MEASURE_VALUE(bare) : format_half_width(page, bare, without)}});
 }
 
 #define PANE_WIDE 34 /* columns needed for an interval */
@@ -164,7 +177,7 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     const struct ceduo_years_summary no_years = {0};
     const struct ceduo_choice none = {.last_summary = &no_years}, *c = s->choice ? s->choice : &none;
     const struct ceduo_page_column columns[] = {{"", 11, 2, COL_GROW},
-                                                {"", page->width < CEDUO_PAGE_WIDTH ? -6 : -18, 0, 0},
+                                                {"", page->width < CEDUO_PAGE_WIDTH ? -6 : -18, 0, COL_SHRINK},
                                                 {"", -7, 0, 0},
                                                 {"", 1, 1, 0},
                                                 {"", 1, 0, 0}};
@@ -186,9 +199,9 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     add_test(page, s, free_run_limit.bytes, index->free_run, c->last_summary->unprotected_free_run, true);
     add_name(page, _("energy: too much, % of the rocks"), _("energy %"));
     ceduo_page_cell_format(page, "%s",
-                           judged                          ? PERCENT_VS_LIMIT(share, limit)
-                           : s->report->busy && !s->wooded ? "\xe2\x80\xa6"
-                                                           : "-");
+                           judged                                                       ? PERCENT_VS_LIMIT(share, limit)
+                           : s->report->busy && s->report->result->wooded && !s->wooded ? "\xe2\x80\xa6"
+                                                                                        : "-");
     add_test(page, s, ceduo_text_string(&energy_limit), index->energy, c->last_summary->unprotected_energy, c->energy_known);
     if (isnan(index->residual)) /* no rock arrives without forest */
         return;

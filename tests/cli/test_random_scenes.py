@@ -730,7 +730,7 @@ def check_rows(rows, a, what):
     expect_equal((named.get("exceed", "-"), named["arrive"]), (of_1000(a, "exceed"), of_1000(a, "reach")), what)
     for name, value in (("mean energy of those that arrive, kJ", a["energy_kJ"]["mean"]), ("95 % stay below, kJ", a["energy_kJ"]["p95"]),
                         ("mean speed of those that arrive, m/s", a["speed_m_s"]["mean"])):
-        expect_shown(named.get(name, "-").split()[0], value, f"{what}: {name}")
+        expect_shown(re.split("[ ±]", named.get(name, "-"))[0], value, f"{what}: {name}")
 
 
 def check_lines(lines, width, what):

@@ -57,28 +57,28 @@ def figure(result, name, option=0):
 
 
 def test_nothing():
-    """Where nothing is in doubt it is said, and nothing is computed"""
+    """If nothing is uncertain the page says so, and nothing is computed"""
     for what in (measured(), measured(uncertainty="none"), measured(uncertainty=[])):
         result = answer(what)
         expect_equal((result["figures"], result["ranking"], result["evaluations"]), ([], [], 0))
     with Folder() as f:
-        for uncertainty, told in ([], "Nothing in this scene is marked as assumed"), ("none", "not computed, because the scene says 'uncertainty: none'"):
+        for uncertainty, told in ([], "Nothing in this scene is marked as assumed"), ("none", "Uncertainty was not computed: the scene has 'uncertainty: none'"):
             path = f.write("s.yaml", measured(uncertainty=uncertainty))
             report = f.path / "r.html"
             expect_in(told, " ".join(ceduo("--sensitivity", path).out.split()))
             expect_equal(ceduo("--report", report, "-n", 20, path).status, DONE)
             words = " ".join(html.unescape(re.sub("<[^>]*>", "", report.read_text(encoding="utf-8"))).split())
             expect_in(told, words)
-            expect_equal("nothing in this scene" in words, uncertainty == [], "the report")
+            expect_equal("Nothing in this scene" in words, uncertainty == [], "the report")
 
 
 def test_page_of_a_run():
-    """A page says both errors where anything is in doubt, and that nothing is where nothing is"""
+    """A page has the sampling error, and the range of uncertain inputs or that there are none"""
     for what, says in ((measured(), False), (measured(uncertainty=[DENSITY]), True)):
         with Folder() as f:
             page = " ".join(good("--batch", "--details", "-n", 50, f.write("s.yaml", what)).out.split())
-            expect(re.search(r"by the number of rocks \(50\); [\d-]+–[\d-]+ by what is not known\." if says else
-                             r"by the number of rocks \(50\); Nothing in this scene is marked as assumed\.", page), page)
+            expect(re.search(r"Sampling error \(50 rocks\): [\d-]+–[\d-]+\. Uncertain inputs: [\d-]+–[\d-]+" if says else
+                             r"Sampling error \(50 rocks\): [\d-]+–[\d-]+\. Nothing in this scene is marked as assumed\.", page), page)
 
 
 def test_lights():
@@ -94,9 +94,9 @@ def test_lights():
             exceed = figure(result, "exceed_probability")
             expect_equal(exceed["uncertainty"]["p5"] <= 0.05 < exceed["uncertainty"]["p95"], energy, exceed)
             page = " ".join(ceduo(f"--sensitivity={POINTS}", "-n", 200, path).out.split())
-            expect_equal("Whether the test of energy passes depends on " in page, energy, page)
-            expect_equal("Whether the test of contact passes depends on " in page, contact, page)
-            expect_equal("Whether the test of free run passes depends on " in page, free_run, page)
+            expect_equal("The test of energy depends on " in page, energy, page)
+            expect_equal("The test of contact depends on " in page, contact, page)
+            expect_equal("The test of free run depends on " in page, free_run, page)
 
 
 def test_lights_of_two_inputs():
@@ -109,7 +109,7 @@ def test_lights_of_two_inputs():
         what = measured(uncertainty=uncertainty, forest=forest, simulation={"threshold_m": 30})
         with Folder() as f:
             page = " ".join(good("--sensitivity=128", "-n", 20, f.write("s.yaml", what)).out.split())
-            found = re.search(r"Whether the test of contact passes depends on (.*?)\.", page)
+            found = re.search(r"The test of contact depends on (.*?)\.", page)
             expect(found, page)
             expect_equal(" and " in found[1], both, found[1])
 
@@ -121,7 +121,7 @@ def test_lights_of_gaps():
         what = measured(uncertainty=uncertainty, forest=[{"from_m": start, "to_m": 85, "stand": wood()}], simulation={"threshold_m": 30})
         with Folder() as f:
             page = " ".join(good(f"--sensitivity={POINTS}", "-n", 20, f.write("s.yaml", what)).out.split())
-            expect_equal("Whether the test of contact passes depends on " in page, depends, page)
+            expect_equal("The test of contact depends on " in page, depends, page)
 
 
 def test_index():
@@ -394,7 +394,7 @@ def test_page_of_shares():
             table = page[page.index("it depends on"):].split("\n\n")[0]
             expect_equal(re.findall(r" (\d+) %", table), shares, f"seed {seed}: {page}")
             expect_equal(re.findall(r"(Measure first|Then): ", page), ["Measure first", "Then", "Then"][:len(told)], page)
-            expect_in(f"{4 - len(told)} other input" if told else "No input stands out", " ".join(page.split()))
+            expect_in(f"{4 - len(told)} other input" if told else "No input is dominant", " ".join(page.split()))
             between += any(i["total_se"] < i["total"] < 2 * i["total_se"] and i["total"] > 0.01 for i in found["inputs"])
             named += len(told) > 0
     expect(between > 0 and named > 0, "the seeds hold both cases", between, named)
@@ -414,9 +414,9 @@ def test_many():
         expect(inputs[0]["path"] == speed["path"] and inputs[0]["total"] > 0.8, inputs[0])
         few = ceduo("--sensitivity=4", "-f", "json", "-n", 20, path).json()[0]["figures"][0]
         expect_equal({i["total"] for i in few["inputs"]} | {few["q2"], few["unexplained"]}, {None}, "too few points")
-        expect_equal([few[k] for k in few if k.startswith("uncertainty_")], [None] * 5, few)
+        expect_equal([*few["uncertainty"].values()], [None] * 5, few)
         page = " ".join(ceduo("--sensitivity=4", "-n", 20, path).out.split())
-        expect_in("There are too few points to say what it depends on", page)
+        expect_in("Too few points to rank the inputs", page)
         expect("Measure first" not in page, page)
 
 
@@ -556,7 +556,7 @@ def test_equal_whatever_the_rocks():
         with Folder() as f:
             path = f.write("s.yaml", what)
             few, many = (good("--sensitivity=64", "-f", "json", "-n", rocks, path).json()[0]["ranking"][0] for rocks in (400, 1600))
-            words = [re.search(r"of what may be true.*?: ([a-z ]+)\.", " ".join(good("--sensitivity=64", "-n", rocks, path).out.split()))[1]
+            words = [re.search(r"of plausible cases.*?: ([a-z ]+)\.", " ".join(good("--sensitivity=64", "-n", rocks, path).out.split()))[1]
                      for rocks in (400, 1600)]
         for key in ("probability", "equal", "worse"):
             expect_near(few[key], many[key], 0.1, f"{trees}: {key}")
@@ -739,19 +739,19 @@ REFUSED = {
 
 
 def test_outside():
-    """A value outside what it may be is said so wherever its doubt is told; of the shipped scenes none is"""
+    """A value outside its range is reported wherever its uncertainty is; no shipped scene has one"""
     def told(*args):
         return " ".join(ceduo("-n", "20", *args).out.split())
 
     changes = ("--set", "forest[0].stand.shoots[0].per_ha=20000")
     for args in (("-b",), ("--sensitivity=16",)):
         page = told(*args, *changes, "paper-site")
-        expect("outside its doubt" not in told(*args, "--set", "forest[0].stand.shoots[0].per_ha=9575", "paper-site"), args)
-    expect(re.search(r"per hectare, [^.]* is 20000, outside its doubt \(7077.9575\): what may be true", page), page)
+        expect("outside its range" not in told(*args, "--set", "forest[0].stand.shoots[0].per_ha=9575", "paper-site"), args)
+    expect(re.search(r"per hectare, [^.]* is 20000, outside its range 7077.9575; the range is used\.", page), page)
     page = told("-b", "--set", "simulation.law=arm", "--set", "uncertainty=[{path: simulation.law, one_of: [lumped, crsp]}]", "paper-site")
-    expect(re.search(r"law of impact is arm, outside its doubt \(lumped.crsp\)", page), page)
+    expect(re.search(r"law of impact is arm, outside its range lumped.crsp;", page), page)
     for scene in (PROFILES / "scenes").glob("*.yaml"):
-        expect("outside its doubt" not in told("--sensitivity=4", scene), scene)
+        expect("outside its range" not in told("--sensitivity=4", scene), scene)
 
 
 def test_refused():

@@ -162,8 +162,8 @@ def test_unlikely():
     cases = (("of basal area are more than 60", trees(per_ha=area), trees(per_ha=area + 1)),
              ("shoots a stool are more than 15", coppice(1000, per_stool=15), coppice(1000, per_stool=15.1)),
              ("shoots a stool are more than 15", coppice(1000, per_ha=15000), coppice(1000, per_ha=15100)),
-             ("30.1 m high, usual are 25 to 150 times their diameter", trees(height_m=30), trees(height_m=30.1)),
-             ("4.9 m high, usual are 25 to 150 times their diameter", trees(height_m=5), trees(height_m=4.9)),
+             ("30.1 m tall: unusual height/diameter ratio (usual 25–150)", trees(height_m=30), trees(height_m=30.1)),
+             ("4.9 m tall: unusual height/diameter ratio (usual 25–150)", trees(height_m=5), trees(height_m=4.9)),
              ("thicker than the thickest", trees(dbh_m=0.35), trees(dbh_m=0.351)))
     with Folder() as f:
         for told, at, beyond in cases:

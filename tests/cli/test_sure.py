@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--find --sure: the value that reaches a goal in so much of what may be true.
+"""--find --sure: the value that reaches a goal in a share of the plausible cases.
 
 Trees of 0.2 m a hectare and a rock of 0.8 m: of n and m trees of two classes the ADC is 10000/(n + m) m. Where m may be 1000 to
 2000, it is below 4 m in a share s of that from n = 1500 - 1000(1 - s) on. The others are held against scenes drawn at random."""
@@ -74,8 +74,8 @@ def test_largest():
     none = find(wood(), "adc=4", 0.9, hi=1000)["sure"]
     expect_equal((none["found"], none["value"], none["probability"], none["nearest"]), (False, None, None, 1000))
     expect_near(none["probability_at_nearest"], 0.5, 0.02)
-    expect_in("no value is sure in 90 % of what may be true; nearest: 1000, in 50 %", find(wood(), "adc=4", 0.9, hi=1000, form="table"))
-    expect_in("every value of the range is sure in 90 % of what may be true", find(wood(), "adc=4", 0.9, lo=2000, form="table"))
+    expect_in("no value holds in 90 % of plausible cases; nearest: 1000, in 50 %", find(wood(), "adc=4", 0.9, hi=1000, form="table"))
+    expect_in("every value of the range holds in 90 % of plausible cases", find(wood(), "adc=4", 0.9, lo=2000, form="table"))
 
 
 def test_worst_control():
@@ -98,7 +98,7 @@ def test_nothing_in_uncertainty():
     """Without uncertainty, or where the value itself is all that is in doubt, the plain answer holds, and that is said"""
     for uncertainty in ((), ({"path": PER_HA.format(0), "lo": 500, "hi": 1500},)):
         expect_equal(find(wood(uncertainty), "adc=4", 0.9)["sure"], None, uncertainty)
-        expect_in("nothing else is in doubt", find(wood(uncertainty), "adc=4", 0.9, form="table"), uncertainty)
+        expect_in("no other input is uncertain", find(wood(uncertainty), "adc=4", 0.9, form="table"), uncertainty)
     none = wood()
     none["uncertainty"] = "none"
     expect_equal(find(none, "adc=4", 0.9)["sure"], None)
@@ -116,7 +116,7 @@ def test_error_on_the_page():
     asked = (what, "exceed=0.2", 0.8, "-n", 50)
     answer, page = find(*asked)["sure"], find(*asked, form="table")
     expect(answer["probability_se"] > 0.02, "so few rocks leave an error", answer)
-    expect_in(f"reaches it in {100 * answer['probability']:.0f} %, ±{196 * answer['probability_se']:.0f};", page)
+    expect_in(f"reaches the goal in {100 * answer['probability']:.0f} %, ±{196 * answer['probability_se']:.0f};", page)
 
 
 def test_error_of_the_value():
@@ -261,7 +261,7 @@ def test_refused():
 def test_page():
     """The page names both values; the second with its share"""
     page = find(wood(), "adc=4", 0.9, form="table")
-    expect(re.search(r"per_ha = 1501 .* to be sure in 90 % of what may be true: (139\d|140\d|141\d) \(reaches it in 9[01] %, ±\d; by that error the value is 1[34]\d\d to 14\d\d\)", page), page)
+    expect(re.search(r"per_ha = 1501 .* in 90 % of plausible cases: (139\d|140\d|141\d) \(reaches the goal in 9[01] %, ±\d; with this error the value is 1[34]\d\d to 14\d\d\)", page), page)
 
 
 if __name__ == "__main__":

@@ -334,12 +334,12 @@ def test_low_wood():
                 if key == "per_ha":
                     continue
                 less = {k: v for k, v in values.items() if k != key}
-                expect_in(f"{low}: '{key}' is missing: nothing is assumed", refused(**{low: less}).err)
+                expect_in(f"{low}: '{key}' is missing; it has no default", refused(**{low: less}).err)
                 expect_equal(refused(**{low: {**less, "per_ha": 0}}).status, 0, f"no {low} lack nothing")
                 wrong = refused(**{low: {**values, key: "x"}}).err
                 expect_in("'x' is in quotes", wrong)
                 expect("missing" not in wrong, wrong)
-        for groups, said in (({"stems": 4}, "'radius_m' is missing: nothing is assumed"), ({"stems": 4, "radius_m": "x"}, "'x' is in quotes"),
+        for groups, said in (({"stems": 4}, "'radius_m' is missing; it has no default"), ({"stems": 4, "radius_m": "x"}, "'x' is in quotes"),
                              ({"stems": 201, "radius_m": 2}, "201"), ({"stems": 0, "radius_m": 2}, "0"),
                              ({"stems": 4, "radius_m": -1}, "-1")):
             expect_in(said, refused(trees=[{**trees[0], "groups": groups}]).err)

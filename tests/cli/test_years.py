@@ -571,9 +571,9 @@ def test_alike_years():
         path = f.write("s.yaml", site(options=[("grows", [belt(0, 135, coppice())]), ("still", [belt(0, 135, still)]), ("none", [])]))
         text = re.sub(r"\s+", " ", good(*WHOLE, "-n", 200, path).out)
         counts = [len(o["years"]) for o in result("--years", "-n", 1, path)["options"]]
-    expect_in("The answer for 'still' is that of today: the file of 'coppice' has no growth (growth, cutting).", text)
-    expect_in("All years of 'none' are alike: no stem stands in it.", text)
-    expect("All years of 'grows'" not in text, text)
+    expect_in("'still' does not change: stand 'coppice' has no growth and cutting data.", text)
+    expect_in("'none' does not change: no stem stands in it.", text)
+    expect("'grows' does not change" not in text, text)
     expect_equal(counts, [25, 25, 25], "years")
 
 

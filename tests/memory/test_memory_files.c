@@ -65,8 +65,8 @@ static const char uncertain[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope:
                                 "uncertainty: [{path: 'options[*].forest[0].stand.energy.model', one_of: [brauner, dorren]}, "
                                 "{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.3}]\n";
 
-static const char uncertain[] = "ceduo: stand/1\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n"
-                                "uncertainty: [{path: 'trees[*].per_ha', lo: 50, hi: 70}]\n";
+static const char uncertain_stand[] = "ceduo: stand/1\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n"
+                                      "uncertainty: [{path: 'trees[*].per_ha', lo: 50, hi: 70}]\n";
 
 static const char survey[] =
     "plot,area_m2,kind,stool,species,dbh_cm,height_m,note\n1,100,shoot,1,beech,6,7,x\n1,100,shoot,1,,5,,\n"
@@ -99,7 +99,7 @@ static int set_up(void **state)
     put("upward.yaml", upward);
     put("kinds.yaml", kinds);
     put("uncertain_scene.yaml", uncertain);
-    put("uncertain.yaml", uncertain);
+    put("uncertain.yaml", uncertain_stand);
     put("survey.csv", survey);
     put("stops.csv", "block,x_m\n1,40\n2,50\n1,60\n");
     put("draws.csv", "rock.density_kg_m3\n2600\n2550\n");
@@ -129,13 +129,13 @@ int __wrap_fsync(int fd)
 }
 
 /* What stands in an arena comes from few pages: here each piece of it can fail. */
-void *__real_ceduo_arena_take(struct arena *arena, size_t size);
-void *__real_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
+void *__real_ceduo_arena_alloc(struct arena *arena, size_t size);
+void *__real_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
 char *__real_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__real_ceduo_arena_string(struct arena *arena, const char *string);
 char *__real_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
-void *__wrap_ceduo_arena_take(struct arena *arena, size_t size);
-void *__wrap_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
+void *__wrap_ceduo_arena_alloc(struct arena *arena, size_t size);
+void *__wrap_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__wrap_ceduo_arena_string(struct arena *arena, const char *string);
 __attribute__((format(printf, 2, 0))) char *__wrap_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
@@ -149,14 +149,14 @@ static bool arena_fails(struct arena *arena)
     return failed;
 }
 
-void *__wrap_ceduo_arena_take(struct arena *arena, size_t size)
+void *__wrap_ceduo_arena_alloc(struct arena *arena, size_t size)
 {
-    return arena_fails(arena) ? NULL : __real_ceduo_arena_take(arena, size);
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_alloc(arena, size);
 }
 
-void *__wrap_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
+void *__wrap_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
 {
-    return arena_fails(arena) ? NULL : __real_ceduo_arena_more(arena, items, n, more, room, size);
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_grow(arena, items, n, more, room, size);
 }
 
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)

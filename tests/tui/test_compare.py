@@ -62,7 +62,7 @@ def test_blocks():
         options = results("-n", rocks, "blocks-above-the-road")[0]["options"]
         ahead = results("--years", "-n", play.ROCKS, "blocks-above-the-road")[0]["options"]
         page = " ".join(ceduo("--batch", "--details", "-n", 2000, "-s", "controls[0].accepted_return_y=55", "blocks-above-the-road").out.split())
-    expect("simple coppice, 135 m: whether a rock above the limit arrives at most once in 55 years today is too close to call" in page, page)
+    expect("simple coppice, 135 m: too close to call if a rock above the limit arrives at most once in 55 years today" in page, page)
     years = [o["controls"][0]["wooded"]["hazard"]["accepted_years"] for o in options]
     bare = options[0]["controls"][0]["bare"]["hazard"]["accepted_years"]
     expect_equal(screen.pair("years apart"), (round(years[0]), round(bare)))

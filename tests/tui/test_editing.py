@@ -140,7 +140,8 @@ def test_contact_model():
         expect_equal(index_of(index), index_of(stems), "the index")
         expect_in("kJ/100 m", compared_index.body)
         expect_in("mean", compared_back.body)
-        expect_equal(back.text.replace("*", " "), stems.text.replace("*", " "), "after index and back")
+        without_star = [re.sub(" +wood *", " wood", s.text.replace("*", " ")) for s in (back, stems)]  # of the title
+        expect_equal(*without_star, "after index and back")
 
 
 def test_control_edit():
@@ -334,8 +335,8 @@ def test_editing_line():
         key Enter Ctrl-U Enter
         dump""")
     expect_in("uber dem We_", screens[0].body)
-    expect(screens[1].lines[0].endswith("* uber dem We"), screens[1])
-    expect(screens[2].lines[0].endswith("* Àuer dem We"), screens[2])
+    screens[1].has("│ * uber dem We")
+    screens[2].has("│ * Àuer dem We")
     screens[3].whole()
 
 

@@ -65,7 +65,7 @@ def test_new_from_profiles():
                 control = run["options"][0]["controls"][0]
                 expect(control["bare"]["rocks_reached"] > 500, control["bare"]["rocks_reached"])
                 expect(control["verdict"]["answer"] in ("yes", "no", "not-decided"), control["verdict"])
-                made.lacks("Nothing can be said")
+                made.lacks("NOTHING CAN BE SAID")
                 figures.append(control)
     expect_equal(figures[2], figures[0], "drawn upward and downward")
 
@@ -114,15 +114,15 @@ options:
             wait idle
             key 1
             dump""", f.path / "s.yaml")
-        slope.has("Nothing can be said")
+        slope.has("NOTHING CAN BE SAID")
         expect_in("release.x_m: 4", " ".join(slope.now.split()))
         for screen in (slope, compare, years):
             for mark in ("\u2714", "\u2718"):
                 expect(mark not in screen.text, mark, screen)
-        expect_in("Nothing can be said: no rock arrives", " ".join(compare.body.split()))
-        expect_in("Nothing can be said: no rock arrives", " ".join(years.body.split()))
+        expect_in("The forest cannot be assessed: no rock arrives", " ".join(compare.body.split()))
+        expect_in("The forest cannot be assessed: no rock arrives", " ".join(years.body.split()))
         expect("best" not in compare.body, "an option is best", compare)
-        mended.lacks("Nothing can be said")
+        mended.lacks("NOTHING CAN BE SAID")
         expect("\u2718" in mended.now or "\u2714" in mended.now, mended.now)
 
 

@@ -130,7 +130,7 @@ def test_new_refused():
         refused.has("New scene", fields[-1])
         expect(part in refused.popup.split("stand ")[1], f"{fields} is not refused with a reason:", refused)
         after.has("1 5 45 upper")
-        expect(after.title.endswith(" fast"), after.title)
+        expect_equal(after.now.split("\n")[0], "fast")
     refused = fast("key n Enter Ctrl-U\ntype 0 1, 0 2, 0 3\n" + "key Enter\n" * 8 + "dump")[0]
     expect_in("New scene", refused.text, "x does not rise")
 

@@ -437,7 +437,7 @@ def test_no_forest():
     for screen in screens:
         screen.whole()
     expect_equal([c for _, c in marks(screens[2], "C")], ["✘"], "contact")
-    expect_in("All years of 'current' are alike: no stem stands in it.", flat(screens[2]))
+    expect_in("'current' does not change: no stem stands in it.", flat(screens[2]))
 
 
 def test_index_view():

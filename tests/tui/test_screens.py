@@ -127,7 +127,7 @@ def check_verdict(screen, by_index, charset):
     """Line 2 says the answer of the option whose figures stand beside, with its sign; nothing of it is cut."""
     line = screen.verdict.strip()
     if by_index:
-        expect_in("index leaves", line)
+        expect(re.search(r"by the index [\d.]+ of 113 kJ remain", line), line)
         return
     found = re.match(rf"{SIGNS['FAILS'][charset]} NO: in (\d+) of (\d+) years more than 50 of 1000 (?:rocks )?exceed 50 kJ.*; today (\d+)", line)
     expect(found, "an answer in", line)
@@ -159,7 +159,7 @@ WIDE = {"slope": ["release", "end of the forest (135 m)", "bounce Rn slide Rt", 
         "results": ["ADC m", "mean kJ", "m/s"],
         "compare": ["C F", "worst"]}
 # With rocks in the wood, and by the index alone.
-MUST_WOOD = {"slope": ["wood", "bare"], "stand": [], "rock": ["rocks among stems stems"],
+MUST_WOOD = {"slope": ["forest", "bare"], "stand": [], "rock": ["rocks among stems stems"],
              "results": ["forest"], "compare": ["Of 1000 rocks: > 50 kJ at 135 m", "today mean", "fail", "worst"]}
 WIDE_WOOD = {"slope": ["underside p95, m", "mean energy, kJ"], "stand": [],
              "rock": [], "results": [], "compare": []}

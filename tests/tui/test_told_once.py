@@ -90,7 +90,7 @@ def test_no_forest():
     with Place() as place:
         place.write("open.yaml", WOOD[:WOOD.index("forest:")] + "simulation: {rocks: 1000}\n")
         screen, = place.play("key 4\nwait idle\nresize 80 40\ndump", "open.yaml")
-    expect(re.search(r"^without forest +[\d.]+ ±", screen.body, re.M), screen)
+    expect(re.search(r"^mean kJ +- +[\d.]+$", screen.body, re.M), screen)
     expect("hrough the wood" not in screen.body and "simulated" not in screen.body, screen)
 
 

@@ -116,12 +116,12 @@ def test_treatments_of_a_survey():
 def test_one_step_each():
     """Each treatment is one step that u takes back, and the cursor stays on the option that was copied."""
     with Place() as place:
-        two, one, none = place.play("key 5\n" + CUT.format(60) + SELECTION + "wait idle\ndump\nkey u\nclear\nwait idle\ndump\n"
+        two, one, none = place.play("resize 120 40\nkey 5\n" + CUT.format(60) + SELECTION + "wait idle\ndump\nkey u\nclear\nwait idle\ndump\n"
                                     "key u\nclear\nwait idle\ndump", "plain.yaml")
         two.has("cut now, keep 60", "selection coppice")
         expect_in("current", two.now, "the option shown")
         one.has("cut now, keep 60").lacks("selection coppice")
-        none.has("Only one option").lacks("cut now")
+        none.has("Only one option.").lacks("cut now")
 
 
 def test_own_growth_and_cutting():
@@ -168,7 +168,7 @@ def test_what_cannot_be_treated():
             place.write(name, HEAD + forest)
         refused = place.play("key 5\n" + CUT.format(60) + "dump\nkey Esc\nwait idle\ndump", "high.yaml")
         expect_in("Belt 1 is unchanged: 'high' has no stools.", refused[0].popup)
-        refused[1].has("Only one option")
+        refused[1].has("Only one option.")
         both = place.play("key 5\n" + SELECTION + "dump", "both.yaml")[0]
         expect_in("Belt 1 is unchanged: 'high' has no stools.", both.note)
         expect_in("added 'selection coppice'", both.note)

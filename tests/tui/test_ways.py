@@ -109,7 +109,7 @@ def test_step_plan():
         _, way, start, more, ahead, lower = screens
         counts = []
         for screen in (way, more, lower):
-            found = re.search(r"The way of this rock: (\d+) stems? hit in ([\d.]+) m", screen.body)
+            found = re.search(r"This trajectory: (\d+) stems? hit in ([\d.]+) m", screen.body)
             expect(found and ("One pattern" in screen.body) == (size == "200 50"), "the rock's way is missing in the", screen)
             counts.append((int(found.group(1)), float(found.group(2))))
         for screen, what in ((start, "before the first stem"), (ahead, "a belt it has not come to")):
@@ -130,13 +130,13 @@ def test_plan_live():
         edited = text.replace("per_ha: 80,", "per_ha: 700,").replace("per_ha: 20,", "per_ha: 1,").replace("9000,", "4000,")
         (place.path / "edited.yaml").write_text(edited)
         fresh = place.play("resize 100 44\nwait idle\nkey 1\nkey 2\nclear\ndump", "edited.yaml")[0]
-        plans = [re.search(r"\n\n(?=[⠀-⣿]).*The way of this rock[^\n]*", screen.body, re.S) for screen in (before, after, fresh)]
+        plans = [re.search(r"\n\n(?=[⠀-⣿]).*This trajectory[^\n]*", screen.body, re.S) for screen in (before, after, fresh)]
         expect(all(plans), "the rock's way is missing in", before, after, fresh)
         expect_equal(plans[1].group(0), plans[2].group(0), "the plan after an edit, and of a scene that was so from the start")
         expect(plans[0].group(0) != plans[1].group(0), "the plan is not changed by the edit")
     thick, thin = fast("resize 100 40\nwait idle\nkey 1\ndump\nkey 2\nclear\ndump\nkey ]\nclear\ndump", "cuts.yaml")[1:]
-    expect_in("The way of this rock", thick.body)
-    words = re.search("The way of this rock.*", thick.body).group(0)
+    expect_in("This trajectory", thick.body)
+    words = re.search("This trajectory.*", thick.body).group(0)
     expect(words not in thin.body, "the stems of another option:", thin)
 
 
