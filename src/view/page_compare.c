@@ -397,9 +397,10 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
 {
     const struct ceduo_scene *scene = d->scene;
     struct ceduo_result *result;
-    size_t rows = d->height > 4 ? (size_t)d->height - 3 : 1, n = scene->options_count;
+    size_t rows, n = scene->options_count;
     if (!d->control || !d->bare)
         return !d->control ? _("no control") : _("not computed yet");
+    bool nothing = ceduo_rocks_reached(d->bare_arrivals) == 0;
     const struct ceduo_simulated **wooded = ceduo_check_memory(calloc(n, sizeof *wooded));
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_run_snapshot *run = ceduo_snapshot_find(d->picture->snapshot, scene, i);
@@ -409,9 +410,10 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
         result = NULL;
     ceduo_check_memory(result);
     const struct ceduo_report report = {.result = result};
+    rows = d->height > 4 ? (size_t)d->height - (nothing ? 3 : 2) : 2; /* lines without the head and the bare slope */
     rows = n <= rows ? n : rows - 1;
     ceduo_page_options(d->page, &report, CEDUO_OPTIONS_BARS, d->picture->control, d->picture->option, 0, rows);
-    if (ceduo_rocks_reached(d->bare_arrivals) == 0)
+    if (nothing)
         ceduo_page_para_role(d->page, CEDUO_ROLE_DIM, "%s", _("no rock arrives"));
     if (rows < n)
         ceduo_page_para(d->page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(n - rows));

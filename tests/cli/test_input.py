@@ -284,7 +284,8 @@ def test_random():
             try:
                 done = ceduo("--check", scene_path, cwd=f.path)
                 expect(done.status in (DONE, INPUT) and (done.status == DONE or done.out == ""), done)
-                expect((done.status == INPUT) == bool(done.err), done)
+                unlikely = r"(?m)^.*(m2/ha of basal area|shoots a stool are more than|unusual height/diameter ratio).*\n"
+                expect((done.status == INPUT) == bool(re.sub(unlikely, "", done.err)), done)
                 refused_count += done.status == INPUT
                 try:
                     text = data.decode()

@@ -106,7 +106,7 @@ CSV_CASES = [
     ("distance,elevation\n0,64\n50,nan\n100,0\n", (3, 4), "'nan' is not a height"),
     ("distance,elevation\n0,64\n50,NULL\n100,0\n", (3, 4), "'NULL' is not a height"),
     ("distance,elevation\n0,64\n50,-\n100,0\n", (3, 4), "'-' is not a height"),
-    ("distance,elevation\n0,64\n50,1e999\n100,0\n", (3, 4), "no data"),
+    ("distance,elevation\n0,64\n50,1e999\n100,0\n", (3, 4), "marks missing data"),
     ("distance,elevation\n0,64\n50,1e10\n100,0\n", (3, 4), "is outside the range"),
     ("distance,elevation\n0,64\n50,-9999999999\n100,0\n", (3, 4), "is outside the range"),
     ("distance,elevation\n0,64\n50,0x10\n100,0\n", (3, 4), "'0x10' is not a number"),

@@ -205,6 +205,8 @@ def test_pages():
             if words[1] != WHOLE[1]:  # how many remarks have room depends on their lengths
                 english, italian = (re.split("\n(?:ASSUMED|IPOTESI|NOTE|NOTA|MORE|ALTRO) ", page)[0] for page in (english, italian))
             italian = re.sub(r"(sezione|paragrafo|CRSP) (\d)\.(\d)", r"\1 \2,\3", italian)  # no numbers, but names
+            if italian.count("kJ/100 m") != english.count("kJ/100 m"):  # a column that is left out where names are long
+                english, italian = (re.sub(r"(?m)^(  .* [✔✘] +[\d.,]+ % +[\d.,]+) +[\d.,]+$", r"\1", page) for page in (english, italian))
             commas = sorted(number.replace(",", ".") for number in re.findall(r"\d+,\d+", italian))
             expect_equal(commas, sorted(re.findall(r"\d+\.\d+", english)), f"numbers of {words}")
             cut = [len(re.findall(r"\w\u2026", text)) for text in (italian, english)]

@@ -126,7 +126,7 @@ def test_no_pair_differs():
             expect_equal((found["mean"], found["se"]), (0, None), "0 without an error")
             expect_near(found["below"], z2 / (n + z2), 1e-12, "Wilson's upper end of 0 of n")
         page = good(*WHOLE, "-n", n, path).out
-        expect(re.search(r"as thick +[\d.]+ .* < 8 +(pass|FAIL)", page), "no bound on the page", page)
+        expect(re.search(r"(?m)^  as thick +\d+±\d+ ✘ +< 8 +[\d.]+ ✔ ", page), "no bound on the page", page)
         expect("+0 ±0" not in page, page)
         row = next(csv.DictReader(io.StringIO(good("--batch", "-f", "csv", "-n", n, "--option", "as thick", "--option", "thick", path).out)))
         expect(set(row) >= {f"difference.reach_probability.{k}" for k in ("mean", "se", "below")}, "columns", row)

@@ -76,8 +76,8 @@ def test_none():
 
 def test_page():
     """Page: a sentence with the shares and the mean under the other law, at each control"""
-    for more, words in (((), r"With the energy law dorren: {reach} of 1000 arrive, {exceed} with more than it withstands; the mean of "
-                              r"those that arrive is {mean} ±{half} kJ\."),
+    for more, words in (((), r"With the energy law dorren: {reach} of 1000 arrive, {exceed} with more than the accepted energy; "
+                              r"their mean is {mean} ±{half} kJ\."),
                         (("-s", "controls=[{x_m: 135}]"),
                          r"With the energy law dorren: {reach} of 1000 arrive; their mean is {mean} ±{half} kJ\.")):
         other = result(PAPER, "-n", 800, *more)["options"][0]["controls"][0]["other_energy"]
@@ -91,17 +91,17 @@ def test_page():
 
 
 def test_order():
-    """Page: two options whose order the two laws reverse are undecided; two that both laws rank alike are not named"""
+    """Page: of two options whose order the two laws reverse it is said; two that both laws rank alike are not named"""
     run = result(FOUR, "-n", 10000, *TWO_CUTS)
     shares = [[round(1000 * c[k]["exceed_probability"]) for k in ("wooded", "other_energy")]
               for c in (o["controls"][0] for o in run["options"])]
     selection, reserves = shares
     expect(selection[0] > reserves[0] and selection[1] < reserves[1], "the order turns round", shares)
     page = " ".join(good(*WHOLE, "-n", 10000, FOUR, *TWO_CUTS).out.split())
-    expect_in("'large reserves, just cut' or 'selection coppice, just cut' is undecided: the order depends on the energy law. "
-              f"As the scene has it {reserves[0]} and {selection[0]} of 1000, with dorren {reserves[1]} and {selection[1]}.", page)
+    expect_in("Ranking of 'large reserves, just cut' and 'selection coppice, just cut' depends on the energy law. By the law of the "
+              f"scene {reserves[0]} and {selection[0]} of 1000, by dorren {reserves[1]} and {selection[1]}.", page)
     alike = good(*WHOLE, "-n", 2000, FOUR, "--option", "simple coppice, 25 years", "--option", "simple coppice, just cut").out
-    expect("undecided" not in alike, alike)
+    expect("depends on the energy law" not in " ".join(alike.split()), alike)
 
 
 def test_tolerance():

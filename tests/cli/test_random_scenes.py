@@ -725,7 +725,7 @@ def expect_shown(cell, value, what):
 
 def check_rows(rows, a, what):
     """The figures of one side of a table of what arrives."""
-    named = {re.sub(r"arrive with more than .* kJ", "exceed", name): cell for name, cell in rows.items()}
+    named = {re.sub(r"^(arrive with more than|above) .* kJ$", "exceed", name): cell for name, cell in rows.items()}
     expect("…" not in "".join(rows.values()), f"{what}: a figure is cut: {rows!r}")
     expect_equal((named.get("exceed", "-"), named["arrive"]), (of_1000(a, "exceed"), of_1000(a, "reach")), what)
     for name, value in (("mean energy of those that arrive, kJ", a["energy_kJ"]["mean"]), ("95 % stay below, kJ", a["energy_kJ"]["p95"]),

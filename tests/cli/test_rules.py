@@ -95,7 +95,7 @@ def test_own_region():
             r = result(path, "-n", 5)["options"][0]["stands"][0]["rules"]
             expect_equal((r["region"], r["standards_least"]), ("Nowhere", least), what)
         page = " ".join(good(*WHOLE, "-n", 5, path).out.split())
-        expect_in("coppice: the stand names no species; nothing that Nowhere asks is checked.", page)
+        expect_in("coppice: the stand has no species, so the rules of Nowhere are not checked.", page)
         page = " ".join(good(*WHOLE, "-n", 5, f.write("s.yaml", site(coppice("acer"), "nowhere.yaml"))).out.split())
         expect_in("Nowhere asks for ≥ 10 standards a hectare (art. 1, Act 2, 1999); 60 are kept: met.", page)
         expect_in("Nowhere: check the text in force; made up.", page)
@@ -113,7 +113,7 @@ def test_page():
         expect_equal(page.count("check the text in force"), 1, page)
 
 
-NO_TURN = "the rules of {} as filed name no rotation for this species ({}); none is checked."
+NO_TURN = "the rules of {} give no rotation for this species ({}). The rotation is not checked."
 
 
 def test_not_named():
@@ -126,7 +126,7 @@ def test_not_named():
             for turn in (25, None):
                 path = f.write("s.yaml", site(coppice(species, turn=turn), region))
                 page = " ".join(good(*WHOLE, "-n", 5, path).out.split())
-                expect_equal((NO_TURN.format(region.title(), common) in page, "name no" in page), (not named, not named), f"{region} {species}: {page[:900]}")
+                expect_equal((NO_TURN.format(region.title(), common) in page, "give no" in page), (not named, not named), f"{region} {species}: {page[:900]}")
                 expect_equal(rules_of(coppice(species, turn=turn), region)["turn_least"] is None, not named)
                 two = site(coppice(species, turn=turn), region)
                 two["options"] = [{"name": name, "forest": two["forest"]} for name in "ab"]
@@ -135,7 +135,7 @@ def test_not_named():
                 expect_equal(">not named<" in (f.path / "p.html").read_text(), not named, f"{region} {species}")
         own = {"name": "Nowhere", "standards": [{"species": ["acer"], "per_ha": 10, **ROW}]}
         page = " ".join(good(*WHOLE, "-n", 5, f.write("s.yaml", site(coppice(), own))).out.split())
-        expect_in("the rules of Nowhere as filed name no number of standards for this species (hop hornbeam); none is checked.", page)
+        expect_in("the rules of Nowhere give no number of standards for this species (hop hornbeam). The number is not checked.", page)
         f.write("keys", f"resize 120 60\nwait idle\nkey 4\ndump {f.path}/screen.txt\n")
         good("--script", f.path / "keys", f.write("s.yaml", site(coppice(), "toscana")))
         column = [line.rpartition("\u2502")[2] for line in (f.path / "screen.txt").read_text().splitlines()]
@@ -195,7 +195,7 @@ def test_no_coppice():
 BAD = [({"standards": []}, "'name' is missing"), ("lazio", "cannot find 'lazio'"), ("simple-coppice", "cannot find"),
        ({"name": "X", "standards": [{"per_ha": 3, "year": 2000}]}, "'article' is missing"),
        ({"name": "X", "standards": [{"per_ha": -3, **ROW}]}, "rules.standards[0].per_ha: -3 is below 0"),
-       ({"name": "X", "turns": [{"least_y": 20, "most_y": 10, **ROW}]}, "at most is less than"),
+       ({"name": "X", "turns": [{"least_y": 20, "most_y": 10, **ROW}]}, "rules.turns[0]: the maximum is below the minimum"),
        ({"name": "X", "turns": [{"species": ["oak"], "least_y": 20, **ROW}]}, "rules.turns[0].species[0]: 'oak' is unknown"),
        ({"name": "X", "turns": [{"least_y": 20, **ROW, "year": 20}]}, "rules.turns[0].year"),
        ({"ceduo": "stand/1", "name": "X"}, "rules/1")]
