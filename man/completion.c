@@ -53,7 +53,7 @@ static void put_pattern(const struct option_row *row)
     printf("--%s)", row->name);
 }
 
-/* Print the names of the options of a scene, one per line, from a run of one rock. */
+/* Print the names of the options of a scene, one per line, by simulating one rock. */
 #define OPTIONS(scene)                                                                                                         \
     "-b -q -n 1 -f csv --columns option -- " scene " 2>/dev/null |\n"                                                          \
     "            awk 'NR > 1 && !seen[$0]++ {if (sub(/^\"/, \"\") && sub(/\"$/, \"\")) gsub(/\"\"/, \"\\\"\"); print}'"
@@ -143,7 +143,7 @@ static const char *const bash_head =
                       "    COMPREPLY=()\n"
                       "    case $prev in";
 
-/* Print the names of the scenes among the profiles, one per line, from the list of the program. */
+/* Print the names of the scenes among the profiles, one per line, from the program's list. */
 #define SCENES                                                                                                                 \
     "--list-profiles 2>/dev/null |\n"                                                                                          \
     "            awk 'match($0, / +scene  /) {print substr($0, 1, RSTART - 1)}'"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Write a table into a manual page, between its two marks: tables TABLE PAGE [LANGUAGE]. The tables are keys (of the terminal
- * program, in LANGUAGE), goals and search (of --find), ranges (of uncertainty), figures (of JSON) and synopsis. */
+/* Write a table into a manual page, between its two marks: tables TABLE PAGE [LANGUAGE]. Tables: keys (of the terminal program,
+ * in LANGUAGE), goals and search (of --find), ranges (of uncertainty), figures (of JSON) and synopsis. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -73,7 +73,7 @@ static void put_goals(FILE *out)
     fputs(".El\n", out);
 }
 
-/* 2400 to 2750; 0.85 to 1.15 times its value; brauner, dorren. */
+/* Print a range: "2400 to 2750", "0.85 to 1.15 times its value" or "brauner, dorren". */
 static void put_range(FILE *out, const struct range *r)
 {
     if (r->kind == CEDUO_INPUT_WORDS)
@@ -117,7 +117,7 @@ static bool is_listed(const struct ceduo_figure *figures)
     return list->title != NULL;
 }
 
-/* `within`: path of the object of the figures, with its dot. */
+/* `within`: path of the object that holds the figures, with its dot. */
 static void put_figures(FILE *out, const char *within, const struct ceduo_figure *f)
 {
     for (; !ceduo_figure_is_end(f); f++) {
@@ -157,9 +157,9 @@ static void put_search(FILE *out)
     fputs(".El\n", out);
 }
 
-/* ---- the synopsis ---- */
+/* ---- synopsis ---- */
 
-/* A form of the command line: the option of its mode, or several with | between them, and the option that it needs. */
+/* A form of the command line: the option of its mode, or several separated by |, and the option that it needs. */
 struct form {
     enum mode mode;
     const char *required, *more, *operand;
@@ -191,7 +191,7 @@ static const struct option_row *find_option(const char *name, size_t n)
 static void put_value(FILE *out, const char *value)
 {
     bool literal = strchr(value, '|') || !value[0];
-    const char *before = ""; /* no blank may come before the next part */
+    const char *before = ""; /* no blank before the first part */
     if (literal)
         fputs(" Cm", out);
     for (size_t n; *value; value += n) {

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether a calibration may be trusted, on sites whose ground is known (quarry_site.h): the 95 % ranges must hold the truth in
- * 95 % of the sites, p must be uniform, and what another law made must be found out.
+/* Check calibrations on sites with known ground (quarry_site.h): the 95 % ranges must contain the truth at 95 % of the sites, p
+ * must be uniform, and observations made by another law must be detected.
  *
- *     bench_calibration [SITES [FIRST [ROCKS]]]
+ *   bench_calibration [SITES [FIRST [ROCKS]]]
  *
- * prints CSV, a row a fit as soon as it is there, so that a run that is cut off counts as well and several may share the sites:
- * their rows together are the result. Where the law crsp made what was seen, chains are cut at CUT steps: they seldom settle on
- * what cannot be, and a misfit shows before. */
+ * Prints CSV, one row per fit as soon as it ends. A run that is cut off therefore counts, and several runs may share the sites.
+ * If the law crsp made the observations, chains stop at CUT steps: they rarely converge, and a misfit shows earlier. */
 #include <stdio.h>
 
 #include "frame.h"

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How often the printed 95 % intervals hold the truth, on the paper's site.
+/* Count how often the printed 95 % intervals contain the truth, on the paper's site.
  *
- *   bench_coverage [REPEATS [ROCKS]]        default 1000 repeats of 1000 rocks, each with a seed of its own
+ *   bench_coverage [REPEATS [ROCKS]]        default 1000 repeats of 1000 rocks, each with its own seed
  *
- * Without forest, through the stems, and the differences between that wood and the same with half its stems. What is true is
- * taken from runs of many more rocks. CSV on stdout: `scatter` is the standard deviation of the figure over the repeats. Exit 1
- * where an interval of a mean, a probability or a difference holds what is true in fewer than 93 or more than 97 of 100 (from
- * 1000 repeats on; an interval of whole numbers, as for a percentile or a share near 1, holds it a little more often). */
+ * Three scenes: without forest, with the stems, and the difference between that forest and one with half its stems. The truth
+ * comes from runs of many more rocks. CSV on stdout; `scatter` is the standard deviation of the figure over the repeats. Exit 1
+ * if an interval of a mean, a probability or a difference contains the truth in fewer than 93 % or more than 97 % of at least
+ * 1000 repeats. An interval of whole numbers, for a percentile or a share near 1, contains it slightly more often. */
 #include <math.h>
 #include <stdio.h>
 
@@ -112,7 +112,7 @@ static void init(struct woods *w)
     }
 }
 
-/* What the repeats found of a figure. */
+/* Sums over the repeats of one figure. */
 struct found {
     double held, width;
     struct ceduo_moments value;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The default kernel against the plain walk of one rock after another, on eight scenes, by turns in this one run.
+/* Compare the default kernel with the plain walk of one rock after another, on eight scenes, by turns in one run.
  *
  *   bench_kernels [REPEATS [ROCKS]]        default 7, 5000
  *
- * CSV on stdout, one thread: medians of processor time. Exit 1 if the default kernel takes more than SLOWER_MAX times as long as
- * the plain walk on a scene, or if the two differ in a contact, a hit or the mean energy. */
+ * CSV on stdout, one thread: medians of processor time. Exit 1 if the default kernel takes more than SLOWER_MAX times as long
+ * as the plain walk on a scene, or if the two differ in a contact, a hit or the mean energy. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -19,8 +19,8 @@
 
 struct place {
     const char *name, *path;
-    bool fine;    /* on a profile of FINE_VERTICES instead of its own */
-    size_t first; /* option; NO_FOREST: none */
+    bool fine;    /* on a profile of FINE_VERTICES */
+    size_t first; /* option, or NO_FOREST */
 };
 
 #define NO_FOREST SIZE_MAX
@@ -36,7 +36,7 @@ static const struct place places[] = {
     {"fine profile", "profiles/scenes/paper-site.yaml", true, 0},
 };
 
-/* The default kernel, and the plain walk. */
+/* Results of the default kernel and of the plain walk. */
 struct measure {
     enum ceduo_kernel kernel;
     double seconds[REPEATS_MAX];
@@ -78,7 +78,7 @@ static bool measure_place(const struct place *place, size_t repeats, uint64_t ro
     struct ceduo_control control = scene.controls[0];
     if (place->first != NO_FOREST)
         option = scene.options[place->first];
-    if (place->fine) { /* both belts of the site as long as half of the slope */
+    if (place->fine) { /* both belts cover half of the slope */
         scene.slope = fine_slope(&scene.slope.segments[0], FINE_METRES, FINE_VERTICES);
         control.x = FINE_CONTROL;
         scene.controls = &control;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Speed of the laws of contacts, by turns, on the slope of Ciabocco et al. 2009 and on a long meadow.
+/* Compare the speed of the contact laws, by turns, on the slope of Ciabocco et al. 2009 and on a long meadow.
  *
  *   bench_laws [REPEATS [ROCKS]]        default 9, 20000
  *
- * CSV on stdout: medians of processor time of one thread; nanoseconds a rock and a contact; ratios to lumped. */
+ * CSV on stdout: medians of processor time of one thread, nanoseconds per rock and per contact, ratios to lumped. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

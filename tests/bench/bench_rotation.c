@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How long a rotation takes: every option of a scene in each of 25 years, so many rocks in each, grown, flown and assessed.
- * CSV on stdout, medians. */
+/* Measure the time of a rotation: grow, simulate and assess each of 25 years for every option of a scene. CSV on stdout,
+ * medians. */
 #include <inttypes.h>
 #include <stdio.h>
 
 #include "ceduo/years.h"
 #include "frame.h"
 
-#define FIRST        1 /* just cut, to the end of the rotation */
+#define FIRST        1 /* years, from just after the cut to the end of the rotation */
 #define LAST         25
 #define GOAL_SECONDS 2 /* with 10 000 rocks on two cores */
 
-/* All of it once, from a scene that was read; what was done goes to *work. */
+/* Simulate all options and years from a parsed scene; the amount of work goes to *work. */
 static void fly(const struct ceduo_scene *scene, unsigned threads, uint64_t rocks, struct ceduo_work *work)
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far single ways part under another rounding mode, and what becomes of the statistics, on the slope of Ciabocco et
- * al. 2009, with both laws, the facets on either side and both readings of the roughness.
+/* Measure how far single trajectories diverge under another rounding mode, and its effect on the statistics, on the slope of
+ * Ciabocco et al. 2009, with both laws, the facets on either side and both readings of the roughness.
  *
  *   bench_rounding [ROCKS]        default 20000
  *
- * CSV on stdout. Each rock is flown under round to nearest and under another mode: the median distance (m) of its places
- * at its 1st, 5th, 10th, 20th and 40th contact, over those that have so many; the share of rocks that end more than 1 mm
- * apart; mean speed and energy of translation at the control with what they differ by, in their standard errors.
+ * CSV on stdout. Each rock is simulated under round to nearest and under another mode. Columns: the median distance (m) between
+ * its positions at its 1st, 5th, 10th, 20th and 40th contact, over the rocks with that many contacts; the share of rocks that
+ * end more than 1 mm apart; mean speed and translational energy at the control, with their differences in standard errors.
  *
- * Ways hardly part: a contact turns a difference up, but it also takes of the speed that carries it on, and most are
- * still within 1e-12 m at their 40th. Where one does part, at a decision such as whether a rock rolls or bounces once
- * more, no harm is done: it is as good a way as the other, and the mean over many moves by a small part of its error. */
+ * Trajectories hardly diverge: a contact amplifies a difference but also takes speed, and most are within 1e-12 m at their
+ * 40th. A trajectory that diverges does so at a decision, such as rolling or bouncing once more. It is as valid as the other,
+ * and the mean of many moves by a small part of its error. */
 #include <fenv.h>
 #include <inttypes.h>
 #include <math.h>
@@ -39,7 +39,7 @@ struct sums {
 static void note(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct track *t = context;
-    if (p->contacts > t->contacts && p->contacts <= CONTACTS) { /* the first piece after that contact */
+    if (p->contacts > t->contacts && p->contacts <= CONTACTS) { /* the first segment after that contact */
         t->contacts = p->contacts;
         t->x[p->contacts] = p->x;
         t->z[p->contacts] = p->z;

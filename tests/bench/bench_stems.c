@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What stems cost: ground contacts a second without forest beside ground contacts and encounters (stools or trees of which
- * a stem is hit) a second through it, on one thread, by turns in one run. CSV on stdout, medians. */
+/* Measure the cost of stems, on one thread, by turns in one run: ground contacts per second without forest, and contacts plus
+ * encounters (hit stools or trees) per second through the forest. CSV on stdout, medians. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

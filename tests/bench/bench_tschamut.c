@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The stops of 80 rocks of three shapes at Tschamut (profiles/scenes/tschamut-arm.yaml) against those of every law of contacts.
+/* Compare the stops of 80 rocks of three shapes at Tschamut (profiles/scenes/tschamut-arm.yaml) with every contact law.
  *
  *   bench_tschamut [POINTS [ROCKS]]        default 4096, 500
  *
- * Four values of the ground are looked for: Rn, roughness and friction, with Rt or, for arm, mu. POINTS grounds of Sobol's
- * sequence, then simplexes from the best three. CSV on stdout, a line for each law and question:
- *   block1   the ground that fits block 1 best: what it says of the other two
+ * Fits four values of the ground: Rn, roughness and friction, with Rt or, for arm, mu. Evaluates POINTS points of Sobol's
+ * sequence, then simplexes from the best three. CSV on stdout, one line per law and question:
+ *   block1   the ground that fits block 1 best, and its predictions for the other two
  *   all      the ground that fits all three blocks best
- *   share    of the grounds that block 1 does not refute, how many predict block 2, the plate, and both
- * Distances are those of Kolmogorov and Smirnov, of 10 times as many rocks with another seed; a block is predicted where
- * the distance is below the 95 % point of a sample of that size. arm-round is arm with every block a sphere of its R. */
+ *   share    of the grounds that block 1 does not reject, the shares that predict block 2, the plate, and both
+ * Distances are Kolmogorov-Smirnov distances to a sample of ten times the size with another seed. A block is predicted if its
+ * distance is below the 95 % point of a sample of that size. arm-round is arm with every block a sphere of its R. */
 #include <gsl/gsl_multimin.h>
 #include <gsl/gsl_qrng.h>
 #include <math.h>
@@ -34,7 +34,7 @@ struct site {
     double band[BLOCKS];
     uint64_t rocks;
     double lo[VALUES], hi[VALUES];
-    size_t blocks; /* that a fit looks at */
+    size_t blocks; /* blocks that a fit uses */
 };
 
 struct fit {
@@ -88,7 +88,7 @@ static double misfit_at(const gsl_vector *v, void *context)
     return f.misfit;
 }
 
-/* Goes down from a ground. */
+/* Minimise the distance from a start point. */
 static void descend(struct site *site, struct fit *f)
 {
     gsl_vector *at = gsl_vector_alloc(VALUES), *step = gsl_vector_alloc(VALUES);
@@ -116,7 +116,7 @@ static int by_misfit(const void *a, const void *b)
     return (f->misfit > g->misfit) - (f->misfit < g->misfit);
 }
 
-/* The best of what three simplexes find, from the best of the points. */
+/* Return the best of three simplexes from the best points. */
 static struct fit best_of(struct site *site, struct fit *points, size_t n, size_t blocks)
 {
     site->blocks = blocks;
@@ -148,7 +148,7 @@ static void print_fit(struct site *site, const char *what, const char *law, stru
     fflush(stdout);
 }
 
-/* Of the points that block 1 does not refute: all of them, then those that predict block 2, the plate, and both. */
+/* Print the share of points that block 1 does not reject, then the shares that predict block 2, the plate, and both. */
 static void print_shares(const struct site *site, const char *law, const struct fit *points, size_t n)
 {
     size_t good = 0, second = 0, plate = 0, both = 0;
@@ -193,8 +193,6 @@ static void measure_law(struct site *site, enum ceduo_law law, const char *name,
     print_fit(site, "all", name, best_of(site, points, n, BLOCKS));
 }
 
-/* ---- */
-
 static void read_site(struct site *site)
 {
     read_scene(&site->file, "profiles/scenes/tschamut-arm.yaml");
@@ -207,7 +205,7 @@ static void read_site(struct site *site)
         site->band[b] = stops_band(site->seen[b].n);
 }
 
-/* Every block a sphere of the same mean diameter. */
+/* Replace every block by a sphere of the same mean diameter. */
 static void make_round(struct site *site)
 {
     static struct ceduo_observation round[BLOCKS];

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether what is called clear stays: for many seeds, which option is clearly best after the first thousand rocks,
- * and after ten times as many, today and over a rotation. Prints CSV: how often that was clear at first and in the
- * end, how often it was no longer clear, and how often another option was clearly best. The last must never happen:
- * exit 1.
+/* Check that a clear verdict is not reversed: for many seeds, find the clearly best option after the first 1000 rocks and after
+ * ten times that number, today and over a rotation. Prints CSV: how often an option was clear first and last, how often it
+ * became unclear, and how often another one became clearly best. The last must never happen: exit 1.
  *
- * bench_verdict [SEEDS [THREADS]]     100 seeds, all cores */
+ *   bench_verdict [SEEDS [THREADS]]     100 seeds, all cores */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -15,12 +14,12 @@
 
 #define SEEDS     100
 #define STEPS     2
-#define YEAR_STEP 5 /* of a rotation some years: the rule for what is clear is the same */
+#define YEAR_STEP 5 /* some years of a rotation; all years use the same rule */
 #define NOBODY    SIZE_MAX
 
 static const uint64_t rocks[STEPS] = {1024, 10240};
 
-/* The option that is clearly best after each step, or nobody. */
+/* The clearly best option after each step, or none. */
 struct said {
     size_t best[STEPS];
 };

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Speed of the core's walk against a plain C loop, on the slope of Ciabocco et al. 2009, both in this one run, in turn.
+/* Compare the speed of the core's walk with a plain C loop, on the slope of Ciabocco et al. 2009, by turns in one run.
  *
  *   bench_walk [REPEATS [ROCKS]]        default 7, 100000
  *
- * CSV on stdout: medians of wall time; for the core, making the run and flying the rocks, with every sample kept, on
- * the best kernel of the machine or on the one that is named; ratio_to_plain in contacts per second. Agreement of the two,
- * whether all kernels give the same contacts and mean speed, and memory, on stderr. Exit 1 where they disagree. */
+ * CSV on stdout: medians of wall time. For the core they include making the run and simulating the rocks with every sample
+ * kept, on the machine's best kernel or the one named in the row; ratio_to_plain is in contacts per second. Standard error
+ * reports agreement of the two, whether all kernels give equal contacts and mean speed, and memory. Exit 1 if they disagree. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,10 +15,10 @@
 #include "frame.h"
 
 #define MANY_ROCKS 1000000
-#define ROCKS_MIN  1000 /* fewer say nothing about agreement */
+#define ROCKS_MIN  1000 /* fewer cannot show agreement */
 #define AGREE      4.0  /* combined standard errors */
 
-/* Over the rocks of the plain loop; speed and energy of those that passed. */
+/* Sums over the rocks of the plain loop; speed and energy of rocks that passed. */
 struct plain_sums {
     uint64_t rocks, passed, contacts;
     double contacts2, speed, speed2, energy, energy2;
@@ -33,7 +33,7 @@ struct site {
     double plain_rate;            /* contacts per second */
 };
 
-/* One line of the table. */
+/* One row of the table. */
 struct measure {
     const char *what;
     unsigned threads;
@@ -56,7 +56,7 @@ static void init_site(struct site *site, enum ceduo_law law, bool height)
     site->plain = plain_site(&site->paper, site->plain_segments);
 }
 
-/* ---- measuring ---- */
+/* ---- measurement ---- */
 
 static double time_plain(struct site *site, uint64_t rocks, size_t repeat)
 {
@@ -106,7 +106,7 @@ static void print_line(const struct site *site, const char *what, uint64_t rocks
 
 /* ---- agreement ---- */
 
-/* Mean and standard error from sums. */
+/* Compute mean and standard error from sums. */
 static void mean_of(double sum, double sum2, double n, double *mean, double *se)
 {
     *mean = sum / n;
@@ -131,7 +131,7 @@ static bool check_agreement(const struct site *site, const struct measure *m)
     mean_of((double)p->contacts, p->contacts2, rocks, &mean, &se);
     bool good = agrees(site, "contacts per rock", mean, se, core_contacts, se * sqrt(rocks / released));
     double share = passed / rocks, both = (passed + (double)a->reached) / (rocks + released);
-    double spread = sqrt(both * (1 - both)) + 1e-300; /* all pass: they agree */
+    double spread = sqrt(both * (1 - both)) + 1e-300; /* no spread if all pass: they agree */
     good &= agrees(site, "share that passes", share, spread / sqrt(rocks), a->reach.mean, spread / sqrt(released));
     mean_of(p->speed, p->speed2, passed, &mean, &se);
     good &= agrees(site, "speed, m/s", mean, se, a->speed.mean, a->speed.se);
@@ -139,7 +139,7 @@ static bool check_agreement(const struct site *site, const struct measure *m)
     return agrees(site, "energy, kJ", mean, se, a->energy.mean / 1e3, a->energy.se / 1e3) && good;
 }
 
-/* ---- the table ---- */
+/* ---- table ---- */
 
 static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A harness without libFuzzer: every seed, and so many changes of them, always the same. Prints TAP.
- *   replay NAME CHANGES FILE… */
+/* Run a harness without libFuzzer on every seed and n random changes of each, always the same. Prints TAP. replay NAME CHANGES
+ * FILE… */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,7 +38,7 @@ static struct seed read_seed(const char *path)
     return seed;
 }
 
-/* n bytes at `at` replaced by others. */
+/* Replace n bytes at `at` by m others. */
 static void splice(struct seed *s, size_t at, size_t n, const void *bytes, size_t m)
 {
     if (s->n - n + m > ROOM)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Runs and what stands on them without memory. */
+/* Runs and results built on them, without memory. */
 #include "local.h"
 #include "memory/failing.h"
 
@@ -24,7 +24,7 @@ static void init(enum ceduo_contact_model model, enum ceduo_law law)
     site.scene.simulation.contact_model = model;
     site.scene.simulation.law = law;
     site.scene.simulation.rocks = 1500;
-    site.scene.release.x.mean = 118; /* ways are short: each is flown some thousand times */
+    site.scene.release.x.mean = 118; /* short trajectories: each is simulated some thousand times */
     site.scene.release.vx.mean = 14;
     site.scene.release.vz.mean = -5;
     site.control.accepted = 50e3;
@@ -32,7 +32,7 @@ static void init(enum ceduo_contact_model model, enum ceduo_law law)
     site.plots[1].trees.group_radius = 3;
 }
 
-/* The status at last, which is CEDUO_OK: a call that fails changes nothing and can be made again. */
+/* Retry until success; return CEDUO_OK. A failed call has no effect and can be repeated. */
 static enum ceduo_status extend(struct ceduo_run *run, uint64_t rocks)
 {
     uint64_t before = ceduo_run_rocks(run);
@@ -45,7 +45,7 @@ static enum ceduo_status extend(struct ceduo_run *run, uint64_t rocks)
     return ceduo_run_extend(run, rocks);
 }
 
-/* What a run says of control 0, and where its rocks stopped. */
+/* Add the results of control 0 and the stops of the rocks. */
 static bool add_run(const struct ceduo_run *run)
 {
     struct ceduo_arrivals a;
@@ -100,7 +100,7 @@ static bool fly_scalar_wood(void)
     return fly(def_of(true));
 }
 
-/* A profile of so many vertices that its segments are put into blocks. */
+/* A profile with enough vertices to group its segments into blocks. */
 enum { VERTICES_MAX = 2600 };
 static bool fly_profile(size_t vertices)
 {
@@ -135,15 +135,15 @@ static bool fly_long(void)
     return fly_profile(40);
 }
 
-/* Its vertices are less than a rock's radius apart, so that blocks of them are rolled over. */
+/* Its vertices are closer than a rock's radius, so that rocks roll over whole blocks. */
 static bool fly_fine(void)
 {
     return fly_profile(VERTICES_MAX);
 }
 
-/* ---- what stands on runs ---- */
+/* ---- results built on runs ---- */
 
-/* Now the second option is clearly worse, and by the other energy law clearly better. */
+/* Make the second option clearly worse, and clearly better under the other energy law. */
 static void turn(struct ceduo_result *r)
 {
     const struct ceduo_estimate worse = {0.5, 0.1, NAN, NAN}, better = {-0.5, 0.1, NAN, NAN};
@@ -153,7 +153,7 @@ static void turn(struct ceduo_result *r)
     r->options[1].others[0].to_first.exceed = better;
 }
 
-/* Two options, of which one is cut in the second of the years, and blocks of other sizes. */
+/* Two options, one cut in the second of the years, and blocks of several sizes. */
 static bool question(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
@@ -195,7 +195,7 @@ static bool question(void)
     return is_done(status);
 }
 
-/* Years flown once and once more, with the weights of blocks. */
+/* Years simulated twice, with the weights of blocks. */
 static bool years_of_blocks(void)
 {
     static double volumes[] = {0.05, 1};
@@ -225,7 +225,7 @@ static bool years_of_blocks(void)
     return is_done(status);
 }
 
-/* The question of 30 rocks, answered. */
+/* Answer a request for 30 rocks. */
 static bool ask(struct ceduo_request q)
 {
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
@@ -241,7 +241,7 @@ static bool ask(struct ceduo_request q)
     return status == CEDUO_OK;
 }
 
-/* Each year with rocks of its own. */
+/* Each year with independent rocks. */
 static bool ask_years_apart(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
@@ -257,7 +257,7 @@ static bool ask_years_apart(void)
 static bool ask_both_laws(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_control controls[2] = {site.control, site.control}; /* at one place */
+    struct ceduo_control controls[2] = {site.control, site.control}; /* both at one place */
     site.scene.controls = controls;
     site.scene.controls_count = 2;
     struct ceduo_request q = ceduo_request_default(&site.scene);
@@ -270,7 +270,7 @@ static const struct ceduo_input inputs[2] = {
     {"rock.density_kg_m3", CEDUO_INPUT_RANGE, 2400, 2750, .places_count = 1, .places = &density},
     {"release.vx_m_s", CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed}};
 
-/* What is not known of the site, asked of so many points and rocks. */
+/* Uncertain inputs of the site, with n points and rocks. */
 static struct ceduo_uncertainty_def uncertainty_def(size_t points, uint64_t rocks)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
@@ -333,8 +333,8 @@ static enum ceduo_status uncertainty_on_two_threads(uint64_t rocks, void (*meanw
     return ask_uncertainty(def);
 }
 
-/* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end
- * before it looks up again. */
+/* The progress callback blocks no other thread and is not called twice at a time. Enough rocks that other threads are still
+ * running at its next call. */
 TEST(one_is_told_at_a_time)
 {
     assert_int_equal(uncertainty_on_two_threads(1000, others_go_on), CEDUO_OK);
@@ -342,14 +342,14 @@ TEST(one_is_told_at_a_time)
     assert_true(told.times > 1);
 }
 
-/* Where one thread has no memory the other ends, too: of 404 evaluations few are made then. */
+/* A thread without memory stops the others: only a few of 404 evaluations are made. */
 TEST(one_thread_ends_all)
 {
     assert_int_equal(uncertainty_on_two_threads(8, fail_others), CEDUO_NO_MEMORY);
     assert_true(told.times < 100);
 }
 
-/* What is uncertain has to be in the scene. */
+/* An uncertain input must exist in the scene. */
 TEST(a_place_that_is_not_there)
 {
     static const char *const colour = "rock.colour";
@@ -360,8 +360,8 @@ TEST(a_place_that_is_not_there)
     assert_int_equal(ask_uncertainty(def), CEDUO_BAD_PLACE);
 }
 
-/* Points enough for all terms, but not for all products, so that inputs are ranked; and what the terms tell little of, so that
- * fewer are tried. One input is of the rows of a calibration. */
+/* Enough points for all terms, but not for all products, so that inputs are ranked. The terms explain little, so that fewer are
+ * tried. One input consists of calibration rows. */
 static bool fit_surface(void)
 {
     enum { INPUTS = 9, POINTS = 128, ROWS = 200, FIGURES = 2 };
@@ -393,7 +393,7 @@ static bool fit_surface(void)
     return is_done(status);
 }
 
-/* A copy of a scene with more belts than the arena gives room for at once, whose shoots are uncertain. */
+/* Copy a scene with uncertain shoots and with more belts than fit the arena's first page. */
 static bool copy_belts(void)
 {
     enum { MANY = 300 };
@@ -428,7 +428,7 @@ static bool ask_of_one_option(void)
     return ask(q);
 }
 
-/* What was read before. */
+/* Assess the scene that was read. */
 static bool assess(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
@@ -448,7 +448,7 @@ static bool assess(void)
     return status == CEDUO_OK;
 }
 
-/* What was read before, by the index: nothing flew among stems. */
+/* Assess it by the index alone, without rocks among stems. */
 static bool assess_index(void)
 {
     init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
@@ -463,7 +463,7 @@ static bool assess_index(void)
     return status == CEDUO_OK;
 }
 
-/* A rock that rolls among stools of one shoot to stools of many: more room for these is wanted as it rolls. */
+/* A rock rolls from stools of one shoot to stools of many, so that the buffer of shoots grows during the roll. */
 static void make_roll(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
@@ -478,7 +478,7 @@ static void make_roll(void)
         stand->stools_per_ha = 300;
         stand->shoots[0].per_ha = i == 0 ? 300 : 300 * 200;
         stand->trees_count = 0;
-        stand->u = 1e-3; /* they hardly take anything */
+        stand->u = 1e-3; /* they take hardly any energy */
     }
 }
 
@@ -502,7 +502,7 @@ static bool follow_roll(void)
     return done;
 }
 
-/* The same, and all blows are kept. */
+/* The same roll, recording all impacts. */
 static bool record_roll(void)
 {
     make_roll();
@@ -538,7 +538,7 @@ static bool follow(void)
     return good;
 }
 
-/* What is to be seen of the runs of a pool, which stays as it is. */
+/* A pool, and the views of its runs; neither changes it. */
 static struct ceduo_pool *seen;
 
 static bool see(void)

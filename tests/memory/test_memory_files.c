@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Files and documents without memory. */
+/* Files and documents, without memory. */
 #include "local.h"
 #include "memory/failing.h"
 
@@ -72,7 +72,7 @@ static const char survey[] =
     "plot,area_m2,kind,stool,species,dbh_cm,height_m,note\n1,100,shoot,1,beech,6,7,x\n1,100,shoot,1,,5,,\n"
     "2,120,standard,,quercus-cerris,20,13,\n2,,stump,,,30,0.2,\n";
 
-static bool arenas_fail; /* each piece of them, as if it were an allocation */
+static bool arenas_fail; /* each arena allocation fails separately */
 static char scene_path[256], survey_path[256], link_path[256], linked_path[256];
 
 static int set_up(void **state)
@@ -119,7 +119,7 @@ static void add_text(const struct text *text)
     add(text->bytes, text->length);
 }
 
-/* Nothing here is asked of the disk, and it would be waited for some thousand times. */
+/* Skip the disk: some thousand calls would wait for it. */
 int __wrap_fsync(int fd);
 
 int __wrap_fsync(int fd)
@@ -128,7 +128,7 @@ int __wrap_fsync(int fd)
     return 0;
 }
 
-/* What stands in an arena comes from few pages: here each piece of it can fail. */
+/* Arenas allocate from few pages: here each allocation can fail. */
 void *__real_ceduo_arena_take(struct arena *arena, size_t size);
 void *__real_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
 char *__real_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
@@ -183,7 +183,7 @@ __attribute__((format(printf, 2, 3))) static const char *format_in(struct arena 
     return text;
 }
 
-/* Into an arena that has no page yet. */
+/* Format into an arena without pages. */
 static bool format_text(void)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
@@ -197,8 +197,8 @@ static bool format_text(void)
 
 /* ---- reading ---- */
 
-/* What is read: a file of the folder, or (NULL) a text; with changes; wrong as it is or as it becomes, whole or with a word that not
- * all is said: faults of a file, a name of none, good changes of which one does not fit the rest, and a path of two places. */
+/* Inputs: a file of the folder or (NULL) a text, with changes; valid or not, with all problems reported or not. Invalid ones
+ * have errors in a file, a missing name, good changes that do not fit together, or a path that matches two places. */
 static const struct reading {
     const char *name, *sets[6];
     bool wrong;
@@ -209,7 +209,7 @@ static const struct reading {
      false},
     {NULL, {NULL}, false},
     {"csv.yaml", {NULL}, false},
-    {"seen.yaml", {NULL}, false}, /* a scene, what was seen there, and what is not known of it */
+    {"seen.yaml", {NULL}, false}, /* a scene with observations and uncertain inputs */
     {"upward.yaml", {NULL}, false},
     {"kinds.yaml", {NULL}, false},
     {"uncertain_scene.yaml", {NULL}, false},
@@ -260,7 +260,7 @@ static bool read_scene(void)
     return !ceduo_memory_failed();
 }
 
-/* By the library's own call. */
+/* Read by the library's public function. */
 static bool read_by_library(void)
 {
     char path[256];
@@ -290,7 +290,7 @@ static bool read_survey(void)
 
 /* ---- folders ---- */
 
-/* Through a link to a file that is not there yet. */
+/* Write through a link to a missing file. */
 static bool write_link(void)
 {
     unlink(linked_path);
@@ -300,7 +300,7 @@ static bool write_link(void)
     return good;
 }
 
-/* Beside a file, whose place it then takes. */
+/* Write a new file, then replace an existing one. */
 static bool write_over(void)
 {
     bool good = ceduo_file_write(survey_path, survey, sizeof survey - 1);
@@ -308,7 +308,7 @@ static bool write_over(void)
     return good;
 }
 
-/* In the place of a file, which is asked for where it is. */
+/* Ask before replacing an existing file. */
 static bool ask_to_write(void)
 {
     bool good = ceduo_file_can_write(scene_path);

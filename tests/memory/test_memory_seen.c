@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Without memory: runs of blocks of all sizes, what was seen beside simulated rocks, fits, and surveys. */
+/* Runs of blocks of all sizes, observations and simulated rocks, fits, and surveys, without memory. */
 #include "local.h"
 #include "memory/failing.h"
 
@@ -16,7 +16,7 @@
 
 #define ROCKS 6
 
-/* 200 m that fall 80 m, trees on the first half; a rock of 1 m. */
+/* A slope of 200 m with a drop of 80 m, trees on the first half, a rock of 1 m. */
 static struct {
     struct ground of;
     double volumes[2];
@@ -78,7 +78,7 @@ static bool ask_of_blocks(void)
     return is_done(status);
 }
 
-/* ---- what was seen ---- */
+/* ---- observations ---- */
 
 static double stops[3] = {60, 80, 120}, scars[3] = {0.4, 0.5, 0.6};
 
@@ -143,9 +143,9 @@ static bool look_without_a_fit(void)
     return is_done(status);
 }
 
-/* ---- a fit that goes on ---- */
+/* ---- a fit that is continued ---- */
 
-static enum ceduo_calibration_stage counted_stage; /* stage of a fit, of which it is counted how often it is told */
+static enum ceduo_calibration_stage counted_stage; /* stage of a fit whose progress calls are counted */
 
 static void tell(void *context, const struct ceduo_calibration_state *state)
 {
@@ -153,9 +153,9 @@ static void tell(void *context, const struct ceduo_calibration_state *state)
     note_told(state->stage == counted_stage);
 }
 
-#define SEEN 200 /* times */
+#define SEEN 200 /* repeats of an observation */
 
-/* Of one value, to a speed that was seen at x through the second option, so often in each scene; chains of one round. */
+/* Fit one value to a repeated observation of a speed at x with the second option; chains of one round. */
 static enum ceduo_status fit_of(const struct ceduo_input *input, double x, struct ceduo_calibration_def def)
 {
     struct ceduo_observation seen[SEEN];
@@ -178,7 +178,7 @@ static enum ceduo_status fit_of(const struct ceduo_input *input, double x, struc
     return status;
 }
 
-/* A fit of a speed to what was seen of one rock, its chains of one round. */
+/* Fit to an observed speed of one rock, with chains of one round. */
 static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void (*meanwhile)(void),
                                           enum ceduo_calibration_stage stage, int at)
 {
@@ -190,7 +190,7 @@ static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void
                   (struct ceduo_calibration_def){.scenes_count = 1, .rocks = rocks, .threads = threads, .progress = tell});
 }
 
-/* A fit of one value to two scenes. Nearly all that it tries lies beyond where something was seen, and takes no time. */
+/* Fit one value to two scenes. Nearly all its trials stop before the observations, and take no time. */
 static bool fit(void)
 {
     static const char *const place = "release.x_m";
@@ -206,15 +206,15 @@ static bool fit_on_many_threads(void)
         fit_of(&input, 20, (struct ceduo_calibration_def){.scenes_count = 1, .rocks = 1, .threads = CEDUO_THREADS_MAX}));
 }
 
-/* What so many workers need takes room of its own. */
+/* Many workers need additional buffers. */
 TEST(workers_of_a_fit)
 {
     for (unsigned long at = 1; at <= 4; at++)
         assert_false(begin(fit_on_many_threads, at, false));
 }
 
-/* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end
- * before it looks up again. */
+/* The progress callback blocks no other thread and is not called twice at a time. Enough rocks that other threads are still
+ * running at its next call. */
 TEST(one_is_told_at_a_time)
 {
     assert_int_equal(fit_of_one_round(2, 1000, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
@@ -222,7 +222,7 @@ TEST(one_is_told_at_a_time)
     assert_true(told.times > 1);
 }
 
-/* Where one thread has no memory the other ends, too: of 256 points few are looked at then. */
+/* A thread without memory stops the others: only a few of 256 points are evaluated. */
 TEST(one_thread_ends_all)
 {
     assert_int_equal(fit_of_one_round(2, 1, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
@@ -241,7 +241,7 @@ static bool fit_that_cannot_grow(void)
     return is_done(fit_of_one_round(1, 1, fail_to_grow, CEDUO_REFINE, 3));
 }
 
-/* What chains have tried, and what is learned of it and of all points before, has no room. */
+/* The chains cannot store their trials or train the surrogate. */
 TEST(chains_of_a_fit)
 {
     for (growth = 1; growth <= 30; growth++) {
@@ -250,9 +250,9 @@ TEST(chains_of_a_fit)
     }
 }
 
-/* ---- many that were seen ---- */
+/* ---- many observations ---- */
 
-/* Each of a rock of its own, which takes room of its own. */
+/* Each observation has its own rock and buffers. */
 static bool see_many(void)
 {
     enum { MANY = 64 };

@@ -7,8 +7,8 @@
 #include "test.h"
 
 #define ENERGY     1e-12
-#define UNDER      1e-9  /* m below the ground, or */
-#define UNDER_SIZE 1e-13 /* of the largest coordinate of the way, whichever is larger */
+#define UNDER      1e-9  /* m below ground, or */
+#define UNDER_SIZE 1e-13 /* this share of the trajectory's largest coordinate */
 
 struct watch {
     const struct line_scene *scene;
@@ -17,10 +17,10 @@ struct watch {
     bool smooth;
     struct ceduo_trajectory_segment last;
     uint64_t pieces, flights, impacts;
-    uint64_t in_crack;                               /* so many pieces flew from wall to wall of a crack */
-    double size, under, energy_off, gain, crsp_gain; /* largest so far */
-    double over_bound, roll_off;                     /* with the friction bound: largest so far, of the speed */
-    bool bad;                                        /* not a number, or a gap between pieces */
+    uint64_t in_crack;                               /* segments from wall to wall of a crack */
+    double size, under, energy_off, gain, crsp_gain; /* maxima */
+    double over_bound, roll_off;                     /* maxima with the friction bound, as a share of the speed */
+    bool bad;                                        /* NaN, or a gap between segments */
 };
 
 static double kinetic(const struct watch *w, double vx, double vz, double spin)
@@ -36,7 +36,7 @@ static double spin_at_end(const struct watch *w, const struct ceduo_trajectory_s
     return (p->vx1 < 0 ? -1 : 1) * hypot(p->vx1, p->vz1) / w->rock.radius;
 }
 
-/* Height of a flight's parabola at x, from whichever end is nearer. */
+/* Height of a flight's parabola at x, computed from the nearer end. */
 static double height_of_flight(const struct ceduo_trajectory_segment *p, double g, double x)
 {
     if (fabs(x - p->x) < fabs(x - p->x1)) {
@@ -68,8 +68,8 @@ static void look_under_roll(struct watch *w, size_t j, double x, double z)
     w->under = fmax(w->under, depth);
 }
 
-/* Above a straight segment the flight is concave: it is lowest over the ends of the segment or of its own. A vertex at
- * either end is on the segment that lies towards the rest of the flight. */
+/* Over a straight segment the flight is concave: it is lowest over the ends of the segment or at its own ends. A vertex at
+ * either end belongs to the segment towards the rest of the flight. */
 static void look_under_flight(struct watch *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
@@ -99,19 +99,19 @@ static void look_at_flight(struct watch *w, const struct ceduo_trajectory_segmen
     w->flights++;
 }
 
-/* A flight of less than a micrometre, or a hundredth of the radius, between two walls that face each other. A rock, which is
- * a point here, sinks down such a crack in ever so many contacts, and may well need more than are counted. */
+/* True for a flight shorter than a micrometre, or a hundredth of the radius, between two facing walls. A rock, a point here,
+ * sinks into such a crack in very many contacts, perhaps more than the limit. */
 static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct ceduo_trajectory_segment *p)
 {
     size_t j = ceduo_slope_segment(s, fmin(p->x, p->x1)), k = ceduo_slope_segment(s, fmax(p->x, p->x1));
-    if (j > 0 && fmin(p->x, p->x1) == s->x[j]) /* on the vertex at the bottom, the wall is behind it */
+    if (j > 0 && fmin(p->x, p->x1) == s->x[j]) /* on the bottom vertex: the wall is the previous segment */
         j--;
     double left = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]);
     double right = (s->z[k + 1] - s->z[k]) / (s->x[k + 1] - s->x[k]);
     return !p->rolls && fabs(p->x1 - p->x) < fmax(1e-6, 1e-2 * radius) && left < -1e3 && right > 1e3;
 }
 
-/* On the ground a rock gains no more than what it drops. */
+/* On the ground a rock gains at most its drop. */
 static void look_at_roll(struct watch *w, const struct ceduo_trajectory_segment *p)
 {
     double g = w->scene->scene.simulation.gravity, share = (1 + w->k) / 2;
@@ -120,13 +120,13 @@ static void look_at_roll(struct watch *w, const struct ceduo_trajectory_segment 
     double scale = fmax(before + g * (fabs(p->x) + fabs(p->z)), after + g * (fabs(p->x1) + fabs(p->z1)));
     if (gained > 0)
         w->energy_off = fmax(w->energy_off, gained / scale);
-    /* the middle may round to the far end, and that to the next segment */
+    /* the middle may round to the far end, and so to the next segment */
     size_t j = ceduo_slope_segment(&w->scene->scene.slope, fmin(p->x, p->x1));
     look_under_roll(w, j, p->x, p->z);
     look_under_roll(w, j, p->x1, p->z1);
 }
 
-/* crsp on a smooth segment: what was along the ground and in the spin becomes at most Rt(Rt + (1 - Rt)/1.2) of it. */
+/* crsp on a smooth segment: energy along the ground and of spin falls to at most Rt(Rt + (1 - Rt)/1.2) of it. */
 static void look_at_crsp(struct watch *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
@@ -135,19 +135,19 @@ static void look_at_crsp(struct watch *w, const struct ceduo_trajectory_segment 
         return;
     size_t j = ceduo_slope_segment(s, p->x);
     if (p->x == s->x[j] || p->x == s->x[j + 1])
-        return; /* on a vertex: which segment, is not told */
+        return; /* on a vertex: its segment is unknown */
     double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j], length = hypot(dx, dz);
     double before = (w->last.vx1 * dx + w->last.vz1 * dz) / length, after = (p->vx * dx + p->vz * dz) / length;
     double rim_before = spin_at_end(w, &w->last) * w->rock.radius, rim_after = p->spin * w->rock.radius;
     double rt = s->segments[j].rt.mean, most = rt * (rt + (1 - rt) / 1.2);
     double e0 = before * before + w->k * rim_before * rim_before, e1 = after * after + w->k * rim_after * rim_after;
     double rounding = 1e-15 * (w->last.vx1 * w->last.vx1 + w->last.vz1 * w->last.vz1 + p->vx * p->vx + p->vz * p->vz);
-    if (e1 > most * e0 + rounding && e0 > 1e-280) /* below, squares lose their bits */
+    if (e1 > most * e0 + rounding && e0 > 1e-280) /* smaller squares lose their bits */
         w->crsp_gain = fmax(w->crsp_gain, e0 > 0 ? e1 / (most * e0) - 1 : INFINITY);
     w->impacts++;
 }
 
-/* With the friction bound a rock that goes on rolling keeps its speed, and one that flies from a smooth segment has lost at
+/* With the friction bound a rock that continues rolling keeps its speed. A rock that flies from a smooth segment has lost at
  * most friction times the normal impulse along it. */
 static void look_at_bound(struct watch *w, const struct ceduo_trajectory_segment *p)
 {
@@ -163,7 +163,7 @@ static void look_at_bound(struct watch *w, const struct ceduo_trajectory_segment
     }
     size_t j = ceduo_slope_segment(s, p->x);
     if (p->rolls || !w->smooth || p->x == s->x[j] || p->x == s->x[j + 1])
-        return; /* the speed after the impact is not known, or its segment */
+        return; /* speed after the impact, or its segment, is unknown */
     double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j], length = hypot(dx, dz);
     double vt = (w->last.vx1 * dx + w->last.vz1 * dz) / length, vt_out = (p->vx * dx + p->vz * dz) / length;
     double vn = (w->last.vz1 * dx - w->last.vx1 * dz) / length, vn_out = (p->vz * dx - p->vx * dz) / length;
@@ -216,7 +216,7 @@ static void expect_crossing(uint64_t number, const struct ceduo_crossing *c)
         fail_msg("scene %ju: a crossing with %g %g %g %g", (uintmax_t)number, c->vx, c->vz, c->spin, c->height);
 }
 
-/* Without friction a rock that rolls slowly to and fro on level ground need never come to rest. */
+/* True if a rock without friction rolls slowly to and fro on level ground, perhaps for ever. */
 static bool creeps(const struct watch *w)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
@@ -230,7 +230,7 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     struct watch w = {.scene = s, .smooth = is_smooth(s)};
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
     assert_int_equal(ceduo_rock_of_means(&s->scene.rock, &w.rock), CEDUO_OK);
-    if (s->scene.simulation.law == CEDUO_LAW_ARM) { /* whose section is drawn */
+    if (s->scene.simulation.law == CEDUO_LAW_ARM) { /* the section is drawn */
         assert_int_equal(ceduo_trajectory_follow(&s->scene, NULL, number % 11, NULL, &way, NULL), CEDUO_OK);
         w.rock = way.rock;
     }

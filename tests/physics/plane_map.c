@@ -7,10 +7,10 @@
 
 struct map {
     const struct ceduo_stand *stand;
-    double from, to, half_width; /* of the rectangle that is planted */
+    double from, to, half_width; /* planted rectangle */
     double b, start;
     gsl_rng *rng;
-    uint64_t numbers; /* stools and trees so far */
+    uint64_t numbers; /* stools and trees planted */
     struct map_stem *stems;
     size_t count, most;
 };
@@ -37,7 +37,7 @@ static void look_at(struct map *m, double x, double y, double dbh, bool shoot)
     m->count++;
 }
 
-/* A uniform place for each of a Poisson number of centres. */
+/* Draw a uniform place for each of a Poisson number of centres. */
 static unsigned centres(const struct map *m, double per_ha)
 {
     return gsl_ran_poisson(m->rng, per_ha / 1e4 * (m->to - m->from) * 2 * m->half_width);
@@ -84,7 +84,7 @@ static void plant_trees(struct map *m, const struct ceduo_stems *kind)
     }
 }
 
-/* Farther from the strip than this no centre matters, whatever is drawn; with a metre to spare. */
+/* Half the width of the planted strip: centres farther away never matter. Has a metre to spare. */
 static double half_width_of(const struct ceduo_stand *stand, double b)
 {
     double thickest = 0, r = 0;

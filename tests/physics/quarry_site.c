@@ -9,8 +9,8 @@
 
 #include "line_scene.h"
 
-#define PLACE  60 /* m, where rocks were seen to pass */
-#define FEWEST 5  /* values of a kind */
+#define PLACE  60 /* m, of the observed speeds and heights */
+#define FEWEST 5  /* minimum values of a kind */
 
 static const double bounds[QUARRY_VALUES_MAX][2] = {{0.25, 0.5}, {0.75, 0.95}, {0.05, 0.4}, {0.3, 0.7}};
 const char *const quarry_names[QUARRY_VALUES_MAX] = {"rn", "rt", "roughness_rad", "friction"};
@@ -57,7 +57,7 @@ static void make_site(struct quarry_site *s, enum ceduo_law law, const double *t
     make_inputs(s);
 }
 
-/* What is seen of the rocks: where they stop, and speed and height at a place. */
+/* Observe the rocks: their stops, and speed and height at a place. */
 static bool see(const struct quarry_site *s, const struct quarry_trial *trial, double **values, struct ceduo_observation *seen)
 {
     static const enum ceduo_observed_kind kinds[] = {CEDUO_OBSERVED_STOPS, CEDUO_OBSERVED_SPEED, CEDUO_OBSERVED_HEIGHT};
@@ -98,7 +98,7 @@ static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, con
     return ceduo_calibrate(&def, answer) == CEDUO_OK;
 }
 
-/* Draws the truth; what is seen on it is in `values` and `seen`. */
+/* Draw the truth and simulate its observations into `values` and `observed`. */
 static bool make(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct quarry_site *fitted, double **values,
                  struct ceduo_observation *seen)
 {

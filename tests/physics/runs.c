@@ -70,10 +70,10 @@ void expect_same_however(struct ceduo_run_def def, uint64_t rocks)
     expect_same_run(one, steps);
     const struct ceduo_difference d = ceduo_run_difference(steps, one, 0);
     EXPECT(d.energy_per_released.mean, ==, 0);
-    assert_false(d.energy_per_released.se > 0); /* NaN where no pair differs */
+    assert_false(d.energy_per_released.se > 0); /* NaN if no pair differs */
 }
 
-/* Hits on a way, all and before control 0. */
+/* Hits on a trajectory: all, and those before control 0. */
 struct hits {
     double control;
     uint64_t all, before;

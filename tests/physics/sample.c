@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define CHANCE 1e-4 /* of a test of fit to fail though all is right; four standard errors are 6e-5 */
+#define CHANCE 1e-4 /* probability that a correct program fails a test of fit; four standard errors are 6e-5 */
 
 void spread_add(struct spread *s, double value)
 {
@@ -164,7 +164,7 @@ void expect_poisson(const char *what, const uint64_t count[COUNTS_MAX], double m
         seen += (double)count[k];
         expected += n * p;
         left -= p;
-        bool last = n * left < 10; /* the tail joins the last cell */
+        bool last = n * left < 10; /* the last cell includes the tail */
         if (last)
             for (expected += n * left; ++k < COUNTS_MAX;)
                 seen += (double)count[k];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where rocks stopped, seen and simulated: the distance of Kolmogorov and Smirnov. */
+/* Kolmogorov-Smirnov distance between observed and simulated stops. */
 #ifndef STOPS_H
 #define STOPS_H
 
@@ -17,7 +17,7 @@ static inline double stops_band(size_t n)
     return 1.358 / (root + 0.12 + 0.11 / root);
 }
 
-/* A rock without a stop lies beyond all. Sorts `simulated` and sets the mean of those that stopped. NaN without memory. */
+/* Rocks without a stop lie beyond all others. Sorts `simulated` and sets the mean of all that stopped. NaN without memory. */
 static inline double stops_distance(const struct ceduo_observation *seen, double *simulated, size_t n, double *mean)
 {
     double sum = 0, stopped = 0, most = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The blow of a rock that is not round: closed forms, and another calculation that follows the impulse in small steps. */
+/* The impact of a rock that is not round: closed forms, and a calculation that follows the impulse in small steps. */
 #include "expect.h"
 
 #include <gsl/gsl_integration.h>
@@ -13,7 +13,7 @@
 #define STEPPED 1500
 #define ROCKS   20000
 
-/* A blow in plain units: half-axes and R, turn of the section, ground, and what comes in. */
+/* An impact in plain units: half-axes and R, rotation of the section, ground, and incoming motion. */
 struct blow {
     double a, b, radius, turn, e, mu, friction;
     struct impact in;
@@ -45,7 +45,7 @@ static struct blow random_blow(struct line_random *r)
     bool high = line_chance(r, 0.5);
     return (struct blow){.a = high ? b : a,
                          .b = high ? a : b,
-                         .radius = radius * line_uniform(r, 0.8, 1.2), /* other pairs of axes count, too */
+                         .radius = radius * line_uniform(r, 0.8, 1.2), /* other pairs of axes count as well */
                          .turn = line_uniform(r, -M_PI / 2, M_PI / 2),
                          .e = line_chance(r, 0.1)   ? 0
                               : line_chance(r, 0.1) ? 1
@@ -78,7 +78,7 @@ TEST(a_round_rock_that_sticks)
     }
 }
 
-/* Arm and speed of the point of contact in plain units; spin is positive rolling forward. */
+/* Arm and speed of the contact point in plain units; positive spin rolls forward. */
 struct point {
     double r, h, k2, un, ut;
 };
@@ -106,14 +106,14 @@ TEST(without_friction_only_the_normal_impulse_acts)
         struct impact out = struck(&c);
         struct point p = point_of(&c, c.in, -c.in.vn);
         double impulse = -(1 + c.e) * p.un / (1 + p.r * p.r / p.k2), size = sqrt(energy_of(&c, c.in)) * 1e-14;
-        EXPECT_NEAR(out.vn, fmax(0, -c.in.vn + impulse), size); /* a second blow stops the centre */
+        EXPECT_NEAR(out.vn, fmax(0, -c.in.vn + impulse), size); /* a second impact stops the centre */
         EXPECT_NEAR(out.vt, c.in.vt, size);
         EXPECT_NEAR(out.spin * sqrt(p.k2), (c.in.spin - p.r * impulse / p.k2) * sqrt(p.k2), size);
     }
 }
 
-/* A round rock that slips freely: rolling friction is a moment impulse of at most friction R times the normal impulse, against
- * the spin, which it never turns round. */
+/* A round rock that slips freely: the moment impulse of rolling friction is at most friction R times the normal impulse. It
+ * acts against the spin and never reverses it. */
 TEST(rolling_friction_takes_spin)
 {
     struct line_random r = {.state = 3};
@@ -146,7 +146,7 @@ TEST(without_bounce_a_point_that_sticks_stands_still)
         struct impact out = struck(&c);
         struct point p = point_of(&c, out, out.vn);
         if (out.vn == 0)
-            continue; /* the centre still went down: there was a second blow, beside the first */
+            continue; /* the centre still moved down: there was a second impact */
         EXPECT_NEAR(p.un, 0, 1e-13);
         EXPECT_NEAR(p.ut, 0, 1e-13);
         still++;
@@ -154,9 +154,9 @@ TEST(without_bounce_a_point_that_sticks_stands_still)
     EXPECT(still, >, 500);
 }
 
-/* A round rock that does not bounce comes down again and again with what a short time of free fall gives it. Where both
- * frictions hold, a blow keeps 1/(1 + k) of its speed and no spin, so that it has never more than 1/k of what one fall adds:
- * however short that is, it stands. Steeper, it goes ever faster. */
+/* A round rock without bounce lands again and again after a short free fall. If both frictions hold, an impact keeps 1/(1 + k)
+ * of its speed and no spin: its speed stays below 1/k of the gain in one fall. It stops however short the fall; on steeper
+ * ground it accelerates. */
 TEST(a_rock_stands_where_both_frictions_hold_it)
 {
     struct line_random r = {.state = 4};
@@ -194,10 +194,10 @@ TEST(no_blow_gains_energy)
     }
 }
 
-/* ---- another calculation ---- */
+/* ---- numerical integration ---- */
 
-/* Follows a blow in small steps of the normal impulse, each shortened where the slip ends or the normal speed turns. With
- * `newton` restitution is by speed, otherwise by work. */
+/* Follow an impact in small steps of the normal impulse. A step is shortened if the slip ends or the normal speed reverses.
+ * With `newton` restitution is by speed, otherwise by work. */
 struct stepper {
     long double vt, vn, spin, r, h, k2, mu;
     long double impulse, work, compression;
@@ -213,7 +213,7 @@ static long double ut_of(const struct stepper *s)
     return s->vt - s->spin * s->h;
 }
 
-/* Friction per normal impulse. */
+/* Return the friction per normal impulse. */
 static long double friction_of(const struct stepper *s)
 {
     long double nt = s->r * s->h / s->k2, tt = 1 + s->h * s->h / s->k2, ut = ut_of(s);
@@ -232,7 +232,7 @@ static void step(struct stepper *s, long double dp, long double friction)
     s->impulse += dp;
 }
 
-/* The largest step from here on which friction stays as it is. */
+/* Return the largest step with constant friction. */
 static long double until_slip_ends(const struct stepper *s, long double friction, long double dp)
 {
     long double ut = ut_of(s);
@@ -273,12 +273,12 @@ static void follow(struct stepper *s, long double e, bool newton)
             return;
         }
         *s = then;
-        if (fabsl(ut_of(s)) < 1e-15L) /* exactly, so that it sticks */
+        if (fabsl(ut_of(s)) < 1e-15L) /* exactly 0, so that it sticks */
             s->vt -= ut_of(s);
     }
 }
 
-/* The impulses along the ground and the moment, within bounds, that leave the least energy: one at a time, many times. */
+/* Minimise the energy by the impulses along the ground and the moment, within bounds: one at a time, many times. */
 static void settle(struct stepper *s, long double h, long double lo, long double hi, long double most)
 {
     long double along = 0, moment = 0, vt = s->vt, spin = -s->spin;
@@ -325,7 +325,7 @@ TEST(blows_are_as_followed_in_small_steps)
     }
 }
 
-/* Where the slip turns, restitution by speed may return more than came in (Kane's paradox); by work it does not. */
+/* If the slip reverses, restitution by speed may return more energy than came in (Kane's paradox); by work it never does. */
 TEST(restitution_by_speed_would_gain_energy)
 {
     struct line_random r = {.state = 7};
@@ -347,7 +347,7 @@ TEST(restitution_by_speed_would_gain_energy)
     print_message("%d of %d blows would gain energy\n", gains, STEPPED);
 }
 
-/* ---- on the way ---- */
+/* ---- trajectories ---- */
 
 struct drop {
     struct blow blow;
@@ -361,7 +361,7 @@ static double speed_off(double turn, void *context)
     return struck(&c).vn;
 }
 
-/* Mean over the pairs of axes and over all turns. */
+/* Return the mean over the pairs of axes and all rotations. */
 static double mean_speed_off(const struct drop *d)
 {
     gsl_integration_workspace *space = gsl_integration_workspace_alloc(1000);
@@ -379,7 +379,7 @@ static double mean_speed_off(const struct drop *d)
     return sum;
 }
 
-/* A long rock that falls on the flat, all but without weight, so that a slow one still flies off. */
+/* A long rock that falls on level ground, almost weightless, so that a slow one still flies off. */
 TEST(speed_after_a_blow_is_the_mean_over_all_turns)
 {
     static struct line_scene s;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blocks of other sizes: how a rock is scaled, which sizes are shown in which order, and that they fly with the mass
- * that is shown. */
+/* Blocks of other sizes: how a rock is scaled, the order of the sizes shown, and their mass in flight. */
 #include "expect.h"
 #include "local.h"
 
@@ -13,7 +12,7 @@
 #define LIMESTONE    2600.0
 #define BLOCKS_FLOWN 5
 
-static const double volumes[] = {.05, .2, 1, 5}; /* of the classes of NaiS, and 1 m3 */
+static const double volumes[] = {.05, .2, 1, 5}; /* classes of NaiS, and 1 m3 */
 
 static void expect_near(const char *what, double found, double wanted)
 {
@@ -34,7 +33,7 @@ static void expect_scaled(const char *what, struct ceduo_number found, struct ce
         fail_msg("%s: %g ± %g, not %g times %g ± %g", what, found.mean, found.spread, factor, was.mean, was.spread);
 }
 
-/* A spread grows with what it is the spread of, so that of the density does not. */
+/* A standard deviation scales with its mean, so the density's does not change. */
 TEST(a_rock_twice_as_long_is_eight_times_as_heavy)
 {
     const struct ceduo_rock_def was = {.shape = CEDUO_BLOCK,
@@ -55,7 +54,7 @@ TEST(a_rock_twice_as_long_is_eight_times_as_heavy)
         expect_scaled("axis", is.axes[i], was.axes[i], 2);
 }
 
-/* However a rock is described. */
+/* All descriptions of a rock. */
 static const struct rock {
     const char *name;
     enum ceduo_shape shape;
@@ -114,7 +113,7 @@ static void size_up(const struct ceduo_arrivals *own, struct ceduo_size_result b
     assert_int_equal(ceduo_blocks(&def, blocks), CEDUO_OK);
 }
 
-/* A block of one size is as many of 1 m3 as it has: of 1 m by 1 m by so much, whose volume no rounding touches. */
+/* A block of 1 m by 1 m by `volume` m, whose volume no rounding changes. */
 static struct ceduo_rock_def slab(double volume)
 {
     struct ceduo_rock_def def = ceduo_scene_default().rock;
@@ -124,8 +123,8 @@ static struct ceduo_rock_def slab(double volume)
     return def;
 }
 
-/* All sizes of the table and the own one, rising, once each and the own one marked; as large as a size of the table it
- * stands before it. */
+/* Expect all sizes of the table and the own one, rising, once each, the own one marked. An own size equal to one of the table
+ * comes before it. */
 static void expect_sizes(double own, size_t place)
 {
     struct ceduo_size_result b[CEDUO_SIZES];
@@ -167,7 +166,7 @@ TEST(blocks_have_the_mass_and_width_of_their_volume)
     }
 }
 
-/* Half of M times 25 m2/s2: what a place bears between two sizes, the smaller ones keep and the larger ones exceed. */
+/* With the energy of mass M at 5 m/s accepted between two sizes, smaller blocks stay below it and larger ones exceed it. */
 TEST(blocks_fly_with_their_own_mass)
 {
     for (size_t bears = 0; bears < LENGTH(volumes); bears++) {
@@ -183,7 +182,7 @@ TEST(blocks_fly_with_their_own_mass)
     }
 }
 
-/* What is known of the own block stands in its row as it is, if as many were simulated. */
+/* The row of the own block has the results of the run itself, if it has enough rocks. */
 TEST(the_own_block_is_not_simulated_twice)
 {
     struct ceduo_size_result blocks[CEDUO_SIZES];
@@ -196,9 +195,9 @@ TEST(the_own_block_is_not_simulated_twice)
     }
 }
 
-/* ---- of all sizes ---- */
+/* ---- all sizes ---- */
 
-/* Rocks of all sizes that come to rest long before the control. */
+/* Rocks of all sizes that stop long before the control. */
 static struct ceduo_estimate rate_above_100_kj(double fall, double height)
 {
     static double ends[] = {.05, 1};
@@ -217,7 +216,7 @@ static struct ceduo_estimate rate_above_100_kj(double fall, double height)
     return a.hazard.accepted;
 }
 
-/* A rock that falls 20 m from its release could have as much as one that the ground takes 20 m down. */
+/* A rock that falls 20 m from its release can have the energy of one that descends 20 m on the ground. */
 TEST(a_fall_from_the_release_could_bring_energy)
 {
     struct ceduo_estimate released_high = rate_above_100_kj(0, 20), steep = rate_above_100_kj(20, 0);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inverse search: what it finds, the goal says of it when it is asked forward. */
+/* Inverse search: the goal evaluated at the result meets the target. */
 #include "expect.h"
 
 #include <math.h>
@@ -8,9 +8,9 @@
 #include "line_scene.h"
 
 #define GOALS 1000
-#define MOST  60 /* evaluations */
+#define MOST  60 /* maximum evaluations */
 
-/* A goal, and the values it was asked for. */
+/* A goal, and the values at which it was evaluated. */
 struct asked {
     double (*goal)(const struct asked *asked, double value);
     double p[4];
@@ -65,7 +65,7 @@ static bool was_asked(const struct asked *a, double value)
     return false;
 }
 
-/* Beyond the value, on its failing side, one was seen to fail no farther than `width`. */
+/* Expect an evaluation that fails at most `width` from the value, on its failing side. */
 static void expect_edge(const struct asked *a, const struct ceduo_found *found, double target, double width)
 {
     double out = found->side == CEDUO_SMALLEST ? -1 : 1, nearest = INFINITY;
@@ -89,7 +89,7 @@ static double adc_of_reserves(const struct asked *a, double per_ha)
     return ceduo_adc_value(&adc, ceduo_adc_rule(&stand, a->p[1], CEDUO_RULE_AUTO));
 }
 
-/* 60 reserves of 20 cm are some 190 m from each other (Ciabocco et al. 2009); 30 m need 379. */
+/* 60 reserves of 20 cm are some 190 m apart (Ciabocco et al. 2009); 30 m need 379. */
 TEST(reserves_for_30_m)
 {
     static const struct {
@@ -124,7 +124,7 @@ static double uniform(double lo, double hi)
     return line_uniform(&random_numbers, lo, hi);
 }
 
-/* p[0] its sign and scale, p[1] its kind, p[2] and p[3] its shape. Values from 0 to 1000. */
+/* p[0] is its sign and scale, p[1] its kind, p[2] and p[3] its shape. Values from 0 to 1000. */
 static double curve(const struct asked *a, double value)
 {
     double x = value / 1000, shape = a->p[2];
@@ -155,7 +155,7 @@ TEST(inverse_and_forward_agree)
         bool whole = uniform(0, 1) < .5;
         double lo = floor(uniform(0, 400)), hi = floor(uniform(lo, 1000));
         double target = curve(&a, uniform(lo - .05 * (hi - lo), hi + .05 * (hi - lo)));
-        if (isnan(target)) /* of a value below 0 */
+        if (isnan(target)) /* for a value below 0 */
             target = curve(&a, (lo + hi) / 2);
         struct ceduo_found found = find(&a, lo, hi, whole, target);
         bool at_lo = passes(&a, target, lo), at_hi = passes(&a, target, hi);
@@ -199,7 +199,7 @@ TEST(smooth_goals_need_few_evaluations)
     EXPECT_NEAR(found.value, sqrt(2), 1e-12);
     EXPECT(found.evaluations, <, 16);
     expect_edge(&a, &found, 2, 1e-12);
-    found = find_with(&a, 0, 10, false, 2, .1); /* no better than asked for */
+    found = find_with(&a, 0, 10, false, 2, .1); /* no better than required */
     EXPECT_NEAR(found.value, sqrt(2), 1);
     EXPECT(found.evaluations, <, 10);
 }
@@ -213,7 +213,7 @@ static double steps(const struct asked *a, double value)
 
 static double cliff(const struct asked *a, double value)
 {
-    return value < a->p[0] ? 1e-9 : 1e9; /* as lopsided as can be */
+    return value < a->p[0] ? 1e-9 : 1e9; /* as asymmetric as possible */
 }
 
 TEST(steps_and_jumps)
@@ -233,7 +233,7 @@ TEST(steps_and_jumps)
     EXPECT(found.value, <, .123456);
     expect_edge(&a, &found, 1e-6, 1e-9);
     EXPECT(found.evaluations, <=, 55);
-    found = find(&a, 0, 1, false, 1e-9); /* the whole lower step is on the target */
+    found = find(&a, 0, 1, false, 1e-9); /* the whole lower step equals the target */
     assert_true(found.found);
     EXPECT(found.value, <, .123456);
     expect_edge(&a, &found, 1e-9, 1e-9);
@@ -256,14 +256,14 @@ TEST(large_whole_numbers)
     assert_true(isnan(found.nearest));
 }
 
-/* ---- goals that turn ---- */
+/* ---- goals that are not monotone ---- */
 
 TEST(goals_that_turn_between_their_ends)
 {
     const struct {
         double middle, sign, target, edge, whole_edge;
-    } rows[] = {{60, 1, 402, 60 - sqrt(402), 40},    /* a pass between ends that fail */
-                {40, -1, -402, 40 + sqrt(402), 61}}; /* a fail between ends that pass */
+    } rows[] = {{60, 1, 402, 60 - sqrt(402), 40},    /* passes between failing ends */
+                {40, -1, -402, 40 + sqrt(402), 61}}; /* fails between passing ends */
     for (size_t i = 0; i < 2 * LENGTH(rows); i++) {
         bool whole = i % 2;
         struct asked a = {.goal = parabola, .p = {rows[i / 2].middle, rows[i / 2].sign}};
@@ -276,7 +276,7 @@ TEST(goals_that_turn_between_their_ends)
         expect_edge(&a, &found, rows[i / 2].target, whole ? 1 : 1e-7);
     }
     struct asked a = {.goal = parabola, .p = {60, 1}};
-    struct ceduo_found found = find(&a, 0, 60, true, 2500); /* of one side only there is nothing to see of the turn */
+    struct ceduo_found found = find(&a, 0, 60, true, 2500); /* one side alone does not show the reversal */
     assert_true(found.monotone);
     EXPECT(found.value, ==, 10);
 }
@@ -297,10 +297,10 @@ TEST(rounding_is_no_turn)
 TEST(nothing_passes)
 {
     struct asked a = {.goal = parabola, .p = {35, 1}};
-    struct ceduo_found found = find(&a, 0, 90, false, -1); /* seen: every 10 */
+    struct ceduo_found found = find(&a, 0, 90, false, -1); /* evaluated: every 10 */
     ROWS(assert_false, (found.found), (found.monotone), (found.whole_range));
     EXPECT_IS(found, (evaluations, 2 + CEDUO_FIND_SCAN), (nearest, 30));
-    EXPECT(found.goal_at_nearest, ==, 25); /* 40 is as near */
+    EXPECT(found.goal_at_nearest, ==, 25); /* 40 is equally near */
     found = find(&a, 0, 3, true, 3);
     assert_false(found.found);
     assert_true(found.monotone);
@@ -342,7 +342,7 @@ TEST(goals_that_are_not_finite)
         EXPECT_NEAR(found.value, 50, 1e-7);
         EXPECT(found.side, ==, CEDUO_SMALLEST);
         expect_edge(&a, &found, 50, 1e-7);
-        found = find(&a, 0, 100, false, 90); /* passes from where it is a number on; -inf from 0 on */
+        found = find(&a, 0, 100, false, 90); /* passes wherever it is a number; -inf from 0 on */
         assert_true(found.found);
         EXPECT(found.whole_range, ==, (i == 2));
         EXPECT_NEAR(found.value, (i == 2 ? 0 : 20.5), 1e-7);
@@ -359,7 +359,7 @@ TEST(goals_that_are_not_finite)
     EXPECT_NAN(found.nearest, found.goal_at_nearest);
 }
 
-/* Waves, steps, and where p[3] says so infinite or no number at all. */
+/* Waves and steps, infinite or NaN if p[3] asks for it. */
 static double wild(const struct asked *a, double value)
 {
     double wave = sin(a->p[0] * value) + sin(a->p[1] * value * value);
@@ -388,7 +388,7 @@ TEST(any_goal_at_all)
     EXPECT(count[true], >, GOALS / 10);
 }
 
-/* ---- ends before its end ---- */
+/* ---- early end ---- */
 
 static enum ceduo_status fails_at_5(void *context, double value, double *goal)
 {

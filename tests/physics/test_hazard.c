@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sizes and weights: their laws in closed form, and that weights which are all alike change no statistics. */
+/* Sizes and weights: their laws in closed form; equal weights change no statistics. */
 #include "expect.h"
 #include "local.h"
 
@@ -23,7 +23,7 @@ static struct ceduo_scene scene_of(struct ceduo_size_class *classes, size_t n)
     return scene;
 }
 
-/* Blocks a year of a class above v. */
+/* Return the blocks per year of a class above volume v. */
 static double above(const struct ceduo_size_class *c, double v)
 {
     double lo = c->volumes[0], hi = c->volumes[1], b = c->exponent;
@@ -32,7 +32,7 @@ static double above(const struct ceduo_size_class *c, double v)
     return c->per_year * share;
 }
 
-/* Weights sum to the blocks that come down, above any volume; volumes have even logarithms. */
+/* Weights sum to the frequency of blocks above any volume; volumes have evenly spaced logarithms. */
 TEST(weights_sum_to_what_comes_down)
 {
     struct ceduo_size_class classes[] = {{3, 1.1, 2, first}, {0.05, 0, 2, second}};
@@ -52,7 +52,7 @@ TEST(weights_sum_to_what_comes_down)
     }
 }
 
-/* Of 100 rocks in a row, wherever they begin, some are of every tenth of the range. */
+/* Any 100 consecutive rocks include some from every tenth of the range. */
 TEST(every_few_rocks_have_all_sizes)
 {
     struct ceduo_size_class class = {1, 1, 2, second};
@@ -76,7 +76,7 @@ TEST(every_few_rocks_have_all_sizes)
     }
 }
 
-/* Typical rocks are of the sizes that come down. */
+/* Typical rocks have the natural frequencies of sizes. */
 TEST(typical_rocks_are_as_frequent_as_blocks)
 {
     struct ceduo_size_class class = {1, 0.8, 2, second}, both[2] = {{3, 1.1, 2, first}, {0.5, 0.8, 2, second}};
@@ -92,7 +92,7 @@ TEST(typical_rocks_are_as_frequent_as_blocks)
     double p = above(&class, 2);
     EXPECT_NEAR(larger / n, p, 4 * sqrt(p * (1 - p) / n));
     ceduo_sizes_release(&sizes);
-    scene = scene_of(both, 2); /* of two classes, the second of which is rarer in each range */
+    scene = scene_of(both, 2); /* two classes; the second is rarer in each range */
     assert_true(ceduo_sizes_init(&sizes, &scene));
     n = larger = 0;
     for (uint64_t r = 0; r < ROCKS; r++)
@@ -125,7 +125,7 @@ TEST(a_rock_is_scaled_as_a_whole)
 
 #define N 1000
 
-/* Values without order, and 1 - share of them that arrive. */
+/* Fill unordered values; 1 - share of the rocks arrive. */
 static size_t some_values(struct weighted *values, double weight, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
@@ -135,7 +135,7 @@ static size_t some_values(struct weighted *values, double weight, size_t n)
     return n;
 }
 
-/* With weights that are all alike, whatever they are, everything is as without. */
+/* Equal weights of any size give the results without weights. */
 TEST(weights_that_are_alike_change_nothing)
 {
     static struct weighted values[N];
@@ -165,16 +165,16 @@ TEST(weights_that_are_alike_change_nothing)
         EXPECT_NEAR(a.sd, b.sd, 1e-9);
         double m1 = (double)(n - 1) / (double)n, all1 = (double)(N - 1) / N; /* divided by n - 1, and by N - 1 */
         ROWS(EXPECT_NEAR, (a.se, b.se * sqrt(m1 / all1), 1e-9), (a.p50, b.p50, 0), (a.p95, b.p95, 0), (a.p99, b.p99, 0));
-        EXPECT_NEAR(a.p50_lo, b.p50_lo, 0.15); /* the normal law instead of the binomial one: a rank or two */
+        EXPECT_NEAR(a.p50_lo, b.p50_lo, 0.15); /* the normal law instead of the binomial one: one or two ranks apart */
         EXPECT_NEAR(a.p50_hi, b.p50_hi, 0.15);
-        if (n == N) /* enough for all of them */
+        if (n == N) /* enough if all count */
             ROWS(EXPECT_NEAR, (a.p95_lo, b.p95_lo, 0.05), (a.p95_hi, b.p95_hi, 0.05), (a.p99_lo, b.p99_lo, 0.05),
                  (a.p99_hi, b.p99_hi, 0.05));
         EXPECT_NEAR(a.max, b.max, 0);
     }
 }
 
-/* What a weight alone explains is no error: of all rocks the share is 1 without one, of none 0. */
+/* A share that the weights explain has no error: with a weight of all rocks it is 1, with no weight 0. */
 TEST(what_weights_explain_is_no_error)
 {
     struct released all = {.n = N, .per_year = 1};
@@ -194,10 +194,10 @@ TEST(what_weights_explain_is_no_error)
     assert_true(all_of_them.lo > 0.99 && all_of_them.lo < 1);
     EXPECT_NEAR(nobody.mean, 0, 0);
     EXPECT_NEAR(nobody.lo, 0, 0);
-    EXPECT_NEAR(nobody.hi, 3.8414588 / (N + 3.8414588), 1e-8); /* Wilson of 0 among as many rocks */
+    EXPECT_NEAR(nobody.hi, 3.8414588 / (N + 3.8414588), 1e-8); /* Wilson's bound of 0 among N rocks */
     struct weighted_sum heavy = {0};
     for (size_t i = 0; i < N; i += 2)
-        weighted_sum_add(&heavy, 1.5, 1); /* all heavy rocks and no other: the weights explain all of it */
+        weighted_sum_add(&heavy, 1.5, 1); /* all heavy rocks and no others: the weights explain all of it */
     struct ceduo_estimate known = ceduo_weighted_share(&all, &heavy, -1);
     double alike = all.w * all.w / all.ww;
     assert_int_equal(alike, 800);
@@ -212,10 +212,10 @@ TEST(what_weights_explain_is_no_error)
 TEST(quantiles_by_hand)
 {
     const struct weighted values[] = {{1, 1}, {2, 2}, {3, 1}};
-    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a whole share is reached by its last value */
+    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a share that is reached exactly is its last value */
     ROWS(EXPECT_NEAR, (ceduo_weighted_quantile(values, 3, 0.26), 2, 0), (ceduo_weighted_quantile(values, 3, 0.75), 2, 0),
          (ceduo_weighted_quantile(values, 3, 0.76), 3, 0));
-    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* beyond all */
+    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* above all values */
     assert_true(isnan(ceduo_weighted_quantile(values, 0, 0.5)));
     const struct released all = {.n = 3, .w = 4, .ww = 6, .per_year = 1};
     struct weighted one = {5, 1};
@@ -241,7 +241,7 @@ TEST(energies_and_classes_are_what_they_are_called)
         EXPECT(ceduo_hazard_energy(i), >, ceduo_hazard_energy(i - 1));
 }
 
-/* Three rocks of a thousand arrive, one block comes down in two years. */
+/* Three rocks of a thousand arrive, one block falls in two years. */
 TEST(few_rocks_bound_what_they_can)
 {
     const struct released all = {.n = N, .w = N, .ww = N, .per_year = 0.5};
@@ -254,8 +254,8 @@ TEST(few_rocks_bound_what_they_can)
         EXPECT_NEAR(h.intensity[i].within.mean, 0.0005, 1e-15);
     assert_true(isnan(h.returns[3].energy.mean) &&
                 isnan(h.returns[3].energy.lo));  /* 0.0015 a year: less than one in 300 years */
-    EXPECT_NEAR(h.returns[3].energy.hi, 1e5, 0); /* 1/150 of the blocks: more than one of N may be by Wilson, two may not */
-    assert_true(isnan(h.returns[1].energy.hi));  /* one in 30 years is more than all three may be */
+    EXPECT_NEAR(h.returns[3].energy.hi, 1e5, 0); /* 1/150 of the blocks: Wilson's bound of one in N is above, of two below */
+    assert_true(isnan(h.returns[1].energy.hi));  /* one in 30 years exceeds the upper bound of all three */
     assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h, NULL));
     assert_true(isnan(h.accepted.mean));
     EXPECT_NEAR(ceduo_hazard_feared(&h).mean, 0.0015, 1e-15);
@@ -264,7 +264,7 @@ TEST(few_rocks_bound_what_they_can)
     assert_true(isnan(h.left) && isnan(h.intensity[0].left));
 }
 
-/* Kish's effective number: 500 rocks of weight 1.9 and 500 of 0.1 are as good as 1000²/(500 (1.9² + 0.1²)) equal ones. */
+/* Kish's effective number: 500 rocks of weight 1.9 and 500 of 0.1 equal 1000²/(500 (1.9² + 0.1²)) rocks of equal weight. */
 TEST(rocks_count_by_their_weights)
 {
     const struct released all = {.n = N, .w = N, .ww = 500 * (1.9 * 1.9 + .1 * .1), .per_year = 1};
@@ -273,7 +273,7 @@ TEST(rocks_count_by_their_weights)
     EXPECT_NEAR(h.effective, 1e6 / 1810, 1e-9);
 }
 
-/* Beyond the last energy of the curve there is no other. */
+/* The last energy of the curve is its maximum. */
 TEST(a_curve_ends_where_its_energies_do)
 {
     const struct released all = {.n = 2, .w = 2, .ww = 2, .per_year = 1};
@@ -285,8 +285,8 @@ TEST(a_curve_ends_where_its_energies_do)
     EXPECT_NEAR(curve.at[CEDUO_HAZARD_ENERGIES - 1].rate.mean, 1, 0);
 }
 
-/* An energy that a rock has is not exceeded by it; a class begins with its lower limit; a return period is met by a rate that
- * equals it: one of a thousand blocks and ten a year, 1/100. */
+/* A rock does not exceed its own energy; a class includes its lower limit; a rate equal to 1/period meets a return period: one
+ * of a thousand blocks and ten a year, 1/100. */
 TEST(at_a_limit)
 {
     const struct released all = {.n = N, .w = N, .ww = N, .per_year = 10};
@@ -300,12 +300,12 @@ TEST(at_a_limit)
         EXPECT_NEAR(curve.at[i].rate.mean, curve.at[i].energy < 3e4 ? 0.02 : curve.at[i].energy < 3e5 ? 0.01 : 0, 1e-15);
     assert_int_equal(h.returns[2].years, 100);
     EXPECT_NEAR(h.returns[2].energy.mean, 3e5, 0);
-    assert_true(isnan(h.returns[2].energy.hi)); /* of none among 1000 up to 0.038 a year may be: no energy is too high */
+    assert_true(isnan(h.returns[2].energy.hi)); /* none of 1000 allows up to 0.038 per year: no upper energy */
     assert_true(ceduo_hazard_read(&all, energies, 2, nextafter(3e5, 0), &h, &curve));
     EXPECT_NEAR(h.accepted.mean, 0.01, 1e-15);
 }
 
-/* No rock arrives, of two hundred: nothing is known but what may be. */
+/* None of two hundred rocks arrives: only upper bounds are known. */
 TEST(nobody_arrives)
 {
     const struct released all = {.n = 200, .w = 200, .ww = 200, .per_year = 1};
@@ -313,16 +313,16 @@ TEST(nobody_arrives)
     struct ceduo_hazard_curve curve;
     assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h, &curve));
     EXPECT_NEAR(h.reach.mean, 0, 0);
-    EXPECT_NEAR(h.reach.hi, 3.8414588 / (200 + 3.8414588), 1e-8); /* Wilson of 0 among 200 */
+    EXPECT_NEAR(h.reach.hi, 3.8414588 / (200 + 3.8414588), 1e-8); /* Wilson's bound of 0 among 200 */
     assert_int_equal(curve.count, 1);
     for (size_t i = 0; i < CEDUO_RETURNS; i++)
         assert_true(isnan(h.returns[i].energy.mean) && isnan(h.returns[i].energy.lo) && isnan(h.returns[i].energy.hi));
     assert_true(isnan(h.left));
 }
 
-/* A thousand rocks of which half are small, each for 1.9 blocks, and half large, each for 0.1. None of a thousand is at most 38 of
- * 10000, and of the large ones, which alone could have more than 5 J, none of 500 is at most 5 % of 76 of 10000. So much may be at
- * least however few large ones arrive, and with each that does it is more. */
+/* A thousand rocks: half small, each for 1.9 blocks, half large, each for 0.1. None in a thousand is at most 38 of 10000. Only
+ * large ones could have more than 5 J: none of 500 is at most 5 % of 76 of 10000. The upper bound is at least this large
+ * however few large ones arrive, and increases with each arrival. */
 TEST(fewer_arrivals_raise_no_upper_end)
 {
     static struct weighted could[N];
@@ -344,7 +344,7 @@ TEST(fewer_arrivals_raise_no_upper_end)
             EXPECT_NEAR(h.accepted.hi, of_large, 1e-9);
         EXPECT(h.accepted.hi, >=, before);
         before = h.accepted.hi;
-        assert_true(ceduo_hazard_read(&all, energies, n, 10, &h, NULL)); /* as much as none could have */
+        assert_true(ceduo_hazard_read(&all, energies, n, 10, &h, NULL)); /* the bound of no arrival */
         EXPECT_NEAR(h.accepted.hi, 0, 0);
     }
     EXPECT(before, >, 1.5 * of_large);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a single hit is: a stem that is as high as the rock flies over it is none, and of stems of many diameters each
- * takes by its own, so that all together take what was given for the mean of them. */
+/* A single hit: a rock that flies over a stem does not hit it. Each stem takes energy by its own diameter, so that the mean of
+ * many is the value given for the mean diameter. */
 #include "expect.h"
 
 #include <math.h>
@@ -55,9 +55,9 @@ static void follow(uint64_t rock)
 
 /* ---- diameters ---- */
 
-/* By brauner a stem d thick of those with mean m and deviation s takes V·U·d2/(m2 + s2): the mean of d2 by the gamma law,
- * of shape (m/s)2 and scale s2/m, is shape(shape + 1)scale2 = m2 + s2. Rocks come to a stem with a chance that goes with
- * B + d: weighted with one over that, the stems that they hit are those of the wood, which take V·U on the mean. */
+/* With brauner a stem of diameter d, in a law of mean m and deviation s, takes V·U·d2/(m2 + s2): the mean of d2 by the gamma
+ * law of shape (m/s)2 and scale s2/m is shape(shape + 1)scale2 = m2 + s2. Rocks meet a stem with probability proportional to B
+ * + d: with the inverse weight the hit stems have the forest's law and take V·U on average. */
 static void expect_mean_of_all_stems(bool shoots)
 {
     const double radius = 1.5, sd = .1, given = .4 * WORK;
@@ -94,7 +94,7 @@ TEST(stems_of_many_diameters_take_their_given_volume_on_the_mean)
 
 /* ---- heights ---- */
 
-/* Stem number i of the way of a rock, when all stems have this height. */
+/* Return stem number i of a rock's trajectory if all stems have this height. */
 static struct ceduo_stem_encounter stem_of_height(uint64_t rock, size_t i, double height)
 {
     uint64_t hits = 0;
@@ -104,7 +104,7 @@ static struct ceduo_stem_encounter stem_of_height(uint64_t rock, size_t i, doubl
     for (size_t k = 0; k < passed.count; k++)
         hits += passed.stems[k].hit;
     assert_int_equal(passed.way.stems_hit, hits);
-    for (size_t k = 0; k < i; k++) /* it falls: over those before it is higher */
+    for (size_t k = 0; k < i; k++) /* the rock falls: it is higher over earlier stems */
         assert_false(passed.stems[k].hit);
     return passed.stems[i];
 }
@@ -132,7 +132,7 @@ TEST(a_stem_as_high_as_the_rock_flies_is_not_hit)
         }
 }
 
-/* Where stems are hit below a height alone it is that of the rock's middle: no stem is, however high, where it passes there. */
+/* If stems are hit only below a height, the height is that of the rock's centre: it passes over any stem below it. */
 TEST(a_rock_whose_middle_flies_too_high_hits_no_stem)
 {
     const double radius = .3;

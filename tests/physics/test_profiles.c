@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Long profiles: what makes them fast changes nothing. Neighbours on one line are one segment inside the core, flights
- * pass blocks of segments, rolls whole segments; each against the same without it. */
+/* Long profiles: the optimisations change nothing. The core merges collinear neighbours into one segment, flights pass blocks
+ * of segments, rolls pass whole segments. Each is compared with the same run without it. */
 #include "expect.h"
 #include "local.h"
 
@@ -34,7 +34,7 @@ static size_t segments_inside(const struct ceduo_slope *slope)
     return n;
 }
 
-/* ---- one line, one segment ---- */
+/* ---- collinear segments ---- */
 
 static struct paper_site site;
 
@@ -59,7 +59,7 @@ static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_sce
         assert_int_equal(ceduo_tracer_run(g, rock, NULL, &w, &d), CEDUO_OK);
         EXPECT_SAME(v, w, end, contacts, x, z);
         EXPECT_SAME(c, d, reached, vx, vz, spin);
-        EXPECT_NEAR(c.height, d.height, 1e-12); /* over a ground that was rounded when it was cut */
+        EXPECT_NEAR(c.height, d.height, 1e-12); /* above ground that was rounded when it was cut */
     }
 }
 
@@ -101,7 +101,8 @@ TEST(spreads_and_roughness_heights_are_those_of_the_cut_slope)
     expect_same_ways(&site.scene, &scene);
 }
 
-/* What a double can tell from a line stays: vertices moved by a nanometre, and a sliver that is as steep as it is small. */
+/* Deviations from a line that a double can resolve stay: vertices moved by a nanometre, and a sliver as steep as it is
+ * small. */
 TEST(small_breaks_stay)
 {
     init_site(CEDUO_LAW_LUMPED, false);
@@ -117,7 +118,7 @@ TEST(small_breaks_stay)
     assert_int_equal(segments_inside(&sliver), 3);
 }
 
-/* A face keeps its foot, however narrow it is: within rounding of the profile's length too. */
+/* A face keeps its foot for any width, down to the rounding of the profile's length. */
 TEST(a_narrow_face_keeps_its_foot)
 {
     init_site(CEDUO_LAW_LUMPED, false);
@@ -131,7 +132,7 @@ TEST(a_narrow_face_keeps_its_foot)
             assert_int_equal(segments_inside(&face), 2);
         }
     LOCAL_BY(slope_free)
-    struct ceduo_slope steep = slope_new(3); /* both parts are upright, but for a hundredth of a micrometre */
+    struct ceduo_slope steep = slope_new(3); /* both parts are vertical within a hundredth of a micrometre */
     memcpy(steep.x, (double[3]){0, 1e-17, 1e-8}, sizeof(double[3]));
     memcpy(steep.z, (double[3]){0, -300, -600}, sizeof(double[3]));
     for (size_t j = 0; j < 2; j++)
@@ -141,7 +142,7 @@ TEST(a_narrow_face_keeps_its_foot)
 
 /* ---- flights over blocks ---- */
 
-/* Waves of many lengths. */
+/* Make waves of many lengths. */
 static struct ceduo_slope rough_slope(size_t vertices, double spacing, uint64_t seed)
 {
     struct ceduo_slope s = slope_new(vertices);
@@ -196,12 +197,12 @@ TEST(flights_land_as_without_blocks)
         }
     }
     print_message("%ju flights of more than 100 segments\n", (uintmax_t)far);
-    EXPECT(far, >, 1000); /* blocks were passed */
+    EXPECT(far, >, 1000); /* blocks were skipped */
 }
 
-/* Ground with teeth whose tips lie on one line but for rounding: each is as high as a flight along this line is there
- * without weight, or some last digits higher or lower. Where blocks of segments begin the ground is as deep below
- * everywhere, so that the chords of blocks are parallel to the line. */
+/* Ground with teeth whose tips lie on one line within rounding: each tip is at the height of a weightless flight along the
+ * line, or a few last digits higher or lower. At the starts of blocks the ground is equally deep below, so that their chords
+ * are parallel to it. */
 static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, double fall, double top)
 {
     const size_t chunk = (size_t)1 << GROUND_BITS;
@@ -221,8 +222,8 @@ static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, 
     return s;
 }
 
-/* Whether a flight that grazes many teeth touches one is for rounding to decide; a block that is passed as a whole must
- * not decide it otherwise. That is what the margin of its height is for. */
+/* Rounding decides if a flight that grazes many teeth touches one. Skipping a whole block must not change the decision: its
+ * height has a margin for this. */
 TEST(flights_along_teeth_touch_the_same_with_blocks)
 {
     init_site(CEDUO_LAW_LUMPED, false);
@@ -262,7 +263,7 @@ static void nobody_minds(void *context, const struct ceduo_trajectory_segment *p
     (void)piece;
 }
 
-/* A rock takes the same way on a fine profile, to the bit, if a callback sees its pieces. */
+/* On a fine profile a rock has the same trajectory, to the bit, with a callback for its segments. */
 TEST(rolls_are_the_same_whoever_looks_on)
 {
     uint64_t same = 0, all = 0;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Whether a calibration may be trusted: twenty small sites whose ground is known. All bounds follow from the binomial law: of a
- * calibration that is right one run in ten thousand would leave them, and the sites are always the same. bench_calibration asks
- * the same of many sites, with as many rocks as people use. */
+/* Calibrations of twenty small sites with known ground. All bounds follow from the binomial law: a correct calibration would
+ * leave them once in ten thousand runs, and the sites never change. bench_calibration does this for many sites with usual
+ * numbers of rocks. */
 #include "expect.h"
 
 #include <gsl/gsl_cdf.h>
@@ -17,7 +17,7 @@
 #define NOINLINE_COLD 1e-4
 #define TRUE_SITES    FULL_OR(400u, 200u)
 
-/* How many of n are to be so at the least where each is with probability p. */
+/* Return how many of n successes to require if each has probability p. */
 static unsigned fewest(unsigned n, double p)
 {
     unsigned k = 0;
@@ -46,7 +46,7 @@ TEST(ranges_hold_the_truth)
         ceduo_calibration_free(&a);
     }
     ROWS(EXPECT, (fits, >=, SITES - 2), (held, >=, fewest(VALUES * fits, 0.95)), (likely, >=, fewest(2 * fits, 0.95)));
-    EXPECT(narrow, >=, fits); /* 30 rocks do tell Rt; ranges as wide as the bounds would hold everything */
+    EXPECT(narrow, >=, fits); /* 30 rocks do identify Rt; ranges as wide as the bounds would contain everything */
 }
 
 TEST(what_another_law_made_is_found_out)
@@ -72,7 +72,7 @@ TEST(what_another_law_made_is_found_out)
     EXPECT(flagged, >=, fewest(fits, 0.9));
 }
 
-/* Kolmogorov's distance from the uniform law, times the root of their number: above 2.23 in one case of ten thousand. */
+/* Kolmogorov's distance from the uniform law times the root of n: above 2.23 with probability 1e-4. */
 static double far_from_uniform(double *p, size_t n)
 {
     double most = 0;
@@ -82,7 +82,7 @@ static double far_from_uniform(double *p, size_t n)
     return most * sqrt((double)n);
 }
 
-/* Of a ground that is true, p of what was seen there is uniform. */
+/* On the true ground, p of its observations is uniform. */
 TEST(on_the_true_ground_p_is_uniform)
 {
     double p[QUARRY_KINDS][400], one[QUARRY_KINDS];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stands through the years: against their closed forms, and what must hold in any stand. */
+/* Stands through the years: closed forms, and rules for any stand. */
 #include "expect.h"
 #include "local.h"
 
@@ -15,7 +15,7 @@
 #define COHORTS_MAX 4
 #define B           0.68 /* m: the paper's rock */
 
-/* ---- a stand to grow ---- */
+/* ---- a growing stand ---- */
 
 struct sample {
     struct ceduo_stand stand;
@@ -23,7 +23,7 @@ struct sample {
     double stay[COHORTS_MAX];
 };
 
-static struct sample s; /* anew before each test that is to begin with it; points into itself */
+static struct sample s; /* reset before each test that uses it; contains pointers into itself */
 
 /* Ostrya, 2500 stools with 7500 shoots of 5 cm and 60 trees of 20 cm, cut every 25 years. */
 static void init(void)
@@ -55,7 +55,7 @@ static void expect_same_stems(const struct ceduo_stems *a, const struct ceduo_st
         assert_memory_equal(a, b, n * sizeof *a);
 }
 
-/* Bits. */
+/* Expect two stands to be equal bit by bit. */
 static void expect_same_stand(const struct ceduo_stand *a, const struct ceduo_stand *b)
 {
     assert_int_equal(a->shoots_count, b->shoots_count);
@@ -81,7 +81,7 @@ TEST_WITH(year_0_is_the_stand_as_filed, fresh, NULL)
     ceduo_grown_stand_release(&grown);
     assert_null(grown.stems);
     init();
-    memset(&s.stand.growth, 0, sizeof s.stand.growth); /* unknown: for ever */
+    memset(&s.stand.growth, 0, sizeof s.stand.growth); /* NaN: for ever */
     assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER);
     for (unsigned year = 0; year < 60; year += 3) {
         grown = at(3, year);
@@ -125,19 +125,19 @@ TEST_WITH(a_given_age_stands_over_that_of_the_curve, fresh, NULL)
     EXPECT(grown.stand.trees[0].age, ==, 80);
     ceduo_grown_stand_release(&grown);
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 17);
-    s.shoots[0].age = 0; /* nothing has a dbh at 0: as if not given */
+    s.shoots[0].age = 0; /* no stem has a diameter at age 0: ignored */
     grown = at(INFINITY, 10);
     expect_relative(grown.stand.shoots[0].dbh, .16 * (1 - 11. / 16 * exp(-.22)), 1e-14);
     ceduo_grown_stand_release(&grown);
 }
 
-/* Where none are left on an old stool they become fewer by e in 5 years; where none were even at first, it keeps what it has. */
+/* If an old stool should have no shoots, they decrease by e in 5 years; if it began with none, it stays so. */
 TEST_WITH(no_old_shoots, fresh, NULL)
 {
     s.stand.growth.sdi_most = 0;
     s.stand.growth.shoots_old = 0;
     s.stand.stools_per_ha = 1;
-    assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER); /* nothing would come up */
+    assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER); /* nothing would sprout */
     struct ceduo_grown_stand grown = at(3, 10);
     expect_relative(grown.stand.shoots[0].per_ha, 7500 * exp(-2), 1e-13);
     ceduo_grown_stand_release(&grown);
@@ -148,7 +148,7 @@ TEST_WITH(no_old_shoots, fresh, NULL)
     ceduo_grown_stand_release(&grown);
 }
 
-/* After some 3500 years e^(-t/5) is too small for a number, but each stool keeps a shoot. */
+/* After some 3500 years e^(-t/5) underflows, but each stool keeps a shoot. */
 TEST_WITH(for_ages_a_shoot_a_stool, fresh, NULL)
 {
     s.stand.growth.shoots_old = 0;
@@ -160,7 +160,7 @@ TEST_WITH(for_ages_a_shoot_a_stool, fresh, NULL)
     }
 }
 
-/* By its curve a stem of 1e-320 m is some 1e-318 years old; what it is wide later was beyond all numbers. */
+/* On its curve a stem of 1e-320 m is some 1e-318 years old; its later width once overflowed. */
 TEST(next_to_nothing_grows_as_a_new_stem)
 {
     static const double given[][2] = {{1e-320, NAN}, {5e-324, NAN}, {.05, 5e-324}, {.05, 1e-300}};
@@ -181,7 +181,7 @@ TEST(next_to_nothing_grows_as_a_new_stem)
     }
 }
 
-/* With one rate for both, a stem has the same share of the greatest height as of the greatest width. */
+/* With one rate for both, height and diameter have the same share of their maxima. */
 TEST(a_curve_gives_heights_by_widths)
 {
     const struct ceduo_curve curve = {.4, .03, 20, .03}, faster = {.4, .03, 20, .06};
@@ -205,7 +205,7 @@ TEST_WITH(thicker_than_its_curve_it_grows_no_more, fresh, NULL)
 TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
 {
     s.stand.growth.trees.height_rate = 0;
-    assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER); /* what stays has no size */
+    assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER); /* the retained class has no size */
     LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(5, 30);
     expect_same_stems(grown.stand.trees, s.trees, 1);
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
@@ -225,7 +225,7 @@ TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
 
 TEST_WITH(never_less_than_one_shoot_a_stool, fresh, NULL)
 {
-    s.stand.shoots_count = 2; /* 1.2 a stool */
+    s.stand.shoots_count = 2; /* 1.2 per stool */
     s.shoots[0] = paper_stems(2000, .01, 1);
     s.shoots[1] = paper_stems(1000, .08, 7);
     s.stand.growth.sdi_most = 0;
@@ -254,7 +254,7 @@ TEST_WITH(the_years_of_cuts, fresh, NULL)
     assert_false(ceduo_is_cut_year(stand, INFINITY, CEDUO_NEVER));
     for (unsigned year = 0; year < 120; year++)
         EXPECT(ceduo_is_cut_year(stand, -5, year), ==, (year % 25 == 20));
-    assert_false(ceduo_is_cut_year(stand, 30, 5)); /* the first is the first */
+    assert_false(ceduo_is_cut_year(stand, 30, 5)); /* the first cut is the first */
     s.stand.cutting.rotation = 0;
     EXPECT(ceduo_first_cut(stand, 0), ==, CEDUO_NEVER);
     assert_false(ceduo_is_cut_year(stand, 0, 0));
@@ -267,15 +267,15 @@ TEST_WITH(by_default_it_is_cut_when_it_is_old_enough, fresh, NULL)
     s.stand.cutting.cohorts = 3;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(75 + log(1 - 5. / 16) / .022));
     s.stand.cutting.cohorts = 0;
-    for (unsigned age = 1; age <= 25; age++) { /* but for rounding */
+    for (unsigned age = 1; age <= 25; age++) { /* within rounding */
         s.shoots[0].dbh = .16 * (1 - exp(-.022 * age));
         assert_int_equal(ceduo_first_cut(&s.stand, NAN), age < 25 ? 25 - age : 1);
     }
-    s.shoots[0].dbh = .12; /* too old: but year 0 is the stand as filed */
+    s.shoots[0].dbh = .12; /* too old, but year 0 is the stand of the file */
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 1);
     s.shoots[0].dbh = .3;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 1);
-    s.stand.shoots_count = 0; /* only trees; those that stay are cut when they are three rotations old */
+    s.stand.shoots_count = 0; /* only trees; retained ones are cut when they are three rotations old */
     s.stand.stools_per_ha = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(75 + log(1 - 20. / 45) / .014));
     s.stay[1] = 0;
@@ -334,7 +334,7 @@ TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
         EXPECT(g->trees_count, ==, 1);
         EXPECT(g->trees[0].age, ==, 26 + tau);
     }
-    s.stand.growth.shoots_young = s.stand.growth.shoots_old = 1; /* two of three cohorts: less than one a stool */
+    s.stand.growth.shoots_young = s.stand.growth.shoots_old = 1; /* two of three cohorts: less than one per stool */
     LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, 13);
     expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-14);
     EXPECT(ceduo_stand_shoots(&grown.stand), >=, 2500);
@@ -349,7 +349,7 @@ TEST_WITH(a_cut_in_year_0_is_done, fresh, NULL)
     ceduo_grown_stand_release(&now);
     ceduo_grown_stand_release(&later);
     ceduo_grown_stand_release(&rhythm);
-    s.stand.cutting.stay_count = 0; /* nothing is left */
+    s.stand.cutting.stay_count = 0; /* no tree is retained */
     now = at(0, 0);
     assert_true(ceduo_stand_is_bare(&now.stand));
     assert_false(now.stems);
@@ -381,7 +381,7 @@ static double index_by_hand(const struct ceduo_stems *stems, size_t count)
 
 TEST(the_density_index)
 {
-    struct paper_plot plot; /* one mean dbh each */
+    struct paper_plot plot; /* one mean diameter each */
     paper_plot_init(&plot, 1);
     expect_relative(ceduo_stems_sdi(&plot.shoots, 1), plot.shoots.per_ha * pow(6.1 / 25.4, 1.605), 1e-13);
     paper_plot_init(&plot, 2);
@@ -402,12 +402,12 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     s.stand.trees_count = s.stand.cutting.stay_count = 0;
     s.stand.growth.sdi_most = 250;
     unsigned thinned = 0, died = 0;
-    for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index goes with the number */
+    for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index is proportional to the number */
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, tau);
         double n = 2500 * (3 + 13 * exp(-.2 * tau)), dbh = 16 * (1 - exp(-.022 * tau));
         double most = 250 * pow(25.4 / dbh, 1.605);
         expect_relative(ceduo_stand_shoots(&grown.stand), fmin(n, most), 1e-12);
-        expect_relative(grown.stand.stools_per_ha, fmin(2500, most), 1e-12); /* with one shoot each at least */
+        expect_relative(grown.stand.stools_per_ha, fmin(2500, most), 1e-12); /* each with at least one shoot */
         thinned += most < n;
         died += most < 2500;
     }
@@ -416,7 +416,7 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     EXPECT(died, >, 0);
     EXPECT(died, <, thinned);
     init();
-    s.stand.growth.sdi_most = 600; /* the trees take their part of it */
+    s.stand.growth.sdi_most = 600; /* the trees use their part of it */
     s.stand.growth.trees_sdi_most = 400;
     struct ceduo_grown_stand grown = at(0, 24);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
@@ -425,7 +425,7 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     EXPECT(trees, >, 50);
     expect_relative(index_by_hand(grown.stand.shoots, grown.stand.shoots_count), 600 * (1 - trees / 400), 1e-12);
     ceduo_grown_stand_release(&grown);
-    s.stand.growth.trees_sdi_most = trees / 2; /* the trees alone are more */
+    s.stand.growth.trees_sdi_most = trees / 2; /* the trees alone exceed it */
     grown = at(0, 24);
     EXPECT(ceduo_stand_shoots(&grown.stand), ==, 0);
     EXPECT(grown.stand.stools_per_ha, ==, 0);
@@ -515,7 +515,7 @@ TEST(no_computed_stand_is_too_dense)
             EXPECT(sdi, <=, most * (1 + 1e-9));
             thinned += most > 0 && fabs(sdi - most) < 1e-9 * most;
             if (shoots > 0 &&
-                grown.stand.stools_per_ha < s.stand.stools_per_ha * (1 - 1e-9)) { /* one shoot on each that lives */
+                grown.stand.stools_per_ha < s.stand.stools_per_ha * (1 - 1e-9)) { /* each living stool has one shoot */
                 expect_relative(grown.stand.stools_per_ha, shoots, 1e-12);
                 expect_relative(sdi, most, 1e-9);
                 died++;
@@ -558,7 +558,7 @@ static double adc_just_cut(const char *name, double stools, struct ceduo_cutting
     return value;
 }
 
-/* Ciabocco et al. 2009: right after its cut only the selection coppice has contacts nearer than 30 m. */
+/* Ciabocco et al. 2009: just after its cut only the selection coppice has contacts less than 30 m apart. */
 TEST(just_cut_only_the_selection_coppice_protects)
 {
     double simple[] = {30, 30}, standards[] = {100, 50, 20, 10}, selection[] = {40}, large[] = {125, 125};

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow threads */
-/* Runs of many rocks: their means beside those of independent implementations, and that nothing but the scene moves
- * them. */
+/* Runs of many rocks: their means compared with independent implementations; only the scene affects them. */
 #include "expect.h"
 #include "local.h"
 
@@ -18,7 +17,7 @@
 
 static struct paper_site site;
 
-/* A run of `scene` of so many rocks on as many threads. */
+/* Return a run of `scene` with n rocks on this many threads. */
 static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, unsigned threads)
 {
     scene->simulation.rocks = rocks;
@@ -27,7 +26,7 @@ static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, un
     return run_of(&def, rocks);
 }
 
-/* Within four combined standard errors, and half of the last digit of what is printed. */
+/* Expect agreement within four combined standard errors plus half of the last printed digit. */
 static void expect_mean(const char *what, double value, double se, double expected, double expected_se, double digit)
 {
     double most = 4 * hypot(se, expected_se) + digit / 2;
@@ -35,10 +34,10 @@ static void expect_mean(const char *what, double value, double se, double expect
         fail_msg("%s: %.6g ± %.3g is not %.6g ± %.3g", what, value, se, expected, expected_se);
 }
 
-/* ---- beside Table 5 ---- */
+/* ---- Table 5 ---- */
 
-/* Means at x = 135 of 2·10^5 rocks (the first of 10^6) by independent implementations of the same model. The paper's
- * Table 5 has 20.94 m/s and 122 kJ. */
+/* Means at x = 135 of 2·10^5 rocks (the first of 10^6) by independent implementations of the same model. Table 5 of the paper
+ * has 20.94 m/s and 122 kJ. */
 struct combination {
     enum ceduo_law law;
     enum ceduo_facets facets;
@@ -87,7 +86,7 @@ TEST(almost_nothing_passes_crsp_with_angles_to_both_sides)
     choose(&(struct combination){.law = CEDUO_LAW_CRSP, .facets = CEDUO_BOTH, .theta = PAPER_ANGLE});
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 20000, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    EXPECT(a.reached, <=, 3); /* 1 in 10^5: more than 3 of 20 000 has a chance of 6e-5 */
+    EXPECT(a.reached, <=, 3); /* 1 in 10^5: more than 3 of 20 000 has probability 6e-5 */
     EXPECT(a.reach.lo, <=, 1e-5);
     EXPECT(a.reach.hi, >=, 1e-5);
 }
@@ -138,7 +137,7 @@ TEST(a_run_flies_the_rocks_that_can_be_followed)
     EXPECT(expect_as_followed(def, 1500).reached, >, 1000);
 }
 
-/* ---- the same bits ---- */
+/* ---- equal bits ---- */
 
 TEST(the_same_bits_with_any_number_of_threads_and_steps)
 {
@@ -177,7 +176,7 @@ TEST(other_seeds_are_other_rocks)
 
 /* ---- envelopes ---- */
 
-/* The value of a rank in a sorted copy, as a manual of statistics has it: the smallest that a share p does not exceed. */
+/* Return the value of rank p in a sorted sample as textbooks define it: the smallest value that at most a share p is below. */
 static double rank_of(const double *values, size_t n, double p)
 {
     double sorted[CEDUO_ENVELOPE_ROCKS];
@@ -195,7 +194,7 @@ static void expect_spread(const struct ceduo_cell_quantiles *s, const double *va
               (max, rank_of(values, n, 1)));
 }
 
-/* A rock passes a place of an envelope as it passes a control there: what a run keeps of each, sorted. */
+/* Envelopes at a place equal ranks of a control there: a run stores and sorts the values of each. */
 TEST(envelopes_are_ranks_of_what_rocks_bring)
 {
     static const double places[] = {1, 20, 70, 134.5, 135, 150};
@@ -231,7 +230,7 @@ TEST(envelopes_are_ranks_of_what_rocks_bring)
     }
 }
 
-/* ---- cancelling ---- */
+/* ---- cancellation ---- */
 
 struct canceller {
     atomic_bool flag;
@@ -262,7 +261,7 @@ TEST(a_raised_flag_ends_the_run_which_can_go_on_later)
     uint64_t done = ceduo_run_rocks(run);
     ROWS(EXPECT, (c.calls, >=, 1), (done, >=, c.last), (done, <, 600000));
     assert_int_equal(arrivals_of(run, 0).released, done);
-    assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED); /* still raised */
+    assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED); /* flag still set */
     assert_int_equal(ceduo_run_rocks(run), done);
     struct ceduo_run_def plain = ceduo_run_def_default(&site.scene);
     plain.threads = 2;
@@ -303,7 +302,7 @@ static void expect_moments(const char *what, const struct ceduo_moments *m, doub
     expect_mean(what, ceduo_moments_sd(m), sd / sqrt(2 * (double)m->n), sd, 0, 0);
 }
 
-#define CUT_SD 0.98657839256 /* sd of the normal law cut at three of its own: sqrt(1 - 6 phi(3)/(2 Phi(3) - 1)) */
+#define CUT_SD 0.98657839256 /* sd of the normal law truncated at three of its own: sqrt(1 - 6 phi(3)/(2 Phi(3) - 1)) */
 
 TEST(releases_and_rocks_are_drawn_as_they_are_spread)
 {
@@ -338,13 +337,13 @@ TEST(a_lumped_rock_of_many_masses_has_energies_of_its_own)
     site.scene.rock.density = (struct ceduo_number){2600, 300, CEDUO_UNIFORM};
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 50000, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    /* the way does not depend on the mass */
+    /* the trajectory does not depend on the mass */
     expect_mean("mean speed", a.speed.mean, a.speed.se, 20.612, .005, .001);
     expect_mean("mean energy", a.energy.mean / 1e3, a.energy.se / 1e3, 114.69, .05, .01);
     expect_relative(a.energy.mean, a.translation.mean, 1e-12);
 }
 
-/* On the flat a rock that drops with vx leaves its first contact with Rt·vx and Rn·vz. */
+/* On level ground a rock dropped with vx leaves its first contact with Rt·vx and Rn·vz. */
 struct first_contact {
     struct ceduo_moments rn, rt;
     double vz;
@@ -387,7 +386,7 @@ TEST(grounds_are_drawn_as_they_are_spread)
     struct first_contact f = first_contacts(&flat.scene);
     expect_moments("Rn", &f.rn, .3, .05 * CUT_SD);
     expect_moments("Rt", &f.rt, .8, .1 / sqrt(3));
-    flat.segments[0].rn = (struct ceduo_number){.95, .2, CEDUO_NORMAL}; /* cut at 1 as well */
+    flat.segments[0].rn = (struct ceduo_number){.95, .2, CEDUO_NORMAL}; /* truncated at 1 as well */
     f = first_contacts(&flat.scene);
     double a = -3, b = .25, pi = acos(-1), p = (erfc(-b / sqrt(2)) - erfc(-a / sqrt(2))) / 2;
     double shift = (exp(-a * a / 2) - exp(-b * b / 2)) / sqrt(2 * pi) / p;
@@ -406,7 +405,7 @@ TEST(a_spread_of_nothing_changes_nothing)
     expect_same_run(one, two);
 }
 
-/* ---- nobody there ---- */
+/* ---- no arrival ---- */
 
 static bool nothing_known(const struct ceduo_distribution *d)
 {
@@ -467,9 +466,9 @@ TEST(unfinished_rocks_count_for_the_upper_bound)
     EXPECT_NAN(ends.stop_p50, ends.stop_max);
 }
 
-/* Blocks of all sizes fall on one of two grounds: on one they stay, on the other they bounce for ever. Nobody reaches the
- * control; the upper end is that of as many equal rocks as would have the same error, (sum of weights)^2 over the sum of their
- * squares, of which the unfinished arrive by their weights; or of these and of none of the others, if that is more. */
+/* Blocks of all sizes fall on one of two grounds: on one they stop, on the other they bounce for ever. None reaches the
+ * control. The upper bound counts (sum of weights)^2 / sum of their squares equal rocks. The unfinished ones arrive by their
+ * weights; or they arrive and no others do, if that is more. */
 TEST(unfinished_blocks_count_by_their_weights)
 {
     enum { ROCKS = 60 };

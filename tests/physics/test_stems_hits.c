@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a hit takes of a rock, which stems it flies over, and where stems stop it. */
+/* Energy taken by a hit, stems that a rock flies over, and rocks that stems stop. */
 #include "expect.h"
 #include "local.h"
 
@@ -7,7 +7,7 @@
 
 #include "stems_scene.h"
 
-/* ---- what a hit takes ---- */
+/* ---- energy of a hit ---- */
 
 static void plant_dorren(double from, double to)
 {
@@ -42,7 +42,7 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
     EXPECT(trees.n + shoots.n, >, 1e6);
 }
 
-/* What a hit takes where brauner goes by eccentricity: the printed share of V U, and all of a rock that has less. */
+/* If brauner depends on eccentricity, a hit takes the printed share of V U, or all of a rock that has less. */
 TEST(hits_beside_the_middle_take_their_share)
 {
     const double volume = 1000, u_J_m3 = 1e7; /* far more than a rock has, but at the edge of a stem */
@@ -68,10 +68,10 @@ TEST(hits_beside_the_middle_take_their_share)
     EXPECT(ends[CEDUO_STOPPED_BY_STEMS], >, 1000);
 }
 
-/* A stem's hit between two pieces of the way, and what it does to the speed. */
+/* The hit between two trajectory segments, and its effect on the speed. */
 struct scaling {
     struct ceduo_trajectory_segment last;
-    double left; /* share of the energy that the hit before leaves; NaN: none */
+    double left; /* share of the energy left by the previous hit; NaN: none */
     uint64_t hits, checked;
     double radius, mass, moment;
     bool spins;
@@ -122,7 +122,7 @@ TEST(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy)
         sweep_begin();
         for (uint64_t rock = 0; rock < 2000; rock++) {
             if (rock == 0)
-                sweep_rock(0); /* for the rock's mass */
+                sweep_rock(0); /* sets the rock's mass */
             s.radius = sweep.way.rock.radius;
             s.mass = sweep.way.rock.mass;
             s.moment = spins ? sweep.way.rock.moment : 0;
@@ -174,7 +174,7 @@ TEST(rocks_fly_over_stems_that_are_lower)
     struct spread come_to = {0}, hit = {0};
     clear_plane(400);
     line_scene_release(&plane.line, 0, fall, v, 0, 0);
-    plane.line.segments[0].rn = ceduo_number(0); /* dead ground: the rock rolls from its landing on */
+    plane.line.segments[0].rn = ceduo_number(0); /* dead ground: the rock rolls after its landing */
     struct ceduo_belt *belt = plant_belt(0, 400, 1000, .4);
     plant_shoots(belt, 4000, .05)->height = heights[0];
     plant_trees(belt, 1500, .2)->height = heights[1];
@@ -204,7 +204,7 @@ TEST(rocks_fly_over_stems_that_are_lower)
     expect_mean("stems hit", &hit, expected);
 }
 
-/* Clearance over a broken slope, from the pieces of the way themselves. */
+/* Clearance over a broken slope, computed from the trajectory segments. */
 #define PIECES_MAX 4096
 struct pieces {
     size_t count;
@@ -269,7 +269,7 @@ TEST(a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope)
 
 /* ---- rocks that stems stop ---- */
 
-/* Where the first point of a Poisson process lies, if there is one on `length` from `from` on. */
+/* Law of the first point of a Poisson process on `length` after `from`. */
 struct first_stem {
     double from, length, rate;
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stems that are made up as a rock comes to them, beside a full map of them in the plane. */
+/* Stems drawn lazily along a trajectory, compared with a full map in the plane. */
 #include "expect.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "plane_map.h"
 #include "stems_scene.h"
 
-/* What is compared: places along the way and across it, gaps, and how many. */
+/* Compared statistics: positions along and across the trajectory, gaps, and counts. */
 struct swept {
     struct sample per_way, stools_per_way, gap, per_stool, x, y, dbh;
 };
@@ -18,7 +18,7 @@ static int by_stool(const void *a, const void *b)
     return (p->stool > q->stool) - (p->stool < q->stool);
 }
 
-/* One way's stems, in the order of x. */
+/* Add the stems of one trajectory, in order of x. */
 static void swept_add(struct swept *s, struct map_stem *stems, size_t n)
 {
     sample_add(&s->per_way, (double)n);

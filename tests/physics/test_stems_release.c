@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stems about a release in the forest, and ground that is covered twice: as dense as elsewhere, each met once. */
+/* Stems around a release in the forest, and ground covered twice: as dense as elsewhere, each stem met once. */
 #include "expect.h"
 
 #include <gsl/gsl_linalg.h>
@@ -11,8 +11,8 @@
 
 /* ---- bins ---- */
 
-/* Stems in bins along x, rock by rock. Those of one stool are no independent events, so the bins' covariance over the
- * rocks is kept as well. */
+/* Stems in bins along x, rock by rock. Stems of one stool are not independent, so the covariance of the bins over rocks is
+ * kept. */
 #define BINS_MAX 64
 struct bins {
     size_t k;
@@ -38,7 +38,7 @@ static void bins_end_rock(struct bins *b)
     b->n++;
 }
 
-/* Every bin has the same mean: chi-square of the means with their covariance (Hotelling 1931, many rocks). */
+/* Expect equal means of all bins: chi-square of the means with their covariance (Hotelling 1931, many rocks). */
 static void expect_even(const char *what, const struct bins *b, double per_bin)
 {
     gsl_matrix *s = gsl_matrix_alloc(b->k, b->k);
@@ -62,9 +62,9 @@ static void expect_even(const char *what, const struct bins *b, double per_bin)
     expect_chi_square(what, chi2, (double)b->k);
 }
 
-/* ---- ground that is covered twice ---- */
+/* ---- ground covered twice ---- */
 
-/* The ground covered so far; a stem must lie at its edge. */
+/* Ground already covered; a new stem must lie at its edge. */
 struct cover {
     double lo, hi;
     uint64_t turns;
@@ -107,7 +107,7 @@ static void expect_each_stem_once(void)
             fail_msg("the stem at %.17g, %.17g is met twice", sweep.stems[i].x, sweep.stems[i].y);
 }
 
-/* A smooth valley in which a rock rolls to and fro, higher on the left than it was released. */
+/* A smooth valley in which a rock rolls to and fro, on the left higher than its release. */
 TEST(ground_that_is_covered_twice_holds_its_stems_once)
 {
     const double from = 381.3, slope = tan(15 * M_PI / 180), v = 31.3;
@@ -135,7 +135,7 @@ TEST(ground_that_is_covered_twice_holds_its_stems_once)
 
 /* ---- a release in the forest ---- */
 
-/* Level ground with a wall that throws the rock back over the place where it started. */
+/* Level ground with a wall that throws the rock back across its release. */
 enum way_out { AHEAD, AHEAD_AND_BACK, BACK_AND_AHEAD };
 #define RELEASE 150.
 static void clear_court(enum way_out out)
@@ -167,7 +167,7 @@ static void expect_even_court(const char *name, enum way_out out, double per_m, 
     expect_even(name, &bins, per_m * bins.width);
 }
 
-/* Stems are looked for on 8 m of so many per metre; the belt reaches beyond them by more than any ring. */
+/* Count stems on 8 m by their density per metre; the belt reaches beyond by more than any ring. */
 static void court_of_the_paper(enum way_out out)
 {
     clear_court(out);
@@ -188,7 +188,7 @@ TEST(stems_stand_as_dense_about_a_release_in_the_forest)
     }
 }
 
-/* A stool astride of the release is one stool, whichever way the rock goes first. */
+/* A stool on both sides of the release is one stool, whichever way the rock goes first. */
 TEST(the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first)
 {
     static struct ceduo_stem_encounter ahead[STEMS_MAX];
@@ -211,10 +211,10 @@ TEST(the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first)
         for (size_t i = 1; i < n; i++)
             astride += ahead[i - 1].x < RELEASE && ahead[i].x >= RELEASE && ahead[i - 1].stool == ahead[i].stool;
     }
-    EXPECT(astride, >, 40); /* some were there */
+    EXPECT(astride, >, 40); /* there were some */
 }
 
-/* Far ahead and back again: many other stools lie between the two hits of one astride of the release. */
+/* Far ahead and back: many other stools lie between the two hits of a stool at the release. */
 TEST(a_stool_astride_of_the_release_is_one_however_far_the_rock_went_between)
 {
     uint64_t wrong = 0, rocks = 2000;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs among stems: the test site of Ciabocco, Boccia and Ripa 2009, options side by side, the same bits and the same rocks. */
+/* Runs among stems: the test site of Ciabocco, Boccia and Ripa 2009, several options, equal bits and equal rocks. */
 #include "expect.h"
 #include "local.h"
 
@@ -13,7 +13,7 @@
 
 static struct paper_site site;
 
-/* An independent implementation of the same model; energy (kJ) and speed of those that pass x = 135 m, shares (%) of all
+/* An independent implementation of the same model: energy (kJ) and speed of rocks that pass x = 135 m, shares (%) of all
  * released. In the paper a rock was filmed there with 62.3 kJ and 15.6 m/s. */
 TEST(rocks_on_the_papers_site_arrive_as_in_an_independent_implementation)
 {
@@ -28,7 +28,7 @@ TEST(rocks_on_the_papers_site_arrive_as_in_an_independent_implementation)
     double n = (double)rocks, pass = a.reach.mean;
     double stopped = (double)e.count[CEDUO_STOPPED_BY_STEMS] / n;
     expect_close("kJ at 135 m", a.energy.mean / 1e3, a.energy.se / 1e3, other.energy, .1);
-    /* its error is not printed: half of that of the energy, as shares go, and half a digit */
+    /* its error is not published: half of the energy's, relatively, plus half a digit */
     ROWS(expect_close, ("m/s at 135 m", a.speed.mean, a.speed.se, other.speed, other.speed * .05 / other.energy + .005 / 4),
          ("% that pass", 100 * pass, 100 * sqrt(pass * (1 - pass) / n), other.pass, .1),
          ("% stopped by stems", 100 * stopped, 100 * sqrt(stopped * (1 - stopped) / n), other.stopped, .1));
@@ -38,9 +38,9 @@ TEST(rocks_on_the_papers_site_arrive_as_in_an_independent_implementation)
     assert_int_equal(ended, rocks);
 }
 
-/* ---- options side by side ---- */
+/* ---- several options ---- */
 
-/* The paper's site, another option beside it: the same stems, which take a little more. */
+/* The paper's site with a second option: the same stems, which take slightly more. */
 static struct {
     struct ceduo_option options[2];
     struct ceduo_belt belts[2];
@@ -62,7 +62,7 @@ static void open_sides(void)
     site.scene.options_count = LENGTH(sides.options);
 }
 
-/* Energy of each rock at the control, 0 where it does not arrive, whose `reached` is false. */
+/* Return the energy of each rock at the control; 0 and `reached` false if it does not arrive. */
 static double energy_of_rock(struct ceduo_tracer *f, uint64_t rock, bool *reached)
 {
     struct ceduo_trajectory w;
@@ -108,7 +108,7 @@ TEST(differences_have_the_error_of_differences_rock_by_rock)
 {
     const uint64_t rocks = 6000;
     open_sides();
-    for (int other = 0; other < 2; other++) { /* the small change, no forest */
+    for (int other = 0; other < 2; other++) { /* the small change; no forest */
         const struct ceduo_option *option = other ? NULL : &sides.options[1];
         LOCAL(ceduo_run, run) = run_option(&site.scene, option, rocks, 2);
         LOCAL(ceduo_run, base) = run_option(&site.scene, &sides.options[0], rocks, 2);
@@ -141,14 +141,14 @@ TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
     EXPECT(expect_as_followed(def, 3000).reached, >, 2000);
 }
 
-/* A rock that is not followed to its end, for there were too many stems, has arrived wherever it came before: from its release, and
- * from a contact, behind which many rocks fly together. */
+/* A rock aborted because of too many stems has reached the controls it passed before: from its release, and from a contact from
+ * which many rocks fly together. */
 TEST(a_rock_that_is_given_up_has_arrived_before)
 {
     enum { ROCKS = 10 };
     clear_plane(20000);
     plane.line.scene.release.height.mean = 5;
-    plant_trees(plant_belt(0, 20000, 0, 0), 1e6, .01)->height = 2; /* all of them are flown over */
+    plant_trees(plant_belt(0, 20000, 0, 0), 1e6, .01)->height = 2; /* the rock flies over all of them */
     plane.line.scene.controls_count = 1;
     plane.line.control = (struct ceduo_control){.x = 10000, .accepted = NAN, .measured_speed = NAN};
     for (uint64_t contact = 0; contact < 2; contact++) {
@@ -166,8 +166,8 @@ TEST(a_rock_that_is_given_up_has_arrived_before)
     }
 }
 
-/* The same of a rock that rolls, each contact a radius far: in wide groups most trees stand beside its way, so that it is given up
- * between two that it hits, and within a radius. */
+/* The same for a rolling rock, with a contact per radius: in wide groups most trees stand off its path, so that it is aborted
+ * between two hits and within a radius. */
 TEST(a_rock_that_is_given_up_has_arrived_where_it_rolled)
 {
     clear_plane(20000);
@@ -185,8 +185,8 @@ TEST(a_rock_that_is_given_up_has_arrived_where_it_rolled)
     EXPECT_IS(arrivals_of(run, 0), (reached, 1), (unfinished, 0));
 }
 
-/* Of blocks of all sizes the same by their weights; the error of the mean is what a regression on the weights leaves (Cochran
- * 1977), and what it spreads from seed to seed. */
+/* The same for blocks of all sizes with their weights. The error of the mean is the residual of a regression on the weights
+ * (Cochran 1977), and its spread between seeds. */
 TEST(stems_hit_by_blocks)
 {
     enum { ROCKS = 400, SEEDS = 200 };
@@ -237,7 +237,7 @@ TEST(stems_hit_by_blocks)
     EXPECT_NEAR(ratio, 1, 4 / sqrt(2. * SEEDS));
 }
 
-/* A run that was made longer than others keeps its figures; the difference is of the rocks that both have. */
+/* Extending one run keeps its figures; the difference uses the rocks of both runs. */
 TEST(a_longer_run_keeps_its_figures)
 {
     open_sides();
@@ -269,7 +269,7 @@ TEST(a_longer_run_keeps_its_figures)
     ceduo_run_free(few[1]);
 }
 
-/* Behind every stem a flight or roll is computed afresh; where the stem takes nothing that must not show. */
+/* After every stem a flight or roll is computed again; a stem that takes no energy must not change it. */
 TEST(stems_that_take_nothing_leave_the_way_as_it_is)
 {
     const uint64_t rocks = 4000;
@@ -281,7 +281,7 @@ TEST(stems_that_take_nothing_leave_the_way_as_it_is)
         p->shoots.volume = p->trees.volume = 1e-25;
         p->shoots.height = p->trees.height = 1e3;
     }
-    site.belts[0].from = -5; /* stools before the release reach over it */
+    site.belts[0].from = -5; /* stools above the release reach over it */
     struct ceduo_tracer *f = ceduo_tracer_create(&site.scene, &site.option);
     struct ceduo_tracer *bare = ceduo_tracer_create(&site.scene, NULL);
     assert_true(f);
@@ -307,7 +307,7 @@ TEST(stems_that_take_nothing_leave_the_way_as_it_is)
     ceduo_tracer_free(f);
     ceduo_tracer_free(bare);
     print_message("# %ju of %ju ways the same\n", (uintmax_t)same, (uintmax_t)rocks);
-    EXPECT(same, >, rocks * 98 / 100); /* some turn elsewhere by rounding */
+    EXPECT(same, >, rocks * 98 / 100); /* rounding turns some elsewhere */
     expect_mean("stems per metre of ADS 1 on the paper's site", &met[0], per_metre(9076, B + .061));
     expect_mean("stems per metre of ADS 2 on the paper's site", &met[1], per_metre(4641, B + .047));
 }
@@ -331,8 +331,8 @@ TEST(options_with_the_same_stems_share_a_run)
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     struct ceduo_work work = ceduo_pool_work(pool);
-    assert_int_equal(work.runs, 3);   /* without forest, the paper's, the shorter */
-    assert_int_equal(work.reused, 5); /* of 4 options, each with its forest and without, 8 in all */
+    assert_int_equal(work.runs, 3);   /* without forest, the paper's forest, the shorter one */
+    assert_int_equal(work.reused, 5); /* 4 options, each with and without its forest: 8 in all */
     assert_ptr_equal(ceduo_pool_find(pool, &options[1]), ceduo_pool_find(pool, &options[0]));
     assert_ptr_not_equal(ceduo_pool_find(pool, &options[2]), ceduo_pool_find(pool, &options[0]));
     assert_ptr_equal(ceduo_pool_find(pool, &options[3]), ceduo_pool_find(pool, NULL));

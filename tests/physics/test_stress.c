@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Random scenes in bulk and nasty ones by name: what holds on any ground (invariants.h), the same bits when run again, no
- * invalid operation, and counts that add up.
+/* Random scenes in bulk and difficult ones by name: rules for any ground (invariants.h), equal bits in a second run, no invalid
+ * operation, and consistent counts.
  *
- *   STRESS=SCENES STRESS_FIRST=FIRST test_stress     default 15000 random scenes, 40000 with FULL; `make stress` has ten million
+ * STRESS=SCENES STRESS_FIRST=FIRST test_stress default 15000 random scenes, 40000 with FULL; `make stress` has ten million
  *
- * Invalid operations, divisions by zero and overflows are looked for while a rock goes its way, and fail the test; but
- * for flights whose horizontal speed is below 1e-150 m/s. For them the time to the next vertex overflows by design, even to
- * infinity, which times 0 is NaN, and a comparison with that is a contact. (Reading a scene may compare with NaN: that is
- * how it says that a number is not given.) */
+ * An invalid operation, a division by zero or an overflow during a trajectory fails the test, except in flights with a
+ * horizontal speed below 1e-150 m/s. There the time to the next vertex overflows by design, even to infinity. Times 0 this is
+ * NaN, and a comparison with it counts as a contact. (Reading a scene may compare with NaN, which means "not given".) */
 #include "expect.h"
 #include "full.h"
 #include "local.h"
@@ -22,13 +21,13 @@
 #include "runs.h"
 
 #define LASTING_EVERY 5000
-#define RUN_EVERY     64 /* scenes of which one is flown as a run, too */
+#define RUN_EVERY     64 /* one scene in this many is also simulated as a run */
 #define CONTROLS      5
-#define ROCKS         11 /* of a nasty scene */
+#define ROCKS         11 /* per difficult scene */
 
 static uint64_t scenes, first = 1000000;
 static uint64_t run_rocks = 40;
-static int by_design; /* floating-point exceptions that may be raised */
+static int by_design; /* floating-point exceptions that are allowed */
 
 /* ---- one scene ---- */
 
@@ -37,7 +36,7 @@ struct result {
     struct ceduo_crossing crossing;
 };
 
-/* Without -ffp-exception-behavior clang may compute what a branch then does not need: what that raises says nothing. */
+/* Without -ffp-exception-behavior clang may compute the untaken branch: its exceptions mean nothing. */
 #ifdef __clang__
 #define RAISED 0
 #else
@@ -59,7 +58,7 @@ static void follow(const struct line_scene *s, uint64_t rock, struct result *r)
                  raised & FE_OVERFLOW ? " overflow" : "");
 }
 
-/* Returns where the way ends. */
+/* Return the trajectory; a second simulation gives the same bits. */
 static struct ceduo_trajectory expect_the_same_again(const struct line_scene *s, uint64_t rock)
 {
     struct result a, b;
@@ -71,7 +70,7 @@ static struct ceduo_trajectory expect_the_same_again(const struct line_scene *s,
     return a.way;
 }
 
-/* Whether two ways are the same but for rounding. */
+/* True if two trajectories are equal within rounding. */
 static bool are_alike(const struct ceduo_trajectory *a, const struct ceduo_trajectory *b)
 {
     return a->end == b->end && a->contacts == b->contacts && fabs(a->x - b->x) <= 1e-6 * (1 + fabs(b->x));
@@ -87,7 +86,8 @@ static void expect_distribution(const struct ceduo_distribution *d, uint64_t n)
     assert_true(n == 1 || (isfinite(d->se) && d->se >= 0));
 }
 
-/* A run of the scene: as many ends as rocks; no control is reached by more rocks than one before it. */
+/* Simulate the scene as a run: ends sum to the rocks, and a later control is never reached by more rocks than an earlier
+ * one. */
 static void expect_counts(const struct line_scene *s)
 {
     struct ceduo_scene scene = s->scene;
@@ -127,14 +127,14 @@ TEST(random_scenes)
     static struct line_scene scene;
     struct invariants_tally t = {0}, of_arm = {0};
     uint64_t parted = 0;
-    by_design = FE_OVERFLOW; /* some rock in millions moves by 1e-166 m/s: t2 to the next vertex is infinite, it lands before */
+    by_design = FE_OVERFLOW; /* one rock in millions moves at 1e-166 m/s: t2 to the next vertex is infinite, it lands before */
     for (uint64_t number = first; number < first + scenes; number++) {
         line_scene_random(&scene, number, LASTING_EVERY);
         invariants_expect(&scene, number, &t);
         if (line_scene_lasts(&scene))
             continue;
         struct ceduo_trajectory unseen = expect_the_same_again(&scene, number % 11);
-        parted += !are_alike(&unseen, &t.last); /* nobody looks on: rolls pass whole segments */
+        parted += !are_alike(&unseen, &t.last); /* without a callback rolls pass whole segments */
         if (number % RUN_EVERY == 0)
             expect_counts(&scene);
         if (number % 4 != 0)
@@ -146,7 +146,7 @@ TEST(random_scenes)
     for (int i = 0; i < CEDUO_ENDS; i++)
         sum += t.ends[i];
     assert_int_equal(sum, scenes);
-    if (scenes >= 1000) /* they are worth looking at */
+    if (scenes >= 1000) /* enough scenes for statistics */
         ROWS(EXPECT, (t.flights, >, 4 * scenes), (t.impacts, >, scenes), (t.ends[CEDUO_AT_REST], >, scenes / 10),
              (t.ends[CEDUO_LEFT_SLOPE], >, scenes / 10), (t.crossed, >, scenes / 10), (of_arm.crossed, >, scenes / 40));
     print_message("%ju scenes: %ju at rest, %ju left, %ju unfinished (%ju may last, %ju sink in a crack), %ju contacts; "
@@ -159,12 +159,12 @@ TEST(random_scenes)
     by_design = 0;
 }
 
-/* ---- nasty scenes ---- */
+/* ---- difficult scenes ---- */
 
 static struct line_scene s;
 static const struct line_ground earth = {.rn = .35, .rt = .85, .friction = .5};
 
-/* Sets the profile; the rest with look(). */
+/* Set the profile; the rest follows in try_release(). */
 static void profile(size_t vertices, const double *x, const double *z, struct line_ground ground, double radius)
 {
     line_scene_init(&s, vertices, x, z, ground, radius, CEDUO_LAW_LUMPED);
@@ -175,7 +175,7 @@ static void release(double x, double height, double vx, double vz)
     line_scene_release(&s, x, height, vx, vz, 0);
 }
 
-/* From a release: both laws, facets to either side, smooth and rough, with and without the friction bound. */
+/* Simulate a release: both laws, facets to either side, smooth and rough, with and without the friction bound. */
 static void look(double from, double height, double vx, double vz)
 {
     struct invariants_tally t = {0};
@@ -208,7 +208,7 @@ TEST(grazing_contacts)
             profile(4, x, z, earth, .3);
             look(1, height, v, -.5 * v);
         }
-        for (int ulps = -2; ulps <= 2; ulps++) { /* along the ground but for the last bits */
+        for (int ulps = -2; ulps <= 2; ulps++) { /* along the ground within the last bits */
             profile(4, x, z, earth, .3);
             look(1, 0, v, -.5 * v * (1 + ulps * 0x1p-52));
         }
@@ -225,7 +225,7 @@ TEST(launch_at_a_vertex)
         }
 }
 
-/* With g = 8 and vx = 1 a fall of 4 m takes 1 s and 1 m: all of it without rounding. */
+/* With g = 8 and vx = 1 a fall of 4 m takes 1 s and 1 m, without rounding. */
 TEST(flights_through_a_vertex_to_the_last_bit)
 {
     for (int ulps = -1; ulps <= 1; ulps++)
@@ -302,7 +302,7 @@ TEST(little_and_much_gravity)
     }
 }
 
-/* Where all is 1 the rocks may go on for ever, and are counted as unfinished. */
+/* If all shares are 1 rocks may never stop, and count as unfinished. */
 TEST(shares_of_none_and_all)
 {
     const double x[] = {0, 10, 20, 30}, z[] = {0, -8, -9, -9};
@@ -377,8 +377,8 @@ TEST(rebounds_without_end)
     EXPECT_IS(r.way, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 5));
 }
 
-/* Random scenes in which a rock goes to and fro in a crack of 12 or 42 micrometres, or of 8 nanometres where it hops along one
- * wall now and then, or on its bottom with Rn = 1, where the law takes less and less: more contacts than are counted. */
+/* Random scenes in which a rock bounces in a crack of 12 or 42 micrometres, or of 8 nanometres. It hops along one wall at
+ * times, or on the bottom with Rn = 1, at which the law takes less and less: more contacts than the limit. */
 TEST(cracks)
 {
     static const uint64_t numbers[] = {123445, 2688044, 5280488, 8903797};
@@ -388,12 +388,12 @@ TEST(cracks)
         line_scene_random(&scene, numbers[i], LASTING_EVERY);
         scene.scene.simulation.friction_bound = true;
         invariants_expect(&scene, numbers[i], &bound);
-        scene.scene.simulation.friction_bound = false; /* the numbers were found with the published laws */
+        scene.scene.simulation.friction_bound = false; /* found with the published laws */
         invariants_expect(&scene, numbers[i], &t);
     }
     EXPECT(t.cracks, ==, LENGTH(numbers));
     EXPECT(t.ends[CEDUO_UNFINISHED], ==, LENGTH(numbers));
-    line_scene_random(&scene, 3596987, LASTING_EVERY); /* one of 60 nm, in which it rests on the wall */
+    line_scene_random(&scene, 3596987, LASTING_EVERY); /* a crack of 60 nm, in which it rests on the wall */
     scene.scene.simulation.friction_bound = false;
     invariants_expect(&scene, 3596987, &t);
     EXPECT(t.last.end, ==, CEDUO_AT_REST);
@@ -431,7 +431,7 @@ TEST(noise_of_every_size)
             }
 }
 
-/* A million segments, finer than rounding lets most tools have them. */
+/* A million segments, finer than most tools can round. */
 TEST(a_million_segments)
 {
     const size_t vertices = 1000001;

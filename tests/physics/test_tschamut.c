@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shipped check of the law arm: on one ground the stops of three blocks of different shape at Tschamut are as they were
- * seen, and without their shapes they are not. */
+/* The shipped check of the law arm: on one ground the stops of three blocks of different shape at Tschamut match the
+ * observations; without their shapes they do not. */
 #include "expect.h"
 
 #include "ceduo/calibrate.h"
@@ -26,7 +26,7 @@ static int free_scene(void **state)
     return 0;
 }
 
-/* Distances and mean stops of the blocks as `seen` has them. */
+/* Compute distances and mean stops of the blocks in `observed`. */
 static void look(const struct ceduo_observation *seen, double distance[BLOCKS], double mean[BLOCKS])
 {
     struct ceduo_observer *observer;
@@ -53,7 +53,7 @@ TEST(one_ground_gives_all_three_blocks)
     }
 }
 
-/* Every block a sphere of the same mean diameter: all stop at one place. */
+/* With every block a sphere of the same mean diameter all stop at one place. */
 TEST(without_its_shape_the_plate_goes_too_far)
 {
     struct ceduo_observation round[BLOCKS];

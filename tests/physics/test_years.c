@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: threads */
-/* An option year by year: beside the same stands grown, flown and assessed one by one. */
+/* An option year by year, compared with the same stands grown, simulated and assessed one by one. */
 #include "expect.h"
 #include "local.h"
 
@@ -13,12 +13,12 @@
 #include "paper_site.h"
 #include "runs.h"
 
-#define ROCKS    1300 /* more than a block */
+#define ROCKS    1300 /* more than a batch */
 #define BELTS    3
 #define CONTROLS 3
 #define ROTATION 9
 
-/* ---- a wood that grows and is cut ---- */
+/* ---- a forest that grows and is cut ---- */
 
 struct wood {
     struct paper_site site;
@@ -29,9 +29,9 @@ struct wood {
     double stay[2];
 };
 
-static struct wood wood; /* points into itself */
+static struct wood wood; /* contains pointers into itself */
 
-/* A coppice cut in year 4, a selection coppice, and one without any growth. */
+/* A coppice cut in year 4, a selection coppice, and one without growth. */
 static void init(void)
 {
     static char names[BELTS][4] = {"one", "two", "old"};
@@ -66,7 +66,7 @@ static void init(void)
     scene->options_count = 1;
 }
 
-/* Before each test. */
+/* Set-up of each test. */
 static int fresh(void **state)
 {
     (void)state;
@@ -102,7 +102,7 @@ static struct ceduo_simulated bare_of(uint64_t rocks)
     return bare;
 }
 
-/* Grown and flown with a pool of its own, which is gone. */
+/* Grow and simulate with a temporary pool. */
 static struct ceduo_years *flown(unsigned first, unsigned last, unsigned step, unsigned threads, uint64_t rocks)
 {
     struct ceduo_years *years = grown(first, last, step);
@@ -112,7 +112,7 @@ static struct ceduo_years *flown(unsigned first, unsigned last, unsigned step, u
     return years;
 }
 
-/* ---- the same bits ---- */
+/* ---- equal bits ---- */
 
 static void expect_same(const char *what, double a, double b)
 {
@@ -120,7 +120,7 @@ static void expect_same(const char *what, double a, double b)
         fail_msg("%s: %.17g is not %.17g", what, a, b);
 }
 
-/* Numbers of the same places in two structures, each the same to the bit. */
+/* Compare numbers of the same members in two structs bit by bit. */
 #define EXPECT_FIELD_BITS_IN(a, b, field) expect_same(#field, (a)->field, (b)->field);
 #define EXPECT_FIELD_BITS(both, field)    WITH_UNWRAPPED(EXPECT_FIELD_BITS_IN, UNWRAP both, field)
 #define EXPECT_BITS(a, b, ...)                                                                                                 \
@@ -178,9 +178,9 @@ static void expect_same_year(const struct ceduo_year *a, const struct ceduo_year
         expect_same_ends(&a->wooded.ends, &b->wooded.ends);
 }
 
-/* ---- beside runs of their own ---- */
+/* ---- comparison with separate runs ---- */
 
-/* The same year without any of it: stands, one run, its figures. */
+/* Simulate one year directly: stands, one run, its results. */
 static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulated *bare)
 {
     const struct ceduo_scene *scene = &wood.site.scene;
@@ -229,7 +229,7 @@ TEST_WITH(years_are_runs_of_their_own, fresh, NULL)
         cuts += years->years[i].cut;
         expect_direct(&years->years[i], &bare);
     }
-    assert_int_equal(cuts, 5); /* 4, 13 and 22 of the coppice; 10 and 19 of the selection coppice, 27 years old then */
+    assert_int_equal(cuts, 5); /* 4, 13 and 22 of the coppice; 10 and 19 of the selection coppice, then 27 years old */
 }
 
 TEST_WITH(year_0_is_the_result, fresh, NULL)
@@ -248,7 +248,7 @@ TEST_WITH(year_0_is_the_result, fresh, NULL)
     }
     for (int i = 0; i < BELTS; i++)
         expect_same_stand(&y->stands[i], &result->options[0].stands[i]);
-    assert_int_equal(ceduo_pool_work(pool).runs, 2); /* bare, and this one, which was there */
+    assert_int_equal(ceduo_pool_work(pool).runs, 2); /* without forest, and the existing run */
 }
 
 TEST_WITH(steps_and_stretches_pick_from_all, fresh, NULL)
@@ -273,7 +273,7 @@ TEST_WITH(threads_and_steps_change_nothing, fresh, NULL)
     LOCAL(ceduo_years, steps) = grown(0, 5, 1);
     LOCAL(ceduo_pool, pool) = pool_of(2, NULL);
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(3000);
-    static const uint64_t rocks[] = {1, 1024, 1500, 3000, 2000}; /* never shorter again */
+    static const uint64_t rocks[] = {1, 1024, 1500, 3000, 2000}; /* runs never shrink */
     for (size_t i = 0; i < sizeof rocks / sizeof rocks[0]; i++)
         assert_int_equal(ceduo_years_simulate(steps, pool, &bare, rocks[i]), CEDUO_OK);
     for (size_t i = 0; i < one->count; i++) {
@@ -300,8 +300,8 @@ TEST_WITH(a_wood_is_flown_once, fresh, NULL)
 
 #define SUMMED 400 /* rocks */
 
-/* Sums over the years at each control, from trajectories followed one by one. Of the share that is judged at the last control the
- * error is that of each rock's own mean; of the others as if all years went together. */
+/* Sums over the years at each control, from single trajectories. The judged share at the last control has the error of each
+ * rock's own mean; the other figures have the error of all years as one. */
 struct by_hand {
     double reach, exceed, energy, reach_se, exceed_se, energy_se, worst;
     unsigned worst_year;
@@ -317,7 +317,7 @@ static double error_of(double sum, double squares)
     return sqrt((squares - sum * sum / SUMMED) / (SUMMED - 1) / SUMMED);
 }
 
-/* One year at control c: `own` adds up each rock's share. */
+/* Add one year at control c; `own` sums each rock's share. */
 static void add_year(struct by_hand *to, const struct ceduo_years *years, size_t i, size_t c, double own[SUMMED])
 {
     const struct ceduo_scene *scene = &years->scene;
@@ -399,11 +399,11 @@ TEST(sums_over_the_years)
         LOCAL(ceduo_years, years) = flown(0, 22, 2, 2, SUMMED);
         for (size_t c = 0; c < CONTROLS; c++)
             expect_sum(years, c);
-        assert_true(isnan(ceduo_years_sum(years, 0).exceed.mean)); /* it does not say what it bears */
+        assert_true(isnan(ceduo_years_sum(years, 0).exceed.mean)); /* no accepted energy */
     }
 }
 
-/* Of blocks of all sizes the shares of years are weighed; the error is what a regression on the weights leaves. */
+/* For blocks of all sizes the shares of years are weighted; the error is the residual of a regression on the weights. */
 TEST(years_of_blocks)
 {
     enum { FEW = 300 };
@@ -428,7 +428,7 @@ TEST(years_of_blocks)
             }
         }
     }
-    for (int of = 0; of < 3; of++) { /* one, the other, their difference */
+    for (int of = 0; of < 3; of++) { /* each of the two, and their difference */
         double w1 = 0, x1 = 0, ww = 0, wx = 0, xx = 0, x[FEW];
         for (size_t r = 0; r < FEW; r++) {
             x[r] = weights[r] * (of < 2 ? marks[of][r] : marks[0][r] - marks[1][r]);
@@ -453,7 +453,7 @@ TEST(years_of_blocks)
 TEST_WITH(metres_felled, fresh, NULL)
 {
     double whole = 0;
-    for (int i = 0; i < BELTS; i++) { /* all three alike, each in a year of its own */
+    for (int i = 0; i < BELTS; i++) { /* all three equal, each in another year */
         wood.belts[i].stand = wood.belts[0].stand;
         wood.belts[i].cut_year = 4 - 7 * i;
         whole += wood.belts[i].to - wood.belts[i].from;
@@ -465,9 +465,9 @@ TEST_WITH(metres_felled, fresh, NULL)
         for (size_t i = 0; i < years->count; i++)
             for (int k = 0; k < BELTS; k++)
                 by_hand += years->years[i].option.belts[k].stand.stools_per_ha == 0 ? wood.belts[k].to - wood.belts[k].from : 0;
-        EXPECT(by_hand, ==, 3 * whole); /* just cut no stool stands */
+        EXPECT(by_hand, ==, 3 * whole); /* no stools stand just after the cut */
     }
-    LOCAL(ceduo_years, years) = grown(5, 6, 1); /* which is freed without having been simulated */
+    LOCAL(ceduo_years, years) = grown(5, 6, 1);                                   /* freed without a simulation */
     EXPECT(ceduo_years_felled(years), ==, wood.belts[1].to - wood.belts[1].from); /* -3: 6 */
 }
 
@@ -523,7 +523,7 @@ TEST_WITH(nothing_is_hit_in_a_bare_year, fresh, NULL)
     bool cut = y->cut && y->stands[0].bare && y->wooded.arrivals[1].reached > 0;
     double contacts = y->wooded.arrivals[1].contacts.mean;
     assert_true(cut);
-    EXPECT(contacts, ==, 0); /* known, not unknown */
+    EXPECT(contacts, ==, 0); /* exactly 0, not unknown */
 }
 
 static void expect_window(enum ceduo_window_kind kind, unsigned first, unsigned last)
@@ -532,20 +532,20 @@ static void expect_window(enum ceduo_window_kind kind, unsigned first, unsigned 
     EXPECT_IS(w, (kind, kind), (first, first), (last, last), (step, 1));
 }
 
-/* One whole rotation from the year on in which all belts have been cut; the scene may name others. */
+/* One whole rotation after all belts have been cut; the scene may give others. */
 TEST_WITH(whole_rotations, fresh, NULL)
 {
     expect_window(CEDUO_WINDOW_ROTATION, 10, 10 + ROTATION - 1); /* the selection coppice's first cut: 10 */
     wood.belts[0].cut_year = 40;
     expect_window(CEDUO_WINDOW_ROTATION, 40, 40 + ROTATION - 1);
-    for (int i = 0; i < 2; i++) { /* together they begin every 899 years: then the longer one counts */
+    for (int i = 0; i < 2; i++) { /* they start together every 899 years: then the longer one counts */
         wood.belts[i].stand.cutting.rotation = 29;
         wood.belts[1 - i].stand.cutting.rotation = 31;
         struct ceduo_window w = ceduo_window_compute(&wood.option);
         EXPECT(w.last - w.first, ==, 31 - 1);
     }
     wood.belts[1].stand.cutting.rotation = ROTATION;
-    wood.belts[0].stand.cutting.rotation = 2 * ROTATION; /* two rotations that begin together every 2 ROTATION years */
+    wood.belts[0].stand.cutting.rotation = 2 * ROTATION; /* two rotations that start together every 2 ROTATION years */
     expect_window(CEDUO_WINDOW_ROTATION, 40, 40 + 2 * ROTATION - 1);
     wood.site.scene.year_first = 3;
     wood.site.scene.year_last = NAN;
@@ -554,14 +554,14 @@ TEST_WITH(whole_rotations, fresh, NULL)
     wood.site.scene.year_last = 5;
     w = ceduo_window_in(&wood.site.scene);
     EXPECT(w.last, ==, 5);
-    wood.site.scene.year_last = 2; /* before the first: that year alone */
+    wood.site.scene.year_last = 2; /* before the first cut: only that year */
     w = ceduo_window_in(&wood.site.scene);
     EXPECT_IS(w, (first, 3), (last, 3));
     wood.site.scene.year_last = 3 + CEDUO_YEARS_MAX - 1;
     EXPECT(ceduo_window_in(&wood.site.scene).step, ==, 1);
     wood.site.scene.year_last = 48700;
     w = ceduo_window_in(&wood.site.scene);
-    EXPECT(w.step, ==, 49); /* 48 698 years, 1000 at the most */
+    EXPECT(w.step, ==, 49); /* 48 698 years, at most 1000 */
     EXPECT(w.last, ==, 48700);
     wood.belts[0].cut_year = wood.belts[1].cut_year = INFINITY; /* never */
     expect_window(CEDUO_WINDOW_AHEAD, 1, CEDUO_YEARS_AHEAD);
@@ -577,7 +577,7 @@ static void expect_ahead(enum ceduo_window_kind kind, unsigned first, unsigned l
     EXPECT_IS(w, (kind, kind), (first, first), (last, last), (step, 1));
 }
 
-/* One window for all options: the longest rotation, at least 20 and at most 60 years, from year 1 on. */
+/* One window for all options: the longest rotation, 20 to 60 years, from year 1 on. */
 TEST_WITH(one_window_for_all_options, fresh, NULL)
 {
     struct ceduo_option two[2] = {wood.option, wood.option};
@@ -595,7 +595,7 @@ TEST_WITH(one_window_for_all_options, fresh, NULL)
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 40);
     other.stand.cutting.rotation = 90;
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 60);
-    other.cut_year = INFINITY; /* never cut: its rotation does not count */
+    other.cut_year = INFINITY; /* never cut: the rotation does not count */
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
     other.stand.growth = (struct ceduo_growth){0}; /* as long as anything grows */
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
@@ -603,7 +603,7 @@ TEST_WITH(one_window_for_all_options, fresh, NULL)
     expect_ahead(CEDUO_WINDOW_CONSTANT, 0, 0);
 }
 
-/* ---- ends before its end ---- */
+/* ---- early end ---- */
 
 struct stop {
     atomic_bool cancel;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Fits whose likelihood is known in closed form: a rock's speed as it leaves is the value that is fitted, so that a mean speed that
- * was seen is its normal law. And p of what the model itself has made. */
+/* Fits with a likelihood in closed form: the fitted value is a rock's release speed, so that an observed mean speed gives its
+ * normal law. And p of observations that the model itself made. */
 #include "expect.h"
 #include "local.h"
 
@@ -18,7 +18,7 @@
 static const char *const place = "release.vx_m_s", *const density = "rock.density_kg_m3";
 static struct ceduo_input input;
 
-/* From 100 m above two metres of level ground, beyond which every rock leaves. */
+/* A scene 100 m above two metres of level ground; every rock leaves it. */
 static struct ceduo_scene flight(double spread)
 {
     static struct ground g;
@@ -29,19 +29,19 @@ static struct ceduo_scene flight(double spread)
     return g.scene;
 }
 
-/* A mean speed where rocks leave, known to `sd`. */
+/* An observed mean release speed with error `sd`. */
 static struct ceduo_observation speed(double mean, double sd)
 {
     return (struct ceduo_observation){.kind = CEDUO_OBSERVED_SPEED, .x = 0.001, .n = 1, .mean = mean, .sd = sd};
 }
 
-/* All pass, whatever is fitted. */
+/* An observation that all rocks meet, whatever the fitted value. */
 static struct ceduo_observation all_pass(void)
 {
     return (struct ceduo_observation){.kind = CEDUO_OBSERVED_PASSED, .x = 0.001, .count = 10, .of = 10};
 }
 
-/* Where the simplex was, for those who ask. */
+/* Evaluations of the simplex, from the callback. */
 struct way {
     double best;
 };
@@ -88,7 +88,7 @@ static int rising(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The smallest of n sorted values that a share p does not exceed. */
+/* Return the smallest of n sorted values that at most a share p is below. */
 static double quantile(const double *sorted, size_t n, double p)
 {
     size_t k = 0;
@@ -97,10 +97,10 @@ static double quantile(const double *sorted, size_t n, double p)
     return sorted[k];
 }
 
-/* ---- what is not refuted ---- */
+/* ---- posterior ---- */
 
-/* A normal law, of which a quantile of 200 independent draws is known to 0.19 (2.5 and 97.5 %) and 0.09 (the median) of its sd; and
- * the quantiles of the draws themselves. */
+/* A normal law: quantiles of 200 independent draws are known to 0.19 (2.5 and 97.5 %) and 0.09 (median) of its sd; and
+ * quantiles of the draws themselves. */
 TEST(a_normal_law_is_found)
 {
     struct ceduo_scene scene = flight(0);
@@ -118,8 +118,9 @@ TEST(a_normal_law_is_found)
     EXPECT_NEAR(p->p97_5, quantile(a.draws, a.draws_count, .975), 1e-9);
 }
 
-/* A value lies at a bound where the best one is there, though half of the draws are farther than a twentieth from it (half a normal
- * law: its median is 0.67 sd); or where they are not, though the best one is. What is not determined lies nowhere. */
+/* A value is at a bound if the best one is there, though half of the draws are farther away than a twentieth (half a normal
+ * law: its median is 0.67 sd); or if half of the draws are there, though the best is not. An undetermined value is at no
+ * bound. */
 TEST(what_lies_at_a_bound)
 {
     struct ceduo_fitted p = fitted_to(LO, 2);
@@ -138,7 +139,7 @@ TEST(what_lies_at_a_bound)
     assert_false(p.determined || p.at_bound);
 }
 
-/* More threads than chains change no bit. */
+/* More threads than chains do not change a bit. */
 TEST(threads_change_nothing)
 {
     struct ceduo_scene scene = flight(0);
@@ -152,7 +153,7 @@ TEST(threads_change_nothing)
     assert_memory_equal(many.parameters, one.parameters, sizeof *one.parameters);
 }
 
-/* What says nothing leaves the value as it was before, uniform: draws with variance 1/12 of the range squared. */
+/* An observation without information leaves the uniform prior: draws with variance 1/12 of the squared range. */
 TEST(nothing_seen_leaves_a_uniform_law)
 {
     struct ceduo_scene scene = flight(0);
@@ -167,12 +168,12 @@ TEST(nothing_seen_leaves_a_uniform_law)
         sum += u / n;
         squares += u * u / n;
     }
-    EXPECT_NEAR(sum, 0.5, 4 * sqrt(1. / 12 / 200)); /* of 200 independent draws */
+    EXPECT_NEAR(sum, 0.5, 4 * sqrt(1. / 12 / 200)); /* mean of 200 independent draws */
     EXPECT_NEAR(squares - sum * sum, 1. / 12, 4 * sqrt(1. / 180 / 200));
     assert_false(p->determined || p->at_bound);
 }
 
-/* What fits the better the faster, beyond the upper bound too: the simplex ends where it may not go on, 1/(1 + e^-9) of the range. */
+/* If faster always fits better, beyond the upper bound as well, the simplex stops at its limit, 1/(1 + e^-9) of the range. */
 TEST(a_simplex_stays_within_its_bounds)
 {
     struct ceduo_scene scene = flight(0);
@@ -184,11 +185,11 @@ TEST(a_simplex_stays_within_its_bounds)
     EXPECT(a.parameters[0].best, <=, HI);
 }
 
-/* ---- what the observations do not hold ---- */
+/* ---- undetermined values ---- */
 
-/* Three values by whether they are determined, how much of its bounds each may be, and how they go together (1 with 0, 2 with 0, 2
- * with 1): of two that are known only together the one that is known worse is left, the closest two first; one value stays, and
- * without draws all. */
+/* Three values: whether each is determined, its range as a share of the bounds, and correlations (1 with 0, 2 with 0, 2 with
+ * 1). The less certain one of two correlated values is fixed, closest pair first. One value always stays free; without draws
+ * all do. */
 TEST(what_is_to_be_left_as_it_is)
 {
     static const struct {
@@ -223,9 +224,9 @@ TEST(what_is_to_be_left_as_it_is)
     }
 }
 
-/* ---- what is predicted ---- */
+/* ---- prediction ---- */
 
-/* Of two things fitted, or to check the fit, one that the model cannot give is enough, wherever it stands. */
+/* One observation that the model cannot reproduce is enough, fitted or held back for checking, at any position. */
 TEST(one_misfit_is_enough)
 {
     struct ceduo_scene scene = flight(0);
@@ -242,7 +243,7 @@ TEST(one_misfit_is_enough)
         }
 }
 
-/* p is of other rocks than those of the fit: they differ from those of the scene as two samples do. */
+/* p uses other rocks than the fit: they differ from those of the scene as two samples do. */
 TEST(other_rocks_than_those_of_the_fit)
 {
     struct ceduo_scene scene = flight(2);
@@ -260,7 +261,7 @@ TEST(other_rocks_than_those_of_the_fit)
     EXPECT_NEAR(at_best->mean, own.mean, 5 * hypot(at_best->sd, own.sd) / sqrt(50));
 }
 
-/* Two rocks of each of 200 draws are 400 single values, which tell 95 % of them; one of each is not enough. */
+/* Two rocks in each of 200 draws give 400 single values, which have a 95 % range; one in each is too few. */
 TEST(few_single_values_tell_nothing)
 {
     struct ceduo_scene scene = flight(0);
@@ -268,17 +269,17 @@ TEST(few_single_values_tell_nothing)
     struct ceduo_calibration a = fit_of(&scene, seen, 2, 2, NULL);
     assert_true(a.predicted[1].one_lo < 15 && a.predicted[1].one_hi > 15);
     ceduo_calibration_free(&a);
-    seen[1].use = CEDUO_OBSERVED_CHECK; /* one rock has no spread to fit by */
+    seen[1].use = CEDUO_OBSERVED_CHECK; /* one rock has no spread to fit */
     a = fit_of(&scene, seen, 2, 1, NULL);
     assert_true(isnan(a.predicted[1].one_lo) && isnan(a.predicted[1].one_hi));
     ceduo_calibration_free(&a);
 }
 
-#define SEEN   400 /* times */
+#define SEEN   400 /* repeats */
 #define VALUES 30
 
-/* 400 lists of what rocks of another seed did, and 400 means of them: each p is as likely as any other, in ten classes by Pearson's
- * test with 9 degrees of freedom at one of a thousand. */
+/* 400 lists from rocks of another seed, and 400 means of them: each p is uniform, in ten classes by Pearson's test with 9
+ * degrees of freedom at the level of 1 in 1000. */
 TEST(p_is_uniform_under_the_truth)
 {
     static struct ceduo_observation seen[2 * SEEN];
@@ -317,10 +318,10 @@ TEST(p_is_uniform_under_the_truth)
 }
 
 #define LISTS 1500
-#define LONG  50 /* values of each list, in ten classes of five */
+#define LONG  50 /* values per list, in ten classes of five */
 
-/* Bounds of classes that a list makes itself vary with it. The mean of 1500 p is one half, as that of uniform values is, within four
- * of their standard errors, sqrt(1/12/1500). */
+/* Class bounds from the list itself vary with it. The mean of 1500 p is one half, as for uniform values, within four standard
+ * errors, sqrt(1/12/1500). */
 TEST(p_of_lists_is_a_half_on_the_mean)
 {
     static struct ceduo_observation seen[LISTS];

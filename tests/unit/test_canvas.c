@@ -11,10 +11,10 @@ struct drawing {
     struct ceduo_cells *cells;
     struct ceduo_frame frame;
     enum ceduo_role role;
-    int taken; /* cells, by texts */
+    int taken; /* cells occupied by texts */
 };
 
-/* Draws through n points. */
+/* Draw a line through n points. */
 static void draw_points(struct drawing *d, const char *name, size_t n, const double *v)
 {
     double x[NUMBERS / 2], y[NUMBERS / 2];
@@ -30,7 +30,7 @@ static void draw_points(struct drawing *d, const char *name, size_t n, const dou
         ceduo_canvas_polyline(&d->cells->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, n, x, y);
 }
 
-/* One command of a drawing, as unit/drawings.txt has them. */
+/* Execute one command of a drawing in unit/drawings.txt. */
 static void draw(struct drawing *d, char *command)
 {
     static const char roles[] = " tdTagcemwsSbCGBWrox";
@@ -127,7 +127,7 @@ TEST(true_scale_moves_one_dot_across_for_each_dot_up)
     assert_true(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, 150, 0, 20));
     double dot = (frame.x1 - frame.x0) / 59;
     assert_float_equal((frame.y1 - frame.y0) / 35, dot, 1e-12);
-    /* From the lower left dot on, each further dot to the right is one further up. */
+    /* From the lower left dot, each dot to the right is one dot higher. */
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, frame.x0, frame.y0, frame.x0 + 7 * dot, frame.y0 + 7 * dot);
     expect_text(cells, "\n\n\n\n\n\n\n  ⡠⠊\n⡠⠊\n");
 }

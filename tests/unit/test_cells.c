@@ -3,7 +3,7 @@
 #include "table.h"
 #include "unit/grid.h"
 
-/* ---- The cells ---- */
+/* ---- cells ---- */
 
 TEST(sizes_are_limited)
 {
@@ -34,7 +34,7 @@ TEST(text_of_a_row_ends_at_its_last_character)
     assert_string_equal(text.bytes, "a±b");
 }
 
-/* ---- Roles ---- */
+/* ---- roles ---- */
 
 TEST(rank_decides_the_role_whoever_draws_first)
 {
@@ -52,11 +52,11 @@ TEST(rank_decides_the_role_whoever_draws_first)
         draw_point(cells, &frame, falling[i - 1], 3, 0);
         assert_int_equal(ceduo_cells_role(cells, 0, 0), falling[i - 1]);
         assert_int_equal(ceduo_cells_role(cells, 1, 0), falling[i - 1]);
-        expect_text(cells, "⣀⣀\n"); /* the dots of both are seen */
+        expect_text(cells, "⣀⣀\n"); /* the dots of both are visible */
     }
 }
 
-/* ---- Text ---- */
+/* ---- text ---- */
 
 TEST(odd_characters_become_question_marks)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Chains on densities whose moments are known, and what is read of them. */
+/* Chains on densities with known moments, and their statistics. */
 #include "expect.h"
 #include "local.h"
 
@@ -15,7 +15,7 @@
 #include "study/chains.h"
 #include "study/guess.h"
 
-/* A normal law around (1, -2) with standard deviations 2 and 0.5 and correlation 0.9. */
+/* A normal law at (1, -2) with standard deviations 2 and 0.5 and correlation 0.9. */
 #define RHO 0.9
 
 static double log_normal(const double *x)
@@ -32,7 +32,7 @@ static enum ceduo_status normal(void *context, size_t chain, const double *x, do
     return CEDUO_OK;
 }
 
-/* A guess that is wrong: too narrow, and beside it. */
+/* A wrong surrogate: too narrow and off centre. */
 static double wrong_guess(void *context, const double *x)
 {
     (void)context;
@@ -81,7 +81,7 @@ static double covariance_of(const struct chains *c, size_t i, size_t k)
     return sum;
 }
 
-/* Within four standard errors of 4000 independent draws. */
+/* Expect the moments within four standard errors of 4000 independent draws. */
 static void expect_normal(const struct chains_def *def)
 {
     LOCAL_BY(ceduo_chains_release) struct chains c;
@@ -101,7 +101,7 @@ TEST(a_normal_law_is_drawn_from)
     expect_normal(&def);
 }
 
-/* Of each chain the first place that is looked at is where it starts. */
+/* The first evaluation of each chain is at its start. */
 static enum ceduo_status at_its_start(void *context, size_t chain, const double *x, double *log_density)
 {
     bool *begun = context;
@@ -125,7 +125,7 @@ TEST(chains_begin_where_they_start)
         assert_true(begun[k]);
 }
 
-/* Whatever the guess says, the draws are those of the density. */
+/* For any surrogate the draws follow the density. */
 TEST(a_wrong_guess_changes_nothing)
 {
     struct chains_def def = two_dimensions();
@@ -153,7 +153,8 @@ TEST(threads_change_no_bit)
 
 #define STEPS 4000
 
-/* Four chains of independent normal draws, chain k around k·apart; or each the draw before times phi and a new one. */
+/* Four chains of independent normal draws, chain k with mean k·apart; or each draw is phi times the previous one plus a new
+ * one. */
 static struct chains made(double apart, double phi)
 {
     struct chains c = {.dimensions = 1, .chains = 4, .steps = STEPS, .room = STEPS};
@@ -168,7 +169,7 @@ static struct chains made(double apart, double phi)
     return c;
 }
 
-/* R-hat² is 1 + the variance of the means, here 5/3 of halves of four chains: 10/7 of those eight. */
+/* R-hat² is 1 + the variance of the means: 5/3 for halves of four chains, 10/7 for these eight. */
 TEST(chains_apart_do_not_agree)
 {
     double rhat, size;
@@ -183,7 +184,7 @@ TEST(chains_apart_do_not_agree)
     ceduo_chains_release(&c);
 }
 
-/* Of draws with correlation phi from one to the next (1 - phi)/(1 + phi) count. */
+/* Draws with lag-1 correlation phi count (1 - phi)/(1 + phi). */
 TEST(draws_that_hang_together_count_less)
 {
     double rhat, size;
@@ -192,8 +193,8 @@ TEST(draws_that_hang_together_count_less)
     EXPECT_NEAR(size / (4 * STEPS / 2), 1. / 9, 0.02);
 }
 
-/* Two chains of eight steps, of which the first four are not read: by hand, with the n - 1 of Gelman et al. 2013, 11.4. Halves of
- * two draws: means 4, 2, 9, 2 and variances 8, 2, 0, 8, so that W = 4.5, B/n = 131/12 and R-hat² = (W/2 + B/n)/W. */
+/* Two chains of eight steps, the first four dropped: by hand, with the n - 1 of Gelman et al. 2013, 11.4. Halves of two draws:
+ * means 4, 2, 9, 2 and variances 8, 2, 0, 8, so that W = 4.5, B/n = 131/12 and R-hat² = (W/2 + B/n)/W. */
 TEST(short_chains_by_hand)
 {
     double rhat, size, x[] = {100, 100, 100, 100, 100, 100, 100, 100, 1, 0, 3, 4, 2, 9, 6, 9};
@@ -202,7 +203,7 @@ TEST(short_chains_by_hand)
     EXPECT_NEAR(rhat, sqrt((4.5 / 2 + 131. / 12) / 4.5), 1e-12);
 }
 
-/* A chain that is `run` times at 1, as often at -1, and so on: 64 steps, of which 32 are read, in two halves. */
+/* Effective size of a chain that is `run` times at 1, then at -1, and so on: 64 steps, 32 of them used, in two halves. */
 static double effective_of(size_t run)
 {
     double rhat, size, x[64];
@@ -213,18 +214,18 @@ static double effective_of(size_t run)
     return size;
 }
 
-/* Draws on alternating sides of the mean count no more than independent ones. Where four follow on each side, of 16 draws 3 of 15
- * neighbours and 6 of 14 next but one differ, by 2, and the variance is 1: correlations of 1 - 2·3/15 and 1 - 2·6/14; those farther
- * apart are below 0 together, and are left out. */
+/* Draws on alternating sides of the mean count at most as independent ones. With runs of four, in 16 draws 3 of 15 pairs at lag
+ * 1 and 6 of 14 at lag 2 differ, by 2, and the variance is 1: correlations of 1 - 2·3/15 and 1 - 2·6/14. Higher lags sum to
+ * less than 0 and are dropped. */
 TEST(draws_that_alternate)
 {
     EXPECT_NEAR(effective_of(1), 32, 1e-12);
     EXPECT_NEAR(effective_of(4), 32 / (1 + 2 * (1 - 6. / 15 + 1 - 12. / 14)), 1e-9);
 }
 
-/* ---- the guess ---- */
+/* ---- surrogate ---- */
 
-/* A quadratic is learnt whole; places without a value are left out. */
+/* The surrogate learns a quadratic exactly; places without a value are ignored. */
 TEST(a_guess_learns_a_quadratic)
 {
     LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(2);
@@ -241,7 +242,7 @@ TEST(a_guess_learns_a_quadratic)
     EXPECT(ceduo_guess_learn(&g, u, values, 64, NULL), ==, CEDUO_OK);
     EXPECT_NEAR(ceduo_guess_at(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
     for (int i = 0; i < 64; i++)
-        values[i] = i < 60 ? -INFINITY : 0; /* too few are known */
+        values[i] = i < 60 ? -INFINITY : 0; /* too few values */
     EXPECT(ceduo_guess_learn(&g, u, values, 64, NULL), ==, CEDUO_OK);
     EXPECT_NEAR(ceduo_guess_at(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
     for (int i = 0; i < 16; i++) { /* less than three times the six terms: each counts */
@@ -253,7 +254,7 @@ TEST(a_guess_learns_a_quadratic)
     EXPECT_NEAR(ceduo_guess_at(&g, (double[2]){0.5, 0.1}), 0.5, 1e-9);
 }
 
-/* The same where all places without a value come last, behind a whole number of blocks. */
+/* The same if all places without a value come last, after a whole number of blocks. */
 TEST(a_guess_ends_without_values)
 {
     enum { KNOWN = 512, N = KNOWN + 5 };
@@ -267,8 +268,8 @@ TEST(a_guess_ends_without_values)
     EXPECT_NEAR(ceduo_guess_at(&g, (double[1]){0.3}), 1 + 0.3 - 0.18, 1e-9);
 }
 
-/* What weighted least squares leave is orthogonal to every term, however many places there are: here of a quartic, with those
- * that lie below the best counting less and less. */
+/* Residuals of weighted least squares are orthogonal to every term for any number of places: here of a quartic, with weights
+ * that decrease below the best value. */
 TEST(a_guess_weighs_what_it_knows)
 {
     enum { N = 3000, NEAR = 9 /* three times the terms */ };
@@ -280,7 +281,7 @@ TEST(a_guess_weighs_what_it_knows)
         u[i] = line_uniform(&random, 0, 1);
         values[i] = -600 * pow(u[i] - 0.4, 4) - 90 * pow(u[i] - 0.4, 2);
     }
-    for (int i = 0; i <= NEAR; i++) { /* the best ones */
+    for (int i = 0; i <= NEAR; i++) { /* the best places */
         sorted[i] = -INFINITY;
         for (int k = 0; k < N; k++)
             if (values[k] > sorted[i] && (i == 0 || values[k] < sorted[i - 1]))
@@ -312,8 +313,8 @@ static double processor_seconds(void)
     return (double)clock() / CLOCKS_PER_SEC;
 }
 
-/* Twelve values have 91 terms. Ended after a tenth of the time that 25 000 places take, it ends in less than half of it, and
- * knows what it knew. */
+/* Twelve values have 91 terms. Stopped after a tenth of the time for 25 000 places, training ends in less than half of it and
+ * keeps the old surrogate. */
 TEST(a_guess_is_ended_while_it_learns)
 {
     enum { N = 25000, D = 12 };
@@ -336,7 +337,7 @@ TEST(a_guess_is_ended_while_it_learns)
         values[i] *= 2;
     struct itimerval timer = {.it_value = {(time_t)(all / 10), (suseconds_t)(fmod(all / 10, 1) * 1e6) + 1}};
     signal(SIGPROF, on_time);
-    setitimer(ITIMER_PROF, &timer, NULL); /* of processor time */
+    setitimer(ITIMER_PROF, &timer, NULL); /* processor time */
     start = processor_seconds();
     EXPECT(ceduo_guess_learn(&g, u, values, N, &ended), ==, CEDUO_CANCELLED);
     EXPECT(processor_seconds() - start, <, all / 2);
@@ -345,7 +346,7 @@ TEST(a_guess_is_ended_while_it_learns)
     free(values);
 }
 
-/* A density that ends the chains: `left` more are given. */
+/* A density that stops the chains after `left` more evaluations. */
 struct ending {
     int left;
     enum ceduo_status status;
@@ -365,7 +366,7 @@ static bool stop(void *context, size_t steps, double rhat, double effective_size
     return steps < 2 * CEDUO_CHAINS_ROUND;
 }
 
-/* What was drawn before stays. */
+/* Earlier draws are kept. */
 TEST(chains_are_ended)
 {
     struct chains c;
@@ -389,7 +390,7 @@ TEST(chains_are_ended)
     ceduo_chains_release(&c);
 }
 
-/* Ended, nobody asks how well chains agree: that takes long of many draws. */
+/* Chains that were stopped are not checked for convergence, which takes long with many draws. */
 TEST(a_look_at_all_chains_is_ended)
 {
     LOCAL_BY(ceduo_chains_release) struct chains c;
@@ -401,7 +402,7 @@ TEST(a_look_at_all_chains_is_ended)
     EXPECT(c.effective_size, ==, INFINITY);
 }
 
-/* A density that fails in the second thread; the first one, in a chain of its own, waits until that thread has ended. */
+/* A density that fails in the second thread. The first one, in its own chain, waits until that thread has ended. */
 struct failure {
     pthread_t first;
     pthread_mutex_t lock;
@@ -410,7 +411,7 @@ struct failure {
     atomic_int started, after;
 };
 
-static pthread_key_t failing; /* its destructor is called as the thread ends */
+static pthread_key_t failing; /* its destructor runs when the thread ends */
 
 static void note_end(void *context)
 {
@@ -426,7 +427,7 @@ static enum ceduo_status fails_in_one(void *context, size_t chain, const double 
     struct failure *f = context;
     (void)chain;
     *log_density = log_normal(x);
-    if (f->started++ < 4) /* where the chains start */
+    if (f->started++ < 4) /* the starts of the chains */
         return CEDUO_OK;
     if (!pthread_equal(pthread_self(), f->first)) {
         pthread_setspecific(failing, f);
@@ -440,7 +441,7 @@ static enum ceduo_status fails_in_one(void *context, size_t chain, const double 
     return CEDUO_OK;
 }
 
-/* Where one chain fails no other begins: the first thread ends its round of 50 steps at the most, or has none. */
+/* If one chain fails no other starts: the first thread ends its round of at most 50 steps, or has none. */
 TEST(one_chain_ends_all)
 {
     LOCAL_BY(ceduo_chains_release) struct chains c;
@@ -462,7 +463,7 @@ static enum ceduo_status one_place(void *context, size_t chain, const double *x,
     return CEDUO_OK;
 }
 
-/* Chains that never move say nothing of how well they agree. */
+/* Chains that never move have no convergence statistic. */
 TEST(chains_that_stand_still)
 {
     static const double nowhere[8];

@@ -57,7 +57,7 @@ static int set_up(void **state)
     (void)state;
     folder_make();
     setenv("XDG_STATE_HOME", folder, 1);
-    char share[256], *profiles = realpath("profiles", NULL); /* the shipped stands, as if they were installed */
+    char share[256], *profiles = realpath("profiles", NULL); /* the shipped stands, as if installed */
     make_folder("share");
     in_folder(share, "share");
     setenv("XDG_DATA_HOME", share, 1);
@@ -108,7 +108,7 @@ static void set_millimetres(int mm)
     set("rock.diameter_m", value);
 }
 
-/* Laid out anew, or with what its lines say beside their values. */
+/* Save in a new layout, or keep the comments of the lines. */
 static void save_as(const char *to, bool laid_out_anew)
 {
     bool anew;
@@ -122,7 +122,7 @@ static void save(const char *to)
     save_as(to, false);
 }
 
-/* The copy that is kept of unsaved work; NULL: there is none. */
+/* Return the backup copy of unsaved work, or NULL. */
 static const char *copy_of(void)
 {
     static char text[4096];
@@ -134,8 +134,8 @@ static const char *copy_of(void)
     return text;
 }
 
-/* Steps, each with the rock's diameter after it and ! where that is not saved: set, save, undo and redo. A copy is kept of
- * what is shown for just as long as that is not what is on disk. */
+/* Execute steps: set, save, undo or redo, each with the rock's diameter after it, and ! if it is unsaved. A backup exists
+ * exactly while the document differs from the disk. */
 static void walk(const char *steps)
 {
     char step[8], diameter[8], copied[64];
@@ -160,7 +160,7 @@ static void walk(const char *steps)
 
 /* ---- saved elsewhere ---- */
 
-/* A scene in a/scenes whose files lie in a/slopes and a/stands; b/stands has another stand of the same name. */
+/* A scene in a/scenes with its files in a/slopes and a/stands; b/stands has another stand of the same name. */
 static void scatter(const char *slope_reference)
 {
     static const char *const folders[] = {"a", "a/scenes", "a/slopes", "a/stands", "a/more", "b", "b/scenes", "b/stands"};
@@ -183,7 +183,7 @@ static void scatter(const char *slope_reference)
     in_folder(path, "a/scenes/s.yaml");
 }
 
-/* What the files lead to, whatever else was changed. */
+/* Check that the references resolve, whatever else was changed. */
 static void expect_files(void)
 {
     const struct ceduo_option *o = &d.file.scene.options[0];
@@ -211,7 +211,7 @@ static size_t count_notes(void)
     return n;
 }
 
-/* Two changes of the table: PATH=VALUE, or a path that is deleted. */
+/* Return two changes from the table: PATH=VALUE, or a path to delete. */
 static const struct changes *changes_of(const char *first, const char *second)
 {
     static struct changes changes;
@@ -225,12 +225,12 @@ static const struct changes *changes_of(const char *first, const char *second)
     return &changes;
 }
 
-/* One row of unit/documents.txt does what it says; false where it fails. */
+/* Execute one row of unit/documents.txt; false if it fails. */
 static bool step(const char *const at[TABLE_COLUMNS])
 {
     static char kept[65536], whole[512];
     static size_t notes;
-    const char *a = at[1], *b = at[2], *hole = strchr(b, '@'); /* for the folder */
+    const char *a = at[1], *b = at[2], *hole = strchr(b, '@'); /* to insert the folder */
     const struct node *node = ceduo_document_node(&d, a);
     size_t i = (size_t)atoi(a), k = (size_t)atoi(b);
     struct value value;
@@ -293,7 +293,7 @@ static bool step(const char *const at[TABLE_COLUMNS])
         good = d.file.scene.slope.vertices == i;
     else if (IS("inputs"))
         good = d.file.inputs_count == i;
-    else if (IS("seen-through")) /* an option, and how it is called */
+    else if (IS("seen-through")) /* an option and its name */
         good = i < d.file.observations_count && d.file.observations[i].option == k &&
                (!*at[3] || strcmp(d.file.observations[i].name, at[3]) == 0);
     else if (IS("remember"))
@@ -303,7 +303,7 @@ static bool step(const char *const at[TABLE_COLUMNS])
     else if (IS("has") || IS("lacks")) {
         snprintf(whole, sizeof whole, "%.*s%s%s", hole ? (int)(hole - b) : 400, b, hole ? folder : "", hole ? hole + 1 : "");
         good = (strstr(read_file(a), whole) != NULL) == IS("has");
-    } else if (IS("notes")) { /* so many as were counted before */
+    } else if (IS("notes")) { /* as counted before */
         good = !*a || count_notes() == notes;
         notes = count_notes();
     } else {
@@ -347,14 +347,14 @@ TEST_WITH(undo_and_redo, set_up, tear_down)
     assert_false(ceduo_document_undo_or_redo(&d, 1));
 }
 
-/* The oldest states are forgotten, half of them; what is on disk is known again where it is among those that are left. */
+/* The oldest half of the history is dropped. The state on disk is recognized again if it is among the rest. */
 TEST_WITH(history_is_cut, set_up, tear_down)
 {
-    for (int saved = 0; saved <= 11; saved++) { /* of 12 states: 0 is the file's, 1 to 11 are 0.101 to 0.111 m */
+    for (int saved = 0; saved <= 11; saved++) { /* 12 states: 0 is the file's, 1 to 11 are 0.101 to 0.111 m */
         write_file("scene.yaml", scene);
         open_scene();
         for (int i = 1; i <= 11; i++) {
-            if (i == 11) /* as if it took up all that history may */
+            if (i == 11) /* as if it filled the history */
                 d.file.arena.bytes += DOCUMENT_HISTORY_BYTES;
             set_millimetres(100 + i);
             if (i == saved)
@@ -368,7 +368,7 @@ TEST_WITH(history_is_cut, set_up, tear_down)
         for (int i = 6; i <= 11; i++)
             assert_true(ceduo_document_undo_or_redo(&d, 1));
         assert_false(ceduo_document_undo_or_redo(&d, 1));
-        for (int i = 12; i <= 20; i++) /* no more goes until as much again is taken up */
+        for (int i = 12; i <= 20; i++) /* none is dropped until the history is full again */
             set_millimetres(100 + i);
         for (int i = 19; i >= 5; i--) {
             assert_true(ceduo_document_undo_or_redo(&d, -1));
@@ -379,7 +379,7 @@ TEST_WITH(history_is_cut, set_up, tear_down)
     }
 }
 
-/* The copy of a scene whose process has ended, and in `file` where it lies; NULL: none. To be freed. */
+/* Return the copy of a scene whose process has ended, and its path in `file`; NULL: none. Caller frees. */
 static char *left_of(const char *of, char file[400])
 {
     struct arena arena = {0};
@@ -401,7 +401,7 @@ TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
     char file[400];
     assert_null(left_of(path, file));
     pid_t child = fork();
-    if (child == 0) { /* a program that ends without a word */
+    if (child == 0) { /* a program that ends without cleaning up */
         open_scene();
         set("rock.diameter_m", "0.123");
         _exit(0);
@@ -416,18 +416,18 @@ TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
     assert_true(ceduo_document_undo_or_redo(&d, -1));
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
     free(text);
-    assert_false(ceduo_document_recover(&d, "[a, list]")); /* which is no scene */
+    assert_false(ceduo_document_recover(&d, "[a, list]")); /* not a scene */
     assert_non_null(strstr(ceduo_problems_print(&d.problems), "expected a mapping, not a list"));
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
 }
 
-/* What is left of a copy whose writer was killed is not offered as work: it may be half of it. */
+/* Temporary files of a killed writer are not offered: they may be incomplete. */
 TEST_WITH(half_a_copy_is_taken_away, set_up, tear_down)
 {
     struct recovery_copy own = ceduo_recovery_begin(path);
     char file[400], names[2][400];
     assert_non_null(own.path);
-    int n = (int)(strrchr(own.path, '-') - own.path); /* what stands before the program's number */
+    int n = (int)(strrchr(own.path, '-') - own.path); /* length of the name before the process number */
     snprintf(names[0], sizeof names[0], "%.*s-999999999.yaml.ceduo-tmp-999999999-0", n, own.path);
     snprintf(names[1], sizeof names[1], "%.*s-999999999.yam", n, own.path);
     for (int i = 0; i < 2; i++) {
@@ -438,18 +438,18 @@ TEST_WITH(half_a_copy_is_taken_away, set_up, tear_down)
     }
     assert_null(left_of(path, file));
     assert_int_equal(access(names[0], F_OK), -1);
-    assert_int_equal(access(names[1], F_OK), 0); /* somebody else's */
+    assert_int_equal(access(names[1], F_OK), 0); /* another user's */
     ceduo_recovery_end(&own);
 }
 
-/* The lock decides if a copy was left behind, not a process number in its name: two machines may share the folder. */
+/* The lock decides if a copy is left over, not the process number in its name: two machines may share the folder. */
 TEST_WITH(a_locked_copy_is_not_left_behind, set_up, tear_down)
 {
     char file[400], copy[400], renamed[400], ready;
     int to_parent[2], to_child[2];
     assert_int_equal(pipe(to_parent) + pipe(to_child), 0);
     pid_t child = fork();
-    if (child == 0) { /* a program that runs on another machine: here its number is that of no process */
+    if (child == 0) { /* a program on another machine: no local process has its number */
         open_scene();
         for (int mm = 1; mm < 4; mm++) /* each edit is a new file */
             set_millimetres(mm);
@@ -468,7 +468,7 @@ TEST_WITH(a_locked_copy_is_not_left_behind, set_up, tear_down)
     char *text = left_of(path, file);
     assert_non_null(text);
     free(text);
-    /* its number is that of a process of this machine */
+    /* with the number of a local process */
     snprintf(renamed, sizeof renamed, "%.*s-%ld.yaml", (int)(strrchr(file, '-') - file), file, (long)getppid());
     assert_int_equal(rename(file, renamed), 0);
     text = left_of(path, file);
@@ -491,7 +491,7 @@ TEST_WITH(a_copy_is_its_owners_alone, set_up, tear_down)
     assert_int_equal(st.st_mode & 07777, 0600);
 }
 
-/* A name and a title with quotes and blanks at their ends come back as they were. */
+/* A name and a title with quotes and outer blanks survive. */
 TEST_WITH(a_copy_has_name_and_title_whole, set_up, tear_down)
 {
     char other[400];
@@ -517,7 +517,7 @@ TEST_WITH(a_copy_has_name_and_title_whole, set_up, tear_down)
     ceduo_arena_free(&arena);
 }
 
-/* In whatever order the folder has them. */
+/* In any order of the folder. */
 TEST_WITH(the_newest_copies_come_first, set_up, tear_down)
 {
     static const time_t when[] = {3000, 1000, 5000, 2000, 4000};
@@ -569,7 +569,7 @@ static void set_time(const char *file, time_t seconds, long nanoseconds)
     assert_int_equal(utimensat(AT_FDCWD, file, times, 0), 0);
 }
 
-/* Its length, the second and the fraction of it in which it was written: each tells by itself. */
+/* Length, second and fraction of the time of writing: each suffices. */
 TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, tear_down)
 {
     char other[sizeof scene + 1];
@@ -593,7 +593,7 @@ TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, tear_down)
     assert_true(ceduo_document_changed_on_disk(&d));
 }
 
-/* Work on a scene that was saved elsewhere can be taken up again there. */
+/* Work on a scene that was saved elsewhere can be recovered there. */
 TEST_WITH(the_copy_leads_to_the_same_files, set_up, tear_down)
 {
     char there[256], text[4096];
@@ -612,8 +612,8 @@ TEST_WITH(the_copy_leads_to_the_same_files, set_up, tear_down)
     assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 50);
 }
 
-/* An edit elsewhere takes a simplified profile over, with its assumption; where the release moves, both are made anew. A release at
- * 50 m keeps the one point that a tolerance of .25 m keeps and one of 1 m leaves out. */
+/* An edit elsewhere keeps a simplified profile and its assumption; moving the release simplifies it again. A release at 50 m
+ * keeps the one point that a tolerance of .25 m keeps and one of 1 m drops. */
 TEST(a_simplified_profile_is_taken_over)
 {
     static const char text[] =

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures of few values, of none, and of values beyond every bin; a search for a value that is given up. */
+/* Statistics of few values, without values, and of values outside all bins; an aborted search for a value. */
 #include "expect.h"
 #include "local.h"
 
@@ -21,7 +21,7 @@ static void expect_near(double found, double wanted, double relative)
         EXPECT_NEAR(found, wanted, relative * wanted);
 }
 
-/* Values of all sizes, some of them 0: as sorted. */
+/* Values of all sizes, some 0: equal to sorted values. */
 TEST(distributions_of_few_values)
 {
     uint64_t bits = 1;
@@ -55,7 +55,7 @@ TEST(distributions_of_few_values)
     }
 }
 
-/* ---- looking for a value that is given up ---- */
+/* ---- aborted search ---- */
 
 static atomic_bool cancel;
 static unsigned looked;
@@ -75,10 +75,10 @@ static enum ceduo_status refuse(void *context, double value, double *goal)
     return ++looked >= *when ? CEDUO_BAD_SLOPE : CEDUO_OK;
 }
 
-/* Wherever the search stands: no value is looked at after it, and none is found. */
+/* At any stage: no further value is evaluated, and none is found. */
 TEST(a_search_ends_at_once)
 {
-    for (int kind = 0; kind < 4; kind++) { /* where nothing passes, all is looked through */
+    for (int kind = 0; kind < 4; kind++) { /* if nothing passes, all values are tried */
         struct ceduo_found found;
         double target = kind < 2 ? .3 : -1;
         struct ceduo_find_def def = {.lo = 1, .hi = 1000, .whole = kind % 2, .target = target, .cancel = &cancel};
@@ -103,7 +103,7 @@ TEST(a_search_ends_at_once)
     }
 }
 
-/* Goals without end, and one that is met exactly: by halves. */
+/* Unbounded goals, and one that is met exactly, by bisection. */
 static enum ceduo_status steps_down(void *context, double value, double *goal)
 {
     const double *levels = context;
@@ -134,7 +134,7 @@ static enum ceduo_status falls(void *context, double value, double *goal)
     return CEDUO_OK;
 }
 
-/* A tolerance that is met by the first step; and a range so large that halving does not come to an end: given up. */
+/* A tolerance met by the first step; and a range so large that bisection does not end: aborted. */
 TEST(few_values_and_too_many)
 {
     struct ceduo_found found;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files: where they are found, what is read of them, how they are written and what is left beside them. */
+/* Files: how they are found, read and written, and which temporary files remain. */
 #include "expect.h"
 #include "local.h"
 
@@ -63,7 +63,7 @@ TEST_WITH(folders_of_the_environment, folder_set_up_profiles, folder_tear_down)
         in_folder(path, parts[i]);
         assert_int_equal(mkdir(path, 0700), 0);
     }
-    char file[256]; /* what should be the folder is a file */
+    char file[256]; /* a file instead of the folder */
     in_folder(file, "file");
     assert_int_equal(mkdir(file, 0700), 0);
     put("file/ceduo", "x");
@@ -103,7 +103,7 @@ TEST_WITH(folders_are_listed, folder_set_up_profiles, folder_tear_down)
     assert_int_equal(n, LENGTH(wanted));
     for (size_t i = 0; i < n; i++)
         assert_string_equal(list[i], wanted[i]);
-    for (int i = 0; i < 100; i++) { /* more than are first made room for */
+    for (int i = 0; i < 100; i++) { /* more than the initial capacity */
         char name[64];
         snprintf(name, sizeof name, "ceduo/stands/n%02d.yaml", i);
         put(name, "x");
@@ -122,7 +122,7 @@ static int descriptors(void)
     return n;
 }
 
-/* Names as long as a file system takes them, of characters of two bytes: its temporary's name is cut between two. */
+/* The longest names that a file system allows, of two-byte characters: the temporary file's name is cut between two. */
 TEST_WITH(long_names_are_written, folder_set_up_profiles, folder_tear_down)
 {
     char name[256] = "", path[512];
@@ -140,7 +140,7 @@ TEST_WITH(long_names_are_written, folder_set_up_profiles, folder_tear_down)
 
 static char told[400];
 
-/* What a file holds; where it cannot be read, what is told is in `told`. */
+/* Read a file into `text`; if that fails, put the message into `problem`. */
 static bool take(const char *path, struct text *text, size_t most)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
@@ -180,8 +180,8 @@ TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
     in_folder(path, "none");
     expect_told(path, 11, "No such file");
     expect_told("/dev/zero", 11, "a device or a socket; name a file");
-    expect_bytes("/proc/self/status", 11, ""); /* it says that it is empty */
-    /* through links to a file that is not there yet, by relative and absolute ways; one that leads to itself is refused */
+    expect_bytes("/proc/self/status", 11, ""); /* its reported size is 0 */
+    /* through links to a missing file, by relative and absolute paths; a link to itself is refused */
     in_folder(link, "link");
     in_folder(to, "link2");
     assert_int_equal(symlink("link2", link), 0);
@@ -193,7 +193,7 @@ TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
     assert_int_equal(symlink("loop", link), 0);
     assert_false(ceduo_file_write(link, "x", 1));
     assert_int_equal(errno, ELOOP);
-    /* without a folder in its name: in the one that is the present */
+    /* a bare name is in the current folder */
     char here[4096];
     assert_non_null(getcwd(here, sizeof here));
     assert_int_equal(chdir(folder), 0);
@@ -217,7 +217,7 @@ TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
     assert_true(ceduo_file_same(path, link));
     assert_true(ceduo_file_same(link, path));
     assert_false(ceduo_file_same(path, other) || ceduo_file_same(path, none) || ceduo_file_same(none, path));
-    assert_false(ceduo_file_same(folder, folder)); /* nothing is read from one, or written */
+    assert_false(ceduo_file_same(folder, folder)); /* folders are neither read nor written */
     int was = dup(STDIN_FILENO), fd = open(path, O_RDONLY);
     assert_int_equal(dup2(fd, STDIN_FILENO), STDIN_FILENO);
     close(fd);
@@ -230,7 +230,7 @@ TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
     close(was);
 }
 
-/* A socket is no file, and one that may not be written is not replaced. */
+/* A socket is not a file, and a read-only file is not replaced. */
 TEST_WITH(what_cannot_be_written, folder_set_up_profiles, folder_tear_down)
 {
     struct sockaddr_un address = {.sun_family = AF_UNIX};
@@ -248,7 +248,7 @@ TEST_WITH(what_cannot_be_written, folder_set_up_profiles, folder_tear_down)
     for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
         assert_int_equal(chmod(path, modes[i]), 0);
         bool may = modes[i] == 0666;
-        bool root = geteuid() == 0; /* who may write anything: asked for as another user */
+        bool root = geteuid() == 0; /* root may write anything: try as another user */
         if (root)
             assert_int_equal(setreuid(65534, 0), 0);
         bool asked = ceduo_file_can_write(path), written = ceduo_file_write(path, "new", 3);
@@ -272,7 +272,7 @@ static void write_to_pipe(int signal)
         close(pipe_in);
 }
 
-/* A signal interrupts the reading, which goes on: what the pipe says is written by the signal's handler. */
+/* A signal interrupts a read, which continues: the signal's handler writes to the pipe. */
 TEST(an_interrupted_reader_goes_on)
 {
     int ends[2], was = dup(STDIN_FILENO);
@@ -301,7 +301,7 @@ static void give_up_at_third(int signal)
         gives_up = true;
 }
 
-/* A writer that waits is interrupted and goes on, until somebody gives up: nobody reads the pipe, which is full. */
+/* An interrupted write continues until it is cancelled: the pipe is full, and not read. */
 TEST(an_interrupted_writer_goes_on_until_it_is_cancelled)
 {
     int ends[2];

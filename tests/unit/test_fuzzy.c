@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is typed into a list finds: its letters in their order, words by their beginnings first. */
+/* Filtering a list by typed text: its letters in order, matches at word starts first. */
 #include "table.h"
 
 #include "base/text.h"
@@ -25,10 +25,10 @@ TEST(the_best_stands_first)
     ceduo_picker_add(&p, "large-reserves-cut", "large-reserves-cut", "3", false);
     ceduo_picker_add(&p, "bare", "bare", "4", false);
     ceduo_picker_filter(&p, "");
-    assert_string_equal(ceduo_picker_at(&p)->value, "2"); /* what is there now */
+    assert_string_equal(ceduo_picker_at(&p)->value, "2"); /* current selection */
     ceduo_picker_filter(&p, "large");
     assert_int_equal(p.matches, 3);
-    assert_string_equal(ceduo_picker_at(&p)->value, "2"); /* of two as good the first */
+    assert_string_equal(ceduo_picker_at(&p)->value, "2"); /* the first of two equal matches */
     viewport_move(&p.lines, 100);
     assert_string_equal(ceduo_picker_at(&p)->value, "1");
     ceduo_picker_filter(&p, "zzz");

@@ -51,7 +51,7 @@ static struct ceduo_search search_of(uint64_t rocks)
 TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
 {
     assert_true(show());
-    assert_false(show()); /* the same runs */
+    assert_false(show()); /* same runs */
     assert_true(take().busy);
     ceduo_jobs_wait(jobs, true);
     assert_false(take().busy);
@@ -67,13 +67,13 @@ TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
     assert_true(results.years->items[0]->key == ceduo_runs_years_key(&file.scene, 0));
     assert_int_equal(results.years->done, 1);
     assert_int_equal(results.years->rocks, 10 * RUNS_FIRST);
-    assert_false(show()); /* they are known */
+    assert_false(show()); /* already computed */
     file.scene.rock.diameter.mean *= 1.1;
     assert_true(show());
     assert_true(take().busy);
 }
 
-/* What was computed and not yet taken is of no use once the scene is another. */
+/* Results that were not fetched are dropped when the scene changes. */
 TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
 {
     assert_true(show());
@@ -88,7 +88,7 @@ TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
             assert_true(results.years->items[i]->key == ceduo_runs_years_key(&file.scene, i));
 }
 
-/* Where nothing stands rocks do the same by every contact model, but by the index none is simulated. */
+/* Without stems all contact models give the same rocks, but the index simulates none. */
 TEST_WITH(a_contact_model_makes_another_key, set_up, tear_down)
 {
     static const enum ceduo_contact_model models[] = {CEDUO_INDEX, CEDUO_STEMS};
@@ -103,7 +103,7 @@ TEST_WITH(a_contact_model_makes_another_key, set_up, tear_down)
     assert_true(years[0] != years[1]);
 }
 
-/* A search goes before the figures, which go on after it; it finds what it finds alone, and leaves the scene as it is. */
+/* A search precedes the figures, which continue after it; its result is independent of them, and the scene does not change. */
 TEST_WITH(a_search_comes_first, set_up, tear_down)
 {
     struct ceduo_search search = search_of(500);
@@ -127,7 +127,7 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
     assert_null(results.search);
 }
 
-/* A preview is waited for as a search is. */
+/* A preview has priority like a search. */
 TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
 {
     ceduo_jobs_ask(jobs, &(struct job_request){JOB_PREVIEW, &file, 0, 1, "rock.diameter_m", "0.6", NULL, NULL});
@@ -136,7 +136,7 @@ TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
     assert_non_null(results.preview);
 }
 
-/* The other energy law beside the figures: of as many rocks as said, and asked for again where it alone changes. */
+/* The other energy law in addition to the figures: with the same number of rocks, and repeated if only its inputs change. */
 TEST_WITH(the_other_law_comes_along, set_up, tear_down)
 {
     show();
@@ -149,7 +149,7 @@ TEST_WITH(the_other_law_comes_along, set_up, tear_down)
     assert_int_equal(results.others->items[0].model, CEDUO_DORREN);
     double before = results.others->items[0].arrivals.reach.mean;
     for (size_t i = 0; i < 2; i++)
-        file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* the scene's own law does not know it */
+        file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* the scene's own law does not use it */
     assert_true(show());
     ceduo_jobs_wait(jobs, true);
     take();
@@ -174,20 +174,21 @@ static const struct uncertainty *uncertainty(size_t shown, size_t levels)
     return results.uncertainty;
 }
 
-/* Of one option alone the first level is all there is. */
+/* With one option, only the first level exists. */
 TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
 {
     const struct uncertainty *u = uncertainty(0, 1);
     assert_int_equal(u->level, UNCERTAINTY_LEVELS - 1);
     assert_int_equal(u->inputs.n,
-                     12 + 12); /* of today, and of growth: two curves of four constants, two numbers of shoots, two densities */
+                     12 + 12); /* today's inputs, and growth: two curves of four constants, two numbers of shoots, two
+                                * densities */
     assert_int_equal(u->answer.points, CEDUO_UNCERTAINTY_POINTS);
     EXPECT(u->answer.figures[CEDUO_UNCERTAINTY_EXCEED].fit.p5, <, u->answer.figures[CEDUO_UNCERTAINTY_EXCEED].fit.p95);
     assert_false(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, 0, .levels = UNCERTAINTY_LEVELS}));
     assert_true(u->answer.rotation);
-    ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
+    ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: another scene would need a new run */
     file.scene.controls_count = 0;
-    u = uncertainty(0, UNCERTAINTY_LEVELS); /* without a control there is nothing to be uncertain of */
+    u = uncertainty(0, UNCERTAINTY_LEVELS); /* without a control there is no uncertainty */
     assert_int_equal(u->inputs.n, 0);
     file.scene.controls_count = 1;
 }
@@ -204,7 +205,7 @@ static int set_up_options(void **state)
     return 0;
 }
 
-/* Of several the shown one is first: its figures stay when the others come. */
+/* The shown option comes first: its figures stay when the others arrive. */
 TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_down)
 {
     const size_t shown = 1, n = 3;
@@ -228,7 +229,7 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
     assert_true(ceduo_uncertainty_ranking_by(a)->rotation);
 }
 
-/* What is stopped ends soon, and nothing comes of it. */
+/* A stopped job ends soon, without a result. */
 TEST_WITH(a_search_is_stopped, set_up, tear_down)
 {
     struct ceduo_search search = search_of(CEDUO_ROCKS_MAX);
@@ -239,7 +240,7 @@ TEST_WITH(a_search_is_stopped, set_up, tear_down)
     double start = ceduo_clock();
     ceduo_jobs_stop(jobs, JOB_SEARCH);
     ceduo_jobs_wait(jobs, true);
-    EXPECT(ceduo_clock() - start, <, 1); /* 0.1 s where nobody else wants the machine */
+    EXPECT(ceduo_clock() - start, <, 1); /* 0.1 s on an idle machine */
     take();
     assert_null(results.search);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: brief */
-/* Text without a translation, as in the locale C, and text of data, which has none. */
+/* Text without a translation, as in the locale C, and data text, which is never translated. */
 #include "test.h"
 
 #include "base/language.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What simulated rocks say of what was seen, against closed forms: rocks that are all alike fly over level ground before
- * they strike it, or roll down a smooth slope. */
+/* Simulated rocks compared with observations, in closed form: equal rocks fly over level ground before they land, or roll down
+ * a smooth slope. */
 #include "expect.h"
 #include "local.h"
 
@@ -14,7 +14,7 @@
 #define ROCKS   100
 #define GRAVITY 9.81
 #define HIGH    100.0 /* m above ground, at the release */
-#define FAST    10.0  /* m/s, along */
+#define FAST    10.0  /* m/s, horizontal */
 
 /* 200 m of level ground; or one slope of 1 in 2. */
 static struct ground g;
@@ -70,7 +70,7 @@ static struct ceduo_observation stops(size_t n, double *values)
     return o;
 }
 
-/* The values of the first of n observations, of all rocks: to be freed. */
+/* Return the values of all rocks for the first of n observations; caller frees. */
 static double *values_of(const struct ceduo_observation *seen, size_t n)
 {
     LOCAL(ceduo_observer, observer);
@@ -82,7 +82,7 @@ static double *values_of(const struct ceduo_observation *seen, size_t n)
     return values;
 }
 
-/* Trees from a place to 100 m, of wood that takes u for each cubic metre; for one scene at a time. */
+/* Make a belt of trees from a place to 100 m with work u per cubic metre; for one scene at a time. */
 static struct ceduo_belt *belt_of(double from, struct ceduo_stems stems, double u)
 {
     static struct ceduo_stems tree;
@@ -95,7 +95,7 @@ static struct ceduo_belt *belt_of(double from, struct ceduo_stems stems, double 
 
 /* ---- counts and classes ---- */
 
-/* All 100 rocks pass: half a rock more in each class gives 100.5/101. Three of four were seen to. */
+/* All 100 rocks pass: half a rock more per class gives 100.5/101. Three of four were observed to pass. */
 TEST(a_count_is_binomial)
 {
     make_ground(0, HIGH, FAST, 0);
@@ -109,7 +109,7 @@ TEST(a_count_is_binomial)
     EXPECT_NEAR(c.deviance, 2 * (3 * log(0.75 / p) + log(0.25 / (1 - p))), 1e-12);
 }
 
-/* All rocks come to rest at one place: where they strike the ground, and v²/(2 g mu) further. */
+/* Return the stop of all rocks: they land and slide v²/(2 g mu). */
 static double rest_x(void)
 {
     double v = FAST;
@@ -120,7 +120,7 @@ TEST(stops_are_multinomial)
 {
     double at = rest_x(), values[10];
     make_ground(0, HIGH, FAST, 0);
-    for (int i = 0; i < 10; i++) /* five before it, five behind; the median is 4 m behind it */
+    for (int i = 0; i < 10; i++) /* five before it, five after it; the median is 4 m after it */
         values[i] = at + (i < 5 ? i - 5 : 5 + i);
     struct ceduo_observation o = stops(10, values);
     struct ceduo_observation_fit c = look(o);
@@ -130,21 +130,21 @@ TEST(stops_are_multinomial)
     EXPECT_NEAR(c.mean, at, 1e-9);
     EXPECT_NEAR(c.log_likelihood, log(252) + 5 * log(p[0]) + 5 * log(p[1]), 1e-10);
     EXPECT_NEAR(c.deviance, 2 * (5 * log(0.5 / p[0]) + 5 * log(0.5 / p[1])), 1e-10);
-    o.of = 12; /* two more did not stop: a class of their own */
+    o.of = 12; /* two more did not stop: a separate class */
     c = look(o);
     EXPECT(c.classes, ==, 3);
     EXPECT(c.seen[2], ==, 2);
     EXPECT(c.count[2], ==, 0);
-    /* 12!/(5!5!2!) ways; 101.5 = 100 + 3/2 */
+    /* 12!/(5!5!2!) arrangements; 101.5 = 100 + 3/2 */
     EXPECT_NEAR(c.log_likelihood, log(16632) + 5 * log(100.5 / 101.5) + 5 * log(0.5 / 101.5) + 2 * log(0.5 / 101.5), 1e-10);
-    o.from = at + 1; /* nobody looked where they lie: none is of it, and two classes want twenty rocks */
+    o.from = at + 1; /* outside the observed area: none counts, and two classes need twenty rocks */
     o.of = 0;
     c = look(o);
     EXPECT(c.rocks, ==, 0);
     EXPECT_NEAR(c.log_likelihood, log(252) + 10 * log(0.5 / 21), 1e-10);
 }
 
-/* k = min(10, n/5) classes, and two at the least. */
+/* k = min(10, n/5) classes, at least two. */
 TEST(a_list_has_classes_of_its_own)
 {
     static const struct {
@@ -161,11 +161,11 @@ TEST(a_list_has_classes_of_its_own)
         EXPECT(c.seen[c.classes - 1], ==, (double)cases[i].last);
     }
     double alike[10] = {30, 30, 30, 30, 30, 30, 30, 30, 30, 30};
-    EXPECT(look(stops(10, alike)).seen[0], ==, 10); /* nothing is split that is alike */
+    EXPECT(look(stops(10, alike)).seen[0], ==, 10); /* equal values are not split */
     double mostly[20];
     for (int i = 0; i < 20; i++)
         mostly[i] = i < 18 ? 30 : 31;
-    struct ceduo_observation_fit c = look(stops(20, mostly)); /* of four classes those with a bound of their own */
+    struct ceduo_observation_fit c = look(stops(20, mostly)); /* keep only classes with distinct bounds */
     EXPECT(c.classes, ==, 2);
     EXPECT(c.seen[0], ==, 18);
     EXPECT(c.seen[1], ==, 2);
@@ -173,7 +173,7 @@ TEST(a_list_has_classes_of_its_own)
 
 /* ---- means ---- */
 
-/* Seen with an error that equals its distance to the simulated mean, which has none: z = 1. */
+/* Observe a mean with an error equal to its distance from the simulated mean, which has none: z = 1. */
 static void expect_mean(struct ceduo_observation o, double mean, double within)
 {
     struct ceduo_observation_fit c = look(measured(o, 4, mean + 1, 2));
@@ -190,7 +190,7 @@ static double mass(void)
     return 2600 * M_PI / 6;
 }
 
-/* After 10 m in flight: one second. */
+/* After 10 m of flight: one second. */
 TEST(means_are_normal)
 {
     make_ground(0, HIGH, FAST, 0);
@@ -200,7 +200,7 @@ TEST(means_are_normal)
     expect_mean(at(CEDUO_OBSERVED_ENERGY, 10), mass() * speed2 / 2, 1e-6);
 }
 
-/* Of rocks that differ, the error of the simulated mean counts as well. */
+/* If rocks differ, the error of the simulated mean counts as well. */
 TEST(a_mean_has_the_error_of_both_sides)
 {
     make_ground(0, HIGH, FAST, 0);
@@ -222,7 +222,7 @@ TEST(no_rock_there_is_impossible)
     EXPECT(c.log_likelihood, <, -1000);
 }
 
-/* ---- on the way ---- */
+/* ---- on the trajectory ---- */
 
 TEST(the_largest_is_at_an_end_or_on_top)
 {
@@ -230,9 +230,9 @@ TEST(the_largest_is_at_an_end_or_on_top)
     make_ground(0, HIGH, FAST, 0);
     expect_mean(speed, sqrt(FAST * FAST + 2 * GRAVITY * HIGH), 1e-9);
     expect_mean(height, HIGH, 1e-9);
-    make_ground(0, 1, FAST, 5); /* thrown up: 5²/2g higher */
+    make_ground(0, 1, FAST, 5); /* released upward: 5²/2g higher */
     expect_mean(height, 1 + 25 / (2 * GRAVITY), 1e-9);
-    make_ground(100, 0, FAST, FAST); /* off a slope of 1 in 2: highest above it where the flight is parallel to it */
+    make_ground(100, 0, FAST, FAST); /* off a slope of 1 in 2: highest above it as the flight is parallel to it */
     double t = (FAST + FAST / 2) / GRAVITY;
     expect_mean(height, FAST * t - GRAVITY / 2 * t * t + FAST / 2 * t, 1e-9);
 }
@@ -252,7 +252,7 @@ TEST(means_along_a_flight)
     expect_mean(along(CEDUO_OBSERVED_WAY_SPEED, 0, 10), sum, 1e-9);
 }
 
-/* The same to the other side: from 100 m back over the last 10 of them. */
+/* The same in the other direction: back from 100 m over the last 10 m. */
 TEST(a_flight_back)
 {
     make_ground(0, HIGH, -FAST, 0);
@@ -262,7 +262,7 @@ TEST(a_flight_back)
     expect_mean(something(CEDUO_OBSERVED_LARGEST_HEIGHT), HIGH, 1e-9);
 }
 
-/* Over an edge at 10 m, beyond which it falls 1 in 2: highest above the ground where the flight is parallel to the slope. */
+/* Over an edge at 10 m onto a slope of 1 in 2: highest above ground as the flight is parallel to the slope. */
 TEST(a_flight_over_an_edge)
 {
     static double x[3] = {0, 10, 200}, z[3] = {0, 0, -95};
@@ -275,12 +275,12 @@ TEST(a_flight_over_an_edge)
     double sum = 5 * top - GRAVITY / 6 * top * top * top + v / 4 * (top - edge) * (top - edge);
     expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, v * top), sum / top, 1e-9);
     expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 10), 5 - GRAVITY / 6 * edge * edge, 1e-9); /* up to the edge */
-    g.scene.release.x = ceduo_number(10);                                                      /* and back from there */
+    g.scene.release.x = ceduo_number(10);                                                      /* and back from it */
     g.scene.release.vx = ceduo_number(-2);
     expect_mean(something(CEDUO_OBSERVED_LARGEST_HEIGHT), 5, 1e-9);
 }
 
-/* A roll down 1 in 2 with friction 0.25: v² grows by 2 g (sin - mu cos) for each metre of ground. */
+/* A roll down 1 in 2 with friction 0.25: v² grows by 2 g (sin - mu cos) per metre of ground. */
 TEST(means_along_a_roll)
 {
     double cosine = 2 / sqrt(5), sine = 1 / sqrt(5), gain = 2 * GRAVITY * (sine - 0.25 * cosine) / cosine;
@@ -289,10 +289,10 @@ TEST(means_along_a_roll)
     double end2 = FAST * FAST + gain * 50;
     expect_mean(along(CEDUO_OBSERVED_WAY_SPEED, 0, 50), 2 / (3 * gain * 50) * (pow(end2, 1.5) - pow(FAST, 3)), 1e-6);
     expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 50), 0, 1e-9);
-    EXPECT(look(measured(along(CEDUO_OBSERVED_WAY_HEIGHT, 300, 310), 3, 1, 1)).rocks, ==, 0); /* nobody comes there */
+    EXPECT(look(measured(along(CEDUO_OBSERVED_WAY_HEIGHT, 300, 310), 3, 1, 1)).rocks, ==, 0); /* no rock arrives */
 }
 
-/* From rest: what it has lost in height and not to friction, m g (sin - mu cos)/cos for each metre, is in its speed and its spin. */
+/* From rest: the loss of height minus friction, m g (sin - mu cos)/cos per metre, is in speed and spin. */
 TEST(a_roll_from_rest)
 {
     double cosine = 2 / sqrt(5), sine = 1 / sqrt(5), gain = GRAVITY * (sine - 0.25 * cosine) / cosine;
@@ -301,12 +301,12 @@ TEST(a_roll_from_rest)
         make_ground(100, 0, 0, 0);
         g.scene.simulation.law = laws[i];
         expect_mean(along(CEDUO_OBSERVED_WAY_ENERGY, 0, 50), mass() * gain * 25, 1e-4);
-        double k = laws[i] == CEDUO_LAW_LUMPED ? 0 : 0.4; /* of a sphere */
+        double k = laws[i] == CEDUO_LAW_LUMPED ? 0 : 0.4; /* a sphere */
         expect_mean(along(CEDUO_OBSERVED_WAY_SPEED, 0, 50), 2. / 3 * sqrt(2 * gain / (1 + k) * 50), 1e-6);
     }
 }
 
-/* A fall straight down. */
+/* A vertical fall. */
 TEST(a_fall)
 {
     make_ground(0, HIGH, 0, 0);
@@ -314,7 +314,7 @@ TEST(a_fall)
     expect_mean(something(CEDUO_OBSERVED_LARGEST_SPEED), sqrt(2 * GRAVITY * HIGH), 1e-9);
 }
 
-/* ---- rocks are those of a run ---- */
+/* ---- rocks equal those of a run ---- */
 
 static void make_rough(void)
 {
@@ -325,7 +325,7 @@ static void make_rough(void)
     g.segment.friction = 0.8;
 }
 
-/* A rough slope, so that rocks differ, and a law by which they spin: what is recorded of each rock is what its run keeps. */
+/* A rough slope, so that rocks differ, and a law with spin: the values recorded per rock equal those of its run. */
 TEST(recorded_rocks_are_those_of_a_run)
 {
     make_rough();
@@ -335,7 +335,7 @@ TEST(recorded_rocks_are_those_of_a_run)
     assert_memory_equal(recorded, run, ROCKS * sizeof *run);
 }
 
-/* Speed, height and energy at a place, of rocks that are followed and of those of a run. */
+/* Speed, height and energy at a place: rocks simulated one by one equal those of a run. */
 TEST(recorded_crossings_are_those_of_a_run)
 {
     make_rough();
@@ -355,7 +355,7 @@ TEST(recorded_crossings_are_those_of_a_run)
     }
 }
 
-/* Places of one rock share its run; a rock and a release of its own, or another option, do not. By the index nothing is in the way. */
+/* Places of one rock share its run; another rock, release or option does not. The index has no obstacles. */
 TEST(what_is_of_its_own)
 {
     make_ground(0, HIGH, FAST, 0);
@@ -385,7 +385,7 @@ TEST(what_is_of_its_own)
         for (int i = 0; i < 6; i++) {
             double v = i == 2 ? FAST / 2 : FAST, speed2 = v * v + GRAVITY * GRAVITY * seconds[i] * seconds[i];
             if (i == 5 && way == 0)
-                EXPECT(c[i].rocks, ==, 0); /* stopped by stems */
+                EXPECT(c[i].rocks, ==, 0); /* stems stop all */
             else
                 EXPECT_NEAR(c[i].mean, i == 3 ? sqrt(speed2) : mass() / (i == 1 ? 8 : 1) * speed2 / 2, 1e-6);
         }
@@ -396,7 +396,7 @@ TEST(what_is_of_its_own)
     expect_mean(largest, HIGH, 1e-9);
 }
 
-/* What was observed was observed of one rock, also where blocks of all sizes come down. */
+/* Observations are of one rock, also in scenes with blocks of all sizes. */
 TEST(blocks_are_not_observed)
 {
     static double volumes[] = {.05, 1};
@@ -411,7 +411,7 @@ TEST(blocks_are_not_observed)
     EXPECT_NEAR(c.sd, 0, 1e-6);
 }
 
-/* Where the scene makes no sense, or nobody waits any longer, nothing is compared. */
+/* An invalid scene or a cancelled call gives no comparison. */
 TEST(what_cannot_be_looked_at)
 {
     make_ground(0, HIGH, FAST, 0);
@@ -458,7 +458,7 @@ TEST(scars_are_counted_and_measured)
     struct ceduo_observation_fit heights_alone = look(o);
     EXPECT(sum, >, 20);
     EXPECT((double)heights_alone.rocks, ==, sum);
-    EXPECT_NEAR(heights_alone.mean, 0.5, 0.05); /* rocks roll: their centre is half a metre above the ground */
+    EXPECT_NEAR(heights_alone.mean, 0.5, 0.05); /* rolling rocks: their centre is half a metre above ground */
     assert_true(isnan(heights_alone.scars));
     o.of = 10;
     o.share_seen = 0.75;
@@ -467,7 +467,7 @@ TEST(scars_are_counted_and_measured)
     double expected = 10 * mean * 0.75, spread = 0.75 * 0.75 * variance * 10 * 1.1 + 10 * mean * 0.75 * 0.25;
     EXPECT_NEAR(c.scars, expected, 1e-9);
     EXPECT_NEAR(c.deviance - heights_alone.deviance, (3 - expected) * (3 - expected) / spread, 1e-9);
-    o.share_seen = NAN; /* not known: all of them */
+    o.share_seen = NAN; /* unknown: all of them */
     EXPECT_NEAR(look(o).scars, 10 * mean, 1e-9);
     ceduo_record_release(&record);
     atomic_bool cancelled = true;
@@ -475,14 +475,14 @@ TEST(scars_are_counted_and_measured)
     EXPECT(ceduo_record(&def, &record), ==, CEDUO_CANCELLED);
     assert_null(record.rocks);
     def.cancel = NULL;
-    g.scene.release.height = ceduo_number(100); /* over the trees: met, not hit */
+    g.scene.release.height = ceduo_number(100); /* over the trees: encountered, not hit */
     g.option.belts->to = g.option.belts->to_given = 5;
     EXPECT(ceduo_record(&def, &record), ==, CEDUO_OK);
     EXPECT(record.blows_count, ==, 0);
     ceduo_record_release(&record);
 }
 
-/* Stems as strong as rock: where they stop a rock is where it lies. */
+/* Stems as strong as rock: a rock stops at the stem. */
 TEST(rocks_lie_where_stems_stop_them)
 {
     const struct ceduo_stems tree = {.per_ha = 1e5, .dbh = 1, .height = 15, .volume = 10, .age = NAN};

@@ -31,11 +31,11 @@ static int wooded_site(void **state)
     return 0;
 }
 
-/* Of the picture of such a site. */
+/* Tests with the picture of such a site. */
 #define TEST_BARE(name)   TEST_WITH(name, bare_site, NULL)
 #define TEST_WOODED(name) TEST_WITH(name, wooded_site, NULL)
 
-/* Through the wood no rock gets to the path. */
+/* Stop all rocks in the forest before the path. */
 static void stop_all(void)
 {
     for (int i = 0; i < CELLS; i++)
@@ -53,7 +53,7 @@ static struct ceduo_cells *draw(enum ceduo_plot plot, int width, int height, enu
     return cells;
 }
 
-/* What a picture looks like stands in a file of its name, for the caller to free. */
+/* Return the expected picture from the file of this name; caller frees. */
 static char *picture_file(const char *name)
 {
     char path[256], *bytes = calloc(1, 1 << 16);
@@ -81,7 +81,7 @@ static bool shows(enum ceduo_plot plot, int width, int height, const char *words
     return found;
 }
 
-/* Cells of a role. */
+/* Count the cells of a role. */
 static int cells_of(const struct ceduo_cells *cells, enum ceduo_role role)
 {
     int n = 0;
@@ -91,7 +91,7 @@ static int cells_of(const struct ceduo_cells *cells, enum ceduo_role role)
     return n;
 }
 
-/* Two of the upper half hit, one flown over; one in the lower half. */
+/* Two in the upper half hit, one flown over; one in the lower half. */
 static const struct ceduo_stem_encounter passed[] = {
     {.x = 22, .y = 0.3, .dbh = 0.3, .height = 20, .hit = true},
     {.x = 27, .y = -0.1, .dbh = 0.08, .height = 8, .shoot = true, .hit = true},
@@ -135,7 +135,7 @@ static void set_belts(size_t n)
     s.options[0] = (struct ceduo_option){.name = "belts", .belts_count = n, .belts = belts};
 }
 
-/* What is other than in the site: a word, or the name of a number and its value. */
+/* Change the site by a word, or by the name of a number and its value. */
 static void change(const char *word)
 {
     static double many[1000];
@@ -156,21 +156,21 @@ static void change(const char *word)
         stop_all();
     else if (strcmp(word, "unknown") == 0) /* the runs through the forest */
         s.wooded[0] = NULL;
-    else if (strcmp(word, "nothing") == 0) /* is computed */
+    else if (strcmp(word, "nothing") == 0) /* not simulated */
         p.snapshot = NULL;
     else if (strcmp(word, "long-name") == 0)
         s.options[0].name = "coppice with standards";
     else if (strcmp(word, "empty") == 0) /* places */
         for (int i = 0; i < CELLS; i++)
             s.envelopes[i] = no_rock;
-    else if (memcmp(word, "energies=", 9) == 0) /* of all rocks */
+    else if (memcmp(word, "energies=", 9) == 0) /* all rocks */
         for (int i = 0; i < ENERGIES; i++)
             s.values[i] = value;
     else if (memcmp(word, "arrived=", 8) == 0)
         s.arrivals[0].reached = (uint64_t)value;
     else if (memcmp(word, "wood-arrived=", 13) == 0)
         s.wood_arrivals[0].reached = (uint64_t)value;
-    else if (strcmp(word, "tail") == 0) { /* three of 1000 with far more than the others */
+    else if (strcmp(word, "tail") == 0) { /* three in 1000 with far more than the others */
         for (int i = 0; i < 1000; i++)
             many[i] = i < 997 ? 1e3 * (i % 50) : 1e6;
         s.energies[0] = (struct ceduo_energies){1000, many};
@@ -203,7 +203,7 @@ TEST(pictures_show_what_they_should)
             assert_int_equal(sscanf(row.at[1], "%15s %dx%d %7s", name, &width, &height, charset), 4);
             while (strcmp(ceduo_plot_kinds[plot].name, name) != 0)
                 assert_true(++plot < CEDUO_PLOTS);
-            if (row.at[2][0]) /* a file of the whole picture */
+            if (row.at[2][0]) /* a file with the whole picture */
                 expect((enum ceduo_plot)plot, width, height, charset[0] == 'a' ? ASCII : BRAILLE, row.at[2]);
             if (row.at[3][0] && !shows((enum ceduo_plot)plot, width, height, row.at[3]))
                 fail_msg("%s: %s: '%s' is missing", row.at[0], row.at[1], row.at[3]);
@@ -212,7 +212,7 @@ TEST(pictures_show_what_they_should)
         }
 }
 
-/* ---- the profile ---- */
+/* ---- profile ---- */
 
 TEST_BARE(span_tells_where_the_slope_stands)
 {
@@ -254,7 +254,7 @@ TEST_WOODED(ways_that_are_not_known_are_not_drawn)
     assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
 }
 
-/* The rows of a column that hold dots of a role. */
+/* Return the rows of a column that hold dots of a role. */
 static int rows_of(const struct ceduo_cells *cells, int column, enum ceduo_role role)
 {
     int n = 0;
@@ -273,7 +273,7 @@ TEST_WOODED(stems_that_the_rock_came_to_stand_where_they_are)
     struct ceduo_span span;
     p.span = &span;
     ceduo_plot_draw(CEDUO_PLOT_PROFILE, &cells->canvas, &area, &p);
-    double metres = (span.x1 - span.x0) / (2 * span.width - 1); /* of a dot, either way */
+    double metres = (span.x1 - span.x0) / (2 * span.width - 1); /* size of a dot in both directions */
     assert_int_equal(cells_of(cells, CEDUO_ROLE_STOOL), 0);
     for (int i = 0; i < 4; i++) {
         int column = span.left + (int)lround((passed[i].x - span.x0) / metres) / 2;
@@ -284,7 +284,7 @@ TEST_WOODED(stems_that_the_rock_came_to_stand_where_they_are)
     expect(CEDUO_PLOT_PROFILE, 84, 20, ASCII, "stems-that-the-rock-came-to-stand-where-they-are");
 }
 
-/* A lying log has a place along the way, but none in the plane. */
+/* A lying log has a place along the slope, but none in the plane. */
 TEST_WOODED(logs_stand_in_no_plan)
 {
     struct ceduo_stem_encounter logs[] = {{.x = 30, .y = NAN, .dbh = NAN, .height = 2, .hit = true},
@@ -299,7 +299,7 @@ TEST_WOODED(logs_stand_in_no_plan)
 
 /* ---- strips ---- */
 
-/* Strokes through the forest, dots without it. */
+/* Solid with forest, dotted without. */
 TEST_WOODED(strips_show_the_wood_beside_the_bare_slope)
 {
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 16, BRAILLE);
@@ -307,10 +307,10 @@ TEST_WOODED(strips_show_the_wood_beside_the_bare_slope)
     assert_true(cells_of(cells, CEDUO_ROLE_BARE) > 30);
 }
 
-/* Where there is no room for four curves: the one that matters, with and without forest. */
+/* If four curves do not fit: the most important one, with and without forest. */
 TEST_WOODED(small_strips_show_one_pair_of_curves)
 {
-    struct ceduo_span span = {4, 60, 0, 100}; /* leaves no room for names */
+    struct ceduo_span span = {4, 60, 0, 100}; /* no space for names */
     p.span = &span;
     struct ceduo_area area = {0, 0, 70, 20};
     LOCAL(ceduo_cells, cells) = ceduo_cells_create(70, 20, ASCII);
@@ -319,7 +319,7 @@ TEST_WOODED(small_strips_show_one_pair_of_curves)
     assert_non_null(strstr(text, "mean energy, kJ"));
 }
 
-/* Names stand in the order in which the curves end: here the wooded mean above the bare one. */
+/* Names follow the order of the ends of their curves: here the mean with forest is above the one without. */
 TEST_WOODED(names_of_curves_follow_their_ends)
 {
     for (int i = 0; i < CELLS; i++) {
@@ -341,10 +341,10 @@ TEST_WOODED(strips_without_wooded_rocks)
 {
     stop_all();
     s.wooded[0] = NULL;
-    p.option = 1; /* no stems: both runs are one, drawn in strokes */
+    p.option = 1; /* no stems: both runs are one, drawn solid */
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 8, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
-    assert_in_range(cells_of(cells, CEDUO_ROLE_BARE), 13, 20); /* 13: the words */
+    assert_in_range(cells_of(cells, CEDUO_ROLE_BARE), 13, 20); /* 13 are in the words */
 }
 
 TEST_BARE(strips_share_the_profiles_columns)
@@ -367,9 +367,9 @@ TEST_BARE(strips_share_the_profiles_columns)
 
 /* ---- bars ---- */
 
-/* ---- the stand ---- */
+/* ---- stand ---- */
 
-/* More stools are added to those that stand. */
+/* New stools are added to the existing ones. */
 TEST_BARE(stems_that_stay_do_not_move)
 {
     s.belts[0].stand.trees_count = 0;
@@ -386,8 +386,8 @@ TEST_BARE(stems_that_stay_do_not_move)
     assert_true(dots[1] > dots[0]);
 }
 
-/* Trees of 10 cm and a rock of 3 m: those whose middle is less than 1.55 m off its path are met, no others. A row of
- * the picture is half a metre. */
+/* Trees of 10 cm and a rock of 3 m: it meets exactly the trees with centres less than 1.55 m off its path. A row of the picture
+ * is half a metre. */
 TEST_BARE(what_the_rock_meets_lies_in_its_strip)
 {
     s.scene.rock.diameter = ceduo_number(3);
@@ -406,7 +406,7 @@ TEST_BARE(what_the_rock_meets_lies_in_its_strip)
     assert_true(cells_of(cells, CEDUO_ROLE_STEM) > 50);
 }
 
-/* 20 m around the last stem of the belt, offsets stretched until the strip fills the picture. */
+/* 20 m around the last stem of the belt, offsets scaled so that the strip fills the picture. */
 TEST_WOODED(the_stand_shows_the_way_of_the_rock)
 {
     p.stems = passed;
@@ -424,7 +424,7 @@ TEST_BARE(a_dense_stand_is_drawn_in_time)
     ceduo_cells_free(draw(CEDUO_PLOT_STAND, 200, 400, BRAILLE));
 }
 
-/* ---- all of them ---- */
+/* ---- all pictures ---- */
 
 TEST_WOODED(nothing_is_drawn_beside_the_area)
 {
@@ -451,10 +451,10 @@ TEST_WOODED(nothing_is_drawn_beside_the_area)
     }
 }
 
-/* A surface that draws no dots: it only counts what a page of vectors would draw. */
+/* A surface that draws no dots: it only counts the output of a vector page. */
 struct page {
     int lines, ways, bars, axes;
-    bool strayed; /* a line left its frame */
+    bool strayed; /* a line outside its frame */
 };
 
 static void page_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
@@ -504,7 +504,7 @@ TEST_WOODED(pictures_draw_on_another_surface)
     }
 }
 
-/* Three options: one between the others, one that yields less and lets more through, one of which no yield is known. */
+/* Three options: one between the others, one with less yield and more rocks, one with unknown yield. */
 TEST_WOODED(a_point_for_each_option)
 {
     static struct ceduo_option options[3];

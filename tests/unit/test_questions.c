@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Questions that ask for little, that nobody waits for any more, and what is read from their answers. */
+/* Requests for little, cancelled requests, and figures derived from their results. */
 #include "expect.h"
 #include "local.h"
 
@@ -17,7 +17,7 @@ static struct ceduo_request question_of(uint64_t rocks)
     return q;
 }
 
-/* Stands and index are assessed without a rock, be its precision asked for or not. */
+/* Stands and index need no rocks, with or without a requested precision. */
 TEST(no_rocks_are_not_precise)
 {
     struct ceduo_request q = question_of(0);
@@ -35,7 +35,7 @@ TEST(no_rocks_are_not_precise)
     EXPECT(answer.result->options[0].stands[0].adc_m, >, 0);
 }
 
-/* Without a control nothing is known of what arrives, today or over years; what the stands yield is. */
+/* Without a control the arrivals are unknown, today and over years; the yields are known. */
 static void expect_yields_alone(const struct ceduo_results *answer)
 {
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v;
@@ -46,7 +46,7 @@ static void expect_yields_alone(const struct ceduo_results *answer)
     assert_true(isnan(ceduo_years_difference(answer->years[0], answer->years[0]).mean));
 }
 
-/* Where rocks are counted nowhere they fly all the same, and there is nothing to say of other sizes. */
+/* Without a control rocks are simulated all the same, and other sizes have no results. */
 TEST(nothing_is_counted_without_a_control)
 {
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
@@ -66,7 +66,7 @@ TEST(nothing_is_counted_without_a_control)
     }
 }
 
-/* All runs are there from the question before: only the other sizes fly, and nobody waits for them. */
+/* All runs exist from the previous request: only the other sizes are simulated, and they are cancelled. */
 TEST(other_sizes_are_cancelled)
 {
     struct ceduo_request q = question_of(20);
@@ -88,7 +88,7 @@ TEST(other_sizes_are_cancelled)
     ceduo_results_release(&answer);
 }
 
-/* Of two options one is asked for, and nothing is known of what the other's rocks cost. */
+/* One of two options is requested; the cost of the other's rocks is unknown. */
 TEST(other_sizes_of_one_option)
 {
     struct ceduo_request q = question_of(50);
@@ -107,7 +107,7 @@ TEST(other_sizes_of_one_option)
     ceduo_results_release(&answers[1]);
 }
 
-/* At the worst of two controls; not known where it is not of one of them, whichever comes first. */
+/* At the worse of two controls; NaN if either is NaN, in any order. */
 TEST(a_goal_is_reached_at_the_worst_control)
 {
     const double accepted[][2] = {{50e3, 50e3}, {NAN, 50e3}, {50e3, NAN}};
@@ -131,7 +131,7 @@ TEST(a_goal_is_reached_at_the_worst_control)
     }
 }
 
-/* Of two options that are the same the difference is 0, without an error. */
+/* Between two equal options the difference is 0 without error. */
 TEST(options_that_are_the_same)
 {
     struct ceduo_request q = question_of(200);
@@ -147,7 +147,7 @@ TEST(options_that_are_the_same)
     EXPECT(difference.hi, ==, 0);
 }
 
-/* Two things at one place: the same rocks come, and each has its own limit. */
+/* Two objects at one place: the same rocks arrive, and each has its own limit. */
 TEST(controls_at_one_place)
 {
     struct ceduo_request q = question_of(200);
@@ -164,7 +164,7 @@ TEST(controls_at_one_place)
     EXPECT(b->exceeded, ==, b->reached);
 }
 
-/* Years in which no rock was simulated have no share that could be less. */
+/* Years without rocks have no share, so no difference. */
 TEST(years_without_rocks_differ_by_nothing_known)
 {
     struct ceduo_request q = question_of(50);
@@ -179,7 +179,7 @@ TEST(years_without_rocks_differ_by_nothing_known)
     assert_true(isnan(ceduo_years_difference(none, answer.years[0]).mean));
 }
 
-/* Three belts that are cut together, every ten years from the second on: by year, then along the slope. */
+/* Three belts cut together, every ten years from year 2: by year, then along the slope. */
 TEST(fellings_are_in_order)
 {
     struct ceduo_belt belts[3];
@@ -200,8 +200,8 @@ TEST(fellings_are_in_order)
     }
 }
 
-/* A coppice that was just cut has no stem today and a volume to cut later: half of the forest beside one that is bare for good, which
- * does not count. */
+/* A coppice just after its cut has no stems today and a volume to cut later: half of the forest next to a permanently bare
+ * half, which does not count. */
 TEST(a_stand_just_cut_yields)
 {
     static struct ceduo_stems none[1];
@@ -228,7 +228,7 @@ TEST(a_stand_just_cut_yields)
     EXPECT(beside.cut_per_year, ==, alone.cut_per_year);
 }
 
-/* The volume of belts is their mean by their lengths: 30 m and 90 m, of which the one has twice the other's. */
+/* The volume of belts is their mean weighted by length: 30 m and 90 m, one with twice the other's volume. */
 TEST(volumes_of_belts_are_weighed_by_their_lengths)
 {
     LOCAL_BY(ceduo_yield_release) struct ceduo_yield yield;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene is made of: stands that start from others, grounds of the library, sources of values. */
+/* Parts of a scene: stands with a base, grounds of the library, sources of values. */
 #include "local.h"
 #include "table.h"
 
@@ -19,7 +19,7 @@ __attribute__((format(printf, 2, 3))) static void write_file(const char *name, c
     put(name, text.bytes);
 }
 
-/* Reads scene.yaml; what is wrong with it is put into `told`. */
+/* Read scene.yaml; put its problems into `problems`. */
 static bool read_scene(struct scene_file *file, char told[4096])
 {
     char path[256];
@@ -36,7 +36,7 @@ static bool read_scene(struct scene_file *file, char told[4096])
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 90}]\n"                                                         \
     "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
 
-/* Stands 0 to n, each of which starts from the next; each says one thing of its own. */
+/* Stands 0 to n, each with the next as its base, and one key of its own. */
 static void write_chain(int n)
 {
     for (int i = 0; i <= n; i++) {
@@ -50,8 +50,8 @@ static void write_chain(int n)
     }
 }
 
-/* Eight steps from a stand's file to the one that has no base, and eight from a stand in the scene; one more is told where
- * it is taken. */
+/* Eight steps from a stand's file to the last base, and eight from a stand in the scene; a ninth is reported at its
+ * reference. */
 TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
 {
     const char *const stands[] = {"0.yaml", "{base: 1.yaml, trees: [{per_ha: 100, dbh_m: 0.2, height_m: 9}]}",
@@ -81,10 +81,10 @@ TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
 
 struct vertex {
     double x, z;
-    const char *ground; /* of the segment that begins here */
+    const char *ground; /* segment that starts here */
 };
 
-/* Middles of the ranges in use with CRSP 3.0. */
+/* Midpoints of the ranges used with CRSP 3.0. */
 static void expect_ground(const struct ceduo_segment *s, const char *name)
 {
     const struct {
@@ -102,7 +102,7 @@ static void expect_ground(const struct ceduo_segment *s, const char *name)
     fail_msg("%s", name);
 }
 
-/* The profile (0, 50), (40, 20), (100, 0) at `x`, `z`, cut where its grounds meet: on the line, and each side its own. */
+/* Cut the profile (0, 50), (40, 20), (100, 0) at `x`, `z` between its grounds: on the line, with each side's own ground. */
 static void expect_cut(double x, double z, const char *materials, const struct vertex *wanted, bool csv)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -137,7 +137,7 @@ static void expect_cut(double x, double z, const char *materials, const struct v
 TEST_WITH(grounds_meet_anywhere, folder_set_up, folder_tear_down)
 {
     const struct {
-        double borders[4]; /* from the profile's begin; NAN: its end */
+        double borders[4]; /* from the profile's start; NAN: its end */
         const char *grounds[3];
         struct vertex wanted[6];
     } rows[] = {{{0, 10, 70, 100},
@@ -156,7 +156,7 @@ TEST_WITH(grounds_meet_anywhere, folder_set_up, folder_tear_down)
                  {"cliff", "talus", "colluvium"}, /* beyond both ends */
                  {{0, 50, "cliff"}, {10, 42.5, "talus"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
                 {{-30, -10, 100, 400},
-                 {"cliff", "talus", "colluvium"}, /* outside: of no segment */
+                 {"cliff", "talus", "colluvium"}, /* outside: no segment */
                  {{0, 50, "talus"}, {40, 20, "talus"}}},
                 {{0, 0.25, 99.75, 100},
                  {"cliff", "talus", "cliff"}, /* close to the ends */
@@ -189,7 +189,7 @@ static const char stand[] = "ceduo: stand/1\n" M "\nstools: {per_ha: 2000, spaci
                             "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\n"
                             "trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}, {per_ha: 6, dbh_m: 0.4, height_m: 15, " A "}]\n";
 
-/* The source of a mapping as it is written; "" where it has none. */
+/* Expect the source of a mapping as written; "" if none. */
 static void expect_source(const struct scene_file *file, const char *map, const char *wanted, const char *set)
 {
     const char *within;
@@ -204,7 +204,7 @@ static void expect_source(const struct scene_file *file, const char *map, const 
         fail_msg("after %s the source of '%s' is %s, not %s", set, map, text.bytes, wanted);
 }
 
-/* The innermost source around a value that was changed is not of it any more, and no other is touched. */
+/* After a change the innermost source no longer covers the value; other sources stay. */
 TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
 {
     static const char *const maps[][2] = {{"", "m"},
@@ -241,7 +241,7 @@ TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
     }
 }
 
-/* A mapping that is put in whole comes without the source of the old one, and the one around it is not of it. */
+/* A new mapping does not inherit the source of the old one, nor the outer source. */
 TEST_WITH(a_new_mapping_has_no_old_source, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;

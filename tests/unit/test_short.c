@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The short page of every scene that comes with the program, from 80 to 200 columns: no line is wider, none ends in a blank, and
- * the page has no more lines than a screen. */
+/* The short page of every shipped scene, from 80 to 200 columns: no line is wider, none ends in a blank, and it fits a
+ * screen. */
 #include "expect.h"
 #include "local.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What runs give for pictures. */
+/* Data of runs for pictures. */
 #include "expect.h"
 #include "local.h"
 
@@ -7,7 +7,7 @@
 
 #include "unit/site.h"
 
-static struct site s; /* before each test it is made anew, with wood or with the index */
+static struct site s; /* reset before each test, with forest or with the index */
 
 static int wooded(void **state)
 {
@@ -23,7 +23,7 @@ static int by_index(void **state)
     return 0;
 }
 
-/* The runs of the scene, flown. */
+/* Simulate the runs of the scene. */
 static struct ceduo_pool *pool_of(uint64_t rocks)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&s.scene);
@@ -42,7 +42,7 @@ static struct ceduo_snapshot *snapshot_of(const struct ceduo_snapshot_def *def)
     return o;
 }
 
-/* Of one pool. */
+/* Take a snapshot of one pool. */
 static struct ceduo_snapshot *snapshot_at(struct ceduo_pool *pool, size_t trajectories)
 {
     return snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .runs = pool, .trajectories = trajectories});
@@ -73,7 +73,7 @@ static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ce
         assert_int_equal(found->reached, a.reached);
         assert_int_equal(sight->energies[c].n, a.reached);
         EXPECT_NEAR(found->energy.mean, a.energy.mean, 1e-12 * a.energy.mean);
-        /* Kept as floats. The deviation is as counted; the mean is not. */
+        /* stored as floats: the deviation matches the counted one; the mean does not */
         EXPECT_NEAR(gsl_stats_sd(sight->energies[c].values, 1, a.reached), found->energy.sd, 1e-6 * found->energy.sd);
     }
     for (size_t i = 1; i < CEDUO_SNAPSHOT_CELLS; i++)
@@ -100,7 +100,7 @@ TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
     ceduo_snapshot_free(NULL);
 }
 
-/* Without stems the rocks are those without forest: the same sight, and it is flown once. */
+/* Without stems the rocks are those without forest: the same trajectories, simulated once. */
 TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
 {
     LOCAL(ceduo_pool, pool) = pool_of(300);
@@ -115,7 +115,7 @@ TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
     }
 }
 
-/* With the contact model index there is one sight, that of all options. */
+/* The contact model index has one set of trajectories for all options. */
 TEST_WITH(the_index_looks_at_the_bare_slope, by_index, NULL)
 {
     LOCAL(ceduo_pool, pool) = pool_of(300);
@@ -127,7 +127,7 @@ TEST_WITH(the_index_looks_at_the_bare_slope, by_index, NULL)
     assert_ptr_equal(ceduo_snapshot_find(o, &s.scene, 1), o->bare);
 }
 
-/* Runs that are not there yet leave gaps. */
+/* Missing runs leave gaps. */
 TEST_WITH(what_is_not_flown_yet_is_not_known, wooded, NULL)
 {
     struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
@@ -149,7 +149,7 @@ TEST_WITH(what_is_not_flown_yet_is_not_known, wooded, NULL)
     ceduo_snapshot_free(o);
 }
 
-/* Envelopes are of as many rocks as are asked for, and those of the last snapshot if it has as many. */
+/* Envelopes use the requested number of rocks, or those of the last snapshot if it has enough. */
 TEST_WITH(envelopes_are_kept, wooded, NULL)
 {
     LOCAL(ceduo_pool, pool) = pool_of(300);
@@ -169,8 +169,7 @@ TEST_WITH(envelopes_are_kept, wooded, NULL)
         ceduo_snapshot_free(o[i]);
 }
 
-/* Of a forest that was just changed one sees what it was, but not where that is now the forest of another option; of an
- * option that was not there nothing. */
+/* A forest just changed shows its former state, unless another option now has that forest; a new option shows nothing. */
 TEST_WITH(a_changed_forest_shows_what_it_was, wooded, NULL)
 {
     static struct site b;
@@ -188,14 +187,14 @@ TEST_WITH(a_changed_forest_shows_what_it_was, wooded, NULL)
     assert_null(ceduo_snapshot_find(o, &b.scene, 3));
 }
 
-/* What has not changed since the last snapshot is not read again but shared; who is freed first does not matter. */
+/* Unchanged data is shared with the last snapshot, not read again; either may be freed first. */
 TEST(sights_are_taken_over)
 {
     static struct site b;
     for (int order = 0; order < 2; order++) {
         wooded(NULL);
         wooded_site_init(&b);
-        b.belts[1].stand = b.belts[0].stand; /* trees where the other has none */
+        b.belts[1].stand = b.belts[0].stand; /* unlike the other */
         b.belts[1].stand.shoots_count = 0;
         struct ceduo_pool *pool = pool_of(300);
         struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .trajectories = 5};
@@ -238,7 +237,7 @@ TEST_WITH(longer_runs_are_read_again, wooded, NULL)
     assert_int_equal(second->wooded[0]->flown.rocks, 301);
 }
 
-/* Starts and ends where the rock does, never far below the ground, and never jumps. */
+/* Trajectories start and end with the rock, never run far below ground, and never jump. */
 TEST_WITH(trajectories_follow_the_rocks, wooded, NULL)
 {
     LOCAL(ceduo_pool, pool) = pool_of(20);
@@ -262,7 +261,7 @@ TEST_WITH(trajectories_follow_the_rocks, wooded, NULL)
     EXPECT(hit, >, 0);
 }
 
-/* A rock thrown far: every point of its line and the middle of every chord lies on the parabola. */
+/* A rock thrown far: every point of its line and the midpoint of every chord lie on the parabola. */
 TEST_WITH(flights_are_sampled_finely, by_index, NULL)
 {
     s.scene.release.vx = ceduo_number(10);
@@ -278,7 +277,7 @@ TEST_WITH(flights_are_sampled_finely, by_index, NULL)
     EXPECT(checked, >, 3);
 }
 
-/* A rock that bounces in its place, 20 m high, until it is given up: drawn whole it would have millions of points. */
+/* A rock that bounces in place, 20 m high, until it is aborted: drawn fully it would have millions of points. */
 static int endless(void **state)
 {
     by_index(state);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Shares of uncertainty by a surface, for functions whose shares are known in closed form. */
+/* Shares of uncertainty by a surface, for functions whose shares have a closed form. */
 #include "expect.h"
 #include "full.h"
 
@@ -17,7 +17,7 @@ typedef double function(const double *u, size_t n);
 
 static struct ceduo_input inputs[MAX_INPUTS];
 
-/* All of ranges, but that the first `words` are of so many words. */
+/* Make ranges, but the first `words` inputs with `each` words. */
 static void make_inputs(size_t n, size_t words, size_t each)
 {
     for (size_t i = 0; i < n; i++)
@@ -26,11 +26,11 @@ static void make_inputs(size_t n, size_t words, size_t each)
 }
 
 static double lowest = -INFINITY, limit = NAN;
-static double level; /* sd of what a group of rocks brings at all points */
-static double tilt;  /* what every other group has more of the first input, the others less */
-static bool still;   /* the last input is the same at all points */
+static double level; /* sd of a group's contribution, equal at all points */
+static double tilt;  /* additional effect of the first input in every second group, subtracted in the others */
+static bool still;   /* the last input is constant */
 
-/* Values of the function with noise. */
+/* Fit values of the function plus noise. */
 static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uint64_t seed, double noise)
 {
     double *u = malloc(points * n * sizeof *u);
@@ -44,7 +44,7 @@ static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uin
     for (size_t p = 0; p < points && still; p++)
         u[p * n + n - 1] = .5;
     double constants[CEDUO_SURFACE_GROUPS];
-    for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++) /* by which groups differ */
+    for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++) /* group effects */
         constants[g] = level > 0 ? level * line_normal(&random) : g - (CEDUO_SURFACE_GROUPS - 1) / 2.;
     for (size_t p = 0; p < points; p++)
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
@@ -59,7 +59,7 @@ static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uin
     return fit;
 }
 
-/* ---- functions that a surface can be ---- */
+/* ---- functions in the surface's span ---- */
 
 static double linear(const double *u, size_t n)
 {
@@ -131,8 +131,8 @@ static double worded(const double *u, size_t n)
     return effects[a] + (a == b ? 6 : 0) * (u[2] - .5);
 }
 
-/* Of three words each: the effects 0, 3, 9 vary by 14 (mean 4); where both are the same, a third of the time, u2 - ½ counts
- * six-fold: 36/12/3 = 1, of which a ninth of 36/12 is u2 alone, and the rest is all three together. */
+/* Three words each: the effects 0, 3, 9 have variance 14 (mean 4). If both are equal, in a third of cases, u2 - ½ counts
+ * six-fold: 36/12/3 = 1; a ninth of 36/12 is u2 alone, the rest is the interaction of all three. */
 TEST(words_are_exact)
 {
     make_inputs(3, 2, 3);
@@ -157,8 +157,8 @@ static double of_rows(const double *u, size_t n)
     return rows[0][(size_t)(DRAWN * u[0])];
 }
 
-/* A calibration of more values than there are functions has the first ones; one whose rows are all the same has none, and alone it
- * tells nothing. */
+/* A calibration of more values than there are functions has the first ones; one with equal rows has none, and alone explains
+ * nothing. */
 TEST(rows_of_a_calibration)
 {
     static const double same[DRAWN] = {0};
@@ -192,7 +192,7 @@ static double turning(const double *u, size_t n)
     return calls++ / CEDUO_SURFACE_GROUPS % 2;
 }
 
-/* It brings nothing, and takes nothing from the others; alone, of two words, it has no term that varies. */
+/* It has no effect, and takes nothing from others; alone, with two words, no term varies. */
 TEST(an_input_that_is_the_same_at_all_points)
 {
     make_inputs(3, 0, 0);
@@ -225,7 +225,7 @@ static struct ceduo_surface *of_few_points(const double *u)
     return surface;
 }
 
-/* Figures of one surface may depend on other inputs each, of which not all have products: each has the bits that it has alone. */
+/* Figures of one surface may depend on different inputs, some without products: each has the bits it has alone. */
 TEST(figures_of_one_surface)
 {
     static double u[FEW_POINTS * FEW_INPUTS];
@@ -265,7 +265,7 @@ static double two(const double *u, size_t n)
     return 100 + 2 * u[0] + u[1];
 }
 
-/* Shares .8 and .2 within three errors for 20 seeds, though groups of the rocks differ by a constant. */
+/* Shares .8 and .2 within three errors for 20 seeds, although the groups of rocks differ by a constant. */
 TEST(two_inputs_have_their_shares)
 {
     double errors = 0;
@@ -278,10 +278,10 @@ TEST(two_inputs_have_their_shares)
             EXPECT_NEAR(f.total[i].value, share[i], 3 * f.total[i].se);
             errors += f.total[i].se / 40;
         }
-        EXPECT_NEAR(f.noise, .045, .005); /* of the mean of all groups */
+        EXPECT_NEAR(f.noise, .045, .005); /* variance of the mean over all groups */
         ceduo_surface_release(&f);
     }
-    EXPECT(errors, <, .02); /* on the mean */
+    EXPECT(errors, <, .02); /* on average */
 }
 
 static double constant(const double *u, size_t n)
@@ -300,7 +300,7 @@ TEST(what_does_not_vary_has_no_shares)
     ceduo_surface_release(&f);
 }
 
-/* 95 % intervals of shares hold the truth in 90 to 97 %: many seeds of a function of 12 inputs with noise. */
+/* 95 % intervals of shares contain the truth in 90 to 97 %: many seeds of a function of 12 inputs with noise. */
 TEST(errors_cover)
 {
     make_inputs(12, 0, 0);
@@ -317,8 +317,8 @@ TEST(errors_cover)
     EXPECT(inside, <=, .97);
 }
 
-/* Groups see 1 ± t of the first input and 2 of the second. Its share, 1/5, changes by 2 * 1/5 * 4/5 of what the mean of 1 ± t does:
- * the variance of that is t2 / 15, and its error as of 16 values Student's. */
+/* Groups have 1 ± t of the first input and 2 of the second. Its share, 1/5, changes by 2 * 1/5 * 4/5 of the change in the mean
+ * of 1 ± t: its variance is t2 / 15, and its error that of 16 values by Student. */
 TEST(errors_of_rocks_are_those_of_a_mean)
 {
     make_inputs(2, 0, 0);
@@ -330,7 +330,7 @@ TEST(errors_of_rocks_are_those_of_a_mean)
     ceduo_surface_release(&f);
 }
 
-/* ---- what a surface cannot be ---- */
+/* ---- functions outside the surface's span ---- */
 
 /* Ishigami and Homma 1990 with a = 7, b = 0.1, over -pi…pi. */
 static double ishigami(const double *u, size_t n)
@@ -380,19 +380,19 @@ static double by_chance(const double *u, size_t n)
     return turns - floor(turns);
 }
 
-/* Values without order, the same of all rocks. The terms of 12 inputs fit a third of 256 of them; a point that is left out is missed
- * by more than the mean misses it. */
+/* Random values, equal for all rocks. The terms of 12 inputs fit a third of 256 of them; predicting an omitted point is worse
+ * than the mean. */
 TEST(chance_explains_nothing)
 {
     make_inputs(12, 0, 0);
     struct ceduo_surface_fit f = fit_of(by_chance, 12, 256, 1, 0);
     assert_true(f.enough && !f.linear);
-    EXPECT_NEAR(f.variance, 1 / 12., 3 * sqrt(1 / 180. / 256)); /* of 256 uniform values */
+    EXPECT_NEAR(f.variance, 1 / 12., 3 * sqrt(1 / 180. / 256)); /* variance of 256 uniform values */
     EXPECT(f.explained, <, 0);
     ceduo_surface_release(&f);
 }
 
-/* Too few points for their terms: a band, and no advice. */
+/* Too few points for the terms: a band, and no shares. */
 TEST(few_points_give_a_band)
 {
     make_inputs(12, 0, 0);
@@ -403,7 +403,7 @@ TEST(few_points_give_a_band)
     ceduo_surface_release(&f);
 }
 
-/* Points for terms of degree 1 alone: of a linear figure the shares are exact, 1, 4, 9 … of their sum. */
+/* Points for terms of degree 1 alone: for a linear figure the shares are exact, 1, 4, 9 … of their sum. */
 TEST(few_points_are_enough_for_lines)
 {
     make_inputs(12, 0, 0);
@@ -422,7 +422,8 @@ static double sum_of_two(const double *u, size_t n)
     return u[0] + u[1];
 }
 
-/* A triangular law: p5 at sqrt(.1), p95 at 2 - sqrt(.1). With one known .9 remains, with the third, which does not act, all. */
+/* A triangular law: p5 at sqrt(.1), p95 at 2 - sqrt(.1). With one input known .9 remains; with the third, which has no effect,
+ * all. */
 TEST(band_and_what_is_left)
 {
     make_inputs(3, 0, 0);
@@ -442,7 +443,7 @@ static double scaled(const double *u, size_t n)
     return u[0] * (2 * u[1] - 1);
 }
 
-/* With U known 1.8 U remains of U(2V - 1), the width of 90 % of it: 0.9 on the mean of U. */
+/* With U known 1.8 U of U(2V - 1) remains, the width of 90 % of it: 0.9 averaged over U. */
 TEST(what_is_left_is_a_mean_over_the_known)
 {
     make_inputs(2, 0, 0);
@@ -457,8 +458,8 @@ static double kinked(const double *u, size_t n)
     return fmax(0, u[0] + u[1] - 1.5);
 }
 
-/* A share that is 0 almost everywhere: no surface is, but its band ends at 0. Of the square an eighth is above 0, a twentieth
- * where U + V > 2 - sqrt(.1). */
+/* A share that is 0 almost everywhere: the surface is not, but its band ends at 0. An eighth of the square is above 0, a
+ * twentieth has U + V > 2 - sqrt(.1). */
 TEST(a_band_keeps_within_bounds)
 {
     make_inputs(2, 0, 0);
@@ -475,14 +476,14 @@ TEST(a_band_keeps_within_bounds)
 
 /* ---- errors of the band ---- */
 
-static double ripple, turns[3]; /* what no surface is */
+static double ripple, turns[3]; /* effect outside the surface's span */
 
 static double rippled_sum(const double *u, size_t n)
 {
     return sum_of_two(u, n) + ripple * sin(2 * M_PI * (turns[0] * u[0] + turns[1] * u[1] + turns[2] * u[2]));
 }
 
-/* Of U + V + a·sin(2πW) the share up to x, W in small steps. */
+/* Return the probability of U + V + a·sin(2πW) <= x, by small steps of W. */
 static double share_up_to(double x)
 {
     double share = 0;
@@ -501,9 +502,8 @@ static double value_at_share(double share)
     return lo;
 }
 
-/* How often 95 % intervals of many seeds hold what is true: where a surface is all, where it is not, and with rocks that differ at
- * all points or at each. A remainder that the points do not spread more evenly than chance would is held as often as it should
- * be; one that they do, more often. */
+/* Coverage of 95 % intervals over many seeds: for functions in the surface's span and outside it, with rocks that differ at all
+ * points or at each. A residual that the points spread like chance has the nominal coverage; a more even one has more. */
 TEST(errors_of_the_band_hold_the_truth)
 {
     static const struct {
@@ -537,10 +537,10 @@ TEST(errors_of_the_band_hold_the_truth)
     level = 0, limit = NAN;
 }
 
-/* ---- values alone ---- */
+/* ---- values without noise ---- */
 
-/* Two figures of few rocks. The surface of 256 points has 6 terms: of the noise of a point's mean it keeps 6/256, and little of what
- * remains. */
+/* Two figures of few rocks. The surface of 256 points has 6 terms: it keeps 6/256 of the noise of a point's mean, and little of
+ * the residual. */
 TEST(values_have_no_noise_of_their_rocks)
 {
     enum { POINTS = 256, FIGURES = 2 };
@@ -573,7 +573,7 @@ static double even_40(const double *u, size_t n)
     return linear(u, n) + 400 * (u[38] - .5) * (u[39] - .5);
 }
 
-/* Forty inputs: the leading ones keep their products. */
+/* Forty inputs: the dominant ones keep their products. */
 TEST(of_many_inputs_the_leading_ones_have_products)
 {
     make_inputs(40, 0, 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of the scene: it covers every member, every row decides about what it says, defaults lie in their ranges, and
- * numbers are read and set in place by their paths. */
+/* The table of the scene covers every member, every row affects its subject, defaults are in range, and paths read and set
+ * numbers in place. */
 #include "expect.h"
 #include "local.h"
 
@@ -15,7 +15,7 @@
 
 /* ---- every byte ---- */
 
-/* Members that follow from others. */
+/* Members computed from others. */
 struct derived_member {
     const struct object *object;
     size_t offset, size;
@@ -39,7 +39,7 @@ static void mark_rows(bool *seen, const struct object *object, size_t size)
         bool counted = f->type == FIELD_LIST || f->type == FIELD_NUMBERS || f->type == FIELD_POINTS;
         if (f->type == FIELD_GROUP && f->size == 0)
             mark_rows(seen, f->object, size);
-        if (f->flags & FIELD_NOWHERE || f->offset >= size) /* or of the draft */
+        if (f->flags & FIELD_NOWHERE || f->offset >= size) /* or only in a draft */
             continue;
         mark(seen, f->offset, f->size);
         if (counted)
@@ -49,7 +49,7 @@ static void mark_rows(bool *seen, const struct object *object, size_t size)
     }
 }
 
-/* Which bytes are no member's. Where the compiler does not say, as many as no member is small enough for. */
+/* Bytes outside all members. If the compiler cannot list them, at most as many as the smallest member has. */
 #ifdef __has_builtin
 #if __has_builtin(__builtin_clear_padding)
 #define PADDING_IS_KNOWN 1
@@ -83,7 +83,7 @@ static void expect_whole(const char *name, const struct object *object, bool *se
         DERIVED(slope, ceduo_slope, points_z),
         DERIVED(ceduo_schema_field(scene, "release")->object, ceduo_release, x_assumed),
         DERIVED(ceduo_schema_stand(), ceduo_stand, counted_from),
-        DERIVED(ceduo_schema_field(ceduo_schema_stand(), "trees")->object, ceduo_stems, per_stool), /* shoots have it */
+        DERIVED(ceduo_schema_field(ceduo_schema_stand(), "trees")->object, ceduo_stems, per_stool), /* exists for shoots */
         DERIVED(belt, ceduo_belt, name),
         DERIVED(belt, ceduo_belt, name_given),
         DERIVED(belt, ceduo_belt, assumed),
@@ -174,7 +174,7 @@ TEST(every_default_lies_in_its_range)
     assert_true(isnan(ceduo_segment_default().rn.mean));
 }
 
-/* A flag is raised only where its row says true. */
+/* A flag is true only if its row sets it. */
 TEST(flags_begin_as_their_rows_say)
 {
     struct flags {
@@ -213,9 +213,9 @@ TEST(paths_of_rows)
             fail_msg("'%s' has a row", path);
 }
 
-/* ---- what a row decides about ---- */
+/* ---- effect of a row ---- */
 
-/* What a scene decides about. */
+/* Keys that a row can affect. */
 struct keys {
     uint64_t flight, years;
 };
@@ -237,7 +237,7 @@ static void read_scene(struct scene_file *file, const char *path)
         fail_msg("%s", ceduo_problems_print(&problems));
 }
 
-/* Whether the scene is good with a value, and its keys then. */
+/* True if the scene is valid with a value; sets its keys. */
 static bool keys_with(const char *scene, const char *path, const char *value, struct keys *k)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
@@ -251,7 +251,7 @@ static bool keys_with(const char *scene, const char *path, const char *value, st
     return good;
 }
 
-/* Values to try, most of which are refused somewhere. */
+/* List values to try; most are invalid in some rows. */
 static size_t other_values(const struct field *f, const char **to)
 {
     static const char *const numbers[] = {"0.55", "1.5",  "15",  "150", "350",  "2",   "3",
@@ -282,8 +282,9 @@ static void check_row(void *context, const char *path, const struct field *f)
     if (f->type == FIELD_TAG || (strncmp(path, "slope.materials[]", 17) == 0 && f->type == FIELD_NUMBER) ||
         strcmp(f->key, "base") == 0 || strcmp(path, "slope.reversed") == 0 || strstr(path, "uncertainty[]") ||
         strncmp(path, "observed[]", 10) == 0 || strncmp(path, "options[].forest[].", 19) == 0)
-        return; /* grounds must meet, so that no end of one can be changed alone; a base is followed before it is set;
-                 * options hold what the forest does; a profile says itself whether it is reversed; of a uncertainty nothing can be changed alone; what was seen has test_observed.py */
+        return; /* grounds must meet, so one end cannot change alone; a base is followed before it is set; options hold the
+                 * forest; a profile decides if it is reversed; no member of uncertainty can change alone; test_observed.py
+                 * tests observations */
     first_place(path, f, "[1][1]", &place);
     for (size_t i = 0; i < LENGTH(scenes); i++) {
         const char *values[64];
@@ -325,9 +326,9 @@ TEST(every_row_decides_about_what_it_says)
     EXPECT(moved.flight, !=, before[2].flight);
 }
 
-/* ---- typed get and put ---- */
+/* ---- typed access ---- */
 
-/* A put says and does the same as --set. */
+/* Expect a typed set to report and do the same as --set. */
 static void check_put(void *context, const char *path, const struct field *f)
 {
     (void)context;
@@ -382,7 +383,7 @@ static void expect_none(struct ceduo_scene *scene, const char *paths)
             fail_msg("'%s' is found", path);
 }
 
-/* A number is found, and what it is. */
+/* Find a number and check its value. */
 static struct value found(struct ceduo_scene *scene, const char *path, double number)
 {
     struct value v;
@@ -391,7 +392,7 @@ static struct value found(struct ceduo_scene *scene, const char *path, double nu
     return v;
 }
 
-/* It is found and put. */
+/* Find a number and set it. */
 static struct value put_at(struct ceduo_scene *scene, const char *path, double number)
 {
     struct value v;
@@ -421,9 +422,9 @@ TEST(paths_of_numbers)
     v = put_at(s, "release.vx_m_s.mean", 2);
     EXPECT(s->release.vx.mean, ==, 2);
     assert_true(ceduo_value_find(s, "release.height_m.spread", &v));
-    assert_false(ceduo_value_set(&v, 5)); /* it would reach below 0 */
+    assert_false(ceduo_value_set(&v, 5)); /* its range would reach below 0 */
     EXPECT(s->release.height.spread, ==, 0);
-    v = put_at(s, "slope.segments[0].rn", .25); /* it is for all */
+    v = put_at(s, "slope.segments[0].rn", .25); /* set for all segments */
     for (size_t j = 0; j < 3; j++)
         EXPECT(s->slope.segments[j].rn.mean, ==, .25);
     v = put_at(s, "simulation.seed", 7);
@@ -436,8 +437,7 @@ TEST(paths_of_numbers)
                    "rock.diameter_m.mean.mean|rock[0]|controls_m[0]|slope.csv");
 }
 
-/* Points of the profile are relative to the first, of numbers with a spread each part is its own, and a list of numbers
- * has places. */
+/* Profile points are relative to the first one; a number with a spread has separate parts; a list of numbers has places. */
 TEST(paths_of_numbers_in_lists)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
@@ -456,7 +456,7 @@ TEST(paths_of_numbers_in_lists)
     EXPECT(s->rock.axes[1].mean, ==, .5);
     EXPECT(s->rock.axes[1].spread, ==, .125);
     assert_true(ceduo_value_find(s, "slope.segments[0].rn.spread", &v));
-    assert_false(ceduo_value_set(&v, INFINITY)); /* though what is drawn is cut at 0 and 1 */
+    assert_false(ceduo_value_set(&v, INFINITY)); /* although draws are clamped to 0 and 1 */
     assert_true(ceduo_value_set(&v, 2));
     v = found(s, "forest[0].stand.cutting.stay_per_ha[1]", 20);
     expect_none(s, "slope.vertices_m[4][1]|slope.vertices_m[a][1]|slope.vertices_m.1[1]|slope.vertices_m[1][1].x|"
@@ -464,7 +464,7 @@ TEST(paths_of_numbers_in_lists)
                    "forest[0].stand.trees[oak].per_ha|controls|controls."); /* stems have no names */
 }
 
-/* A word is the index of its choice, -1 where none is said. */
+/* A word is the index of its choice, -1 if it is not given. */
 TEST(words_are_put_by_their_index)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
@@ -480,7 +480,7 @@ TEST(words_are_put_by_their_index)
     assert_int_equal(file.scene.simulation.contact_model, CEDUO_INDEX);
 }
 
-/* Many values are tried on one scene without memory that stays. */
+/* Trying many values on one scene leaks no memory. */
 TEST(puts_take_no_memory)
 {
     struct scene_file file = {0};
@@ -500,9 +500,9 @@ TEST(puts_take_no_memory)
         LOCAL(ceduo_run, run);
         assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
         assert_int_equal(ceduo_run_extend(run, 10), CEDUO_OK);
-        before = i == 50000 ? mallinfo2().uordblks : before; /* by then the C library keeps its free blocks at hand, */
+        before = i == 50000 ? mallinfo2().uordblks : before; /* from here on the C library caches its free blocks, */
         if (i >= 50000)
-            EXPECT(mallinfo2().uordblks, <=, before + 4096); /* which count as used */
+            EXPECT(mallinfo2().uordblks, <=, before + 4096); /* which it counts as used */
     }
     assert_int_equal(file.arena.bytes, arena);
     ceduo_scene_release(&file);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: brief */
-/* Texts: numbers, words that are near to others, an arena that is full. */
+/* Texts: numbers, similar words, a full arena. */
 #include "local.h"
 #include "table.h"
 
@@ -13,7 +13,7 @@
 #include "base/utf8.h"
 #include "io/node.h"
 
-/* Code points that are shown as they are, by whether a terminal or a line of JSON could take them for more. */
+/* Code points are printed unchanged or escaped, depending on what a terminal or a JSON line could do with them. */
 TEST(no_character_does_anything)
 {
     for (TABLE(row, "unit/texts.txt", "characters")) {
@@ -26,7 +26,7 @@ TEST(no_character_does_anything)
     }
 }
 
-/* Fewest digits with which %e reads back as the same. */
+/* Return the smallest number of digits with which %e reads back equal. */
 static int fewest_digits(double value)
 {
     char room[64];
@@ -104,7 +104,7 @@ TEST(numbers_are_read)
 }
 
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wformat-nonliteral" /* a flag that no compiler knows */
+#pragma GCC diagnostic ignored "-Wformat-nonliteral" /* a flag unknown to compilers */
 static void format_any(struct text *text, const char *format, ...)
 {
     va_list args;
@@ -114,7 +114,7 @@ static void format_any(struct text *text, const char *format, ...)
 }
 #pragma GCC diagnostic pop
 
-/* Only %'e, %'f and %'g are numbers of the language. What follows the end of a format is not read: it would be printed. */
+/* Only %'e, %'f and %'g are localised numbers. Text after the format is not read: it would be printed. */
 static void expect_spoken(const char *format, double value, const char *wanted)
 {
     LOCAL_BY(ceduo_text_free) struct text text = {0};
@@ -150,7 +150,7 @@ TEST(an_arena_says_that_it_is_full)
     assert_non_null(ceduo_arena_alloc(&arena, 8));
     size_t before = arena.bytes;
     assert_false(arena.failed);
-    assert_null(ceduo_arena_alloc(&arena, SIZE_MAX)); /* rounded up it would be 0 */
+    assert_null(ceduo_arena_alloc(&arena, SIZE_MAX)); /* would round up to 0 */
     assert_true(arena.failed);
     EXPECT(arena.bytes, ==, before);
 }

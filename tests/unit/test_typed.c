@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: brief */
-/* What a person types and sees, against what stands in files: centimetres, decimal commas, pairs, ranges, uncertainties. */
+/* Typed and displayed values compared with those in files: centimetres, decimal commas, pairs, ranges, uncertainties. */
 #include "local.h"
 #include "table.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Uncertainty of a known law, what a light depends on, and inputs at the ends of their ranges. */
+/* Uncertainty with a known law, inputs that decide a light, and inputs at the ends of their ranges. */
 #include "expect.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "study/points.h"
 #include "study/sure.h"
 
-/* The uncertainty of a density with a large error: within 1 % of its mean, where a uniform law cut at 0 was 17 and 37 % above. */
+/* Uncertainty of a density with a large error: within 1 % of its mean; a uniform law truncated at 0 was 17 and 37 % above. */
 TEST(gamma_laws_keep_the_mean)
 {
     for (double ratio = .34; ratio <= 1; ratio += .06) {
@@ -26,13 +26,13 @@ TEST(gamma_laws_keep_the_mean)
             squares += x * x / 2000;
         }
         EXPECT_NEAR(sum, 50, .5);
-        EXPECT_NEAR(sqrt(squares - sum * sum), 50 * ratio, .05 * 50 * ratio); /* what is cut off */
+        EXPECT_NEAR(sqrt(squares - sum * sum), 50 * ratio, .05 * 50 * ratio); /* truncated part */
     }
 }
 
-/* ---- what may be true ---- */
+/* ---- plausible cases ---- */
 
-/* Two classes of trees, of 0.2 m, before a rock of 0.8 m: a belt's contacts per metre, one over its ADC, are the trees of a square
+/* Two classes of trees, of 0.2 m, and a rock of 0.8 m: the contacts per metre of a belt, 1/ADC, equal its trees per square
  * metre. */
 static const char wood[] =
     "ceduo: scene/1\nrelease: {vx_m_s: 1}\nrock: {diameter_m: 0.8}\ncontrols: [{x_m: 19, accepted_kJ: 50}]\n"
@@ -53,15 +53,15 @@ static void open_wood(void)
         fail_msg("%s", ceduo_problems_print(&problems));
 }
 
-/* Uniform between lo and hi, at one place. */
+/* Return an input uniform between lo and hi, at one place. */
 static struct ceduo_input range_of(const char *const *place, double lo, double hi)
 {
     return (struct ceduo_input){
         .path = *place, .kind = CEDUO_INPUT_RANGE, .lo = lo, .hi = hi, .places_count = 1, .places = place};
 }
 
-/* Contacts per metre of 1000 to 2000 trees per ha of either class: 0.1·(2 + U + V), a triangular law with p5 at sqrt(0.1), p50 at 1
- * and p95 at 2 - sqrt(0.1) of U + V. Were one known the other's 0.9 were left. What does not act leaves all. */
+/* Contacts per metre of 1000 to 2000 trees per ha in each class: 0.1·(2 + U + V), a triangular law with p5 at sqrt(0.1), p50 at
+ * 1 and p95 at 2 - sqrt(0.1) of U + V. If one were known the other's 0.9 would remain; an input without effect leaves all. */
 TEST(uncertainty_of_a_known_law)
 {
     static const char *const places[] = {"forest[0].stand.trees[0].per_ha", "forest[0].stand.trees[1].per_ha",
@@ -89,7 +89,7 @@ TEST(uncertainty_of_a_known_law)
     ceduo_scene_release(&file);
 }
 
-/* Of sixty inputs 256 points are too few for their terms: twice as many are taken, and the energy is as the density. */
+/* For sixty inputs 256 points are fewer than the terms: their number is doubled, and energy follows density. */
 TEST(more_points_where_inputs_are_many)
 {
     enum { MANY = 60 };
@@ -116,7 +116,7 @@ TEST(more_points_where_inputs_are_many)
     ceduo_scene_release(&file);
 }
 
-/* Points are given up at the same bound of their work with any number of threads. */
+/* Points are aborted at the same work limit with any number of threads. */
 TEST(too_much_work_is_given_up)
 {
     static const char *const place = "slope.segments[0].rn";
@@ -131,7 +131,7 @@ TEST(too_much_work_is_given_up)
         *(ceduo_uncertainty_compute(&def, &a) == CEDUO_OK ? &enough : &few) = def.effort_max;
         ceduo_uncertainty_free(&a);
     }
-    EXPECT(enough, >, 64 * 8); /* each rock touches the ground */
+    EXPECT(enough, >, 64 * 8); /* each rock touches the ground at least once */
     EXPECT(enough, <, 1 << 20);
     def.threads = 2;
     for (int i = 0; i < 20; i++) {
@@ -142,7 +142,7 @@ TEST(too_much_work_is_given_up)
     ceduo_scene_release(&file);
 }
 
-#define LONG 120 /* years, two for each that a point takes */
+#define LONG 120 /* years: two per year of a point */
 
 static struct ceduo_uncertainty_def over_long_years(const struct ceduo_input *input)
 {
@@ -157,7 +157,7 @@ static struct ceduo_uncertainty_def over_long_years(const struct ceduo_input *in
                                           .threads = 1};
 }
 
-/* All rocks arrive in every year, and each of them has too much energy: 120 years fail, though a point has 60. */
+/* All rocks arrive in every year, all above the accepted energy: 120 years fail, although a point has 60. */
 TEST(a_year_of_a_point_stands_for_several)
 {
     static const char *const place = "rocks_per_year";
@@ -177,7 +177,7 @@ TEST(a_year_of_a_point_stands_for_several)
     ceduo_scene_release(&file);
 }
 
-#define TREE_MAX .5 /* m: a tree of 0.2 m becomes as thick by 0.01 a year of what is left */
+#define TREE_MAX .5 /* m: a tree of 0.2 m grows by 0.01 per year of the remaining diameter */
 
 static void read_year(void *context, const struct point *point, const struct control_means *at)
 {
@@ -187,7 +187,7 @@ static void read_year(void *context, const struct point *point, const struct con
     years[point->slot] = log((1 - .2 / TREE_MAX) / left) / .01;
 }
 
-/* Year by year the diameter of the trees says how old they are: slot n is of one of the two years 2n - 1 and 2n. */
+/* The diameter of the trees gives their age: slot n is one of the two years 2n - 1 and 2n. */
 TEST(years_of_a_point_are_of_all_its_years)
 {
     static const char *const place = "rocks_per_year";
@@ -212,7 +212,7 @@ static void read_nothing(void *context, const struct point *point, const struct 
     (void)context, (void)point, (void)at;
 }
 
-/* Effort of all points of a definition, of one option today. */
+/* Return the work for all points of a definition, for one option today. */
 static double effort_of(const struct ceduo_uncertainty_def *def)
 {
     uint64_t met = 0;
@@ -225,8 +225,8 @@ static double effort_of(const struct ceduo_uncertainty_def *def)
                                 &(struct ceduo_work){.rocks = def->points * def->rocks, .contacts = met, .runs = def->points});
 }
 
-/* The uncertainty of a page keeps within 30 times the effort of its scene, or what is always granted, and within the largest bound,
- * whatever stands on the slope; with any number of threads it has the same points. A quick scene has all of them. */
+/* The work for a page's uncertainty stays within 30 times that of its scene, or a guaranteed minimum, and below the upper
+ * limit, for any slope. The points do not depend on the threads. A quick scene has all points. */
 TEST(the_effort_of_a_page_is_bounded)
 {
     static const char *const place = "slope.segments[0].rn";
@@ -241,7 +241,7 @@ TEST(the_effort_of_a_page_is_bounded)
     const struct ceduo_input input = range_of(&place, .25, .35);
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
-    for (int k = 0; k < 2; k++) /* they stop no rock */
+    for (int k = 0; k < 2; k++) /* trees stop no rock */
         file.scene.options[0].belts[0].stand.trees[k].volume = 1e-9;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct ceduo_results own;
@@ -276,7 +276,7 @@ TEST(the_effort_of_a_page_is_bounded)
     ceduo_scene_release(&file);
 }
 
-/* Where no rock arrives there is no energy, by the index and among stems. */
+/* Without arrivals there is no energy, by the index and among stems. */
 TEST(no_rock_brings_no_energy)
 {
     const enum ceduo_contact_model models[] = {CEDUO_INDEX, CEDUO_STEMS};
@@ -295,8 +295,8 @@ TEST(no_rock_brings_no_energy)
     ceduo_scene_release(&file);
 }
 
-/* A light changes where its limit lies from p5 on and below p95; a second input is named from half of the first one's share on.
- * Where there were too few points nothing is named. */
+/* A light changes if its limit lies from p5 on and below p95. A second input is named from half of the first one's share on.
+ * With too few points no input is named. */
 TEST(what_a_light_depends_on)
 {
     static const struct {
@@ -323,7 +323,7 @@ TEST(what_a_light_depends_on)
     ceduo_scene_release(&file);
 }
 
-/* Each of two words, and each of two rows, has half of the range; its ends are of it. A key may stand in no other. */
+/* Each of two words or rows has half of the range; its ends belong to it. A word may belong to one half only. */
 TEST(words_and_rows_share_the_range)
 {
     static const char *const places[] = {"simulation.rule", "rock.density_kg_m3", "rocks_per_year"};
@@ -356,8 +356,8 @@ TEST(words_and_rows_share_the_range)
     ceduo_scene_release(&file);
 }
 
-/* A normal input is cut at three standard deviations, its mean is in the middle, and a quarter of what the cut leaves lies below the
- * quartile: Φ(z) = Φ(-3) + (1 - 2Φ(-3))/4 at z = -0.6719. */
+/* A normal input is truncated at three standard deviations with its mean in the centre, and a quarter of the rest lies below
+ * the quartile: Φ(z) = Φ(-3) + (1 - 2Φ(-3))/4 at z = -0.6719. */
 TEST(a_normal_input_at_its_ends)
 {
     const struct ceduo_input input = {.kind = CEDUO_INPUT_NORMAL, .mean = 50, .sd = 4};
@@ -368,7 +368,7 @@ TEST(a_normal_input_at_its_ends)
     EXPECT_NEAR(erfc(-z / sqrt(2)) / 2, least + (1 - 2 * least) / 4, 1e-12);
 }
 
-/* Stools uncertain above their shoots are as many as these; the next look begins with those of the scene. */
+/* Uncertain stools beyond their shoots are limited to the shoots; the next evaluation starts from the scene's values. */
 TEST(stools_are_not_more_than_their_shoots)
 {
     static const char *const places[] = {"forest[0].stand.stools.per_ha", "forest[0].stand.shoots[0].per_ha"};
@@ -385,7 +385,7 @@ TEST(stools_are_not_more_than_their_shoots)
         EXPECT_NEAR(stand->shoots[0].per_ha, cases[i][3], 1e-9);
     }
     ceduo_inputs_release(&copy);
-    EXPECT(ceduo_inputs_open(&copy, &file.scene, &inputs[1], 1), ==, CEDUO_OK); /* the shoots alone: 500, then 2500 */
+    EXPECT(ceduo_inputs_open(&copy, &file.scene, &inputs[1], 1), ==, CEDUO_OK); /* only the shoots: 500, then 2500 */
     stand = &copy.scene.options[0].belts[0].stand;
     for (int i = 0; i < 2; i++) {
         ceduo_inputs_set(&copy, (double[]){i});

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* The live verdict: it comes with the first thousand rocks, what is known stays known while figures become finer, and
- * what was clear is not taken back. */
+/* The live verdict: it appears with the first thousand rocks, known figures stay known as they become finer, and a clear
+ * verdict is not reversed. */
 #include "expect.h"
 #include "local.h"
 
@@ -27,7 +27,7 @@ static void close_scene(void)
     ceduo_scene_release(&file);
 }
 
-/* The option that is clearly best: SIZE_MAX where none is. */
+/* Return the clearly best option; SIZE_MAX if there is none. */
 static size_t clear_best(const struct ceduo_leader *leader)
 {
     return leader->known && leader->rivals == 0 ? leader->best : SIZE_MAX;
@@ -36,10 +36,10 @@ static size_t clear_best(const struct ceduo_leader *leader)
 struct watch {
     bool known;
     size_t best;
-    uint64_t rocks; /* of the first sentence */
+    uint64_t rocks; /* at the first sentence */
 };
 
-/* Once known it stays known; once clear it stays that option. */
+/* Check that a known figure stays known and a clear option stays the same. */
 static void watch(struct watch *w, const struct ceduo_leader *leader, uint64_t rocks)
 {
     size_t best = clear_best(leader);
@@ -82,16 +82,16 @@ TEST(what_is_clear_stays)
         size_t known = 0;
         for (size_t i = 0; i < live.verdict.n; i++)
             known += isnan(live.verdict.choices[i].mean.mean) ? 0 : 1;
-        assert_true(known >= shares); /* no share goes back to unknown */
+        assert_true(known >= shares); /* no share becomes unknown again */
         shares = known;
         watch(&today, &live.verdict.today, fewest_rocks());
         watch(&rotation, &live.verdict.rotation, live.results.years ? live.results.years->rocks : 0);
         looks++;
     }
     assert_true(today.known && rotation.known);
-    EXPECT(today.rocks, ==, RUNS_FIRST); /* told from the first thousand rocks */
+    EXPECT(today.rocks, ==, RUNS_FIRST); /* reported from the first thousand rocks */
     EXPECT(rotation.rocks, <=, 10 * RUNS_FIRST);
-    EXPECT(today.best, ==, 3);    /* the large reserves, whose standards are as thick as their curve has them, */
+    EXPECT(today.best, ==, 3);    /* the large reserves, whose standards follow their curve, */
     EXPECT(rotation.best, ==, 3); /* today and over the years */
     EXPECT(looks, >, 6);          /* progress is shown */
     EXPECT(live.results.years->done, ==, 4);
@@ -99,7 +99,7 @@ TEST(what_is_clear_stays)
     close_scene();
 }
 
-/* An edit of one stand: the others' years stay, those of the old stand do not count. */
+/* An edit of one stand: the years of other options stay, those of the old stand are dropped. */
 TEST(an_edit_asks_for_its_years_alone)
 {
     open_scene("profiles/scenes/rotation.yaml");
@@ -113,12 +113,12 @@ TEST(an_edit_asks_for_its_years_alone)
     belt->stand.cutting.stay_per_ha[1] *= 4;
     ceduo_live_follow(&live, &file, 0, 0, 0);
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
-    assert_true(isnan(live.verdict.choices[1].mean.mean)); /* not that of the stand before */
+    assert_true(isnan(live.verdict.choices[1].mean.mean)); /* not the former stand's */
     assert_false(live.verdict.rotation.known);
     ceduo_jobs_wait(live.jobs, true);
     ceduo_live_poll(&live, &file.scene);
     assert_true(live.verdict.rotation.known);
-    EXPECT(live.verdict.choices[1].mean.mean, <, before); /* four times as many of the second oldest */
+    EXPECT(live.verdict.choices[1].mean.mean, <, before); /* four times the second oldest */
     close_scene();
 }
 
@@ -129,7 +129,7 @@ static void follow_to_the_end(void)
     ceduo_live_poll(&live, &file.scene);
 }
 
-/* An edit of the energy law: what was known by the other law is now known by the scene's own, and no longer stands for the other. */
+/* An edit of the energy law: figures of the other law become those of the scene's own, and are no longer the other's. */
 TEST(an_edit_of_the_law_leaves_no_figures_of_the_other)
 {
     open_scene("profiles/scenes/paper-site.yaml");
@@ -148,7 +148,7 @@ TEST(an_edit_of_the_law_leaves_no_figures_of_the_other)
     close_scene();
 }
 
-/* An edit of the contact model: years of rocks among stems are no years of the index. */
+/* An edit of the contact model: years of rocks among stems are not years of the index. */
 TEST(an_edit_of_the_contact_model_leaves_no_years)
 {
     open_scene("profiles/scenes/paper-site.yaml");
@@ -164,19 +164,19 @@ TEST(an_edit_of_the_contact_model_leaves_no_years)
     close_scene();
 }
 
-/* ---- made by hand ---- */
+/* ---- invented results ---- */
 
 #define OPTIONS 3
 #define ROCKS   1000
 
-/* Options with the forest of the first, and what rocks are said to have done there. It points into itself. */
+/* Options with the forest of the first, and invented results. Contains pointers into itself. */
 struct made {
     struct ceduo_option options[OPTIONS];
     struct ceduo_arrivals bare, wooded[OPTIONS];
     struct ceduo_difference differences[OPTIONS];
     struct ceduo_alternative_energy others[OPTIONS];
     struct ceduo_option_result found[OPTIONS];
-    struct ceduo_stand_result stands[2]; /* of the belts of each */
+    struct ceduo_stand_result stands[2]; /* for the belts of each */
     struct ceduo_result result;
     struct ceduo_year year[OPTIONS];
     struct ceduo_index index;
@@ -186,7 +186,7 @@ struct made {
 
 static struct made made;
 
-/* All alike: of the rocks half arrive with too much, today, under the other law and in the one year. */
+/* Make all options equal: half of the rocks arrive with too much, today, under the other law and in the one year. */
 static void make_alike(void)
 {
     made = (struct made){.bare = {.released = ROCKS, .reached = ROCKS, .reach.mean = 1, .exceed.mean = 1}};
@@ -244,7 +244,7 @@ static int close_made(void **state)
     return 0;
 }
 
-/* A share by the normal law; of none by Wilson's interval, z²/(n + z²); of rocks with weights by its own interval. */
+/* Half width of a share: the normal law; for 0 Wilson's interval, z²/(n + z²); its own interval for weighted rocks. */
 TEST(half_of_a_share)
 {
     const double z = 1.959963984540054;
@@ -261,7 +261,7 @@ TEST(half_of_a_share)
     EXPECT_NEAR(ceduo_share_at(&a).half, .05, 1e-12);
 }
 
-/* Of two that are equal the first; the other is a rival, and equal. */
+/* The first of two equal options is best; the other is a rival, and equal. */
 TEST_WITH(of_two_equal_options_the_first, open_made, close_made)
 {
     for (size_t i = 1; i < OPTIONS; i++)
@@ -272,11 +272,11 @@ TEST_WITH(of_two_equal_options_the_first, open_made, close_made)
     assert_true(v.today.rival[2] && v.today.equal);
 }
 
-/* Turned: the order is clear under one law, by 3 errors, and the other way round under the other, by one. */
+/* Reversed: clear under one law, by 3 errors, and opposite under the other, by one. */
 TEST_WITH(an_order_is_turned_by_more_than_an_error, open_made, close_made)
 {
     static const struct {
-        double today, other; /* errors by which option 1 is worse today, better under the other law */
+        double today, other; /* errors by which option 1 is worse today, and better under the other law */
         size_t turned;
     } cases[] = {{4, .5, 0}, {.5, 4, 0}, {4, 1.5, 1}, {1.5, 4, 1}, {2.5, 2.5, 0}, {4, -4, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -290,8 +290,8 @@ TEST_WITH(an_order_is_turned_by_more_than_an_error, open_made, close_made)
     }
 }
 
-/* Of options that yield as much, 500 rocks of 1000 through the first are clearly more than 300, which 305 are not. Where all let as
- * many through, none is beaten. */
+/* At equal yield, 500 rocks in 1000 with the first option are clearly more than 300, but not clearly more than 305. If all let
+ * equally many through, none is beaten. */
 TEST_WITH(beaten_by_one_of_equal_yield, open_made, close_made)
 {
     struct ceduo_verdict v = verdict_of_made(made.of);
@@ -308,7 +308,7 @@ TEST_WITH(beaten_by_one_of_equal_yield, open_made, close_made)
     ceduo_verdict_release(&v);
 }
 
-/* How often the pane of options says "worst": above the column of the worst year, and beside an option. */
+/* Count the word "worst" in the pane of options: above the column of the worst year, and next to an option. */
 static int count_worst(const struct ceduo_verdict *v)
 {
     const struct ceduo_report report = {.file = &file, .result = &made.result, .verdict = v, .ahead = made.of};
@@ -323,7 +323,7 @@ static int count_worst(const struct ceduo_verdict *v)
     return n;
 }
 
-/* An option is the worst if its interval lies above all others, and not if it is only the largest of two that overlap. */
+/* An option is the worst if its interval is above all others, not if it is only the larger of two that overlap. */
 TEST_WITH(the_worst_is_apart_from_all_others, open_made, close_made)
 {
     static const struct {
