@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Measure how the error falls with run time, on the paper's site.
  *
- *   bench_error [REPEATS]        default 40; of 1000 rocks, fewer if there are more rocks
+ *   bench_error [REPEATS]        default 40 for 1000 rocks, fewer for more rocks
  *
  * First the core, without forest and with its stems, 10^2 to 10^6 rocks: the root mean square error of each figure over repeats
  * with different seeds, and the standard error that the program prints. Then other random numbers in the plain walk: antithetic

@@ -335,7 +335,7 @@ static enum ceduo_status uncertainty_on_two_threads(uint64_t rocks, void (*meanw
 
 /* The progress callback blocks no other thread and is not called twice at a time. Enough rocks that other threads are still
  * running at its next call. */
-TEST(one_is_told_at_a_time)
+TEST(progress_calls_never_overlap)
 {
     assert_int_equal(uncertainty_on_two_threads(1000, others_go_on), CEDUO_OK);
     assert_int_equal(told.most_inside, 1);
@@ -343,14 +343,14 @@ TEST(one_is_told_at_a_time)
 }
 
 /* A thread without memory stops the others: only a few of 404 evaluations are made. */
-TEST(one_thread_ends_all)
+TEST(one_failure_stops_all_threads)
 {
     assert_int_equal(uncertainty_on_two_threads(8, fail_others), CEDUO_NO_MEMORY);
     assert_true(told.times < 100);
 }
 
 /* An uncertain input must exist in the scene. */
-TEST(a_place_that_is_not_there)
+TEST(a_missing_place)
 {
     static const char *const colour = "rock.colour";
     const struct ceduo_input input = {"rock.colour", CEDUO_INPUT_RANGE, 0, 1, .places_count = 1, .places = &colour};
@@ -557,7 +557,7 @@ static bool see(void)
     return true;
 }
 
-TEST(what_is_to_be_seen_of_runs)
+TEST(views_of_runs)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
@@ -594,7 +594,7 @@ TEST(runs_go_on)
         without_memory(tasks[i]);
 }
 
-TEST(what_stands_on_runs)
+TEST(results_built_on_runs)
 {
     task *const tasks[] = {question, years_of_blocks, ask_by_index,      ask_both_laws,   uncertainty, uncertainty_over_years,
                            sure,     copy_belts,      ask_of_one_option, ask_years_apart, assess,      assess_index,

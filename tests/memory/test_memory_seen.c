@@ -215,7 +215,7 @@ TEST(workers_of_a_fit)
 
 /* The progress callback blocks no other thread and is not called twice at a time. Enough rocks that other threads are still
  * running at its next call. */
-TEST(one_is_told_at_a_time)
+TEST(progress_calls_never_overlap)
 {
     assert_int_equal(fit_of_one_round(2, 1000, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
     assert_int_equal(told.most_inside, 1);
@@ -223,7 +223,7 @@ TEST(one_is_told_at_a_time)
 }
 
 /* A thread without memory stops the others: only a few of 256 points are evaluated. */
-TEST(one_thread_ends_all)
+TEST(one_failure_stops_all_threads)
 {
     assert_int_equal(fit_of_one_round(2, 1, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
     assert_true(told.times < 100);
@@ -340,7 +340,7 @@ TEST(blocks_come_down)
     without_memory(ask_of_blocks);
 }
 
-TEST(what_was_seen)
+TEST(comparison_with_observations)
 {
     without_memory(look);
     without_memory(look_without_a_fit);

@@ -132,7 +132,7 @@ TEST(rolling_friction_takes_spin)
     EXPECT(held, <, 9000);
 }
 
-TEST(without_bounce_a_point_that_sticks_stands_still)
+TEST(a_sticking_point_without_bounce_stops)
 {
     struct line_random r = {.state = 3};
     int still = 0;
@@ -157,7 +157,7 @@ TEST(without_bounce_a_point_that_sticks_stands_still)
 /* A round rock without bounce lands again and again after a short free fall. If both frictions hold, an impact keeps 1/(1 + k)
  * of its speed and no spin: its speed stays below 1/k of the gain in one fall. It stops however short the fall; on steeper
  * ground it accelerates. */
-TEST(a_rock_stands_where_both_frictions_hold_it)
+TEST(a_rock_stops_if_both_frictions_hold_it)
 {
     struct line_random r = {.state = 4};
     for (int i = 0; i < 2000; i++) {
@@ -183,7 +183,7 @@ TEST(a_rock_stands_where_both_frictions_hold_it)
 
 /* ---- energy ---- */
 
-TEST(no_blow_gains_energy)
+TEST(no_arm_impact_gains_energy)
 {
     struct line_random r = {.state = 5};
     for (int i = 0; i < BLOWS; i++) {
@@ -312,7 +312,7 @@ static struct stepper stepped(const struct blow *c)
     return s;
 }
 
-TEST(blows_are_as_followed_in_small_steps)
+TEST(impacts_equal_integration_in_small_steps)
 {
     struct line_random r = {.state = 6};
     for (int i = 0; i < STEPPED; i++) {
@@ -380,7 +380,7 @@ static double mean_speed_off(const struct drop *d)
 }
 
 /* A long rock that falls on level ground, almost weightless, so that a slow one still flies off. */
-TEST(speed_after_a_blow_is_the_mean_over_all_turns)
+TEST(speed_after_an_impact_is_the_mean_over_all_rotations)
 {
     static struct line_scene s;
     static struct line_way way;

@@ -139,7 +139,7 @@ static void expect_sizes(double own, size_t place)
     }
 }
 
-TEST(the_own_size_has_its_place_among_the_others)
+TEST(the_own_size_is_sorted_among_the_others)
 {
     static const struct {
         double own;
@@ -217,7 +217,7 @@ static struct ceduo_estimate rate_above_100_kj(double fall, double height)
 }
 
 /* A rock that falls 20 m from its release can have the energy of one that descends 20 m on the ground. */
-TEST(a_fall_from_the_release_could_bring_energy)
+TEST(a_fall_from_the_release_adds_energy)
 {
     struct ceduo_estimate released_high = rate_above_100_kj(0, 20), steep = rate_above_100_kj(20, 0);
     EXPECT(released_high.mean, ==, 0);

@@ -113,7 +113,7 @@ TEST(an_oblique_impact_on_the_flat)
     EXPECT_IS(way.pieces[0], (vx, -1), (vz, 2));
 }
 
-TEST(a_bounce_without_loss_is_given_up_and_said_so)
+TEST(a_bounce_without_loss_is_aborted_and_reported)
 {
     straight(0, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
     release(500, 1, 0, 0, 0);
@@ -258,7 +258,7 @@ TEST(a_concave_vertex_takes_the_part_into_the_ground)
     expect_relative(way.pieces[1].vz / way.pieces[1].vx, .75, 1e-15);
 }
 
-TEST(over_a_convex_vertex_it_rolls_or_flies)
+TEST(a_rock_rolls_or_flies_over_a_convex_vertex)
 {
     const double x[] = {0, 10, 20}, z[] = {0, 0, -5};
     for (int fast = 0; fast <= 1; fast++) {
@@ -276,7 +276,7 @@ TEST(over_a_convex_vertex_it_rolls_or_flies)
 
 /* ---- resting ---- */
 
-TEST(at_rest_it_goes_where_it_is_steeper_than_friction)
+TEST(a_resting_rock_starts_if_the_slope_exceeds_friction)
 {
     for (int dir = -1; dir <= 1; dir += 2)
         for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
@@ -298,7 +298,7 @@ static void released_in_a_pit(double radius, double level, double beyond, bool s
     EXPECT((way.way.x == 1.8), ==, stays);
 }
 
-TEST(at_rest_it_stays_in_a_pit_within_its_radius)
+TEST(a_rock_rests_in_a_pit_within_its_radius)
 {
     const double bottom = hypot(.2, .1);
     released_in_a_pit(bottom * 1.01, .001, 1, true);
@@ -365,7 +365,7 @@ TEST(a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along)
     }
 }
 
-TEST(the_way_ends_at_either_end_of_the_slope)
+TEST(a_trajectory_ends_at_either_end_of_the_slope)
 {
     for (int dir = -1; dir <= 1; dir += 2) {
         straight(0, (struct line_ground){.5, 1, .1}, .1, CEDUO_LAW_LUMPED);
@@ -382,7 +382,7 @@ TEST(the_way_ends_at_either_end_of_the_slope)
     }
 }
 
-TEST(a_slope_that_ends_in_a_wall_is_left_at_its_foot_only_backwards)
+TEST(a_final_wall_is_left_at_its_foot_only_backwards)
 {
     const double x[] = {0, 20, 20.001}, z[] = {0, -10, 90};
     line_scene_init(&scene, 3, x, z, (struct line_ground){.3, .8, .5}, .34, CEDUO_LAW_CRSP);
@@ -467,7 +467,7 @@ static void expect_the_same_way_in_other_sizes(bool arm)
     EXPECT(bounces, >, 10000);
 }
 
-TEST(four_times_the_lengths_and_twice_the_speeds_are_the_same_way)
+TEST(four_times_the_lengths_and_twice_the_speeds_give_the_same_trajectory)
 {
     expect_the_same_way_in_other_sizes(false);
     expect_the_same_way_in_other_sizes(true);
@@ -501,7 +501,7 @@ TEST(intervals_of_wilson)
 }
 
 /* Student 1908; the 97.5 % quantiles of any table. */
-TEST(widths_of_few)
+TEST(student_widths)
 {
     for (TABLE(row, "physics/statistics.txt", "Student"))
         EXPECT_NEAR(ceduo_half_width(2, (uint64_t)atof(row.at[0])), 2 * atof(row.at[1]), 1e-3);
@@ -723,7 +723,7 @@ static void expect_cut_normal(double mean, double sd, double lo, double hi)
          (even.highest, <=, mean + b * sd + 1e-15), (even.highest, >, mean + (b - .05) * sd));
 }
 
-TEST(a_normal_spread_is_cut)
+TEST(a_normal_law_is_truncated)
 {
     expect_cut_normal(.5, .05, -INFINITY, INFINITY); /* at three standard deviations */
     expect_cut_normal(.9, .1, 0, 1);
@@ -754,7 +754,7 @@ TEST(a_uniform_spread)
 
 /* ---- facet draws ---- */
 
-TEST(facet_draws_are_even_and_depend_on_all_they_should)
+TEST(facet_draws_are_uniform_and_depend_on_all_inputs)
 {
     const uint64_t n = 200000;
     double sum = 0, squares = 0, product = 0, last = .5;

@@ -112,7 +112,7 @@ TEST(no_two_numbers_of_a_rock_go_together)
 /* Ground that reverses all speed turns a rock by twice the facet's angle. The largest angles of 4000 rocks come close to
  * atan(roughness height / rock radius), and none exceeds it. Tested with few heights of roughness and with more than are
  * stored. The first of two segments is hit. */
-TEST(a_facet_is_as_steep_as_the_radius_says)
+TEST(the_radius_limits_the_steepness_of_facets)
 {
     enum { MANY = 60 };
     static struct ceduo_segment segments[MANY];

@@ -85,7 +85,7 @@ TEST(random_bits_are_those_of_random123)
 }
 
 /* Neighbouring seeds, variants and numbers are unrelated: seed 2^53 in a year is not seed 0 in the next one. */
-TEST(variants_have_seeds_of_their_own)
+TEST(variants_have_their_own_seeds)
 {
     enum { NUMBERS = 40, VARIANTS = VARIANT_PREDICTION + 1 };
     const uint64_t given[] = {0, 1, 2, 1ull << 52, 1ull << 53, (1ull << 53) - 1, 1ull << 54, 0x5eed};

@@ -258,7 +258,7 @@ TEST(large_whole_numbers)
 
 /* ---- goals that are not monotone ---- */
 
-TEST(goals_that_turn_between_their_ends)
+TEST(goals_that_are_not_monotone)
 {
     const struct {
         double middle, sign, target, edge, whole_edge;
@@ -286,7 +286,7 @@ static double noisy(const struct asked *a, double value)
     return 1 + a->p[0] * sin(value);
 }
 
-TEST(rounding_is_no_turn)
+TEST(rounding_is_no_rotation)
 {
     struct asked a = {.goal = noisy, .p = {1e-14}};
     assert_true(find(&a, 0, 100, false, 0).monotone);
@@ -294,7 +294,7 @@ TEST(rounding_is_no_turn)
     assert_false(find(&a, 0, 100, false, 0).monotone);
 }
 
-TEST(nothing_passes)
+TEST(a_search_without_a_passing_value)
 {
     struct asked a = {.goal = parabola, .p = {35, 1}};
     struct ceduo_found found = find(&a, 0, 90, false, -1); /* evaluated: every 10 */
@@ -309,7 +309,7 @@ TEST(nothing_passes)
     assert_false(found.found);
 }
 
-TEST(everything_passes)
+TEST(a_search_with_only_passing_values)
 {
     struct asked a = {.goal = line, .p = {-1}};
     struct ceduo_found found = find(&a, 5, 90, false, 0);
@@ -408,7 +408,7 @@ static enum ceduo_status cancels_at_5(void *context, double value, double *goal)
     return CEDUO_OK;
 }
 
-TEST(it_ends_where_the_goal_fails_or_it_is_cancelled)
+TEST(a_search_ends_if_the_goal_fails_or_is_cancelled)
 {
     unsigned count = 0;
     struct ceduo_find_def def = {.hi = 1e6, .whole = true, .target = 12345, .goal = fails_at_5, .context = &count};

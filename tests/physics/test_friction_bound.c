@@ -143,7 +143,7 @@ TEST(limits_of_the_bound)
 }
 
 /* The law arm has its own friction. */
-TEST(the_bound_leaves_the_law_arm_as_it_is)
+TEST(the_bound_does_not_affect_the_law_arm)
 {
     struct line_random r = {.state = 4};
     for (int i = 0; i < IMPACTS / 10; i++) {

@@ -197,7 +197,7 @@ TEST_WITH(impacts_with_the_friction_bound, open_paper, NULL)
 
 /* ---- trajectories ---- */
 
-TEST_WITH(slope_chains_as_table_3, open_paper, NULL)
+TEST_WITH(slope_segments_chain_as_in_table_3, open_paper, NULL)
 {
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
     static const double heights[] = {126, 106, 86, 76, 66, 61, 56, 46, 36, 26, 16, 6, 2, 0};
@@ -329,7 +329,7 @@ TEST_WITH(energy_of_one_contact, open_paper, NULL)
 }
 
 /* All trees are gone: the rock meets only the stumps, in each form. */
-TEST_WITH(stumps_where_no_tree_is_left, open_paper, NULL)
+TEST_WITH(stumps_without_trees, open_paper, NULL)
 {
     struct ceduo_stems felled = {.per_ha = 0, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
     struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE,
@@ -554,7 +554,7 @@ TEST_WITH(warnings_of_the_plots, open_paper, NULL)
     expect_warned(&one.stand, 0, ~0U);
 }
 
-TEST_WITH(warning_near_the_jump, open_paper, NULL)
+TEST_WITH(a_warning_near_the_jump, open_paper, NULL)
 {
     /* a tenth of the spacing: from .68/1.1 = .618 to .68/.9 = .756 m */
     static const double near[] = {.619, .68, .755}, far[] = {.617, .757};

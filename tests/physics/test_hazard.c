@@ -33,7 +33,7 @@ static double above(const struct ceduo_size_class *c, double v)
 }
 
 /* Weights sum to the frequency of blocks above any volume; volumes have evenly spaced logarithms. */
-TEST(weights_sum_to_what_comes_down)
+TEST(weights_sum_to_the_frequency_of_blocks)
 {
     struct ceduo_size_class classes[] = {{3, 1.1, 2, first}, {0.05, 0, 2, second}};
     struct ceduo_scene scene = scene_of(classes, 2);
@@ -77,7 +77,7 @@ TEST(every_few_rocks_have_all_sizes)
 }
 
 /* Typical rocks have the natural frequencies of sizes. */
-TEST(typical_rocks_are_as_frequent_as_blocks)
+TEST(typical_rocks_have_the_frequencies_of_blocks)
 {
     struct ceduo_size_class class = {1, 0.8, 2, second}, both[2] = {{3, 1.1, 2, first}, {0.5, 0.8, 2, second}};
     struct ceduo_scene scene = scene_of(&class, 1);
@@ -136,7 +136,7 @@ static size_t some_values(struct weighted *values, double weight, size_t n)
 }
 
 /* Equal weights of any size give the results without weights. */
-TEST(weights_that_are_alike_change_nothing)
+TEST(equal_weights_change_nothing)
 {
     static struct weighted values[N];
     for (size_t n = 0; n <= N; n += 125) {
@@ -175,7 +175,7 @@ TEST(weights_that_are_alike_change_nothing)
 }
 
 /* A share that the weights explain has no error: with a weight of all rocks it is 1, with no weight 0. */
-TEST(what_weights_explain_is_no_error)
+TEST(weights_explain_without_error)
 {
     struct released all = {.n = N, .per_year = 1};
     struct weighted_sum ones = {0}, none = {0}, fives = {0};
@@ -227,7 +227,7 @@ TEST(quantiles_by_hand)
 
 /* ---- hazard ---- */
 
-TEST(energies_and_classes_are_what_they_are_called)
+TEST(energies_and_classes_match_their_names)
 {
     static const struct {
         double energy;
@@ -242,7 +242,7 @@ TEST(energies_and_classes_are_what_they_are_called)
 }
 
 /* Three rocks of a thousand arrive, one block falls in two years. */
-TEST(few_rocks_bound_what_they_can)
+TEST(few_rocks_give_bounds)
 {
     const struct released all = {.n = N, .w = N, .ww = N, .per_year = 0.5};
     struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
@@ -274,7 +274,7 @@ TEST(rocks_count_by_their_weights)
 }
 
 /* The last energy of the curve is its maximum. */
-TEST(a_curve_ends_where_its_energies_do)
+TEST(a_curve_ends_at_its_last_energy)
 {
     const struct released all = {.n = 2, .w = 2, .ww = 2, .per_year = 1};
     struct weighted energies[] = {{1e10, 1}, {1e10, 1}};
@@ -306,7 +306,7 @@ TEST(at_a_limit)
 }
 
 /* None of two hundred rocks arrives: only upper bounds are known. */
-TEST(nobody_arrives)
+TEST(no_rock_arrives)
 {
     const struct released all = {.n = 200, .w = 200, .ww = 200, .per_year = 1};
     struct ceduo_hazard h;

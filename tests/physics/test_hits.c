@@ -86,7 +86,7 @@ static void expect_mean_of_all_stems(bool shoots)
     ROWS(EXPECT, (n, >, 1e5), (se, <, one_percent), (fabs(mean), <=, 4 * se));
 }
 
-TEST(stems_of_many_diameters_take_their_given_volume_on_the_mean)
+TEST(stems_of_many_diameters_take_their_mean_volume)
 {
     expect_mean_of_all_stems(false);
     expect_mean_of_all_stems(true);
@@ -133,7 +133,7 @@ TEST(a_stem_as_high_as_the_rock_flies_is_not_hit)
 }
 
 /* If stems are hit only below a height, the height is that of the rock's centre: it passes over any stem below it. */
-TEST(a_rock_whose_middle_flies_too_high_hits_no_stem)
+TEST(a_rock_with_a_centre_above_the_stems_hits_none)
 {
     const double radius = .3;
     for (uint64_t rock = 0; rock < 20; rock++) {

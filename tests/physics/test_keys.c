@@ -304,7 +304,7 @@ static void open_site(void)
     }
 }
 
-TEST(whatever_decides_about_a_flight_makes_another_scene)
+TEST(inputs_of_a_flight_affect_the_scene_key)
 {
     open_site();
     ROWS(WALK, (FLIGHT, &site.scene, scene_fields), (FLIGHT, &site.scene.rock, rock_fields),
@@ -319,7 +319,7 @@ TEST(whatever_decides_about_a_flight_makes_another_scene)
 }
 
 /* The frequencies of blocks matter as well. */
-TEST(whatever_blocks_come_down_makes_another_scene)
+TEST(block_frequencies_affect_the_scene_key)
 {
     double volumes[] = {0.1, 1, 1, 5};
     struct ceduo_size_class classes[] = {{2, 1, 2, volumes}, {1, 0, 2, volumes + 2}};
@@ -337,7 +337,7 @@ TEST(whatever_blocks_come_down_makes_another_scene)
 }
 
 /* Two values exchanged make another scene. */
-TEST(a_value_in_another_place_makes_another_scene)
+TEST(exchanged_values_affect_the_scene_key)
 {
     open_site();
     site.scene.release.vx = ceduo_number(2);
@@ -354,7 +354,7 @@ TEST(a_value_in_another_place_makes_another_scene)
     EXPECT(key_of(FLIGHT), !=, key);
 }
 
-TEST(whatever_decides_about_stems_makes_another_forest)
+TEST(stems_affect_the_forest_key)
 {
     open_site();
     walk_simulation(STEMS);
@@ -372,7 +372,7 @@ TEST(whatever_decides_about_stems_makes_another_forest)
 }
 
 /* Low wood and groups matter; empty ones have no effect. */
-TEST(whatever_decides_about_low_wood_and_groups_makes_another_forest)
+TEST(low_wood_and_groups_affect_the_forest_key)
 {
     open_site();
     struct ceduo_stand *stand = &site.belts[0].stand;
@@ -387,7 +387,7 @@ TEST(whatever_decides_about_low_wood_and_groups_makes_another_forest)
 }
 
 /* The same numbers in other members make another forest. */
-TEST(stems_of_another_sort_make_another_forest)
+TEST(other_stems_make_another_forest)
 {
     open_site();
     struct ceduo_stand *stand = &site.belts[0].stand;
@@ -417,7 +417,7 @@ TEST(stems_of_another_sort_make_another_forest)
 
 /* Stems with equal energy per hit are the same forest: half the volume with twice the work. Without stems there is no forest,
  * not even for the index. */
-TEST(stems_that_take_the_same_are_the_same_forest)
+TEST(stems_with_equal_energy_are_the_same_forest)
 {
     open_site();
     struct ceduo_stand *stand = &site.belts[0].stand;
@@ -458,7 +458,7 @@ TEST(cohorts_of_another_share_make_another_forest)
     EXPECT(key_of(STEMS), !=, key);
 }
 
-TEST(whatever_decides_about_growth_makes_other_years)
+TEST(inputs_of_growth_affect_the_years_key)
 {
     open_site();
     walk_option(YEARS);

@@ -461,7 +461,7 @@ static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
 }
 
 /* Trajectories are chaotic: the rounding of doubles may change one in a hundred (test_slow_walk.c). */
-TEST(lanes_fly_as_the_slow_walk)
+TEST(lanes_match_the_slow_walk)
 {
     enum { ROCKS = 500 };
     for (int law = 0; law < 2; law++)
@@ -494,7 +494,7 @@ static void *raise_soon(void *flag)
 }
 
 /* Rocks that hop on level ground for ever: they see the flag on their trajectory, and the block is discarded. */
-TEST(a_raised_flag_is_seen_by_rocks_under_way)
+TEST(rocks_stop_at_a_raised_flag)
 {
     const double x[] = {0, 1e9}, z[] = {0, 0};
     for (size_t i = 0; i < LANES; i++) {

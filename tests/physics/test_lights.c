@@ -86,7 +86,7 @@ TEST(a_gap_as_long_as_the_threshold_passes)
 }
 
 /* A belt that begins at the control has no effect. */
-TEST(a_belt_from_the_control_on_is_none)
+TEST(a_belt_after_the_control_has_no_effect)
 {
     plant_trees(1000, 1000);
     site.belts[0].to = 130;
@@ -103,7 +103,7 @@ TEST(a_belt_from_the_control_on_is_none)
 }
 
 /* exp(-x) of a double x is never exactly the double 0.1: take the two nearest probabilities, 2e-17 below and above. */
-TEST(a_chance_of_a_tenth_to_run_free_is_the_most_that_passes)
+TEST(a_free_run_probability_of_a_tenth_is_the_maximum_that_passes)
 {
     plant_trees(400, 1000);
     double threshold = 25 * log(10) * (1 - 1e-15), fails = 0, passes = 0; /* over an ADC of 25 m */
@@ -246,7 +246,7 @@ TEST(one_rock_of_twenty_may_exceed)
 }
 
 /* An index depends on the thin stems if either light differs without them. */
-TEST(what_hangs_on_thin_stems)
+TEST(an_index_can_depend_on_thin_stems)
 {
     const enum ceduo_light lights[] = {CEDUO_PASS, CEDUO_FAIL};
     for (int i = 0; i < 16; i++) {
@@ -266,7 +266,7 @@ static bool says_nothing(uint64_t released, uint64_t reached, uint64_t unfinishe
 }
 
 /* None, or fewer than one in a thousand of at least a thousand rocks. */
-TEST(hardly_a_rock_says_nothing)
+TEST(too_few_arrivals_give_no_answer)
 {
     assert_false(says_nothing(0, 0, 0)); /* no rocks */
     assert_true(says_nothing(1, 0, 0));
@@ -289,7 +289,7 @@ TEST(a_share_is_judged_by_its_interval)
          (ceduo_judge_share((struct ceduo_estimate){NAN, NAN, NAN, NAN}, limit), CEDUO_UNANSWERED));
 }
 
-TEST(what_a_bare_slope_keeps_needs_no_forest)
+TEST(a_safe_bare_slope_needs_no_forest)
 {
     const struct ceduo_arrivals few = {.released = 1000, .reached = 100, .exceed.mean = .01, .exceed.hi = .02, .limit = .05};
     const struct ceduo_arrivals many = {

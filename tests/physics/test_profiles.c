@@ -69,7 +69,7 @@ static struct ceduo_arrivals arrivals(const struct ceduo_scene *scene)
     return arrivals_of(run, 0);
 }
 
-TEST(a_cut_slope_gives_the_same_ways_and_statistics)
+TEST(a_cut_slope_gives_the_same_trajectories_and_statistics)
 {
     for (int kind = 0; kind < 2 * CEDUO_LAW_COUNT; kind++) {
         init_site((enum ceduo_law)(kind / 2), kind & 1);
@@ -86,7 +86,7 @@ TEST(a_cut_slope_gives_the_same_ways_and_statistics)
     }
 }
 
-TEST(spreads_and_roughness_heights_are_those_of_the_cut_slope)
+TEST(a_cut_slope_keeps_spreads_and_roughness_heights)
 {
     init_site(CEDUO_LAW_CRSP, true);
     for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
@@ -224,7 +224,7 @@ static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, 
 
 /* Rounding decides if a flight that grazes many teeth touches one. Skipping a whole block must not change the decision: its
  * height has a margin for this. */
-TEST(flights_along_teeth_touch_the_same_with_blocks)
+TEST(flights_along_teeth_have_the_same_contacts_with_blocks)
 {
     init_site(CEDUO_LAW_LUMPED, false);
     struct line_random r = {.state = 11};
@@ -264,7 +264,7 @@ static void nobody_minds(void *context, const struct ceduo_trajectory_segment *p
 }
 
 /* On a fine profile a rock has the same trajectory, to the bit, with a callback for its segments. */
-TEST(rolls_are_the_same_whoever_looks_on)
+TEST(a_callback_does_not_change_rolls)
 {
     uint64_t same = 0, all = 0;
     for (int kind = 0; kind < 2 * CEDUO_LAW_COUNT; kind++) {

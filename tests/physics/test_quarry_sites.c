@@ -49,7 +49,7 @@ TEST(ranges_hold_the_truth)
     EXPECT(narrow, >=, fits); /* 30 rocks do identify Rt; ranges as wide as the bounds would contain everything */
 }
 
-TEST(what_another_law_made_is_found_out)
+TEST(observations_by_another_law_are_detected)
 {
     unsigned flagged = 0, fits = 0;
     for (size_t i = 0; i < SITES / 2; i++) {

@@ -258,7 +258,7 @@ TEST(speed_depends_smoothly_on_roughness_and_size)
 }
 
 /* The test above has power: the published law violates all three by far. */
-TEST(the_published_law_does_not)
+TEST(the_published_law_violates_smoothness)
 {
     double speed[LENGTH(sizes)][ROUGH];
     measure(40, CEDUO_LAW_CRSP, false, speed);

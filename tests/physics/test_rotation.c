@@ -71,7 +71,7 @@ static void expect_same_stand(const struct ceduo_stand *a, const struct ceduo_st
 
 /* ---- before the first cut ---- */
 
-TEST_WITH(year_0_is_the_stand_as_filed, fresh, NULL)
+TEST_WITH(year_0_is_the_stand_of_the_file, fresh, NULL)
 {
     s.stand.growth.sdi_most = 1; /* a measured stand is not thinned */
     struct ceduo_grown_stand grown = at(3, 0);
@@ -112,7 +112,7 @@ TEST_WITH(an_inventory_grows_along_its_curves, fresh, NULL)
     }
 }
 
-TEST_WITH(a_given_age_stands_over_that_of_the_curve, fresh, NULL)
+TEST_WITH(a_given_age_overrides_the_curve, fresh, NULL)
 {
     s.shoots[0].age = 8;
     s.trees[0].age = 70;
@@ -149,7 +149,7 @@ TEST_WITH(no_old_shoots, fresh, NULL)
 }
 
 /* After some 3500 years e^(-t/5) underflows, but each stool keeps a shoot. */
-TEST_WITH(for_ages_a_shoot_a_stool, fresh, NULL)
+TEST_WITH(each_stool_keeps_a_shoot_for_ages, fresh, NULL)
 {
     s.stand.growth.shoots_old = 0;
     s.stand.growth.sdi_most = 0;
@@ -161,7 +161,7 @@ TEST_WITH(for_ages_a_shoot_a_stool, fresh, NULL)
 }
 
 /* On its curve a stem of 1e-320 m is some 1e-318 years old; its later width once overflowed. */
-TEST(next_to_nothing_grows_as_a_new_stem)
+TEST(a_tiny_stem_grows_like_a_new_one)
 {
     static const double given[][2] = {{1e-320, NAN}, {5e-324, NAN}, {.05, 5e-324}, {.05, 1e-300}};
     for (size_t i = 0; i < LENGTH(given); i++) {
@@ -182,7 +182,7 @@ TEST(next_to_nothing_grows_as_a_new_stem)
 }
 
 /* With one rate for both, height and diameter have the same share of their maxima. */
-TEST(a_curve_gives_heights_by_widths)
+TEST(a_curve_gives_heights_by_diameters)
 {
     const struct ceduo_curve curve = {.4, .03, 20, .03}, faster = {.4, .03, 20, .06};
     for (double share = 0; share < 1; share += .1) {
@@ -193,7 +193,7 @@ TEST(a_curve_gives_heights_by_widths)
     assert_true(isnan(ceduo_curve_height(&(struct ceduo_curve){.4, .03, 0, .03}, .1)));
 }
 
-TEST_WITH(thicker_than_its_curve_it_grows_no_more, fresh, NULL)
+TEST_WITH(a_stem_thicker_than_its_curve_stops_growing, fresh, NULL)
 {
     s.shoots[0] = paper_stems(4000, .16, 9);
     s.trees[0] = paper_stems(60, .60, 18);
@@ -260,7 +260,7 @@ TEST_WITH(the_years_of_cuts, fresh, NULL)
     assert_false(ceduo_is_cut_year(stand, 0, 0));
 }
 
-TEST_WITH(by_default_it_is_cut_when_it_is_old_enough, fresh, NULL)
+TEST_WITH(by_default_a_stand_is_cut_at_rotation_age, fresh, NULL)
 {
     /* 5 cm: 17.03 years */
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(25 + log(1 - 5. / 16) / .022));
@@ -340,7 +340,7 @@ TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
     EXPECT(ceduo_stand_shoots(&grown.stand), >=, 2500);
 }
 
-TEST_WITH(a_cut_in_year_0_is_done, fresh, NULL)
+TEST_WITH(a_cut_in_year_0_is_past, fresh, NULL)
 {
     struct ceduo_grown_stand now = at(0, 0), later = at(0, 25), rhythm = at(-50, 0);
     EXPECT_IS(now.stand, (shoots_count, 0), (stools_per_ha, 0), (trees_count, 2));
@@ -357,7 +357,7 @@ TEST_WITH(a_cut_in_year_0_is_done, fresh, NULL)
     ceduo_grown_stand_release(&now);
 }
 
-TEST_WITH(without_cuts_it_grows_for_ever, fresh, NULL)
+TEST_WITH(a_stand_without_cuts_grows_for_ever, fresh, NULL)
 {
     LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand infinite = at(INFINITY, 1000);
     s.stand.cutting.rotation = 0;
@@ -526,7 +526,7 @@ TEST(no_computed_stand_is_too_dense)
     EXPECT(died, >, 1000);
 }
 
-TEST(a_rotation_later_it_is_the_same_stand)
+TEST(the_stand_repeats_after_a_rotation)
 {
     for (int i = 0; i < STANDS; i++) {
         random_stand();

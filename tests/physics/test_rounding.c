@@ -75,7 +75,7 @@ TEST(the_shortest_facet)
 }
 
 /* On level ground a rock without bounce stops after (1 + k) v2 / (2 g mu) from speed v, under every law. */
-TEST(the_way_to_a_stop)
+TEST(the_distance_to_a_stop)
 {
     const double x[] = {0, 1000}, z[] = {0, 0};
     for (int law = 0; law < CEDUO_LAW_COUNT; law++)

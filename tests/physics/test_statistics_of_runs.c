@@ -81,7 +81,7 @@ TEST(means_of_the_combinations_beside_table_5)
     }
 }
 
-TEST(almost_nothing_passes_crsp_with_angles_to_both_sides)
+TEST(hardly_any_rock_passes_crsp_with_facets_to_both_sides)
 {
     choose(&(struct combination){.law = CEDUO_LAW_CRSP, .facets = CEDUO_BOTH, .theta = PAPER_ANGLE});
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 20000, 2);
@@ -91,7 +91,7 @@ TEST(almost_nothing_passes_crsp_with_angles_to_both_sides)
     EXPECT(a.reach.hi, >=, 1e-5);
 }
 
-TEST(figures_of_an_arrival_fit_together)
+TEST(figures_of_an_arrival_are_consistent)
 {
     choose(&combinations[3]);
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 5000, 2);
@@ -130,7 +130,7 @@ TEST(figures_of_an_arrival_fit_together)
     ROWS(EXPECT, (ends.stop_p50, <=, ends.stop_p95), (ends.stop_p95, <=, ends.stop_max), (ends.stop_max, ==, ends.stop_x.max));
 }
 
-TEST(a_run_flies_the_rocks_that_can_be_followed)
+TEST(a_run_equals_single_trajectories)
 {
     choose(&combinations[5]);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
@@ -149,7 +149,7 @@ TEST(the_same_bits_with_any_number_of_threads_and_steps)
     }
 }
 
-TEST(a_run_is_no_longer_than_asked_for)
+TEST(a_run_stops_at_the_requested_length)
 {
     choose(&combinations[0]);
     site.scene.simulation.rocks = 500;
@@ -162,7 +162,7 @@ TEST(a_run_is_no_longer_than_asked_for)
     ceduo_run_free(NULL);
 }
 
-TEST(other_seeds_are_other_rocks)
+TEST(other_seeds_give_other_rocks)
 {
     choose(&combinations[0]);
     LOCAL(ceduo_run, one) = run_scene(&site.scene, 50000, 2);
@@ -195,7 +195,7 @@ static void expect_spread(const struct ceduo_cell_quantiles *s, const double *va
 }
 
 /* Envelopes at a place equal ranks of a control there: a run stores and sorts the values of each. */
-TEST(envelopes_are_ranks_of_what_rocks_bring)
+TEST(envelopes_are_ranks_over_rocks)
 {
     static const double places[] = {1, 20, 70, 134.5, 135, 150};
     static const uint64_t rocks[] = {1, 2, 20, 21, 2000};
@@ -245,7 +245,7 @@ static void raise_flag(void *context, uint64_t rocks)
     atomic_store(&c->flag, true);
 }
 
-TEST(a_raised_flag_ends_the_run_which_can_go_on_later)
+TEST(a_cancelled_run_can_continue)
 {
     static struct canceller c;
     choose(&combinations[1]);
@@ -304,7 +304,7 @@ static void expect_moments(const char *what, const struct ceduo_moments *m, doub
 
 #define CUT_SD 0.98657839256 /* sd of the normal law truncated at three of its own: sqrt(1 - 6 phi(3)/(2 Phi(3) - 1)) */
 
-TEST(releases_and_rocks_are_drawn_as_they_are_spread)
+TEST(releases_and_rocks_follow_their_distributions)
 {
     choose(&combinations[4]);
     struct ceduo_scene *s = &site.scene;
@@ -331,7 +331,7 @@ TEST(releases_and_rocks_are_drawn_as_they_are_spread)
     EXPECT(a.translation.mean, <, a.energy.mean);
 }
 
-TEST(a_lumped_rock_of_many_masses_has_energies_of_its_own)
+TEST(a_lumped_rock_with_many_masses_has_its_own_energies)
 {
     choose(&combinations[0]);
     site.scene.rock.density = (struct ceduo_number){2600, 300, CEDUO_UNIFORM};
@@ -375,7 +375,7 @@ static struct first_contact first_contacts(const struct ceduo_scene *scene)
     return f;
 }
 
-TEST(grounds_are_drawn_as_they_are_spread)
+TEST(grounds_follow_their_distributions)
 {
     static struct line_scene flat;
     const double x[] = {0, 1000}, z[] = {0, 0};
@@ -394,7 +394,7 @@ TEST(grounds_are_drawn_as_they_are_spread)
     EXPECT(f.rn.max, <=, 1 + 1e-15);
 }
 
-TEST(a_spread_of_nothing_changes_nothing)
+TEST(a_spread_of_0_changes_nothing)
 {
     choose(&combinations[5]);
     LOCAL(ceduo_run, one) = run_scene(&site.scene, 3000, 2);
@@ -413,7 +413,7 @@ static bool nothing_known(const struct ceduo_distribution *d)
            isnan(d->p95_hi) && isnan(d->p99) && isnan(d->max);
 }
 
-TEST(a_control_that_nobody_reaches)
+TEST(a_control_without_arrivals)
 {
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
         choose(&combinations[0]);
@@ -469,7 +469,7 @@ TEST(unfinished_rocks_count_for_the_upper_bound)
 /* Blocks of all sizes fall on one of two grounds: on one they stop, on the other they bounce for ever. None reaches the
  * control. The upper bound counts (sum of weights)^2 / sum of their squares equal rocks. The unfinished ones arrive by their
  * weights; or they arrive and no others do, if that is more. */
-TEST(unfinished_blocks_count_by_their_weights)
+TEST(unfinished_blocks_count_with_their_weights)
 {
     enum { ROCKS = 60 };
     static struct line_scene flat;

@@ -43,7 +43,7 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
 }
 
 /* If brauner depends on eccentricity, a hit takes the printed share of V U, or all of a rock that has less. */
-TEST(hits_beside_the_middle_take_their_share)
+TEST(hits_off_centre_take_their_share)
 {
     const double volume = 1000, u_J_m3 = 1e7; /* far more than a rock has, but at the edge of a stem */
     uint64_t whole = 0, ends[CEDUO_ENDS] = {0};
@@ -109,7 +109,7 @@ static void at_hit(void *context, const struct ceduo_stem_encounter *stem)
     s->hits++;
 }
 
-TEST(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy)
+TEST(a_hit_scales_speed_and_spin_with_the_remaining_energy)
 {
     for (int i = 0; i < 4; i++) {
         bool rolls = i & 1, spins = i & 2;
@@ -146,7 +146,7 @@ static void cross_at(double x, bool rolls)
     plane.line.scene.controls_count = 1;
 }
 
-TEST(a_control_where_a_stem_stands_is_passed_before_the_hit)
+TEST(a_control_at_a_stem_is_passed_before_the_hit)
 {
     for (uint64_t rock = 0; rock < 400; rock++) {
         bool rolls = rock % 2;
@@ -238,7 +238,7 @@ static double height_above_ground(const struct pieces *p, double x)
     return z - ceduo_slope_height(&plane.line.scene.slope, x);
 }
 
-TEST(a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope)
+TEST(a_stem_is_hit_if_the_rock_is_lower_over_a_broken_slope)
 {
     static struct pieces pieces;
     static const double x[] = {0, 30, 45, 60, 61, 120, 200}, z[] = {0, -20, -22, -45, -60, -80, -130};
@@ -317,7 +317,7 @@ static void expect_stopped(const char *name, uint64_t rocks)
     sample_clear(&stops);
 }
 
-TEST(rocks_are_stopped_where_their_stem_stands)
+TEST(rocks_stop_at_their_stem)
 {
     for (int i = 0; i < 2; i++) {
         static const char *const names[] = {"in flight", "rolling"};

@@ -103,14 +103,14 @@ static void expect_same_as_map(const char *name, uint64_t ways, unsigned long se
     swept_clear(&map);
 }
 
-TEST(stems_met_are_those_of_a_full_map_in_the_plane)
+TEST(stems_met_match_a_full_map)
 {
     clear_plane(70);
     plant_plot(1, 10, 60);
     expect_same_as_map("ADS 1", 20000, 1);
 }
 
-TEST(stems_of_many_kinds_are_those_of_a_full_map_in_the_plane)
+TEST(stems_of_many_kinds_match_a_full_map)
 {
     clear_plane(70);
     struct ceduo_belt *belt = plant_belt(10, 60, 1200, .45);
@@ -121,7 +121,7 @@ TEST(stems_of_many_kinds_are_those_of_a_full_map_in_the_plane)
     expect_same_as_map("two cohorts, two classes", 20000, 2);
 }
 
-TEST(stems_beside_a_gap_are_those_of_a_full_map_in_the_plane)
+TEST(stems_next_to_a_gap_match_a_full_map)
 {
     clear_plane(70);
     struct ceduo_belt *belt = plant_belt(10, 25, 900, 1.1); /* rings that reach far into the gap */
@@ -132,7 +132,7 @@ TEST(stems_beside_a_gap_are_those_of_a_full_map_in_the_plane)
     expect_same_as_map("two belts and a gap", 20000, 3);
 }
 
-TEST(stems_after_a_release_in_the_forest_are_those_of_a_full_map_in_the_plane)
+TEST(stems_after_a_release_in_the_forest_match_a_full_map)
 {
     clear_plane(70);
     struct ceduo_belt *belt = plant_belt(30, 60, 700, .4);

@@ -34,7 +34,7 @@ static void expect_plot(const struct plot_rates *r, uint64_t rocks, const char *
     expect_mean(named("ADS %d %s, stools per metre", r->number, how), &m.stools, r->stools);
 }
 
-TEST(stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crofton)
+TEST(stems_met_per_metre_follow_equation_1_and_stools_crofton)
 {
     static const uint64_t rocks[] = {3100, 6200};
     for (size_t i = 0; i < LENGTH(plot_rates); i++) {
@@ -45,7 +45,7 @@ TEST(stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crofton)
     }
 }
 
-TEST(a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none)
+TEST(a_rolling_rock_meets_the_same_stems_and_continues_unchanged)
 {
     struct ceduo_trajectory bare;
     clear_plane(520);
@@ -59,7 +59,7 @@ TEST(a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none)
     assert_int_equal(bare.contacts, ceil(520 / (B / 2)));
 }
 
-TEST(rocks_of_many_sizes_meet_as_many_as_their_mean)
+TEST(rocks_of_many_sizes_meet_the_stems_of_their_mean)
 {
     clear_plane(520);
     plant_plot(1, 10, 510);
@@ -122,7 +122,7 @@ TEST(gaps_between_trees_are_exponential_and_offsets_uniform)
     sample_clear(&offsets);
 }
 
-TEST(the_chance_to_meet_nothing_of_ten_metres_is_that_of_crofton)
+TEST(the_probability_to_meet_no_stem_in_ten_metres_is_croftons)
 {
     const uint64_t rocks = 1000000;
     uint64_t free_runs = 0;
@@ -152,7 +152,7 @@ static void expect_stems_per_stool(const char *what, const struct met *m, double
     expect_close(what, ratio, sqrt(variance) / spread_mean(&m->stools), expected, 1e-12);
 }
 
-TEST(a_ring_is_met_as_wide_as_its_hull_is_on_average)
+TEST(a_ring_is_met_at_the_mean_width_of_its_hull)
 {
     static const struct {
         unsigned n;
@@ -443,7 +443,7 @@ static void expect_whole_stools(void)
     }
 }
 
-TEST(stems_of_random_belts_are_some_that_were_planted)
+TEST(stems_of_random_belts_are_planted_ones)
 {
     struct line_random r = {.state = 17};
     size_t all = 0;
@@ -473,7 +473,7 @@ static void expect_stems_per_metre(const char *what, double expected, uint64_t r
     expect_mean(what, &m.stems, expected);
 }
 
-TEST(extreme_stands_are_met_as_they_should_be)
+TEST(extreme_stands_have_the_expected_encounters)
 {
     clear_plane(170);
     plant_shoots(plant_belt(10, 160, 5000, .1), 100000, .02);

@@ -108,7 +108,7 @@ static void expect_each_stem_once(void)
 }
 
 /* A smooth valley in which a rock rolls to and fro, on the left higher than its release. */
-TEST(ground_that_is_covered_twice_holds_its_stems_once)
+TEST(ground_covered_twice_has_its_stems_once)
 {
     const double from = 381.3, slope = tan(15 * M_PI / 180), v = 31.3;
     struct spread left = {0}, right = {0};
@@ -174,7 +174,7 @@ static void court_of_the_paper(enum way_out out)
     plant_plot(1, RELEASE - 6, RELEASE + 10);
 }
 
-TEST(stems_stand_as_dense_about_a_release_in_the_forest)
+TEST(stems_are_equally_dense_around_a_release_in_the_forest)
 {
     static const char *const names[] = {"from the release on", "ahead and then back", "back and then ahead"};
     for (enum way_out out = AHEAD; out <= BACK_AND_AHEAD; out++) {
@@ -189,7 +189,7 @@ TEST(stems_stand_as_dense_about_a_release_in_the_forest)
 }
 
 /* A stool on both sides of the release is one stool, whichever way the rock goes first. */
-TEST(the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first)
+TEST(stems_around_a_release_do_not_depend_on_the_first_direction)
 {
     static struct ceduo_stem_encounter ahead[STEMS_MAX];
     uint64_t astride = 0;
@@ -215,7 +215,7 @@ TEST(the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first)
 }
 
 /* Far ahead and back: many other stools lie between the two hits of a stool at the release. */
-TEST(a_stool_astride_of_the_release_is_one_however_far_the_rock_went_between)
+TEST(a_stool_at_the_release_stays_one_after_a_long_trajectory)
 {
     uint64_t wrong = 0, rocks = 2000;
     clear_court(AHEAD_AND_BACK);

@@ -133,7 +133,7 @@ TEST(the_same_bits_among_stems_with_any_number_of_threads_and_steps)
     expect_same_however(def, 5000);
 }
 
-TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
+TEST(a_run_among_stems_equals_single_trajectories)
 {
     open_sides();
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
@@ -143,7 +143,7 @@ TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
 
 /* A rock aborted because of too many stems has reached the controls it passed before: from its release, and from a contact from
  * which many rocks fly together. */
-TEST(a_rock_that_is_given_up_has_arrived_before)
+TEST(an_aborted_rock_has_reached_earlier_controls)
 {
     enum { ROCKS = 10 };
     clear_plane(20000);
@@ -168,7 +168,7 @@ TEST(a_rock_that_is_given_up_has_arrived_before)
 
 /* The same for a rolling rock, with a contact per radius: in wide groups most trees stand off its path, so that it is aborted
  * between two hits and within a radius. */
-TEST(a_rock_that_is_given_up_has_arrived_where_it_rolled)
+TEST(an_aborted_rock_has_reached_the_end_of_its_roll)
 {
     clear_plane(20000);
     line_scene_release(&plane.line, 0, 0, 2e5, 0, 0);
@@ -270,7 +270,7 @@ TEST(a_longer_run_keeps_its_figures)
 }
 
 /* After every stem a flight or roll is computed again; a stem that takes no energy must not change it. */
-TEST(stems_that_take_nothing_leave_the_way_as_it_is)
+TEST(stems_that_take_nothing_do_not_change_the_trajectory)
 {
     const uint64_t rocks = 4000;
     uint64_t same = 0;

@@ -252,7 +252,7 @@ TEST(corners_of_one_degree)
         }
 }
 
-TEST(walls_all_but_upright)
+TEST(almost_vertical_walls)
 {
     for (double run = 1e-9; run < 1e-2; run *= 100) {
         const double x[] = {0, 5, 5 + run, 20, 20 + run, 40}, z[] = {0, -2, -102, -104, -54, -60};
@@ -303,7 +303,7 @@ TEST(little_and_much_gravity)
 }
 
 /* If all shares are 1 rocks may never stop, and count as unfinished. */
-TEST(shares_of_none_and_all)
+TEST(shares_of_0_and_1)
 {
     const double x[] = {0, 10, 20, 30}, z[] = {0, -8, -9, -9};
     run_rocks = 2;

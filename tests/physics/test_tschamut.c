@@ -54,7 +54,7 @@ TEST(one_ground_gives_all_three_blocks)
 }
 
 /* With every block a sphere of the same mean diameter all stop at one place. */
-TEST(without_its_shape_the_plate_goes_too_far)
+TEST(a_sphere_instead_of_the_plate_goes_too_far)
 {
     struct ceduo_observation round[BLOCKS];
     struct ceduo_rock_def rocks[BLOCKS];

@@ -218,7 +218,7 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
         ceduo_grown_stand_release(&stands[i]);
 }
 
-TEST_WITH(years_are_runs_of_their_own, fresh, NULL)
+TEST_WITH(years_equal_separate_runs, fresh, NULL)
 {
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(ROCKS);
     LOCAL(ceduo_years, years) = flown(0, 26, 1, 2, ROCKS);
@@ -282,7 +282,7 @@ TEST_WITH(threads_and_steps_change_nothing, fresh, NULL)
     }
 }
 
-TEST_WITH(a_wood_is_flown_once, fresh, NULL)
+TEST_WITH(a_forest_is_simulated_once, fresh, NULL)
 {
     wood.belts[1].stand.cutting.cohorts = 1;
     wood.belts[1].cut_year = 7;
@@ -514,7 +514,7 @@ TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
     ceduo_years_free(NULL);
 }
 
-TEST_WITH(nothing_is_hit_in_a_bare_year, fresh, NULL)
+TEST_WITH(no_stem_is_hit_in_a_year_without_stems, fresh, NULL)
 {
     wood.option.belts_count = 1;
     wood.belts[0].stand.cutting.stay_count = 0;
@@ -618,7 +618,7 @@ static void count_run(void *context, uint64_t rocks)
         atomic_store(&stop->cancel, true);
 }
 
-TEST_WITH(it_can_be_cancelled_and_goes_on, fresh, NULL)
+TEST_WITH(a_cancelled_simulation_can_continue, fresh, NULL)
 {
     LOCAL(ceduo_years, whole) = flown(0, 8, 1, 2, ROCKS);
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(ROCKS);

@@ -32,7 +32,7 @@ TEST(ticks_are_round)
     EXPECT(tenths[3], ==, 0.3); /* the double nearest to 0.3, not 3 * 0.1 */
 }
 
-TEST(ticks_are_evenly_spaced_and_never_too_many)
+TEST(ticks_are_evenly_spaced_and_limited)
 {
     double ticks[CEDUO_TICKS_MAX], step;
     for (int k = -12; k <= 12; ++k) {
@@ -54,7 +54,7 @@ TEST(ticks_are_evenly_spaced_and_never_too_many)
     assert_in_range(ceduo_ticks(0, 99, 100000, ticks, &step), 1, CEDUO_TICKS_MAX);
 }
 
-TEST(tick_labels_have_no_minus_nought)
+TEST(tick_labels_have_no_negative_zero)
 {
     static const struct {
         double value, step;

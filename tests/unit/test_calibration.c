@@ -121,7 +121,7 @@ TEST(a_normal_law_is_found)
 /* A value is at a bound if the best one is there, though half of the draws are farther away than a twentieth (half a normal
  * law: its median is 0.67 sd); or if half of the draws are there, though the best is not. An undetermined value is at no
  * bound. */
-TEST(what_lies_at_a_bound)
+TEST(values_at_a_bound)
 {
     struct ceduo_fitted p = fitted_to(LO, 2);
     assert_true(p.determined && p.at_bound);
@@ -154,7 +154,7 @@ TEST(threads_change_nothing)
 }
 
 /* An observation without information leaves the uniform prior: draws with variance 1/12 of the squared range. */
-TEST(nothing_seen_leaves_a_uniform_law)
+TEST(without_information_the_law_stays_uniform)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = all_pass();
@@ -190,7 +190,7 @@ TEST(a_simplex_stays_within_its_bounds)
 /* Three values: whether each is determined, its range as a share of the bounds, and correlations (1 with 0, 2 with 0, 2 with
  * 1). The less certain one of two correlated values is fixed, closest pair first. One value always stays free; without draws
  * all do. */
-TEST(what_is_to_be_left_as_it_is)
+TEST(parameters_to_fix)
 {
     static const struct {
         bool determined[3];
@@ -244,7 +244,7 @@ TEST(one_misfit_is_enough)
 }
 
 /* p uses other rocks than the fit: they differ from those of the scene as two samples do. */
-TEST(other_rocks_than_those_of_the_fit)
+TEST(prediction_uses_other_rocks_than_the_fit)
 {
     struct ceduo_scene scene = flight(2);
     input.path = density;
@@ -262,7 +262,7 @@ TEST(other_rocks_than_those_of_the_fit)
 }
 
 /* Two rocks in each of 200 draws give 400 single values, which have a 95 % range; one in each is too few. */
-TEST(few_single_values_tell_nothing)
+TEST(few_single_values_give_no_range)
 {
     struct ceduo_scene scene = flight(0);
     struct ceduo_observation seen[2] = {all_pass(), speed(15, 1)};

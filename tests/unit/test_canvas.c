@@ -154,7 +154,7 @@ TEST(true_scale_fits_and_centres)
     assert_false(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, 1, 0, 1));
 }
 
-TEST(frame_cell_is_where_the_point_is_drawn)
+TEST(frame_cell_is_the_drawn_cell)
 {
     for (int i = 0; i <= LAST_CHARSET; ++i) {
         enum ceduo_charset charset = (enum ceduo_charset)i;

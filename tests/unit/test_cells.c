@@ -36,7 +36,7 @@ TEST(text_of_a_row_ends_at_its_last_character)
 
 /* ---- roles ---- */
 
-TEST(rank_decides_the_role_whoever_draws_first)
+TEST(rank_decides_the_role_in_any_order)
 {
     static const enum ceduo_role falling[] = {
         CEDUO_ROLE_CURSOR, CEDUO_ROLE_WAY,    CEDUO_ROLE_CONTROL, CEDUO_ROLE_MEAN, CEDUO_ROLE_ENVELOPE, CEDUO_ROLE_STEM,

@@ -95,7 +95,7 @@ static void expect_normal(const struct chains_def *def)
     EXPECT_NEAR(covariance_of(&c, 0, 1), RHO, 4 * sqrt((1 + RHO * RHO) / 4000));
 }
 
-TEST(a_normal_law_is_drawn_from)
+TEST(a_normal_law_is_sampled)
 {
     struct chains_def def = two_dimensions();
     expect_normal(&def);
@@ -112,7 +112,7 @@ static enum ceduo_status at_its_start(void *context, size_t chain, const double 
     return CEDUO_OK;
 }
 
-TEST(chains_begin_where_they_start)
+TEST(chains_begin_at_their_starts)
 {
     struct chains_def def = two_dimensions();
     bool begun[4] = {false};
@@ -126,7 +126,7 @@ TEST(chains_begin_where_they_start)
 }
 
 /* For any surrogate the draws follow the density. */
-TEST(a_wrong_guess_changes_nothing)
+TEST(a_wrong_surrogate_changes_nothing)
 {
     struct chains_def def = two_dimensions();
     def.guess = wrong_guess;
@@ -185,7 +185,7 @@ TEST(chains_apart_do_not_agree)
 }
 
 /* Draws with lag-1 correlation phi count (1 - phi)/(1 + phi). */
-TEST(draws_that_hang_together_count_less)
+TEST(correlated_draws_count_less)
 {
     double rhat, size;
     LOCAL_BY(ceduo_chains_release) struct chains c = made(0, 0.8);
@@ -226,7 +226,7 @@ TEST(draws_that_alternate)
 /* ---- surrogate ---- */
 
 /* The surrogate learns a quadratic exactly; places without a value are ignored. */
-TEST(a_guess_learns_a_quadratic)
+TEST(a_surrogate_learns_a_quadratic)
 {
     LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(2);
     double u[64 * 2], values[64], at[2] = {0.3, 0.9};
@@ -255,7 +255,7 @@ TEST(a_guess_learns_a_quadratic)
 }
 
 /* The same if all places without a value come last, after a whole number of blocks. */
-TEST(a_guess_ends_without_values)
+TEST(a_surrogate_without_values)
 {
     enum { KNOWN = 512, N = KNOWN + 5 };
     static double u[N], values[N];
@@ -270,7 +270,7 @@ TEST(a_guess_ends_without_values)
 
 /* Residuals of weighted least squares are orthogonal to every term for any number of places: here of a quartic, with weights
  * that decrease below the best value. */
-TEST(a_guess_weighs_what_it_knows)
+TEST(a_surrogate_weights_its_values)
 {
     enum { N = 3000, NEAR = 9 /* three times the terms */ };
     static double u[N], values[N], sorted[NEAR + 1];
@@ -315,7 +315,7 @@ static double processor_seconds(void)
 
 /* Twelve values have 91 terms. Stopped after a tenth of the time for 25 000 places, training ends in less than half of it and
  * keeps the old surrogate. */
-TEST(a_guess_is_ended_while_it_learns)
+TEST(surrogate_training_can_be_stopped)
 {
     enum { N = 25000, D = 12 };
     double *u = malloc(N * D * sizeof *u), *values = malloc(N * sizeof *values), start, all;
@@ -367,7 +367,7 @@ static bool stop(void *context, size_t steps, double rhat, double effective_size
 }
 
 /* Earlier draws are kept. */
-TEST(chains_are_ended)
+TEST(chains_can_be_stopped)
 {
     struct chains c;
     struct chains_def def = two_dimensions();
@@ -391,7 +391,7 @@ TEST(chains_are_ended)
 }
 
 /* Chains that were stopped are not checked for convergence, which takes long with many draws. */
-TEST(a_look_at_all_chains_is_ended)
+TEST(chain_diagnosis_can_be_stopped)
 {
     LOCAL_BY(ceduo_chains_release) struct chains c;
     struct chains_def def = two_dimensions();
@@ -442,7 +442,7 @@ static enum ceduo_status fails_in_one(void *context, size_t chain, const double 
 }
 
 /* If one chain fails no other starts: the first thread ends its round of at most 50 steps, or has none. */
-TEST(one_chain_ends_all)
+TEST(one_failure_stops_all_chains)
 {
     LOCAL_BY(ceduo_chains_release) struct chains c;
     struct failure f = {.first = pthread_self(), .lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
@@ -464,7 +464,7 @@ static enum ceduo_status one_place(void *context, size_t chain, const double *x,
 }
 
 /* Chains that never move have no convergence statistic. */
-TEST(chains_that_stand_still)
+TEST(chains_that_never_move)
 {
     static const double nowhere[8];
     LOCAL_BY(ceduo_chains_release) struct chains c;

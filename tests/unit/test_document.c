@@ -422,7 +422,7 @@ TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
 }
 
 /* Temporary files of a killed writer are not offered: they may be incomplete. */
-TEST_WITH(half_a_copy_is_taken_away, set_up, tear_down)
+TEST_WITH(an_incomplete_copy_is_removed, set_up, tear_down)
 {
     struct recovery_copy own = ceduo_recovery_begin(path);
     char file[400], names[2][400];
@@ -443,7 +443,7 @@ TEST_WITH(half_a_copy_is_taken_away, set_up, tear_down)
 }
 
 /* The lock decides if a copy is left over, not the process number in its name: two machines may share the folder. */
-TEST_WITH(a_locked_copy_is_not_left_behind, set_up, tear_down)
+TEST_WITH(a_locked_copy_is_not_left_over, set_up, tear_down)
 {
     char file[400], copy[400], renamed[400], ready;
     int to_parent[2], to_child[2];
@@ -480,7 +480,7 @@ TEST_WITH(a_locked_copy_is_not_left_behind, set_up, tear_down)
     }
 }
 
-TEST_WITH(a_copy_is_its_owners_alone, set_up, tear_down)
+TEST_WITH(only_the_owner_may_read_a_copy, set_up, tear_down)
 {
     struct stat st;
     mode_t mask = umask(0);
@@ -492,7 +492,7 @@ TEST_WITH(a_copy_is_its_owners_alone, set_up, tear_down)
 }
 
 /* A name and a title with quotes and outer blanks survive. */
-TEST_WITH(a_copy_has_name_and_title_whole, set_up, tear_down)
+TEST_WITH(a_copy_keeps_name_and_title, set_up, tear_down)
 {
     char other[400];
     struct arena arena = {0};
@@ -594,7 +594,7 @@ TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, tear_down)
 }
 
 /* Work on a scene that was saved elsewhere can be recovered there. */
-TEST_WITH(the_copy_leads_to_the_same_files, set_up, tear_down)
+TEST_WITH(the_copy_refers_to_the_same_files, set_up, tear_down)
 {
     char there[256], text[4096];
     scatter("../slopes/by-csv.yaml");
@@ -614,7 +614,7 @@ TEST_WITH(the_copy_leads_to_the_same_files, set_up, tear_down)
 
 /* An edit elsewhere keeps a simplified profile and its assumption; moving the release simplifies it again. A release at 50 m
  * keeps the one point that a tolerance of .25 m keeps and one of 1 m drops. */
-TEST(a_simplified_profile_is_taken_over)
+TEST(a_simplified_profile_is_kept)
 {
     static const char text[] =
         "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [90]\nrelease: {x_m: 0}\n"

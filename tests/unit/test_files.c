@@ -231,7 +231,7 @@ TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
 }
 
 /* A socket is not a file, and a read-only file is not replaced. */
-TEST_WITH(what_cannot_be_written, folder_set_up_profiles, folder_tear_down)
+TEST_WITH(files_that_cannot_be_written, folder_set_up_profiles, folder_tear_down)
 {
     struct sockaddr_un address = {.sun_family = AF_UNIX};
     int s = socket(AF_UNIX, SOCK_STREAM, 0);
@@ -273,7 +273,7 @@ static void write_to_pipe(int signal)
 }
 
 /* A signal interrupts a read, which continues: the signal's handler writes to the pipe. */
-TEST(an_interrupted_reader_goes_on)
+TEST(an_interrupted_read_continues)
 {
     int ends[2], was = dup(STDIN_FILENO);
     LOCAL_TEXT(text);
@@ -302,7 +302,7 @@ static void give_up_at_third(int signal)
 }
 
 /* An interrupted write continues until it is cancelled: the pipe is full, and not read. */
-TEST(an_interrupted_writer_goes_on_until_it_is_cancelled)
+TEST(an_interrupted_write_continues_until_cancelled)
 {
     int ends[2];
     assert_int_equal(pipe2(ends, O_NONBLOCK), 0);

@@ -74,7 +74,7 @@ TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
 }
 
 /* Results that were not fetched are dropped when the scene changes. */
-TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
+TEST_WITH(results_of_an_older_scene_are_dropped, set_up, tear_down)
 {
     assert_true(show());
     ceduo_jobs_wait(jobs, true);
@@ -89,7 +89,7 @@ TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
 }
 
 /* Without stems all contact models give the same rocks, but the index simulates none. */
-TEST_WITH(a_contact_model_makes_another_key, set_up, tear_down)
+TEST_WITH(each_contact_model_has_its_own_key, set_up, tear_down)
 {
     static const enum ceduo_contact_model models[] = {CEDUO_INDEX, CEDUO_STEMS};
     uint64_t keys[2], years[2];
@@ -128,7 +128,7 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
 }
 
 /* A preview has priority like a search. */
-TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
+TEST_WITH(a_preview_comes_first, set_up, tear_down)
 {
     ceduo_jobs_ask(jobs, &(struct job_request){JOB_PREVIEW, &file, 0, 1, "rock.diameter_m", "0.6", NULL, NULL});
     assert_true(ceduo_jobs_wait(jobs, false));
@@ -137,7 +137,7 @@ TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
 }
 
 /* The other energy law in addition to the figures: with the same number of rocks, and repeated if only its inputs change. */
-TEST_WITH(the_other_law_comes_along, set_up, tear_down)
+TEST_WITH(the_other_law_is_computed_as_well, set_up, tear_down)
 {
     show();
     ceduo_jobs_wait(jobs, true);
@@ -206,7 +206,7 @@ static int set_up_options(void **state)
 }
 
 /* The shown option comes first: its figures stay when the others arrive. */
-TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_down)
+TEST_WITH(the_shown_option_has_its_uncertainty_first, set_up_options, tear_down)
 {
     const size_t shown = 1, n = 3;
     const struct ceduo_uncertainty_result *a = &uncertainty(shown, 1)->answer;
@@ -230,7 +230,7 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
 }
 
 /* A stopped job ends soon, without a result. */
-TEST_WITH(a_search_is_stopped, set_up, tear_down)
+TEST_WITH(a_search_can_be_stopped, set_up, tear_down)
 {
     struct ceduo_search search = search_of(CEDUO_ROCKS_MAX);
     ceduo_jobs_ask(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});

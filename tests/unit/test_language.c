@@ -5,7 +5,7 @@
 
 #include "base/language.h"
 
-TEST(as_it_stands)
+TEST(untranslated_text_is_unchanged)
 {
     for (int data = 0; data < 2; data++) {
         ceduo_language_of_data(data);

@@ -130,7 +130,7 @@ static void call_without_memory(enum ceduo_status (*call)(void))
     EXPECT(call(), ==, CEDUO_OK);
 }
 
-TEST(gsl_without_memory_ends_no_program)
+TEST(gsl_without_memory_does_not_abort)
 {
     ROWS(call_without_memory, (fit_heights), (lay_points), (learn), (fit_surface));
 }
@@ -142,7 +142,7 @@ static void *err(void *unused)
 }
 
 /* A handler set during a call stays after it. */
-TEST(a_handler_set_meanwhile_stays)
+TEST(a_handler_set_during_a_call_stays)
 {
     gsl_set_error_handler(NULL);
     bool before = ceduo_gsl_enter();
@@ -158,13 +158,13 @@ static int without_memory(void *unused)
     return GSL_SUCCESS;
 }
 
-TEST(a_call_of_gsl_without_memory_is_left)
+TEST(a_gsl_call_without_memory_returns)
 {
     assert_int_equal(ceduo_gsl_try(without_memory, NULL), GSL_ENOMEM);
 }
 
 /* In a thread outside the library, while another is inside. */
-TEST(errors_of_the_caller_stay_his)
+TEST(errors_of_the_caller_reach_its_handler)
 {
     pthread_t thread;
     gsl_set_error_handler(on_error);
@@ -185,7 +185,7 @@ TEST(errors_of_the_caller_stay_his)
 }
 
 /* Without a handler of its own GSL aborts, as without the library. */
-TEST(errors_of_the_caller_end_him)
+TEST(without_a_handler_gsl_aborts_the_caller)
 {
     pid_t child = fork();
     if (child == 0) {
@@ -262,7 +262,7 @@ TEST(halves_of_a_character_are_joined)
     ceduo_scene_file_release(&r);
 }
 
-TEST(what_is_wrong_is_said)
+TEST(errors_are_reported)
 {
     struct ceduo_scene_file r;
     EXPECT(ceduo_scene_read_text("mill.yaml", "ceduo: scene/1\nrock: {shape: sphere, diameter_m: -1}\n", &r), ==,
@@ -525,7 +525,7 @@ TEST(no_seed_has_the_rocks_of_another_one_in_another_year)
 
 /* ---- defaults and texts ---- */
 
-TEST(defaults_need_no_more_than_what_has_none)
+TEST(defaults_fill_all_optional_values)
 {
     struct ceduo_scene_file r;
     assert_int_equal(ceduo_scene_read_text("mill.yaml", scene, &r), CEDUO_OK);

@@ -145,7 +145,7 @@ TEST(stops_are_multinomial)
 }
 
 /* k = min(10, n/5) classes, at least two. */
-TEST(a_list_has_classes_of_its_own)
+TEST(a_list_has_its_own_classes)
 {
     static const struct {
         size_t n, classes, first, last;
@@ -224,7 +224,7 @@ TEST(no_rock_there_is_impossible)
 
 /* ---- on the trajectory ---- */
 
-TEST(the_largest_is_at_an_end_or_on_top)
+TEST(the_maximum_is_at_an_end_or_a_top)
 {
     struct ceduo_observation speed = something(CEDUO_OBSERVED_LARGEST_SPEED), height = something(CEDUO_OBSERVED_LARGEST_HEIGHT);
     make_ground(0, HIGH, FAST, 0);
@@ -356,7 +356,7 @@ TEST(recorded_crossings_are_those_of_a_run)
 }
 
 /* Places of one rock share its run; another rock, release or option does not. The index has no obstacles. */
-TEST(what_is_of_its_own)
+TEST(observations_share_runs)
 {
     make_ground(0, HIGH, FAST, 0);
     struct ceduo_rock_def small = g.scene.rock;
@@ -412,7 +412,7 @@ TEST(blocks_are_not_observed)
 }
 
 /* An invalid scene or a cancelled call gives no comparison. */
-TEST(what_cannot_be_looked_at)
+TEST(an_invalid_scene_gives_no_comparison)
 {
     make_ground(0, HIGH, FAST, 0);
     struct ceduo_observation o[2] = {at(CEDUO_OBSERVED_SPEED, 10), something(CEDUO_OBSERVED_LARGEST_SPEED)};
@@ -483,7 +483,7 @@ TEST(scars_are_counted_and_measured)
 }
 
 /* Stems as strong as rock: a rock stops at the stem. */
-TEST(rocks_lie_where_stems_stop_them)
+TEST(stems_stop_rocks_at_their_place)
 {
     const struct ceduo_stems tree = {.per_ha = 1e5, .dbh = 1, .height = 15, .volume = 10, .age = NAN};
     make_ground(80, 0, 5, -2);

@@ -89,7 +89,7 @@ static struct ceduo_outcome judge(bool uncertainty)
     return ceduo_outcome_compute(&result, &verdict, uncertainty ? &answer : NULL, 0, 0);
 }
 
-TEST_WITH(the_years_decide_not_today, open_site, NULL)
+TEST_WITH(the_years_decide_before_today, open_site, NULL)
 {
     set_failing(17, 15, 19);
     struct ceduo_outcome o = judge(false);
@@ -108,7 +108,7 @@ TEST_WITH(the_years_decide_not_today, open_site, NULL)
     EXPECT_IS(o, (answer, CEDUO_YES), (ahead, false));
 }
 
-TEST_WITH(uncertain_inputs_leave_it_open, open_site, NULL)
+TEST_WITH(uncertain_inputs_leave_the_answer_open, open_site, NULL)
 {
     const struct {
         size_t failing, lo, hi;

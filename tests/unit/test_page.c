@@ -76,7 +76,7 @@ static struct ceduo_page table(void)
 
 /* A cell that is too long is cut or continues in the next row; text wider than the page is wrapped. A number has the digits
  * that fit; a wide character takes two columns. */
-TEST(cells_stand_below_one_another)
+TEST(cells_are_aligned_in_columns)
 {
     struct ceduo_page page = table();
     expect_page(&page, false,
@@ -91,7 +91,7 @@ TEST(cells_stand_below_one_another)
 }
 
 /* A number below the powers of ten prints as 0, not inf. */
-TEST(the_least_numbers_are_0)
+TEST(tiny_numbers_print_as_0)
 {
     struct ceduo_page page = {.width = 40};
     ceduo_page_table(&page, columns, 5);
@@ -102,7 +102,7 @@ TEST(the_least_numbers_are_0)
     assert_null(strstr(text, "inf"));
 }
 
-TEST(signs_are_plain_for_a_plain_terminal)
+TEST(a_plain_terminal_gets_plain_characters)
 {
     struct ceduo_page page = table();
     LOCAL_BYTES char *text = printed(&page, true);
@@ -161,7 +161,7 @@ static struct ceduo_page bars(size_t width)
 }
 
 /* A pane of 49 columns holds a name, a mean, a percentile and a share with its interval. */
-TEST(a_mean_makes_its_column_no_wider_than_eleven)
+TEST(a_mean_column_is_at_most_eleven_wide)
 {
     static const struct ceduo_page_column means[] = {{"", 4, 0, CEDUO_FILLS}, {"", -6, 1, CEDUO_FITS}};
     struct ceduo_page page = {.width = 40};
@@ -225,7 +225,7 @@ static void expect_rows(const struct ceduo_figure *table, const struct ceduo_fig
     }
 }
 
-TEST(every_figure_says_what_it_is)
+TEST(every_figure_has_a_description)
 {
     expect_rows(ceduo_result_figures, ceduo_result_figures);
     expect_rows(ceduo_find_figures, ceduo_find_figures);

@@ -214,7 +214,7 @@ TEST(pictures_show_what_they_should)
 
 /* ---- profile ---- */
 
-TEST_BARE(span_tells_where_the_slope_stands)
+TEST_BARE(span_gives_the_position_of_the_slope)
 {
     LOCAL(ceduo_cells, cells) = ceduo_cells_create(80, 24, BRAILLE);
     struct ceduo_area area = {0, 0, 80, 24};
@@ -232,7 +232,7 @@ TEST_BARE(span_tells_where_the_slope_stands)
     assert_true(span.x1 >= 60 && span.x1 < 62);
 }
 
-TEST_BARE(the_selected_way_is_drawn_over_all)
+TEST_BARE(the_selected_trajectory_is_drawn_on_top)
 {
     struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, 60, 20, BRAILLE);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_WAY), 0);
@@ -246,7 +246,7 @@ TEST_BARE(the_selected_way_is_drawn_over_all)
     ceduo_cells_free(cells);
 }
 
-TEST_WOODED(ways_that_are_not_known_are_not_drawn)
+TEST_WOODED(unknown_trajectories_are_not_drawn)
 {
     s.wooded[0] = NULL;
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, 60, 16, BRAILLE);
@@ -263,7 +263,7 @@ static int rows_of(const struct ceduo_cells *cells, int column, enum ceduo_role 
     return n;
 }
 
-TEST_WOODED(stems_that_the_rock_came_to_stand_where_they_are)
+TEST_WOODED(stems_met_by_the_rock_keep_their_place)
 {
     p.snapshot = NULL;
     p.stems = passed;
@@ -281,11 +281,11 @@ TEST_WOODED(stems_that_the_rock_came_to_stand_where_they_are)
         int found = rows_of(cells, column, passed[i].hit ? CEDUO_ROLE_STEM : CEDUO_ROLE_DIM);
         assert_true(found >= rows - 2 && found <= rows + 1);
     }
-    expect(CEDUO_PLOT_PROFILE, 84, 20, ASCII, "stems-that-the-rock-came-to-stand-where-they-are");
+    expect(CEDUO_PLOT_PROFILE, 84, 20, ASCII, "stems-met-by-the-rock-keep-their-place");
 }
 
 /* A lying log has a place along the slope, but none in the plane. */
-TEST_WOODED(logs_stand_in_no_plan)
+TEST_WOODED(logs_are_not_in_the_plan)
 {
     struct ceduo_stem_encounter logs[] = {{.x = 30, .y = NAN, .dbh = NAN, .height = 2, .hit = true},
                                           {.x = 90, .y = NAN, .dbh = NAN, .height = 2, .hit = true},
@@ -300,7 +300,7 @@ TEST_WOODED(logs_stand_in_no_plan)
 /* ---- strips ---- */
 
 /* Solid with forest, dotted without. */
-TEST_WOODED(strips_show_the_wood_beside_the_bare_slope)
+TEST_WOODED(strips_compare_forest_and_bare_slope)
 {
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 16, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
@@ -388,7 +388,7 @@ TEST_BARE(stems_that_stay_do_not_move)
 
 /* Trees of 10 cm and a rock of 3 m: it meets exactly the trees with centres less than 1.55 m off its path. A row of the picture
  * is half a metre. */
-TEST_BARE(what_the_rock_meets_lies_in_its_strip)
+TEST_BARE(stems_met_lie_in_the_strip_of_the_rock)
 {
     s.scene.rock.diameter = ceduo_number(3);
     s.belts[0].stand.shoots_count = 0;
@@ -407,7 +407,7 @@ TEST_BARE(what_the_rock_meets_lies_in_its_strip)
 }
 
 /* 20 m around the last stem of the belt, offsets scaled so that the strip fills the picture. */
-TEST_WOODED(the_stand_shows_the_way_of_the_rock)
+TEST_WOODED(the_stand_shows_the_trajectory_of_the_rock)
 {
     p.stems = passed;
     p.stems_count = 3;
@@ -426,7 +426,7 @@ TEST_BARE(a_dense_stand_is_drawn_in_time)
 
 /* ---- all pictures ---- */
 
-TEST_WOODED(nothing_is_drawn_beside_the_area)
+TEST_WOODED(nothing_is_drawn_outside_the_area)
 {
     for (int i = 0; i < 3 * 40 * 12; i++) {
         enum ceduo_charset charset = (enum ceduo_charset)(i % 3);

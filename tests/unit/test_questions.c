@@ -18,7 +18,7 @@ static struct ceduo_request question_of(uint64_t rocks)
 }
 
 /* Stands and index need no rocks, with or without a requested precision. */
-TEST(no_rocks_are_not_precise)
+TEST(stands_need_no_rocks)
 {
     struct ceduo_request q = question_of(0);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
@@ -108,7 +108,7 @@ TEST(other_sizes_of_one_option)
 }
 
 /* At the worse of two controls; NaN if either is NaN, in any order. */
-TEST(a_goal_is_reached_at_the_worst_control)
+TEST(the_worst_control_decides_a_goal)
 {
     const double accepted[][2] = {{50e3, 50e3}, {NAN, 50e3}, {50e3, NAN}};
     for (size_t i = 0; i < LENGTH(accepted); i++) {
@@ -165,7 +165,7 @@ TEST(controls_at_one_place)
 }
 
 /* Years without rocks have no share, so no difference. */
-TEST(years_without_rocks_differ_by_nothing_known)
+TEST(years_without_rocks_have_no_difference)
 {
     struct ceduo_request q = question_of(50);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
@@ -202,7 +202,7 @@ TEST(fellings_are_in_order)
 
 /* A coppice just after its cut has no stems today and a volume to cut later: half of the forest next to a permanently bare
  * half, which does not count. */
-TEST(a_stand_just_cut_yields)
+TEST(a_freshly_cut_stand_has_a_yield)
 {
     static struct ceduo_stems none[1];
     struct ceduo_belt belts[2];
@@ -229,7 +229,7 @@ TEST(a_stand_just_cut_yields)
 }
 
 /* The volume of belts is their mean weighted by length: 30 m and 90 m, one with twice the other's volume. */
-TEST(volumes_of_belts_are_weighed_by_their_lengths)
+TEST(volumes_of_belts_are_weighted_by_length)
 {
     LOCAL_BY(ceduo_yield_release) struct ceduo_yield yield;
     paper_site_init(&site);

@@ -151,7 +151,7 @@ static void expect_no_blocks(void)
 }
 
 /* An invalid rock has no figures and is not simulated. */
-TEST(no_rock_no_figures)
+TEST(an_invalid_rock_has_no_figures)
 {
     paper_site_init(&site);
     struct ceduo_trajectory way;
@@ -237,7 +237,7 @@ static size_t segments_made(void)
     return n;
 }
 
-TEST(alike_neighbours_are_one)
+TEST(collinear_segments_are_merged)
 {
     paper_site_init(&site);
     struct ceduo_slope *slope = &site.scene.slope;
@@ -274,7 +274,7 @@ TEST(alike_neighbours_are_one)
 }
 
 /* A short segment at more than the tolerated angle to the line stays separate, even if its end lies on the line. */
-TEST(turned_segments_are_their_own)
+TEST(segments_at_an_angle_stay_separate)
 {
     paper_site_init(&site);
     struct ceduo_slope *slope = &site.scene.slope;
@@ -293,7 +293,7 @@ TEST(turned_segments_are_their_own)
 }
 
 /* Stools so wide and many that a table of all stools around a rock would not fit into memory: the table has a limit. */
-TEST(tables_of_stools_have_an_end)
+TEST(tables_of_stools_have_a_limit)
 {
     paper_site_init(&site);
     const struct ceduo_simulation *simulation = &site.scene.simulation;
@@ -313,7 +313,7 @@ TEST(tables_of_stools_have_an_end)
 
 /* ---- index ---- */
 
-TEST(belts_beside_the_way)
+TEST(belts_outside_the_trajectory)
 {
     paper_site_init(&site);
     struct ceduo_belt *belts = site.belts;

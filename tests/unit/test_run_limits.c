@@ -53,7 +53,7 @@ static void count_stem(void *context, const struct ceduo_stem_encounter *stem)
 }
 
 /* Callbacks for segments, stems or nothing change no result. */
-TEST(looking_on_changes_nothing)
+TEST(callbacks_change_nothing)
 {
     unsigned seen;
     const struct ceduo_trajectory_callbacks watches[] = {{NULL, count_piece, count_stem, &seen},
@@ -135,7 +135,7 @@ static void same_variant(void *context, size_t i, size_t first)
 }
 
 /* Without forest, with forest, without forest: the third equals the first. */
-TEST(what_is_alike_is_simulated_once)
+TEST(equal_forests_are_simulated_once)
 {
     struct alike alike = {0};
     paper_site_init(&site);
@@ -203,7 +203,7 @@ TEST(energies_of_blocks_are_even_quantiles)
 }
 
 /* Group means equal the full statistics: for one block or all sizes, with and without an accepted energy. */
-TEST(a_run_in_brief)
+TEST(group_means_equal_the_statistics)
 {
     static double volumes[] = {0.05, 1};
     struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
@@ -286,7 +286,7 @@ TEST(a_control_that_no_rock_reaches)
     EXPECT_NAN(energy.mean, energy.se);
 }
 
-TEST(a_run_is_no_longer_than_it_was_made_for)
+TEST(a_run_stops_at_its_capacity)
 {
     LOCAL(ceduo_run, run) = held_rocks();
     assert_int_equal(ceduo_run_extend(run, 1000), CEDUO_OK);
@@ -294,7 +294,7 @@ TEST(a_run_is_no_longer_than_it_was_made_for)
 }
 
 /* Energies of arrivals, up to the stored number; none before the simulation. */
-TEST(energies_as_far_as_they_are_kept)
+TEST(energies_of_the_stored_arrivals)
 {
     double energies[8];
     paper_site_init(&site);
@@ -307,7 +307,7 @@ TEST(energies_as_far_as_they_are_kept)
 }
 
 /* A run in two steps allocates twice, up to its capacity, and has the bits of one step. */
-TEST(room_is_taken_twice)
+TEST(a_run_allocates_twice)
 {
     paper_site_init(&site);
     site.scene.simulation.rocks = 300;
@@ -358,7 +358,7 @@ TEST(a_slope_of_one_point_has_no_run)
 }
 
 /* Forests no longer in the scene: the last runs used stay, up to a limit. */
-TEST(a_pool_forgets_what_is_old)
+TEST(a_pool_drops_old_runs)
 {
     paper_site_init(&site);
     site.scene.simulation.rocks = 10;

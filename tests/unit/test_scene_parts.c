@@ -52,7 +52,7 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
 #define GROUPS "groups: {stems: 5, radius_m: 2}"
 
 /* More rows than the limit. */
-TEST_WITH(rows_of_uncertainty_are_told, folder_set_up, folder_tear_down)
+TEST_WITH(rows_of_uncertainty_are_reported, folder_set_up, folder_tear_down)
 {
     LOCAL_TEXT(many);
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -126,7 +126,7 @@ TEST_WITH(places_by_name, folder_set_up, folder_tear_down)
 }
 
 /* More places than the rows of any list. */
-TEST_WITH(all_places_are_meant, folder_set_up, folder_tear_down)
+TEST_WITH(all_places_count, folder_set_up, folder_tear_down)
 {
     LOCAL_TEXT(lines);
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -293,7 +293,7 @@ TEST_WITH(groups_are_of_trees, folder_set_up, folder_tear_down)
 /* ---- changes ---- */
 
 /* A stand file without a name may get one; the stand is still the same. */
-TEST_WITH(a_name_of_its_own, folder_set_up, folder_tear_down)
+TEST_WITH(a_stand_may_get_a_name, folder_set_up, folder_tear_down)
 {
     static const char *const sets[] = {"forest[0].stand.name=mine", "forest[0].stand.stools.per_ha=1500"};
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -313,7 +313,7 @@ static size_t notes_of_mu(const struct scene_file *file)
 }
 
 /* Assumptions about a ground follow the contact law, also on an unchanged slope. */
-TEST_WITH(another_law_assumes_other_things, folder_set_up, folder_tear_down)
+TEST_WITH(another_law_has_other_assumptions, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
@@ -441,7 +441,7 @@ TEST(notes_are_found)
 
 /* ---- table of parameters ---- */
 
-TEST(ranges_are_told)
+TEST(ranges_are_reported)
 {
     for (TABLE(row, "unit/texts.txt", "ranges")) {
         LOCAL_TEXT(text);

@@ -242,7 +242,7 @@ TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
 }
 
 /* A new mapping does not inherit the source of the old one, nor the outer source. */
-TEST_WITH(a_new_mapping_has_no_old_source, folder_set_up, folder_tear_down)
+TEST_WITH(a_new_mapping_does_not_inherit_a_source, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};

@@ -17,7 +17,7 @@
 
 /* Ten stopped rocks, and half of the simulated ones beyond the median: the binomial law of 10 and 1/2 has 0.0107 up to 1 and
  * 0.0547 up to 2, and is symmetric. */
-TEST(half_of_ten)
+TEST(band_of_half_of_ten)
 {
     double seen[10] = {0, 1, 1, 1, 1, 1, 9, 9, 9, 10}, simulated[4] = {0, 1, 9, 10};
     const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 10, .values = seen};
@@ -40,7 +40,7 @@ TEST(half_of_ten)
 }
 
 /* If the number released is known, rocks that went on lie farther: 6 of 10 observed, 4 of 8 simulated. */
-TEST(those_that_go_on_lie_farther)
+TEST(rocks_that_did_not_stop_lie_farther)
 {
     double seen[4] = {2, 3, 4, 5}, simulated[4] = {1, 2, 3, 6};
     const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .of = 10, .values = seen};
@@ -67,7 +67,7 @@ TEST(one_place_has_no_picture)
 
 /* Equal rocks fly 20 m in 2 s: hypot(10, 9.81 * 2) = 22.021 m/s. The band is the mean's of five that differ by 0.5 m/s; one
  * observed 2 m/s below is impossible. All pass. */
-TEST(a_flight_as_it_is)
+TEST(a_flight_without_a_fit)
 {
     struct ground g;
     ground_make(&g, 200, 0, 100, 10, 0);
@@ -94,7 +94,7 @@ TEST(a_flight_as_it_is)
 }
 
 /* Two shapes, both fitted, under the law that uses the shape. */
-TEST(two_shapes_tell_mu)
+TEST(two_shapes_identify_mu)
 {
     struct ceduo_scene scene = ceduo_scene_default();
     scene.simulation.law = CEDUO_LAW_ARM;
@@ -162,7 +162,7 @@ static struct ceduo_calibration_def fit_of(const struct ceduo_calibration_scene 
 }
 
 /* Stopped at any time, there is no result. */
-TEST(a_fit_is_ended)
+TEST(a_fit_can_be_stopped)
 {
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
@@ -224,7 +224,7 @@ TEST(two_values_without_draws)
 
 /* One of two scenes ends at 30 m. The other's observation is a fall over an edge at 60 m, which only rocks released beyond 40 m
  * reach. The fitted place must exist in both scenes, however badly it fits. */
-TEST(a_scene_that_does_not_fit_together)
+TEST(a_place_exists_in_both_scenes)
 {
     const struct ceduo_input input = range(&place, 0, 100);
     struct ceduo_calibration_scene fitted[2];

@@ -59,7 +59,7 @@ static void check_scene(const char *path)
     ceduo_scene_release(&file);
 }
 
-TEST(every_scene_keeps_its_width_and_its_screen)
+TEST(every_scene_fits_its_width_and_a_screen)
 {
     glob_t scenes;
     assert_int_equal(glob("profiles/scenes/*.yaml", 0, NULL, &scenes), 0);

@@ -48,7 +48,7 @@ static struct ceduo_snapshot *snapshot_at(struct ceduo_pool *pool, size_t trajec
     return snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .runs = pool, .trajectories = trajectories});
 }
 
-TEST_WITH(envelopes_lie_beyond_the_release, by_index, NULL)
+TEST_WITH(envelopes_start_after_the_release, by_index, NULL)
 {
     s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_UNIFORM};
     LOCAL(ceduo_pool, pool) = pool_of(10);
@@ -81,7 +81,7 @@ static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ce
     EXPECT(sight->envelopes[0].passed, >, 0);
 }
 
-TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
+TEST_WITH(a_snapshot_equals_its_runs, wooded, NULL)
 {
     LOCAL(ceduo_pool, pool) = pool_of(300);
     LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){
@@ -116,7 +116,7 @@ TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
 }
 
 /* The contact model index has one set of trajectories for all options. */
-TEST_WITH(the_index_looks_at_the_bare_slope, by_index, NULL)
+TEST_WITH(the_index_shows_the_bare_slope, by_index, NULL)
 {
     LOCAL(ceduo_pool, pool) = pool_of(300);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
@@ -128,7 +128,7 @@ TEST_WITH(the_index_looks_at_the_bare_slope, by_index, NULL)
 }
 
 /* Missing runs leave gaps. */
-TEST_WITH(what_is_not_flown_yet_is_not_known, wooded, NULL)
+TEST_WITH(runs_not_simulated_are_unknown, wooded, NULL)
 {
     struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
     LOCAL(ceduo_pool, pool);
@@ -170,7 +170,7 @@ TEST_WITH(envelopes_are_kept, wooded, NULL)
 }
 
 /* A forest just changed shows its former state, unless another option now has that forest; a new option shows nothing. */
-TEST_WITH(a_changed_forest_shows_what_it_was, wooded, NULL)
+TEST_WITH(a_changed_forest_shows_its_former_state, wooded, NULL)
 {
     static struct site b;
     wooded_site_init(&b);
@@ -188,7 +188,7 @@ TEST_WITH(a_changed_forest_shows_what_it_was, wooded, NULL)
 }
 
 /* Unchanged data is shared with the last snapshot, not read again; either may be freed first. */
-TEST(sights_are_taken_over)
+TEST(snapshots_share_unchanged_data)
 {
     static struct site b;
     for (int order = 0; order < 2; order++) {
@@ -291,7 +291,7 @@ static int endless(void **state)
     return 0;
 }
 
-TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
+TEST_WITH(an_endless_trajectory_is_drawn_partly, endless, NULL)
 {
     LOCAL(ceduo_pool, pool) = pool_of(1);
     LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
@@ -305,7 +305,7 @@ TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
     EXPECT(t.z[t.n - 1], ==, way.z);
 }
 
-TEST_WITH(nobody_waits_for_an_endless_trajectory, endless, NULL)
+TEST_WITH(an_endless_trajectory_can_be_cancelled, endless, NULL)
 {
     atomic_bool cancel = true;
     LOCAL(ceduo_pool, pool) = pool_of(1);

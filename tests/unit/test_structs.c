@@ -432,7 +432,7 @@ TEST(missing_lists_are_refused)
     EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_BAD_ROCK);
 }
 
-TEST(as_many_rocks_as_are_asked_for)
+TEST(the_requested_number_of_rocks)
 {
     open_site();
     struct ceduo_request q = ceduo_request_default(&site.scene);

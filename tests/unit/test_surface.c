@@ -112,7 +112,7 @@ static double product(const double *u, size_t n)
     return (2 * u[0] - 1) * (2 * u[1] - 1);
 }
 
-TEST(of_a_product_both_have_all)
+TEST(a_product_gives_both_inputs_a_total_of_1)
 {
     make_inputs(12, 0, 0);
     struct ceduo_surface_fit f = fit_of(product, 12, 256, 3, 0);
@@ -193,7 +193,7 @@ static double turning(const double *u, size_t n)
 }
 
 /* It has no effect, and takes nothing from others; alone, with two words, no term varies. */
-TEST(an_input_that_is_the_same_at_all_points)
+TEST(a_constant_input)
 {
     make_inputs(3, 0, 0);
     still = true;
@@ -290,7 +290,7 @@ static double constant(const double *u, size_t n)
     return 7;
 }
 
-TEST(what_does_not_vary_has_no_shares)
+TEST(a_constant_figure_has_no_shares)
 {
     make_inputs(3, 0, 0);
     struct ceduo_surface_fit f = fit_of(constant, 3, 64, 1, 0);
@@ -353,7 +353,7 @@ static double sobol_g(const double *u, size_t n)
     return value;
 }
 
-TEST(what_is_no_quadric_is_said)
+TEST(a_poor_surface_is_reported)
 {
     const double first[] = {0.3139, 0.4424, 0}, g_first[] = {0.7165, 0.1791, 0.0237, 0.0072, 0.0001, 0.0001, 0.0001, 0.0001};
     make_inputs(8, 0, 0);
@@ -424,7 +424,7 @@ static double sum_of_two(const double *u, size_t n)
 
 /* A triangular law: p5 at sqrt(.1), p95 at 2 - sqrt(.1). With one input known .9 remains; with the third, which has no effect,
  * all. */
-TEST(band_and_what_is_left)
+TEST(band_and_remaining_width)
 {
     make_inputs(3, 0, 0);
     struct ceduo_surface_fit f = fit_of(sum_of_two, 3, 1024, 1, .1);
@@ -444,7 +444,7 @@ static double scaled(const double *u, size_t n)
 }
 
 /* With U known 1.8 U of U(2V - 1) remains, the width of 90 % of it: 0.9 averaged over U. */
-TEST(what_is_left_is_a_mean_over_the_known)
+TEST(remaining_width_is_averaged_over_the_known_input)
 {
     make_inputs(2, 0, 0);
     struct ceduo_surface_fit f = fit_of(scaled, 2, 1024, 1, 0);
@@ -574,7 +574,7 @@ static double even_40(const double *u, size_t n)
 }
 
 /* Forty inputs: the dominant ones keep their products. */
-TEST(of_many_inputs_the_leading_ones_have_products)
+TEST(the_dominant_of_many_inputs_have_products)
 {
     make_inputs(40, 0, 0);
     struct ceduo_surface_fit f = fit_of(even_40, 40, 512, 1, 0);

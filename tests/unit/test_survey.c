@@ -158,7 +158,7 @@ TEST(naslund_is_recovered)
 }
 
 /* Six heights and a curve: the root mean square distance. At least squares the sum does not change with a and b. */
-TEST(what_six_heights_leave)
+TEST(residual_of_six_heights)
 {
     const double dbh[] = {.05, .1, .15, .2, .25, .3}, height[] = {5.2, 7.6, 10.7, 11.4, 12.9, 13.1};
     struct ceduo_naslund c;
@@ -240,7 +240,7 @@ TEST(classes_by_hand)
 }
 
 /* Missing heights: from the curve with at least five, otherwise the mean; shoots and trees separately. */
-TEST(heights_that_are_missing)
+TEST(missing_heights)
 {
     const struct ceduo_naslund truth = {.a = 1.1, .b = 0.26};
     const double area = 1000;

@@ -35,7 +35,7 @@ static struct ceduo_frame frame_of(int width, int height)
         .left = 2, .top = 1, .width = width, .height = height, .x1 = 2 * width - 1, .y1 = 4 * height - 1};
 }
 
-TEST(lines_are_where_they_are)
+TEST(lines_have_exact_coordinates)
 {
     struct ceduo_svg *svg = ceduo_svg_create(20, 10);
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
@@ -128,7 +128,7 @@ TEST(discs)
 }
 
 /* A rock that bounces in a pit for ever draws only the visible part; one that leaves is drawn to its end. */
-TEST(ways_that_get_nowhere_are_short)
+TEST(a_rock_bouncing_in_a_pit_draws_little)
 {
     enum { N = 20000 };
     static double x[N], y[N];

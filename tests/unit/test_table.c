@@ -175,7 +175,7 @@ TEST(every_default_lies_in_its_range)
 }
 
 /* A flag is true only if its row sets it. */
-TEST(flags_begin_as_their_rows_say)
+TEST(flags_have_their_default)
 {
     struct flags {
         bool raised, lowered, unsaid;
@@ -309,7 +309,7 @@ static void check_row(void *context, const char *path, const struct field *f)
     ceduo_text_free(&place);
 }
 
-TEST(every_row_decides_about_what_it_says)
+TEST(every_row_affects_its_subject)
 {
     struct keys before[LENGTH(scenes)];
     for (size_t i = 0; i < LENGTH(scenes); i++) {
@@ -370,7 +370,7 @@ static void check_put(void *context, const char *path, const struct field *f)
     ceduo_text_free(&place);
 }
 
-TEST(put_is_as_set)
+TEST(typed_set_equals_text_set)
 {
     ceduo_schema_visit(ceduo_schema_scene(), "", check_put, NULL);
 }
@@ -465,7 +465,7 @@ TEST(paths_of_numbers_in_lists)
 }
 
 /* A word is the index of its choice, -1 if it is not given. */
-TEST(words_are_put_by_their_index)
+TEST(words_are_set_by_their_index)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     struct value v;
@@ -481,7 +481,7 @@ TEST(words_are_put_by_their_index)
 }
 
 /* Trying many values on one scene leaks no memory. */
-TEST(puts_take_no_memory)
+TEST(setting_values_leaks_no_memory)
 {
     struct scene_file file = {0};
     struct value per_ha, diameter;

@@ -144,7 +144,7 @@ TEST(no_word_is_near_a_long_one)
     assert_null(ceduo_text_nearest(word, words + 1, 1));
 }
 
-TEST(an_arena_says_that_it_is_full)
+TEST(a_full_arena_reports_it)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     assert_non_null(ceduo_arena_alloc(&arena, 8));

@@ -65,7 +65,7 @@ TEST(all_points_are_used_without_a_tolerance)
 
 /* By hand: the point at 5 m is .4/sqrt(2) m off the line from 0 to 10 m; the one at 15 m is 1 m below the line from 10 to 20
  * m. */
-TEST(a_point_within_the_tolerance_is_left_out)
+TEST(a_point_within_the_tolerance_is_dropped)
 {
     static const double points[][2] = {{0, 20}, {5, 15.4}, {10, 10}, {15, 9}, {20, 10}};
     static const double kept[][2] = {{0, 20}, {10, 10}, {15, 9}, {20, 10}};
@@ -227,7 +227,7 @@ TEST(without_a_face_there_is_no_shadow)
 }
 
 /* Two faces: the angle starts at the lower one. A ditch counts as level. */
-TEST(the_last_face_counts)
+TEST(the_lowest_face_counts)
 {
     static const double points[][2] = {{0, 100}, {10, 80}, {60, 50}, {66, 38}, {70, 36}, {78, 37}, {120, 10}};
     struct profile p;

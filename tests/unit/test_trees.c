@@ -138,7 +138,7 @@ TEST(texts_are_patched)
     }
 }
 
-TEST(walks_end_where_there_is_nothing)
+TEST(walks_end_at_a_missing_node)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     const struct node *root = parsed(&arena, "{forest: [{to_m: 1}, {to_m: 2}], rock: {a: 3}}"),

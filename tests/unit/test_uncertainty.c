@@ -117,7 +117,7 @@ TEST(more_points_where_inputs_are_many)
 }
 
 /* Points are aborted at the same work limit with any number of threads. */
-TEST(too_much_work_is_given_up)
+TEST(too_much_work_is_aborted)
 {
     static const char *const place = "slope.segments[0].rn";
     const struct ceduo_input input = range_of(&place, .2, .6);
@@ -158,7 +158,7 @@ static struct ceduo_uncertainty_def over_long_years(const struct ceduo_input *in
 }
 
 /* All rocks arrive in every year, all above the accepted energy: 120 years fail, although a point has 60. */
-TEST(a_year_of_a_point_stands_for_several)
+TEST(a_year_of_a_point_represents_several)
 {
     static const char *const place = "rocks_per_year";
     const struct ceduo_input input = range_of(&place, 1, 2);
@@ -188,7 +188,7 @@ static void read_year(void *context, const struct point *point, const struct con
 }
 
 /* The diameter of the trees gives their age: slot n is one of the two years 2n - 1 and 2n. */
-TEST(years_of_a_point_are_of_all_its_years)
+TEST(slots_of_a_point_cover_all_years)
 {
     static const char *const place = "rocks_per_year";
     const struct ceduo_input input = range_of(&place, 1, 2);
@@ -297,7 +297,7 @@ TEST(no_rock_brings_no_energy)
 
 /* A light changes if its limit lies from p5 on and below p95. A second input is named from half of the first one's share on.
  * With too few points no input is named. */
-TEST(what_a_light_depends_on)
+TEST(inputs_that_decide_a_light)
 {
     static const struct {
         double p5, p95, second;
@@ -358,7 +358,7 @@ TEST(words_and_rows_share_the_range)
 
 /* A normal input is truncated at three standard deviations with its mean in the centre, and a quarter of the rest lies below
  * the quartile: Φ(z) = Φ(-3) + (1 - 2Φ(-3))/4 at z = -0.6719. */
-TEST(a_normal_input_at_its_ends)
+TEST(ends_of_a_normal_input)
 {
     const struct ceduo_input input = {.kind = CEDUO_INPUT_NORMAL, .mean = 50, .sd = 4};
     EXPECT_NEAR(ceduo_input_quantile(&input, 0), 38, 1e-9);
@@ -369,7 +369,7 @@ TEST(a_normal_input_at_its_ends)
 }
 
 /* Uncertain stools beyond their shoots are limited to the shoots; the next evaluation starts from the scene's values. */
-TEST(stools_are_not_more_than_their_shoots)
+TEST(stools_are_limited_to_their_shoots)
 {
     static const char *const places[] = {"forest[0].stand.stools.per_ha", "forest[0].stand.shoots[0].per_ha"};
     const struct ceduo_input inputs[] = {range_of(&places[0], 600, 3000), range_of(&places[1], 500, 2500)};

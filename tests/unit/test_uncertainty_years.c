@@ -197,7 +197,7 @@ static void expect_order(void)
     EXPECT(better, <=, o->probability + o->equal + .1);
 }
 
-TEST(over_a_rotation_as_point_by_point)
+TEST(a_rotation_equals_separate_points)
 {
     open_scene();
     look_at_points();
@@ -210,7 +210,7 @@ TEST(over_a_rotation_as_point_by_point)
     ceduo_scene_release(&file);
 }
 
-TEST(over_a_rotation_bits_do_not_depend_on_threads)
+TEST(threads_do_not_change_a_rotation)
 {
     open_scene();
     for (unsigned threads = 1; threads <= 3; threads++) {
@@ -273,7 +273,7 @@ TEST(failing_years_differ_by_both_intervals)
 
 /* Without an accepted energy the share that arrives is evaluated, and no year fails. The index simulates no rock, and has
  * nothing over a rotation. */
-TEST(what_there_is_over_a_rotation)
+TEST(figures_over_a_rotation)
 {
     open_scene();
     file.scene.controls[0].accepted = NAN;

@@ -87,7 +87,7 @@ static void try_field(void *context, const char *path, const struct field *f)
     open_ends += (f->flags & FIELD_UNDER) != 0;
 }
 
-TEST(every_range_ends_where_its_table_says)
+TEST(every_range_ends_at_its_limits)
 {
     fields = open_ends = 0;
     ceduo_schema_visit(ceduo_schema_scene(), "", try_field, NULL);
@@ -193,7 +193,7 @@ TEST(plain_names_stay_plain)
 
 /* ---- similar words ---- */
 
-TEST(the_nearest_word_is_meant)
+TEST(the_nearest_word_is_proposed)
 {
     for (TABLE(row, "unit/words.txt", "near words")) {
         const char *words[4];

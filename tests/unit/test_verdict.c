@@ -68,7 +68,7 @@ static void expect_beaten(const struct ceduo_verdict *v)
     assert_false(v->choices[2].beaten || v->choices[3].beaten); /* one yields more, the other protects better */
 }
 
-TEST(what_is_clear_stays)
+TEST(a_clear_verdict_stays)
 {
     struct watch today = {.best = SIZE_MAX}, rotation = {.best = SIZE_MAX};
     size_t looks = 0, shares = 0;
@@ -100,7 +100,7 @@ TEST(what_is_clear_stays)
 }
 
 /* An edit of one stand: the years of other options stay, those of the old stand are dropped. */
-TEST(an_edit_asks_for_its_years_alone)
+TEST(an_edit_simulates_only_its_own_years)
 {
     open_scene("profiles/scenes/rotation.yaml");
     file.scene.options_count = 2;
@@ -262,7 +262,7 @@ TEST(half_of_a_share)
 }
 
 /* The first of two equal options is best; the other is a rival, and equal. */
-TEST_WITH(of_two_equal_options_the_first, open_made, close_made)
+TEST_WITH(the_first_of_two_equal_options_is_best, open_made, close_made)
 {
     for (size_t i = 1; i < OPTIONS; i++)
         made.differences[i].exceed = (struct ceduo_estimate){-.2, .01, NAN, NAN};
@@ -273,7 +273,7 @@ TEST_WITH(of_two_equal_options_the_first, open_made, close_made)
 }
 
 /* Reversed: clear under one law, by 3 errors, and opposite under the other, by one. */
-TEST_WITH(an_order_is_turned_by_more_than_an_error, open_made, close_made)
+TEST_WITH(an_order_is_reversed_by_more_than_an_error, open_made, close_made)
 {
     static const struct {
         double today, other; /* errors by which option 1 is worse today, and better under the other law */
@@ -292,7 +292,7 @@ TEST_WITH(an_order_is_turned_by_more_than_an_error, open_made, close_made)
 
 /* At equal yield, 500 rocks in 1000 with the first option are clearly more than 300, but not clearly more than 305. If all let
  * equally many through, none is beaten. */
-TEST_WITH(beaten_by_one_of_equal_yield, open_made, close_made)
+TEST_WITH(an_option_of_equal_yield_can_be_beaten, open_made, close_made)
 {
     struct ceduo_verdict v = verdict_of_made(made.of);
     EXPECT(v.choices[0].yield.cut_per_year, >, 0);
@@ -324,7 +324,7 @@ static int count_worst(const struct ceduo_verdict *v)
 }
 
 /* An option is the worst if its interval is above all others, not if it is only the larger of two that overlap. */
-TEST_WITH(the_worst_is_apart_from_all_others, open_made, close_made)
+TEST_WITH(the_worst_is_above_all_others, open_made, close_made)
 {
     static const struct {
         double mean[OPTIONS], half[OPTIONS];

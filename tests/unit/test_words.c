@@ -42,7 +42,7 @@ TEST(shares_are_shown_between_0_and_1)
 }
 
 /* Judged figures: kJ with three digits, whole numbers per 1000 released. */
-TEST(values_in_uncertainty_have_their_digits)
+TEST(judged_values_have_their_digits)
 {
     static const struct {
         enum ceduo_uncertainty_kind kind;
@@ -278,7 +278,7 @@ TEST(three_standard_errors_apart_is_not_clear)
 }
 
 /* Without an accepted energy there is no danger, and energies decide nothing. */
-TEST(what_is_not_accepted_is_not_judged)
+TEST(without_a_limit_there_is_no_judgement)
 {
     open_scene(NAN);
     arrivals[1].energy_per_released.mean = -1000;
@@ -353,7 +353,7 @@ static void add_line(void *context, const char *sentence)
     ceduo_text_format(context, "%s\n", sentence);
 }
 
-TEST(why_there_is_no_rotation)
+TEST(reasons_for_no_rotation)
 {
     static struct ceduo_stems trees = {.per_ha = 100, .dbh = .2, .height = 10};
     static char name[] = "old stand";
